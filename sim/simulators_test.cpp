@@ -22,7 +22,7 @@
 namespace halfway {
 namespace {
 
-const char* const kPackage = R"(
+const char* const c_package = R"(
 package formats_pkg is
   function init_bits(exact : boolean; channels : positive) return positive;
 end package;
@@ -39,7 +39,7 @@ end package body;
 
 // Emits `count` fragments along x for each vector: bits 11..0 count, 43..12 triangle, 55..44 y. @...@ is put
 // in by the tests.
-const char* const kShader = R"(
+const char* const c_shader = R"(
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -148,7 +148,7 @@ class Simulators : public testing::Test {
   }
 
   void write_rtl(const Parts& parts) {
-    std::string text = kShader;
+    std::string text = c_shader;
     replace(text, "@LAST@", parts.last == "is_last" ? "one_left" : parts.last);
     replace(text, "@FAULT@", parts.fault);
     replace(text, "@VALID@", parts.valid);
@@ -158,7 +158,7 @@ class Simulators : public testing::Test {
     replace(text, "  signal ready, take : std_logic;\nbegin",
             "  signal ready, take : std_logic;\n  signal one_left : std_logic;\nbegin\n"
             "  one_left <= '1' when r.left = 1 else '0';");
-    ASSERT_TRUE(write_file(folders_.source / "rtl/formats_pkg.vhd", kPackage));
+    ASSERT_TRUE(write_file(folders_.source / "rtl/formats_pkg.vhd", c_package));
     ASSERT_TRUE(write_file(folders_.source / "rtl/shaders/quadratic_shader.vhd", text));
     ASSERT_TRUE(
         write_file(folders_.source / "rtl/files.f", "formats_pkg.vhd\nshaders/quadratic_shader.vhd\n"));

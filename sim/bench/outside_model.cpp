@@ -15,7 +15,7 @@
 namespace halfway {
 namespace {
 
-constexpr const char* kInstallYosys = "apt-get install yosys yosys-dev";
+constexpr const char* c_install_yosys = "apt-get install yosys yosys-dev";
 
 /// CXXRTL's name of a module: prefix p_, underscores doubled.
 std::string cxxrtl_name(const std::string& module) {
@@ -29,11 +29,11 @@ std::string cxxrtl_name(const std::string& module) {
 Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key,
                                         const SimulatorFolders& folders, bool fast) {
   const bool verilated = tool == OutsideTool::verilator;
-  const auto version =
-      verilated ? ask({"verilator", "--version"}, kInstallVerilator) : ask({"yosys", "-V"}, kInstallYosys);
+  const auto version = verilated ? ask({"verilator", "--version"}, c_install_verilator)
+                                 : ask({"yosys", "-V"}, c_install_yosys);
   if (!version) return version.error();
   const auto include = verilated ? Result<std::string>(std::string())
-                                 : ask({"yosys-config", "--datdir/include"}, kInstallYosys);
+                                 : ask({"yosys-config", "--datdir/include"}, c_install_yosys);
   if (!include) return include.error();
   const auto compiler = Compiler::find(verilated ? "g++" : "");
   if (!compiler) return compiler.error();
@@ -83,10 +83,10 @@ Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key
   if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
   const std::string doing = fmt::format("{} of {}", to_string(tool), key.name());
   translate.working_folder = compile.working_folder = fresh->path();
-  if (auto done = run_tool(translate, verilated ? kInstallVerilator : kInstallYosys, doing); !done)
+  if (auto done = run_tool(translate, verilated ? c_install_verilator : c_install_yosys, doing); !done)
     return done.error();
   if (!verilated)
-    if (auto done = run_tool(compile, kInstallCompiler, doing); !done) return done.error();
+    if (auto done = run_tool(compile, c_install_compiler, doing); !done) return done.error();
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   return OutsideModel(program, parent);
 }

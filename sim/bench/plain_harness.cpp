@@ -21,8 +21,8 @@
 
 namespace {
 
-constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
-constexpr std::uint64_t kIdleLimit = 100000;  // clocks without progress that count as a hang
+constexpr std::size_t c_init_words = (HALFWAY_INIT_BITS + 31) / 32;
+constexpr std::uint64_t c_idle_limit = 100000;  // clocks without progress that count as a hang
 
 struct Fragment {  // same layout as in model/frame/fragment.hpp
   std::uint32_t triangle, z;
@@ -139,7 +139,7 @@ int main(int argc, char** argv) {
   model.reset(false);
 
   std::vector<Fragment> fragments;
-  const std::uint32_t *next = words.data(), *const end = next + words.size() / kInitWords * kInitWords;
+  const std::uint32_t *next = words.data(), *const end = next + words.size() / c_init_words * c_init_words;
   std::uint64_t cycles = 0, still = 0;
   const double start = processor_seconds();
   model.offer(next == end ? nullptr : next);
@@ -150,11 +150,11 @@ int main(int argc, char** argv) {
     if (valid) fragments.push_back(model.fragment());
     if (!take && !valid && next == end && !model.busy()) break;
     still = take || valid ? 0 : still + 1;
-    if (still > kIdleLimit) return fail("hang");
+    if (still > c_idle_limit) return fail("hang");
     model.evaluate(true);
     ++cycles;
     if (take) {
-      next += kInitWords;
+      next += c_init_words;
       model.offer(next == end ? nullptr : next);
     }
   }

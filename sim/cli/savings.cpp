@@ -23,7 +23,7 @@ struct SavingsCommand {
 };
 
 Result<std::vector<Savings>> savings_of(const Folders& folders, const SavingsCommand& command) {
-  const std::filesystem::path csv = folders.source / kSavings;
+  const std::filesystem::path csv = folders.source / c_savings;
   if (command.draw) return read_savings(csv);
   auto savings = measure_savings(
       {folders.source, folders.cache()},
@@ -52,7 +52,7 @@ void add_savings(CLI::App& app, const Folders& folders, int& exit_code) {
       app.add_subcommand("savings", "measure the tables of docs/effects.md again and write them: minutes");
   const auto command = std::make_shared<SavingsCommand>();
   sub->add_option("--threads", command->threads, "at a time (0: all cores)")->capture_default_str();
-  sub->add_flag("--draw", command->draw, fmt::format("measure nothing: write what {} has", kSavings));
+  sub->add_flag("--draw", command->draw, fmt::format("measure nothing: write what {} has", c_savings));
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 

@@ -63,8 +63,8 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
   if (command.pin && !command.place) return bad_input("--pin: needs --place, which makes the clocks to pin");
   if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
-    return tool_failed(
-        fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}", synth::kInstallTools));
+    return tool_failed(fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}",
+                                   synth::c_install_tools));
   if (command.executor != "local" && command.executor != "slurm")
     return bad_input("--executor: '" + command.executor + "' is not an executor; take local or slurm");
   study::StudySettings& settings = plan.settings;
@@ -259,7 +259,7 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (command.pin) {
     const auto pinned = study::pin_clocks(*hardware, settings.folders);
     if (!pinned) return report(pinned.error());
-    fmt::print("{}: {} pinned\n", (settings.folders.source / synth::kStudyPins).string(), *pinned);
+    fmt::print("{}: {} pinned\n", (settings.folders.source / synth::c_study_pins).string(), *pinned);
   }
   return conclude(*plan, *study, *hardware, {command.clock_mhz});
 }
@@ -284,7 +284,7 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
                   "place and route hardware without a known clock: minutes for each design");
   study->add_flag(
       "--pin", command->pin,
-      fmt::format("write placed clocks, and hardware that does not fit, into {}", synth::kStudyPins));
+      fmt::format("write placed clocks, and hardware that does not fit, into {}", synth::c_study_pins));
   study
       ->add_option("--out", command->out,
                    fmt::format("folder for results: the table {}, of a question {}, and points/",

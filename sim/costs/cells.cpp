@@ -14,13 +14,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::chrono::minutes kSynthesisTimeout{60};
-constexpr const char* kFigures = "cells.json";
-constexpr const char* kMultipliers = "multipliers.json";
+constexpr std::chrono::minutes c_synthesis_timeout{60};
+constexpr const char* c_figures = "cells.json";
+constexpr const char* c_multipliers = "multipliers.json";
 
 // Replaces $mul. The passes that make LUTs leave it unchanged.
-constexpr const char* kMultiplier = "multiplier_cell";
-constexpr const char* kMultiplierModel = R"(module multiplier_cell (A, B, Y);
+constexpr const char* c_multiplier = "multiplier_cell";
+constexpr const char* c_multiplier_model = R"(module multiplier_cell (A, B, Y);
   parameter A_SIGNED = 0, B_SIGNED = 0, A_WIDTH = 1, B_WIDTH = 1, Y_WIDTH = 1;
   input [A_WIDTH-1:0] A;
   input [B_WIDTH-1:0] B;
@@ -29,8 +29,8 @@ endmodule
 )";
 
 Result<std::string> run_yosys(Command command, const std::string& doing) {
-  command.timeout = kSynthesisTimeout;
-  const auto end = run_process(command, kInstallYosys);
+  command.timeout = c_synthesis_timeout;
+  const auto end = run_process(command, c_install_yosys);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
   return tool_failed(fmt::format("{}: yosys failed ({}):\n{}\n  while running: {}", doing, end->how(),
@@ -73,13 +73,13 @@ std::string yosys_script(const HardwareKey& key) {
         "read_verilog -lib {0}.v; hierarchy -top {1}; proc; flatten; opt_expr; opt_clean; opt -nodffe "
         "-nosdff; "
         "wreduce; opt_clean; chtype -set {0} t:$mul; synth -lut 4 -top {1} -run coarse:fine",
-        kMultiplier, top);
-    multipliers = fmt::format("; json -o {} t:{}", kMultipliers, kMultiplier);
+        c_multiplier, top);
+    multipliers = fmt::format("; json -o {} t:{}", c_multipliers, c_multiplier);
   }
   return fmt::format(
       "read_verilog netlist.v; {}; opt -fast -full; memory_map -rom-only; opt -full; techmap; opt -fast; "
       "abc -fast -lut 4; opt -fast; memory_unpack; tee -q -o {} stat -json{}",
-      coarse, kFigures, multipliers);
+      coarse, c_figures, multipliers);
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ Result<Cells> CellCounter::count(const HardwareKey& key) const {
   const auto mended = mend_netlist(*netlist);
   if (!mended) return mended.error();
   return figures<Cells>(key.name(), yosys_script(key),
-                        {{"netlist.v", *mended}, {fmt::format("{}.v", kMultiplier), kMultiplierModel}},
+                        {{"netlist.v", *mended}, {fmt::format("{}.v", c_multiplier), c_multiplier_model}},
                         [this](const std::filesystem::path& folder) { return read(folder); });
 }
 
@@ -164,7 +164,7 @@ Result<Figures> CellCounter::figures(const std::string& name, const std::string&
 }
 
 Result<Cells> CellCounter::read(const std::filesystem::path& folder) const {
-  const std::filesystem::path path = folder / kFigures;
+  const std::filesystem::path path = folder / c_figures;
   const auto design = read_design(path);
   if (!design) return design.error();
   Cells cells;
@@ -172,7 +172,7 @@ Result<Cells> CellCounter::read(const std::filesystem::path& folder) const {
   for (const auto& [type, count] : (*design)["num_cells_by_type"].items()) {
     if (type == "$lut")
       cells.luts += count.get<std::uint64_t>();
-    else if (type == kMultiplier)
+    else if (type == c_multiplier)
       cells.multipliers += count.get<std::uint64_t>();
     else if (type.find("DFF") != std::string::npos)
       cells.flip_flops += count.get<std::uint64_t>();
@@ -182,10 +182,10 @@ Result<Cells> CellCounter::read(const std::filesystem::path& folder) const {
       return tool_failed(fmt::format("{}: cells of type {}, neither LUT nor flip-flop", path.string(), type));
   }
   if (cells.multipliers == 0) return cells;
-  const std::filesystem::path netlist = folder / kMultipliers;
+  const std::filesystem::path netlist = folder / c_multipliers;
   const auto text = read_file(netlist);
   if (!text) return tool_failed(text.error().message);
-  const auto shapes = read_multiplier_shapes(*text, kMultiplier);
+  const auto shapes = read_multiplier_shapes(*text, c_multiplier);
   if (!shapes) return tool_failed(fmt::format("{}: {}", netlist.string(), shapes.error().message));
   if (shapes->size() != cells.multipliers)
     return tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again", netlist.string(),
@@ -206,11 +206,12 @@ Result<std::uint64_t> CellCounter::luts_of(const MultiplierShape& shape) const {
       "{4};\nendmodule\n",
       sign, shape.a_bits - 1, shape.b_bits - 1, shape.product_bits - 1, shape.square ? "a" : "b");
   const std::string script = fmt::format(
-      "read_verilog multiplier.v; synth_ice40 -device hx -top multiplier; tee -q -o {} stat -json", kFigures);
+      "read_verilog multiplier.v; synth_ice40 -device hx -top multiplier; tee -q -o {} stat -json",
+      c_figures);
   return figures<std::uint64_t>(fmt::format("multiplier-{}x{}", shape.a_bits, shape.b_bits), script,
                                 {{"multiplier.v", model}},
                                 [](const std::filesystem::path& folder) -> Result<std::uint64_t> {
-                                  const auto design = read_design(folder / kFigures);
+                                  const auto design = read_design(folder / c_figures);
                                   if (!design) return design.error();
                                   return (*design)["num_cells_by_type"].value("SB_LUT4", std::uint64_t{0});
                                 });

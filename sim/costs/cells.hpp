@@ -14,7 +14,7 @@
 
 namespace halfway {
 
-inline constexpr const char* kInstallYosys = "apt-get install yosys";
+inline constexpr const char* c_install_yosys = "apt-get install yosys";
 
 /// Generic cells of no FPGA family: LUTs with up to four inputs, flip-flops, and bits of writable memory.
 /// Tables are LUTs. Multipliers are LUTs too, except those of the shading processors, which are counted

@@ -48,7 +48,7 @@ class CellsTest : public ::testing::Test {
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_yosys;
   const auto grey = count(grey_), coloured = count(coloured_);
   ASSERT_TRUE(grey) << grey.error().message;
   ASSERT_TRUE(coloured) << coloured.error().message;
@@ -61,7 +61,7 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   EXPECT_EQ(cached(), 2U);
 
   // The second count uses the cache. Yosys only reports its version.
-  const auto version = run_process({.arguments = {"yosys", "-V"}}, kInstallYosys);
+  const auto version = run_process({.arguments = {"yosys", "-V"}}, c_install_yosys);
   ASSERT_TRUE(version);
   put_yosys("[ $# = 1 ] && printf '" + version->output + "' || exit 9\n");
   const auto again = count(grey_);
@@ -104,7 +104,7 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
 
 // Only the shading processors, whose multipliers are wide and many.
 TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNotLuts) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallYosys;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_yosys;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
   const auto ambient = count(key);
   ASSERT_TRUE(ambient) << ambient.error().message;

@@ -21,7 +21,7 @@
 
 namespace halfway {
 
-inline constexpr const char* kSavings =
+inline constexpr const char* c_savings =
     "docs/results/gallery/savings.csv";  ///< relative to the project's root
 
 struct SavingsCase {

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 
 TEST(Savings, AreWhatThePageSays) {
-  const auto savings = read_savings(c_root / kSavings);
+  const auto savings = read_savings(c_root / c_savings);
   ASSERT_TRUE(savings) << savings.error().message;
   const auto page = read_file(c_root / "docs/effects.md");
   ASSERT_TRUE(page);
@@ -29,7 +29,7 @@ TEST(Savings, AreWhatThePageSays) {
 }
 
 TEST(Savings, AreOfTheHardwareThatIsPlanned) {
-  const auto savings = read_savings(c_root / kSavings);
+  const auto savings = read_savings(c_root / c_savings);
   ASSERT_TRUE(savings) << savings.error().message;
   for (std::size_t i = 0; i < savings->size(); ++i) {
     const SavingsCase& which = savings_cases()[i];

@@ -16,7 +16,7 @@ std::string run_testbench(const Context& context, const std::string& top, std::v
   command.arguments.insert(command.arguments.end(), options.begin(), options.end());
   for (const char* checks : {"--ieee-asserts=disable", "--assert-level=error"})
     command.arguments.emplace_back(checks);
-  const ProcessEnd end = must(run_process(command, kInstallGhdl));
+  const ProcessEnd end = must(run_process(command, c_install_ghdl));
   if (!end.succeeded())
     throw Failure{{ExitCode::differs, fmt::format("{}: {}\n{}", top, end.how(), end.output)}};
   return end.output;

@@ -81,7 +81,7 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
       for (const std::string& file : format_sources(key.shader))
         compile.arguments.push_back((source / file).string());
       compile.arguments.insert(compile.arguments.end(), {"-o", c_library});
-      if (auto done = run_tool(compile, kInstallCompiler, words.name()); !done) return done.error();
+      if (auto done = run_tool(compile, c_install_compiler, words.name()); !done) return done.error();
       if (Status moved = fresh->move_to(folder); !moved) return moved.error();
     }
   }

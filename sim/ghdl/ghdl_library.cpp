@@ -13,15 +13,15 @@
 namespace halfway {
 namespace {
 
-const std::vector<std::string> kAnalysisFlags = {
+const std::vector<std::string> c_analysis_flags = {
     "--std=08", "-Wlibrary", "-Wdefault-binding", "-Wbinding", "-Wport", "-Wunused",
     "-Whide",   "-Wshared",  "-Wstatic",          "-Wuseless", "-Werror"};
 
-constexpr std::chrono::minutes kAnalysisTimeout{10};
+constexpr std::chrono::minutes c_analysis_timeout{10};
 
 Result<std::string> run_ghdl(Command command, const std::string& doing) {
-  command.timeout = kAnalysisTimeout;
-  const auto end = run_process(command, kInstallGhdl);
+  command.timeout = c_analysis_timeout;
+  const auto end = run_process(command, c_install_ghdl);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
   return tool_failed(fmt::format(
@@ -55,14 +55,14 @@ std::pair<std::filesystem::path, std::string> place_of(const char* kind, const G
                                                        const std::filesystem::path& cache) {
   ContentHash hash;
   hash.add(kind).add(tool.version).add(top);
-  for (const std::string& flag : kAnalysisFlags) hash.add(flag);
+  for (const std::string& flag : c_analysis_flags) hash.add(flag);
   for (const VhdlSource& source : sources) hash.add(source.name).add(source.content);
   return {std::filesystem::absolute(cache) / "ghdl" / hash.hex(), hash.hex()};
 }
 
 /// Write the sources into the command's folder, append their names to the command and run it.
 Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sources) {
-  command.arguments.insert(command.arguments.end(), kAnalysisFlags.begin(), kAnalysisFlags.end());
+  command.arguments.insert(command.arguments.end(), c_analysis_flags.begin(), c_analysis_flags.end());
   for (const VhdlSource& source : sources) {
     if (auto written = write_file(command.working_folder / source.name, source.content); !written)
       return written.error();
@@ -75,11 +75,11 @@ Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sourc
 
 Result<GhdlTool> GhdlTool::find(const std::string& program) {
   Command command{.arguments = {program, "--version"}, .timeout = std::chrono::seconds(30)};
-  const auto end = run_process(command, kInstallGhdl);
+  const auto end = run_process(command, c_install_ghdl);
   if (!end) return end.error();
   if (!end->succeeded()) {
     return tool_failed(fmt::format("{}: does not run ({}): {}; install it with: {}", program, end->how(),
-                                   end->output, kInstallGhdl));
+                                   end->output, c_install_ghdl));
   }
   GhdlTool tool{GhdlBackEnd::mcode, end->output, program};
   if (end->output.find("llvm") != std::string::npos) tool.back_end = GhdlBackEnd::llvm;

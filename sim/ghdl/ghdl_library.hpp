@@ -20,7 +20,7 @@ struct SimulatorFolders {
   std::filesystem::path cache;   ///< usually build/cache
 };
 
-inline constexpr const char* kInstallGhdl = "apt-get install ghdl-llvm";
+inline constexpr const char* c_install_ghdl = "apt-get install ghdl-llvm";
 
 enum class GhdlBackEnd { mcode, llvm, gcc };
 

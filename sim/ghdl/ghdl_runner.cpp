@@ -16,11 +16,11 @@
 namespace halfway {
 namespace {
 
-constexpr const char* kTestbench = "frame_tb";
-constexpr const char* kTestbenchFile = "tb/frame_tb.vhd";
-constexpr std::string_view kTestbenchShader = "entity work.quadratic_shader";
-constexpr std::string_view kTestbenchGenerics = "g_exact => g_exact, g_channels => g_channels";
-constexpr std::string_view kTestbenchInitBits = "work.formats_pkg.init_bits(g_exact, g_channels)";
+constexpr const char* c_testbench = "frame_tb";
+constexpr const char* c_testbench_file = "tb/frame_tb.vhd";
+constexpr std::string_view c_testbench_shader = "entity work.quadratic_shader";
+constexpr std::string_view c_testbench_generics = "g_exact => g_exact, g_channels => g_channels";
+constexpr std::string_view c_testbench_init_bits = "work.formats_pkg.init_bits(g_exact, g_channels)";
 
 /// Removes the file at the end unless it was renamed.
 class ScratchFile {
@@ -97,14 +97,14 @@ std::string reported_failure(const std::string& output) {
 }  // namespace
 
 Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::filesystem::path& source_folder) {
-  auto testbench = read_vhdl_source(source_folder, kTestbenchFile);
+  auto testbench = read_vhdl_source(source_folder, c_testbench_file);
   if (!testbench) return testbench.error();
   // All shaders have the same ports: one testbench, into which the entity, its generics and the width of
   // init_data are put.
   const auto put = [&](std::string_view what, const std::string& with) -> Status {
     const std::size_t at = testbench->content.find(what);
     if (at == std::string::npos)
-      return tool_failed(fmt::format("{}: does not say \"{}\"", kTestbenchFile, what));
+      return tool_failed(fmt::format("{}: does not say \"{}\"", c_testbench_file, what));
     testbench->content.replace(at, what.size(), with);
     return Ok{};
   };
@@ -112,8 +112,8 @@ Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::file
   for (const auto& [name, value] : key.generics())
     generics += fmt::format("{0}{1} => {1}", generics.empty() ? "" : ", ", name);
   for (const Status& status :
-       {put(kTestbenchShader, "entity work." + key.entity()), put(kTestbenchGenerics, generics),
-        put(kTestbenchInitBits, key.vhdl_init_bits())})
+       {put(c_testbench_shader, "entity work." + key.entity()), put(c_testbench_generics, generics),
+        put(c_testbench_init_bits, key.vhdl_init_bits())})
     if (!status) return status.error();
   return testbench;
 }
@@ -127,7 +127,7 @@ Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolde
   auto with_shader = testbench(key, folders.source);
   if (!with_shader) return with_shader.error();
   sources->push_back(std::move(*with_shader));
-  auto library = GhdlLibrary::open(*tool, *sources, kTestbench, folders.cache);
+  auto library = GhdlLibrary::open(*tool, *sources, c_testbench, folders.cache);
   if (!library) return library.error();
   return GhdlRunner(key, std::move(*library));
 }
@@ -139,7 +139,7 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   if (auto made = make_folders(absolute_trace.parent_path()); !made) return made.error();
   ScratchFile trace(fmt::format("{}.part-{}", absolute_trace.string(), ::getpid()));
 
-  Command command{.arguments = library_.run_arguments(kTestbench), .working_folder = library_.folder()};
+  Command command{.arguments = library_.run_arguments(c_testbench), .working_folder = library_.folder()};
   const auto generic = [&](std::string_view name, const std::string& value) {
     command.arguments.push_back(fmt::format("-g{}={}", name, value));
   };
@@ -175,7 +175,7 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
     };
   }
 
-  const auto end = run_process(command, kInstallGhdl);
+  const auto end = run_process(command, c_install_ghdl);
   if (!end) return end.error();
 
   if (end->timed_out) {

@@ -15,7 +15,7 @@ namespace {
 using testing::IsEmpty;
 using testing::Not;
 
-constexpr const char* kNetlist =
+constexpr const char* c_netlist =
     "module box_4\n  (input  a);\n  assign b = a;\nendmodule\n"
     "module pair_9\n  (input  a);\n  box_4 left (\n    .a(a));\n  box_4 right (\n    .a(a));\nendmodule\n"
     "module top\n  (input  a);\n  pair_9 units_n1_first (\n    .a(a));\n  pair_9 units_n2_first (\n    "
@@ -25,7 +25,7 @@ constexpr const char* kNetlist =
     "endmodule\n";
 
 InstanceTree tree() {
-  return {kNetlist, {"box", "big_box", "pair", "top"}};
+  return {c_netlist, {"box", "big_box", "pair", "top"}};
 }
 
 TEST(InstanceTree, CountsInstancesAtEveryDepth) {

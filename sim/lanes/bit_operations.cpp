@@ -16,7 +16,7 @@ Bits BitOperations::fail(const std::string& what) {
 
 /// The value of a piece of a constant. Bits above the node's vector are zero.
 std::uint64_t BitOperations::constant_of(const Piece& piece) {
-  return piece.low < kLaneWord ? graph()[piece.node].value >> piece.low & low_ones(piece.width) : 0;
+  return piece.low < c_lane_word ? graph()[piece.node].value >> piece.low & low_ones(piece.width) : 0;
 }
 
 void BitOperations::append(Bits& bits, Piece piece) {
@@ -28,7 +28,7 @@ void BitOperations::append(Bits& bits, Piece piece) {
       last.width += piece.width;
       return;
     }
-    if (a.op == LaneOp::constant && b.op == LaneOp::constant && last.width + piece.width <= kLaneWord) {
+    if (a.op == LaneOp::constant && b.op == LaneOp::constant && last.width + piece.width <= c_lane_word) {
       const std::uint64_t low = constant_of(last), high = constant_of(piece);
       last = {graph().constant(low | high << last.width), 0, last.width + piece.width};
       return;
@@ -55,8 +55,8 @@ Bits BitOperations::slice(const Bits& bits, unsigned low, unsigned width) {
 
 Bits BitOperations::zeros(unsigned width) {
   Bits bits;
-  for (unsigned low = 0; low < width; low += kLaneWord)
-    bits.push_back({graph().constant(0), 0, std::min(width - low, kLaneWord)});
+  for (unsigned low = 0; low < width; low += c_lane_word)
+    bits.push_back({graph().constant(0), 0, std::min(width - low, c_lane_word)});
   return bits;
 }
 
@@ -85,7 +85,7 @@ int BitOperations::to_vector(const Bits& bits, bool arithmetic) {
   const unsigned width = width_of(bits);
   for (const Piece& piece : bits) note(piece, arithmetic);
   // The register is not cut yet: the note above cuts it, and the graph is built again.
-  if (width > kLaneWord) {
+  if (width > c_lane_word) {
     if (layout_.words) fail(fmt::format("netlist.v: {} bits in one vector", width));
     return sum;
   }
@@ -113,15 +113,15 @@ Words BitOperations::to_words(const Bits& bits, bool arithmetic) {
   Words words;
   const unsigned width = width_of(bits);
   for (const Piece& piece : bits) note(piece, arithmetic);
-  for (unsigned low = 0; low < width; low += kLaneWord)
-    words.push_back(to_vector(slice(bits, low, std::min(width - low, kLaneWord)), arithmetic));
+  for (unsigned low = 0; low < width; low += c_lane_word)
+    words.push_back(to_vector(slice(bits, low, std::min(width - low, c_lane_word)), arithmetic));
   return words;
 }
 
 Bits BitOperations::from_words(const Words& words, unsigned width) {
   Bits bits;
-  for (unsigned low = 0; low < width; low += kLaneWord)
-    append(bits, {words[low / kLaneWord], 0, std::min(width - low, kLaneWord)});
+  for (unsigned low = 0; low < width; low += c_lane_word)
+    append(bits, {words[low / c_lane_word], 0, std::min(width - low, c_lane_word)});
   return bits;
 }
 
@@ -196,7 +196,8 @@ Bits BitOperations::add(const Bits& a, const Bits& b) {
 
 Bits BitOperations::difference(const Bits& a, const Bits& b) {
   const unsigned width = width_of(a);
-  if (width <= kLaneWord) return whole(graph().operate(LaneOp::subtract, to_vector(a), to_vector(b)), width);
+  if (width <= c_lane_word)
+    return whole(graph().operate(LaneOp::subtract, to_vector(a), to_vector(b)), width);
   return sum(a, invert(b), graph().mask_constant(true));
 }
 
@@ -243,7 +244,7 @@ int BitOperations::compare(LaneOp op, const Bits& a, const Bits& b) {
   for (Words* words : {&x, &y}) {
     // Move the sign to the top bit, or clear the bits above the number.
     int& last = words->back();
-    last = op == LaneOp::signed_less ? graph().shift(last, static_cast<int>(kLaneWord - top))
+    last = op == LaneOp::signed_less ? graph().shift(last, static_cast<int>(c_lane_word - top))
                                      : graph().clean(last, top);
   }
   int mask = graph().mask_constant(op == LaneOp::equal);
@@ -273,10 +274,10 @@ Bits BitOperations::shift(std::string_view op, const Bits& a, const Bits& by) {
   if (by.size() == 1 && graph()[by[0].node].op == LaneOp::constant)
     return shifted(op, a, static_cast<unsigned>(std::min<std::uint64_t>(graph()[by[0].node].value, width)));
   // Shift several words by each bit of the distance.
-  if (width > kLaneWord) {
+  if (width > c_lane_word) {
     Bits bits = a;
     for (unsigned bit = 0; bit < width_of(by); ++bit) {
-      const unsigned distance = std::min(width, 1U << std::min(bit, kLaneWord - 1));
+      const unsigned distance = std::min(width, 1U << std::min(bit, c_lane_word - 1));
       bits = choose(to_mask(slice(by, bit, 1)), shifted(op, bits, distance), bits);
       bits = from_words(to_words(bits), width);
     }
@@ -287,8 +288,8 @@ Bits BitOperations::shift(std::string_view op, const Bits& a, const Bits& by) {
   if (op == "shiftl") return whole(graph().operate(LaneOp::left_by, vector, distance), width);
   if (op == "shiftr")
     return whole(graph().operate(LaneOp::right_by, graph().clean(vector, width), distance), width);
-  vector = graph().shift(vector, static_cast<int>(kLaneWord - width));
-  vector = graph().operate(LaneOp::signed_right_by, vector, graph().constant(kLaneWord - width));
+  vector = graph().shift(vector, static_cast<int>(c_lane_word - width));
+  vector = graph().operate(LaneOp::signed_right_by, vector, graph().constant(c_lane_word - width));
   return whole(graph().operate(LaneOp::signed_right_by, vector, distance), width);
 }
 

@@ -35,7 +35,7 @@ class BitOperations {
   int to_mask(const Bits& bits);
   bool is_mask(const Piece& piece) { return graph()[piece.node].is_mask(); }
   /// The number of bits in the last word.
-  static unsigned top_width(unsigned width) { return (width - 1) % kLaneWord + 1; }
+  static unsigned top_width(unsigned width) { return (width - 1) % c_lane_word + 1; }
 
   // Calculate; both operands have the same width.
   Bits choose(int mask, const Bits& a, const Bits& b);  ///< mask ? a : b

@@ -18,7 +18,7 @@ std::vector<Cell> CellLayout::cells_of(const std::string& signal, unsigned width
   std::vector<Cell> cells;
   for (auto next = at.begin(); *next != width;) {
     const unsigned begin = *next++;
-    const unsigned longest = words ? kLaneWord : *next - begin;
+    const unsigned longest = words ? c_lane_word : *next - begin;
     for (unsigned low = begin; low < *next; low += longest) {
       const unsigned bits = std::min(*next - low, longest);
       const std::pair<std::string, unsigned> cell{signal, low};
@@ -41,7 +41,7 @@ MemoryWords place_memories(const std::map<std::string, LaneMemory>& memories, co
     first[name] = words;
     words += memories.at(name).words();
   };
-  const auto end_bank = [&] { words = (words + kBankWords - 1) / kBankWords * kBankWords; };
+  const auto end_bank = [&] { words = (words + c_bank_words - 1) / c_bank_words * c_bank_words; };
 
   // Group the written memories by size and by when and where they are written; place the others.
   using When = std::pair<Guard, int>;

@@ -18,7 +18,7 @@
 
 namespace halfway {
 
-constexpr std::size_t kBankWords = 4;  ///< words in one place of a bank
+constexpr std::size_t c_bank_words = 4;  ///< words in one place of a bank
 
 /// The number of each memory's first word, counted through all banks.
 using MemoryWords = std::map<std::string, std::size_t>;

@@ -32,9 +32,9 @@ class StepEmitter {
  private:
   void emit_rings() {
     if (delays_.empty()) return;
-    text_ += fmt::format("  Late& next = s.late[(s.clock + 1) % {}];\n", kRingPlaces);
-    for (unsigned age = 0; age <= kOldest; ++age)
-      text_ += fmt::format("  const Late& late{0} = s.late[(s.clock - {0}) % {1}];\n", age, kRingPlaces);
+    text_ += fmt::format("  Late& next = s.late[(s.clock + 1) % {}];\n", c_ring_places);
+    for (unsigned age = 0; age <= c_oldest; ++age)
+      text_ += fmt::format("  const Late& late{0} = s.late[(s.clock - {0}) % {1}];\n", age, c_ring_places);
   }
 
   void emit_outputs() {
@@ -110,7 +110,7 @@ class StepEmitter {
       case LaneOp::constant:
         return fmt::format("splat({:#x}u)", node.value);
       case LaneOp::mask_constant:
-        return node.value != 0 ? "kAll" : "kNone";
+        return node.value != 0 ? "c_all" : "c_none";
       case LaneOp::cell:
       case LaneOp::mask_cell:
         return cell_reference(node.value);
@@ -214,7 +214,7 @@ class StateEmitter {
     add_banks();
     if (!rings_.empty()) {
       rings_ = "struct Late {\n" + rings_ + "};\n";
-      masks_ += fmt::format("  Late late[{}];\n  unsigned clock = 0;\n", kRingPlaces);
+      masks_ += fmt::format("  Late late[{}];\n  unsigned clock = 0;\n", c_ring_places);
     }
     return rings_ + "struct State {\n" + vectors_ + masks_ + "};\nstruct Inputs {\n" + inputs_ +
            "};\nstruct Outputs {\n" + outputs() + "};\n" + tables() + setters();
@@ -250,9 +250,9 @@ class StateEmitter {
     std::map<std::size_t, std::size_t> places;
     for (const auto& [name, memory] : hardware_.netlist.memories)
       for (std::size_t i = 0; i < memory.words(); ++i)
-        places[(hardware_.memory_words.at(name) + i) / kBankWords] = memory.places;
+        places[(hardware_.memory_words.at(name) + i) / c_bank_words] = memory.places;
     for (const auto& [bank, count] : places)
-      if (hardware_.live.count(kFirstBank + bank) != 0)
+      if (hardware_.live.count(c_first_bank + bank) != 0)
         masks_ += fmt::format("  Memory<{}> bank{};\n", count, bank);
   }
 

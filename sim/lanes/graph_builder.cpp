@@ -14,7 +14,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t kMostPlaces = 1024;  ///< of a memory; each lane has its own
+constexpr std::size_t c_most_places = 1024;  ///< of a memory; each lane has its own
 
 class GraphBuilder {
  public:
@@ -76,7 +76,7 @@ class GraphBuilder {
       Bits bits;
       for (std::size_t i = cells->second; i < step_.cells.size() && step_.cells[i].signal == name; ++i) {
         const Cell& cell = step_.cells[i];
-        const unsigned known = cell.dirty ? std::max(cell.width, kLaneWord) : cell.width;
+        const unsigned known = cell.dirty ? std::max(cell.width, c_lane_word) : cell.width;
         bits.push_back({cell.mask ? graph().mask_cell(i) : graph().cell(i, known), 0, cell.width});
       }
       return bits;
@@ -97,16 +97,17 @@ class GraphBuilder {
     const unsigned step = digits.substr(0, 1) == "h" ? 4 : digits.substr(0, 1) == "b" ? 1 : 0;
     if (step == 0) return fail(line_of(node) + ": a constant of an unknown base");
     digits.remove_prefix(1);
-    std::vector<std::uint64_t> words(width / kLaneWord + 1);
+    std::vector<std::uint64_t> words(width / c_lane_word + 1);
     unsigned at = 0;
     for (auto digit = digits.rbegin(); digit != digits.rend() && at < width; ++digit, at += step) {
       // Unknown bits are zero, as in Verilator with --x-assign fast.
       const std::size_t found = std::string_view("0123456789abcdef").find(*digit);
-      words[at / kLaneWord] |= (found == std::string_view::npos ? 0 : std::uint64_t{found}) << at % kLaneWord;
+      words[at / c_lane_word] |= (found == std::string_view::npos ? 0 : std::uint64_t{found})
+                                 << at % c_lane_word;
     }
     Bits bits;
-    for (unsigned low = 0; low < width; low += kLaneWord)
-      ops_.append(bits, ops_.constant(words[low / kLaneWord], std::min(width - low, kLaneWord)));
+    for (unsigned low = 0; low < width; low += c_lane_word)
+      ops_.append(bits, ops_.constant(words[low / c_lane_word], std::min(width - low, c_lane_word)));
     return bits;
   }
 
@@ -279,9 +280,9 @@ class GraphBuilder {
   Bits address_of(pugi::xml_node node, const std::string& name, const LaneMemory& memory) {
     const Bits address = value(node.last_child());
     if (address.empty()) return {};
-    if (memory.places > kMostPlaces)
+    if (memory.places > c_most_places)
       return fail(fmt::format("{}: {}: a memory of {} places: lanes have up to {}", line_of(node), name,
-                              memory.places, kMostPlaces));
+                              memory.places, c_most_places));
     if (memory.places != std::size_t{1} << width_of(address))
       return fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
     return address;
@@ -294,9 +295,9 @@ class GraphBuilder {
     Bits bits;
     for (std::size_t i = 0; i < memory.words(); ++i) {
       const std::size_t word = layout_.memory_words.at(name) + i;
-      const unsigned low = static_cast<unsigned>(i) * kLaneWord;
-      ops_.append(bits, {graph().word(graph().row(word / kBankWords, index), word % kBankWords), 0,
-                         std::min(memory.width - low, kLaneWord)});
+      const unsigned low = static_cast<unsigned>(i) * c_lane_word;
+      ops_.append(bits, {graph().word(graph().row(word / c_bank_words, index), word % c_bank_words), 0,
+                         std::min(memory.width - low, c_lane_word)});
     }
     return bits;
   }

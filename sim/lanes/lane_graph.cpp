@@ -9,7 +9,7 @@ namespace halfway {
 namespace {
 
 constexpr std::uint64_t ones(unsigned width) {
-  return (std::uint64_t{1} << std::min(width, kLaneWord)) - 1;
+  return (std::uint64_t{1} << std::min(width, c_lane_word)) - 1;
 }
 
 }  // namespace
@@ -26,13 +26,13 @@ int LaneGraph::constant(std::uint64_t value) {
 
 int LaneGraph::operate(LaneOp op, int a, int b) {
   const LaneNode &x = (*this)[a], &y = (*this)[b];
-  unsigned bits = kLaneWord;
+  unsigned bits = c_lane_word;
   switch (op) {
     case LaneOp::add:
-      bits = std::min(kLaneWord, std::max(x.bits, y.bits) + 1);
+      bits = std::min(c_lane_word, std::max(x.bits, y.bits) + 1);
       break;
     case LaneOp::multiply:
-      bits = std::min(kLaneWord, x.bits + y.bits);
+      bits = std::min(c_lane_word, x.bits + y.bits);
       break;
     case LaneOp::both:
       bits = std::min(x.bits, y.bits);
@@ -65,12 +65,12 @@ int LaneGraph::shift(int a, int by) {
   if (by == 0 || x.bits == 0) return a;
   const auto distance = static_cast<unsigned>(std::abs(by));
   if (x.op == LaneOp::constant)
-    return constant(by > 0 ? x.value << distance & ones(kLaneWord) : x.value >> distance);
+    return constant(by > 0 ? x.value << distance & ones(c_lane_word) : x.value >> distance);
   if (by < 0 && x.bits <= distance) return constant(0);
   return add({.op = by > 0 ? LaneOp::left : LaneOp::right,
               .operands = {a, -1, -1},
               .value = distance,
-              .bits = by > 0 ? std::min(kLaneWord, x.bits + distance) : x.bits - distance});
+              .bits = by > 0 ? std::min(c_lane_word, x.bits + distance) : x.bits - distance});
 }
 
 int LaneGraph::clean(int a, unsigned width) {

@@ -12,7 +12,7 @@
 
 namespace halfway {
 
-constexpr unsigned kLaneWord = 32;  ///< bits of a number in a lane
+constexpr unsigned c_lane_word = 32;  ///< bits of a number in a lane
 
 enum class LaneOp {
   // Vectors
@@ -54,7 +54,7 @@ struct LaneNode {
   LaneOp op;
   std::array<int, 3> operands{-1, -1, -1};
   std::uint64_t value = 0;
-  unsigned bits = kLaneWord;  ///< bits from this one up are zero
+  unsigned bits = c_lane_word;  ///< bits from this one up are zero
 
   bool is_mask() const { return op >= LaneOp::mask_constant; }
 };

@@ -16,11 +16,11 @@ namespace halfway::lanes {
 namespace {
 #include "lanes.hpp"
 
-constexpr std::size_t kInitWords = (HALFWAY_INIT_BITS + 31) / 32;
-constexpr std::size_t kBlock = 256;  // clocks between two checks of the room for fragments
+constexpr std::size_t c_init_words = (HALFWAY_INIT_BITS + 31) / 32;
+constexpr std::size_t c_block = 256;  // clocks between two checks of the room for fragments
 // Room for fragments that is kept between runs. Larger room is released when its fragments are taken.
-constexpr std::size_t kKeptRoom = std::size_t{1} << 21;
-constexpr int kResetClocks = 4, kLateClocks = 8;  // as in sim/verilator/harness.cpp
+constexpr std::size_t c_kept_room = std::size_t{1} << 21;
+constexpr int c_reset_clocks = 4, c_late_clocks = 8;  // as in sim/verilator/harness.cpp
 
 #ifdef HALFWAY_STALLS
 // Random stalls of both streams, independent per lane. A vector is offered late and then stays offered; a
@@ -86,7 +86,7 @@ class Lanes {
   Lanes(std::uint32_t owner, std::uint64_t idle_limit, std::uint32_t stall_seed)
       : owner_(owner), idle_limit_(idle_limit), stalls_(stall_seed + owner) {
     Outputs out;
-    for (int i = 0; i < kResetClocks; ++i) reset_step(state_, in_, out);
+    for (int i = 0; i < c_reset_clocks; ++i) reset_step(state_, in_, out);
   }
 
   int run(const HalfwayBatch& batch) {
@@ -95,26 +95,26 @@ class Lanes {
     stops_ = false;
     make_room();
     const std::size_t before = waiting();
-    for (unsigned i = 0; i < kLanes; ++i)
+    for (unsigned i = 0; i < c_lanes; ++i)
       if ((active_ >> i & 1) == 0) begin_part(i);
     while (goes()) {
       const std::size_t now = waiting();
       if (now > batch.max_fragments) return HALFWAY_BUFFER_FULL;
       if (now - before >= batch.enough) return HALFWAY_DONE;
       for (Lane& lane : lanes_) {
-        if (lane.room < lane.count + kBlock + 1) move(lane, 2 * lane.waiting() + 4 * kBlock);
+        if (lane.room < lane.count + c_block + 1) move(lane, 2 * lane.waiting() + 4 * c_block);
         lane.next = lane.fragments.get() + lane.count;
       }
       const std::uint32_t moved = block();
-      for (unsigned i = 0; i < kLanes; ++i) {
+      for (unsigned i = 0; i < c_lanes; ++i) {
         Lane& lane = lanes_[i];
-        lane.still = (moved >> i & 1) != 0 ? 0 : lane.still + kBlock;
-        if ((active_ >> i & 1) != 0 && lane.still >= idle_limit_ + kBlock) return HALFWAY_HANG;
+        lane.still = (moved >> i & 1) != 0 ? 0 : lane.still + c_block;
+        if ((active_ >> i & 1) != 0 && lane.still >= idle_limit_ + c_block) return HALFWAY_HANG;
       }
       if (faults_ != 0) return HALFWAY_FAULT;
     }
     Outputs out;
-    for (int i = 0; active_ == 0 && i < kLateClocks; ++i) {
+    for (int i = 0; active_ == 0 && i < c_late_clocks; ++i) {
       step(state_, in_, out);
       faults_ |= to_bits(out.fault);
     }
@@ -156,8 +156,8 @@ class Lanes {
     for (Lane& lane : lanes_) {
       const std::size_t waiting = lane.waiting();
       if (lane.taken < waiting) continue;
-      const std::size_t fitting = waiting == 0 ? 0 : 2 * waiting + 4 * kBlock;
-      move(lane, room > kKeptRoom ? fitting : lane.room);
+      const std::size_t fitting = waiting == 0 ? 0 : 2 * waiting + 4 * c_block;
+      move(lane, room > c_kept_room ? fitting : lane.room);
     }
   }
 
@@ -192,7 +192,7 @@ class Lanes {
     part.lane = i;
     lane.part = next;
     lane.begun = lane.count;
-    lane.words = batch_->words + part.vector * kInitWords;
+    lane.words = batch_->words + part.vector * c_init_words;
     lane.vectors = part.vectors;
     lane.still = 0;
     active_ |= bit;
@@ -211,7 +211,7 @@ class Lanes {
   __attribute__((noinline)) void taken(std::uint32_t take) {
     for (; take != 0; take &= take - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(take));
-      lanes_[i].words += kInitWords;
+      lanes_[i].words += c_init_words;
       --lanes_[i].vectors;
       offer(i);
     }
@@ -236,7 +236,7 @@ class Lanes {
   std::uint32_t block() {
     std::uint32_t moved = 0;
     std::size_t clock = 0;
-    while (clock < kBlock && goes()) {
+    while (clock < c_block && goes()) {
       Outputs out;
       const std::uint32_t offered = waiting_;
       stalls_.drive(in_, waiting_);
@@ -264,12 +264,12 @@ class Lanes {
   void write(const Outputs& out, std::size_t clock) {
     Row row = turn({out.fragment_triangle, out.fragment_z, out.fragment_y | out.fragment_x << 16,
                     out.fragment_red | out.fragment_green << 8 | out.fragment_blue << 16});
-    for (unsigned i = 0; i < kLanes; ++i) std::memcpy(lanes_[i].next + clock, of_lane(row, i), 16);
+    for (unsigned i = 0; i < c_lanes; ++i) std::memcpy(lanes_[i].next + clock, of_lane(row, i), 16);
   }
 
   State state_;
   Inputs in_;
-  Lane lanes_[kLanes];
+  Lane lanes_[c_lanes];
   std::uint32_t active_ = 0, faults_ = 0;  // a bit per lane
   bool stops_ = false;                     // a lane has no part to start, and the caller has more parts
   const HalfwayBatch* batch_ = nullptr;
@@ -295,7 +295,7 @@ HALFWAY_EXPORT uint64_t halfway_lanes_cycles(const void* lanes) {
   return static_cast<const Lanes*>(lanes)->cycles();
 }
 HALFWAY_EXPORT uint32_t halfway_lanes_count(void) {
-  return halfway::lanes::kLanes;
+  return halfway::lanes::c_lanes;
 }
 HALFWAY_EXPORT uint32_t halfway_lanes_version(void) {
   return HALFWAY_LANES_VERSION;

@@ -10,12 +10,12 @@
 namespace halfway {
 namespace {
 
-constexpr const char* kLibraryName = "lanes.so";
+constexpr const char* c_library_name = "lanes.so";
 // Same flags as in sim/verilator/verilated_library.cpp.
-const std::vector<std::string> kVerilatorFlags = {
+const std::vector<std::string> c_verilator_flags = {
     "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",
     "--x-initial", "fast",      "--noassert",   "--xml-output",        "netlist.xml"};
-const std::vector<std::string> kCompilerFlags = {
+const std::vector<std::string> c_compiler_flags = {
     "-std=gnu++20",
     "-march=native",
     "-fPIC",
@@ -47,7 +47,7 @@ Result<std::vector<std::filesystem::path>> generator_sources(const std::filesyst
 }  // namespace
 
 Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
-  const auto verilator_version = ask({"verilator", "--version"}, kInstallVerilator);
+  const auto verilator_version = ask({"verilator", "--version"}, c_install_verilator);
   if (!verilator_version) return verilator_version.error();
   const auto compiler = Compiler::find(build.compiler);
   if (!compiler) return compiler.error();
@@ -64,7 +64,7 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
     if (!text) return tool_failed(text.error().message);
     hash.add(*text);
   }
-  for (const auto* list : {&kVerilatorFlags, &kCompilerFlags, &build.definitions, &build.ports.outputs}) {
+  for (const auto* list : {&c_verilator_flags, &c_compiler_flags, &build.definitions, &build.ports.outputs}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& item : *list) hash.add(item);
   }
@@ -78,9 +78,9 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
     if (auto written = write_file(fresh->path() / "netlist.v", build.netlist); !written)
       return written.error();
     Command verilate{.arguments = {"verilator"}, .working_folder = fresh->path()};
-    verilate.arguments.insert(verilate.arguments.end(), kVerilatorFlags.begin(), kVerilatorFlags.end());
+    verilate.arguments.insert(verilate.arguments.end(), c_verilator_flags.begin(), c_verilator_flags.end());
     verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "netlist.v"});
-    if (auto done = run_tool(verilate, kInstallVerilator, build.name); !done) return done.error();
+    if (auto done = run_tool(verilate, c_install_verilator, build.name); !done) return done.error();
     const auto xml = read_file(fresh->path() / "netlist.xml");
     if (!xml) return tool_failed(xml.error().message);
     const auto lanes = generate_lanes(*xml, build.ports);
@@ -90,17 +90,17 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
 
     Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
     auto& arguments = compile.arguments;
-    arguments.insert(arguments.end(), kCompilerFlags.begin(), kCompilerFlags.end());
+    arguments.insert(arguments.end(), c_compiler_flags.begin(), c_compiler_flags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
     // g++ would share inline variables between all libraries of the process.
     if (compiler->program.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
     arguments.insert(arguments.end(), {"-I" + std::filesystem::absolute(build.source).string(), "harness.cpp",
-                                       "-o", kLibraryName});
-    if (auto done = run_tool(compile, kInstallCompiler, build.name); !done) return done.error();
+                                       "-o", c_library_name});
+    if (auto done = run_tool(compile, c_install_compiler, build.name); !done) return done.error();
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   }
-  return SharedLibrary::load(folder / kLibraryName);
+  return SharedLibrary::load(folder / c_library_name);
 }
 
 }  // namespace halfway

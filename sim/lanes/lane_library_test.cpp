@@ -15,13 +15,13 @@
 namespace halfway {
 namespace {
 
-const std::filesystem::path kRoot = HALFWAY_SOURCE_DIR;
-const std::filesystem::path kCache = kRoot / "build" / "cache";
-constexpr unsigned kLanes = 16, kStimulusWords = 5, kResponseWords = 100;
-constexpr std::size_t kVectors = 500;  // per lane
+const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
+const std::filesystem::path c_cache = c_root / "build" / "cache";
+constexpr unsigned c_lanes = 16, c_stimulus_words = 5, c_response_words = 100;
+constexpr std::size_t c_vectors = 500;  // per lane
 
 // Same as tb/netlist/netlist_harness.cpp, with different vectors in each lane.
-const char* const kHarness = R"(
+const char* const c_harness = R"(
 #include "sim/lanes/lane_operations.hpp"
 namespace halfway::lanes { namespace {
 #include "lanes.hpp"
@@ -34,9 +34,9 @@ extern "C" __attribute__((visibility("default"))) void lanes_run(const std::uint
   Outputs out;
   for (int i = 0; i < 4; ++i) reset_step(state, in, out);
   for (std::size_t i = 0; i < count; ++i) {
-    for (unsigned lane = 0; lane < kLanes; ++lane) set_stimulus(in, lane, stimuli + (lane * count + i) * 5);
+    for (unsigned lane = 0; lane < c_lanes; ++lane) set_stimulus(in, lane, stimuli + (lane * count + i) * 5);
     step(state, in, out);
-    for (unsigned lane = 0; lane < kLanes; ++lane)
+    for (unsigned lane = 0; lane < c_lanes; ++lane)
       for (unsigned word = 0; word < 100; ++word)
         responses[(lane * count + i) * 100 + word] = out.response[word][lane];
   }
@@ -51,7 +51,7 @@ std::string module_of(const std::string& body) {
 }
 
 // All constructs of the shaders' netlists, and registers that read one another at the same edge.
-const char* const kEverything = R"(
+const char* const c_everything = R"(
   wire [39:0] a, b;
   wire [11:0] c, d;
   wire [5:0] n;
@@ -160,7 +160,7 @@ class Lanes : public testing::Test {
     auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "lanes");
     ASSERT_TRUE(made) << made.error().message;
     scratch_.emplace(std::move(*made));
-    ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", kHarness));
+    ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", c_harness));
   }
 
   Result<SharedLibrary> open(const std::string& body) {
@@ -169,11 +169,11 @@ class Lanes : public testing::Test {
                        .top = "m",
                        .ports = {.fixed = {}, .outputs = {"response"}},
                        .harness = scratch_->path() / "harness.cpp",
-                       .source = kRoot,
+                       .source = c_root,
                        .definitions = {},
                        .fast = false,
                        .compiler = {}},
-                      kCache);
+                      c_cache);
   }
 
   void expect_refused(const std::string& body, const std::string& with) {
@@ -187,11 +187,11 @@ class Lanes : public testing::Test {
 };
 
 TEST_F(Lanes, EveryOperationGivesVerilatorsResult) {
-  std::string body = kEverything, rom;
+  std::string body = c_everything, rom;
   for (unsigned i = 0; i < 64; ++i) rom += fmt::format("    rom[{}] = 8'd{};\n", i, (i * i * 7 + 13) % 256);
   body.replace(body.find("ROM\n"), 4, rom);
   std::mt19937 random(20240229);
-  std::vector<std::uint32_t> stimuli(kLanes * kVectors * kStimulusWords);
+  std::vector<std::uint32_t> stimuli(c_lanes * c_vectors * c_stimulus_words);
   for (std::uint32_t& word : stimuli) {
     word = static_cast<std::uint32_t>(random());
     if (random() % 8 == 0) word = random() % 2 == 0 ? 0 : ~0U;
@@ -200,31 +200,31 @@ TEST_F(Lanes, EveryOperationGivesVerilatorsResult) {
   ASSERT_TRUE(lanes) << lanes.error().message;
   const auto run = lanes->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_run");
   ASSERT_TRUE(run) << run.error().message;
-  std::vector<std::uint32_t> found(kLanes * kVectors * kResponseWords), expected(found.size());
-  (*run)(stimuli.data(), kVectors, found.data());
+  std::vector<std::uint32_t> found(c_lanes * c_vectors * c_response_words), expected(found.size());
+  (*run)(stimuli.data(), c_vectors, found.data());
 
   std::string verilog = module_of(body);
   const auto verilated = open_verilated({.name = "lanes_test",
                                          .netlist = verilog,
                                          .top = "m",
-                                         .harness = kRoot / "tb/netlist/netlist_harness.cpp",
-                                         .include_folder = kRoot,
+                                         .harness = c_root / "tb/netlist/netlist_harness.cpp",
+                                         .include_folder = c_root,
                                          .harness_headers = {},
                                          .definitions = {},
                                          .fast = false,
                                          .compiler = {}},
-                                        kCache);
+                                        c_cache);
   ASSERT_TRUE(verilated) << verilated.error().message;
   const auto verilate =
       verilated->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
   ASSERT_TRUE(verilate) << verilate.error().message;
-  for (unsigned lane = 0; lane < kLanes; ++lane) {
-    (*verilate)(&stimuli[lane * kVectors * kStimulusWords], kVectors,
-                &expected[lane * kVectors * kResponseWords]);
+  for (unsigned lane = 0; lane < c_lanes; ++lane) {
+    (*verilate)(&stimuli[lane * c_vectors * c_stimulus_words], c_vectors,
+                &expected[lane * c_vectors * c_response_words]);
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
-    ASSERT_EQ(found[i], expected[i]) << "lane " << i / kResponseWords / kVectors << ", vector "
-                                     << i / kResponseWords % kVectors << ", word " << i % kResponseWords;
+    ASSERT_EQ(found[i], expected[i]) << "lane " << i / c_response_words / c_vectors << ", vector "
+                                     << i / c_response_words % c_vectors << ", word " << i % c_response_words;
   }
 }
 

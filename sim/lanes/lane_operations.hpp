@@ -27,18 +27,18 @@ LANE_FUNCTION V multiply_high(V a, V b) {  // the product's upper word
 /// A memory: each lane's places are adjacent, followed by one place for lanes that write nothing.
 template <unsigned places>
 struct Memory {
-  alignas(64) std::uint32_t of[kLanes][places + 1][4]{};
+  alignas(64) std::uint32_t of[c_lanes][places + 1][4]{};
 };
 template <unsigned places>
 LANE_FUNCTION void store(Memory<places>& memory, M mask, V address, const Row& row) {
   Row turned = turn(row);
   const V where = select(mask, address, splat(places));
-  for (unsigned i = 0; i < kLanes; ++i) std::memcpy(memory.of[i][where[i]], of_lane(turned, i), 16);
+  for (unsigned i = 0; i < c_lanes; ++i) std::memcpy(memory.of[i][where[i]], of_lane(turned, i), 16);
 }
 template <unsigned places>
 LANE_FUNCTION Row load(const Memory<places>& memory, V address) {
   Row turned;
-  for (unsigned i = 0; i < kLanes; ++i) std::memcpy(of_lane(turned, i), memory.of[i][address[i]], 16);
+  for (unsigned i = 0; i < c_lanes; ++i) std::memcpy(of_lane(turned, i), memory.of[i][address[i]], 16);
   return turn(turned);
 }
 

@@ -22,9 +22,9 @@ namespace {
 
 /// In vectors and fragments: a part ends with some clocks in which nothing comes, all with lanes that wait
 /// for the last part.
-constexpr std::size_t kShortestPart = 100;
+constexpr std::size_t c_shortest_part = 100;
 /// Of a thread, drawn before they are handed on: they stay in the processor's second cache.
-constexpr std::size_t kBatch = 64 * 1024;
+constexpr std::size_t c_batch = 64 * 1024;
 
 struct Triangle {
   std::size_t vectors, pixels;
@@ -83,7 +83,7 @@ struct LaneSimulator::State : Hardware {
   Triangle triangle(std::span<const std::uint32_t> words) const {
     const std::size_t vectors =
         std::clamp<std::size_t>(golden->group(words), 1, words.size() / vector_words());
-    return {vectors, knows_pixels ? static_cast<std::size_t>(golden->pixels(words)) : kShortestPart};
+    return {vectors, knows_pixels ? static_cast<std::size_t>(golden->pixels(words)) : c_shortest_part};
   }
   std::size_t vector_words() const { return (init_bits + 31) / 32; }
 
@@ -131,7 +131,7 @@ class LaneSimulator::Passage {
 
 void LaneSimulator::Passage::look_ahead() {
   const std::size_t words_per_vector = s_.vector_words();
-  while (work_ahead_ < kBatch * threads() && seen_ * words_per_vector < words_.size()) {
+  while (work_ahead_ < c_batch * threads() && seen_ * words_per_vector < words_.size()) {
     const Triangle triangle = s_.triangle(words_.subspan(seen_ * words_per_vector));
     ahead_.push_back(triangle);
     seen_ += triangle.vectors;
@@ -147,10 +147,10 @@ bool LaneSimulator::Passage::add_parts() {
     if (first_ + i >= next_) work += own;
   }
   const auto full = [&] { return waiting != 0 && waiting >= s_.options.most_waiting * threads(); };
-  const auto enough = [&] { return work >= kBatch * threads(); };
+  const auto enough = [&] { return work >= c_batch * threads(); };
   for (look_ahead(); !ahead_.empty() && !full() && !enough(); look_ahead()) {
     // Shorter ones at the end, so that all lanes end together.
-    const std::size_t wanted = std::max(kShortestPart, work_ahead_ / (4 * lanes()));
+    const std::size_t wanted = std::max(c_shortest_part, work_ahead_ / (4 * lanes()));
     Triangle sum{0, 0};
     for (; !ahead_.empty() && sum.work() < wanted; ahead_.pop_front()) {
       sum.vectors += ahead_.front().vectors;
@@ -177,7 +177,7 @@ Status LaneSimulator::Passage::draw() {
                            .end = first_ + parts_.size(),
                            .next = &next_,
                            .max_fragments = limit,
-                           .enough = kBatch,
+                           .enough = c_batch,
                            .more = more_};
   std::atomic<int> worst = HALFWAY_DONE;
   std::atomic<std::size_t> next_thread = 0;

@@ -15,9 +15,9 @@
 namespace halfway {
 namespace {
 
-const std::filesystem::path kRoot = HALFWAY_SOURCE_DIR;
-const SimulatorFolders kFolders{kRoot, kRoot / "build" / "cache"};
-constexpr std::size_t kMost = std::size_t{1} << 24;
+const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
+const SimulatorFolders c_folders{c_root, c_root / "build" / "cache"};
+constexpr std::size_t c_most = std::size_t{1} << 24;
 
 struct Case {
   const char* scene;
@@ -28,7 +28,7 @@ struct Case {
 class ShadersInLanes : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    auto scene = load_scene(GetParam().scene, kRoot / "sim" / "scenes");
+    auto scene = load_scene(GetParam().scene, c_root / "sim" / "scenes");
     ASSERT_TRUE(scene) << scene.error().message;
     const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
     ASSERT_TRUE(plan) << plan.error().message;
@@ -60,10 +60,10 @@ class ShadersInLanes : public testing::TestWithParam<Case> {
 
 TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   for (const unsigned threads : {1U, 3U}) {
-    auto lanes = LaneSimulator::open(key_, kFolders, {.threads = threads, .fast = false});
+    auto lanes = LaneSimulator::open(key_, c_folders, {.threads = threads, .fast = false});
     ASSERT_TRUE(lanes) << lanes.error().message;
     std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, drawn, kMost);
+    const Status ran = lanes->run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_);
     EXPECT_GE(lanes->lane_cycles(), drawn.size());
@@ -79,7 +79,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
       at += fragments.size();
       ++parts;
     };
-    ASSERT_TRUE((*others)->draw(words_, kMost, take));
+    ASSERT_TRUE((*others)->draw(words_, c_most, take));
     EXPECT_EQ(at, expected_.size());
     EXPECT_GT(parts, 8U);
     const auto ignore = [](std::span<const Fragment>) {};
@@ -88,9 +88,9 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
     EXPECT_FALSE((*others)->draw(words_, 1, ignore));
     ahead = words_;
     at = 0;
-    ASSERT_TRUE((*others)->draw(words_, kMost, take));
+    ASSERT_TRUE((*others)->draw(words_, c_most, take));
     EXPECT_EQ(at, expected_.size());
-    const Status cut = (*others)->draw(std::span(words_).first(words_.size() - 1), kMost, ignore);
+    const Status cut = (*others)->draw(std::span(words_).first(words_.size() - 1), c_most, ignore);
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ExitCode::bad_input);
 
@@ -101,7 +101,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
         count += golden_->group(rest.subspan(count * words_per_vector_));
-      const Status part = lanes->run(rest.first(count * words_per_vector_), drawn, kMost);
+      const Status part = lanes->run(rest.first(count * words_per_vector_), drawn, c_most);
       ASSERT_TRUE(part) << part.error().message;
       rest = rest.subspan(count * words_per_vector_);
     }
@@ -111,10 +111,10 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
 
 TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
   for (const std::uint32_t seed : {1U, 7U}) {
-    auto lanes = LaneSimulator::open(key_, kFolders, {.threads = 2, .stall_seed = seed, .fast = false});
+    auto lanes = LaneSimulator::open(key_, c_folders, {.threads = 2, .stall_seed = seed, .fast = false});
     ASSERT_TRUE(lanes) << lanes.error().message;
     std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, drawn, kMost);
+    const Status ran = lanes->run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_) << "seed " << seed;
     // Half of all fragments wait a clock or more.
@@ -123,20 +123,20 @@ TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
 }
 
 TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
-  for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, kMost}) {
+  for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, c_most}) {
     for (const unsigned threads : {1U, 2U}) {
-      auto lanes = LaneSimulator::open(key_, kFolders,
+      auto lanes = LaneSimulator::open(key_, c_folders,
                                        {.threads = threads, .most_waiting = most_waiting, .fast = false});
       ASSERT_TRUE(lanes) << lanes.error().message;
       // Many times what a run draws before it hands on.
-      constexpr std::size_t kTurns = 24;
+      constexpr std::size_t c_turns = 24;
       std::vector<std::uint32_t> words;
-      for (std::size_t i = 0; i < kTurns; ++i) words.insert(words.end(), words_.begin(), words_.end());
+      for (std::size_t i = 0; i < c_turns; ++i) words.insert(words.end(), words_.begin(), words_.end());
       std::vector<Fragment> drawn;
-      const Status ran = lanes->run(words, drawn, kMost);
+      const Status ran = lanes->run(words, drawn, c_most);
       ASSERT_TRUE(ran) << ran.error().message;
-      ASSERT_EQ(drawn.size(), kTurns * expected_.size());
-      for (std::size_t i = 0; i < kTurns; ++i)
+      ASSERT_EQ(drawn.size(), c_turns * expected_.size());
+      for (std::size_t i = 0; i < c_turns; ++i)
         ASSERT_TRUE(std::equal(expected_.begin(), expected_.end(),
                                drawn.begin() + static_cast<std::ptrdiff_t>(i * expected_.size())))
             << "turn " << i;
@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShadersInLanes,
 TEST(LaneSimulator, RefusesWhatOutlivesATriangle) {
   HardwareKey key;
   key.shader = Shader::processors;
-  const auto processors = LaneSimulator::open(key, kFolders);
+  const auto processors = LaneSimulator::open(key, c_folders);
   ASSERT_FALSE(processors);
   EXPECT_NE(processors.error().message.find("outlive a triangle"), std::string::npos);
 }

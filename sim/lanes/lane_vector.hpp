@@ -15,11 +15,11 @@
 
 namespace halfway::lanes {
 
-constexpr unsigned kLanes = 16;
-using V = std::uint32_t __attribute__((vector_size(4 * kLanes)));
-using S = std::int32_t __attribute__((vector_size(4 * kLanes)));
+constexpr unsigned c_lanes = 16;
+using V = std::uint32_t __attribute__((vector_size(4 * c_lanes)));
+using S = std::int32_t __attribute__((vector_size(4 * c_lanes)));
 using M = std::uint16_t;
-constexpr M kAll = 0xffff, kNone = 0;
+constexpr M c_all = 0xffff, c_none = 0;
 
 LANE_FUNCTION V splat(std::uint32_t value) {
   return V{} + value;
@@ -52,12 +52,12 @@ LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
 #else
 LANE_FUNCTION V spread(M mask) {  // each lane's bit as all ones or zeros
   V bits{};
-  for (unsigned i = 0; i < kLanes; ++i) bits[i] = -(std::uint32_t{mask} >> i & 1);
+  for (unsigned i = 0; i < c_lanes; ++i) bits[i] = -(std::uint32_t{mask} >> i & 1);
   return bits;
 }
 LANE_FUNCTION M gather_bits(V bits) {
   M mask = 0;
-  for (unsigned i = 0; i < kLanes; ++i) mask |= static_cast<M>((bits[i] & 1) << i);
+  for (unsigned i = 0; i < c_lanes; ++i) mask |= static_cast<M>((bits[i] & 1) << i);
   return mask;
 }
 LANE_FUNCTION V select(M mask, V a, V b) {
@@ -84,7 +84,7 @@ LANE_FUNCTION M signed_less(V a, V b) {
 }
 LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
   V data{};
-  for (unsigned i = 0; i < kLanes; ++i) data[i] = table[address[i]];
+  for (unsigned i = 0; i < c_lanes; ++i) data[i] = table[address[i]];
   return data;
 }
 #endif

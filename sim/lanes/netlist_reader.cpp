@@ -127,7 +127,7 @@ class NetlistReader {
       LaneRom& rom = netlist_.roms[name];
       rom.width = netlist_.type_widths[array->second.first];
       rom.data.resize(array->second.second);
-      if (*index >= rom.data.size() || rom.width > kLaneWord)
+      if (*index >= rom.data.size() || rom.width > c_lane_word)
         return tool_failed(fmt::format("{}: a table too wide or too small", name));
       rom.data[*index] = *value;
     }

@@ -28,7 +28,7 @@ struct LaneRom {
 struct LaneMemory {
   unsigned width = 0;  ///< of a datum, in bits
   std::size_t places = 0;
-  std::size_t words() const { return (width + kLaneWord - 1) / kLaneWord; }
+  std::size_t words() const { return (width + c_lane_word - 1) / c_lane_word; }
 };
 
 /// A netlist by the names of its signals. Expressions stay nodes of the document.

@@ -7,7 +7,7 @@
 namespace halfway {
 namespace {
 
-constexpr int kDeepestChoice = 6;  ///< conditions on the way to a value; deeper ones are not split
+constexpr int c_deepest_choice = 6;  ///< conditions on the way to a value; deeper ones are not split
 
 bool is_choice(const LaneNode& node) {
   return node.op == LaneOp::select || node.op == LaneOp::mask_select;
@@ -56,7 +56,7 @@ bool RegisterUpdates::split(std::size_t cell, const Bits& next, const Guard& gua
   if (is_cell(bits, cell)) return true;
 
   // Split by a condition under which the cell may keep its value.
-  if (int mask = holding_condition(bits, cell); mask >= 0 && depth < kDeepestChoice) {
+  if (int mask = holding_condition(bits, cell); mask >= 0 && depth < c_deepest_choice) {
     mask = first_condition(mask, bits, guard);
     Loads inner;
     bool holds = false;

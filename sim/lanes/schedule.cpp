@@ -21,10 +21,10 @@ std::map<Guard, std::map<std::size_t, Store>> bank_stores(const Step& step, cons
   for (const auto& [name, store] : step.stores) {
     for (std::size_t i = 0; i < store.words.size(); ++i) {
       const std::size_t word = memory_words.at(name) + i;
-      Store& bank = banks[store.guard][word / kBankWords];
+      Store& bank = banks[store.guard][word / c_bank_words];
       bank.address = store.address;
-      bank.words.resize(kBankWords, store.words[0]);
-      bank.words[word % kBankWords] = store.words[i];
+      bank.words.resize(c_bank_words, store.words[0]);
+      bank.words[word % c_bank_words] = store.words[i];
     }
   }
   return banks;
@@ -58,7 +58,7 @@ class Scheduler {
     find_always();
     for (Group& group : schedule_.groups) find_uses(group);
     order();
-    if (!schedule_.saved.empty() && *schedule_.saved.rbegin() >= kFirstBank)
+    if (!schedule_.saved.empty() && *schedule_.saved.rbegin() >= c_first_bank)
       return tool_failed("the lanes do not support memories that read from one another at one edge");
     return std::move(schedule_);
   }
@@ -75,7 +75,7 @@ class Scheduler {
     for (const auto& [guard, banks] : bank_stores(step_, memory_words)) {
       Group group{guard, condition_of(guard)};
       for (const auto& [bank, store] : banks)
-        if (live.count(kFirstBank + bank) != 0) group.banks.emplace(bank, store);
+        if (live.count(c_first_bank + bank) != 0) group.banks.emplace(bank, store);
       if (!group.banks.empty()) schedule_.groups.push_back(std::move(group));
     }
   }
@@ -131,7 +131,7 @@ class Scheduler {
     for (const auto& [bank, store] : group.banks) {
       mark_used(step_.graph, store.address, used, group.reads);
       for (const int word : store.words) mark_used(step_.graph, word, used, group.reads);
-      group.writes.insert(kFirstBank + bank);
+      group.writes.insert(c_first_bank + bank);
     }
   }
 
@@ -157,7 +157,7 @@ class Scheduler {
       std::size_t best = 0;
       CellSet best_overwritten;
       const auto cost = [](const CellSet& cells) {
-        return std::pair(std::distance(cells.lower_bound(kFirstBank), cells.end()), cells.size());
+        return std::pair(std::distance(cells.lower_bound(c_first_bank), cells.end()), cells.size());
       };
       for (std::size_t i = 0; i < remaining.size(); ++i) {
         CellSet cells;
@@ -189,7 +189,7 @@ void mark_used(const LaneGraph& graph, int node, std::vector<bool>& used, CellSe
   used[index] = true;
   const LaneNode& at = graph[node];
   if (is_cell(at)) cells.insert(at.value);
-  if (at.op == LaneOp::row) cells.insert(kFirstBank + at.value);
+  if (at.op == LaneOp::row) cells.insert(c_first_bank + at.value);
   for (const int operand : at.operands)
     if (operand >= 0) mark_used(graph, operand, used, cells);
 }
@@ -212,7 +212,7 @@ CellSet live_cells(const Step& step, const MemoryWords& memory_words) {
     }
     for (const auto& [guard, stores] : banks) {
       for (const auto& [bank, store] : stores) {
-        if (live.count(kFirstBank + bank) == 0) continue;
+        if (live.count(c_first_bank + bank) == 0) continue;
         mark(store.address);
         for (const int word : store.words) mark(word);
         for (const auto& literal : guard) mark(literal.first);
@@ -227,7 +227,7 @@ Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live
   std::map<std::size_t, std::vector<std::size_t>> followers;
   std::set<std::size_t> loaded;
   for (const std::size_t cell : live) {
-    if (cell >= kFirstBank || step.cells[cell].input || step.cells[cell].mask) continue;
+    if (cell >= c_first_bank || step.cells[cell].input || step.cells[cell].mask) continue;
     const auto values = unconditional_values(step, reset_step, cell);
     if (!values) continue;
     loaded.insert(cell);
@@ -243,7 +243,7 @@ Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live
       for (const std::size_t cell : cells) heads.erase(cell);
   Delays delays;
   const std::function<void(std::size_t, Delay)> follow = [&](std::size_t cell, Delay delay) {
-    if (delay.age > kOldest) delay = {cell, 0};
+    if (delay.age > c_oldest) delay = {cell, 0};
     const auto found = followers.find(cell);
     if (found != followers.end())
       for (const std::size_t follower : found->second) follow(follower, {delay.head, delay.age + 1});

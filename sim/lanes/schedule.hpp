@@ -18,7 +18,7 @@
 namespace halfway {
 
 /// Cells and banks that a group reads and writes share one numbering: banks start here.
-constexpr std::size_t kFirstBank = std::size_t{1} << 32;
+constexpr std::size_t c_first_bank = std::size_t{1} << 32;
 
 /// Cells and banks.
 using CellSet = std::set<std::size_t>;
@@ -29,9 +29,9 @@ struct Delay {
   std::size_t head;
   unsigned age;
 };
-using Delays = std::map<std::size_t, Delay>;   ///< by cell
-constexpr unsigned kRingPlaces = 8;            ///< a power of two
-constexpr unsigned kOldest = kRingPlaces - 2;  ///< the next older place is the one being written
+using Delays = std::map<std::size_t, Delay>;      ///< by cell
+constexpr unsigned c_ring_places = 8;             ///< a power of two
+constexpr unsigned c_oldest = c_ring_places - 2;  ///< the next older place is the one being written
 
 struct Group {
   Guard guard;

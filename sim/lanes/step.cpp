@@ -12,7 +12,7 @@ unsigned width_of(const Bits& bits) {
 }
 
 std::uint64_t low_ones(unsigned width) {
-  return (std::uint64_t{1} << std::min(width, kLaneWord)) - 1;
+  return (std::uint64_t{1} << std::min(width, c_lane_word)) - 1;
 }
 
 bool implies_operands(const LaneNode& mask, bool wanted) {

@@ -11,10 +11,10 @@
 namespace halfway {
 namespace {
 
-constexpr std::string_view kMagic = "halfway-init";
+constexpr std::string_view c_magic = "halfway-init";
 
 /// The value of each hexadecimal digit; 16 for any other character.
-constexpr std::array<std::uint8_t, 256> kDigitValues = [] {
+constexpr std::array<std::uint8_t, 256> c_digit_values = [] {
   std::array<std::uint8_t, 256> values{};
   values.fill(16);
   for (unsigned i = 0; i < 10; ++i) values['0' + i] = static_cast<std::uint8_t>(i);
@@ -31,7 +31,7 @@ Result<InitFileWriter> InitFileWriter::open(const std::filesystem::path& path, s
                                             unsigned bits) {
   auto writer = LineWriter::open(path);
   if (!writer) return writer.error();
-  writer->append(fmt::format("{} 1 {} {}\n", kMagic, key_name, bits));
+  writer->append(fmt::format("{} 1 {} {}\n", c_magic, key_name, bits));
   return InitFileWriter(std::move(*writer), bits);
 }
 
@@ -55,7 +55,7 @@ Status InitFileWriter::commit() {
 }
 
 Result<InitFileReader> InitFileReader::open(const std::filesystem::path& path, std::string_view key_name) {
-  auto reader = LineReader::open(path, kMostInitBits / 4 + 1);
+  auto reader = LineReader::open(path, c_most_init_bits / 4 + 1);
   if (!reader) return reader.error();
   std::string_view line;
   switch (reader->next(line)) {
@@ -68,11 +68,11 @@ Result<InitFileReader> InitFileReader::open(const std::filesystem::path& path, s
       break;
   }
   const bool spaced = ends_in_space(line);
-  if (take_field(line) != kMagic)
+  if (take_field(line) != c_magic)
     return reader->at("no init file; the first line must begin with halfway-init");
   if (take_field(line) != "1") return reader->at("an init file of another version; write it again");
   const std::string found_key(take_field(line));
-  const auto bits = to_number(take_field(line), kMostInitBits);
+  const auto bits = to_number(take_field(line), c_most_init_bits);
   if (found_key.empty() || !bits || *bits == 0 || !line.empty() || spaced) {
     return reader->at("a broken header; it must read: halfway-init 1 <key name> <bits>");
   }
@@ -122,11 +122,11 @@ Result<std::size_t> InitFileReader::read(std::vector<std::uint32_t>& words, std:
     std::uint32_t bad = 0;
     for (std::size_t i = 0; i < digits; ++i) {
       const std::size_t digit = digits - 1 - i;
-      const std::uint32_t value = kDigitValues[static_cast<unsigned char>(line[i])];
+      const std::uint32_t value = c_digit_values[static_cast<unsigned char>(line[i])];
       bad |= value & 16U;
       words[first + digit / 8] |= (value & 15U) << (digit % 8 * 4);
     }
-    if (bad != 0 || (kDigitValues[static_cast<unsigned char>(line[0])] >> top_bits) != 0) {
+    if (bad != 0 || (c_digit_values[static_cast<unsigned char>(line[0])] >> top_bits) != 0) {
       words.resize(first);
       return reader_.at(bad != 0 ? std::string("a character that is not a hexadecimal digit")
                                  : fmt::format("a value of more than {} bits", bits_));

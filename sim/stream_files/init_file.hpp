@@ -33,7 +33,7 @@ struct InitStream {
   }
 };
 
-inline constexpr unsigned kMostInitBits = 1U << 16;
+inline constexpr unsigned c_most_init_bits = 1U << 16;
 
 class InitFileWriter {
  public:

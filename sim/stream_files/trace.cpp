@@ -11,26 +11,26 @@
 namespace halfway {
 namespace {
 
-constexpr std::string_view kMagic = "halfway-trace";
-constexpr std::size_t kLongestLine = 256;
-constexpr std::size_t kLongestFragment = 10 + 2 * 5 + 10 + 3 * 3 + 7;
+constexpr std::string_view c_magic = "halfway-trace";
+constexpr std::size_t c_longest_line = 256;
+constexpr std::size_t c_longest_fragment = 10 + 2 * 5 + 10 + 3 * 3 + 7;
 
-constexpr std::array<std::uint64_t, 7> kLargest = {0xffffffff, 0xfff, 0xfff, 0xffffff, 0xff, 0xff, 0xff};
-constexpr std::array<std::string_view, 7> kNames = {"triangle", "y", "x", "z", "red", "green", "blue"};
+constexpr std::array<std::uint64_t, 7> c_largest = {0xffffffff, 0xfff, 0xfff, 0xffffff, 0xff, 0xff, 0xff};
+constexpr std::array<std::string_view, 7> c_names = {"triangle", "y", "x", "z", "red", "green", "blue"};
 
 }  // namespace
 
 Result<TraceWriter> TraceWriter::open(const std::filesystem::path& path, std::string_view key_name) {
   auto writer = LineWriter::open(path);
   if (!writer) return writer.error();
-  writer->append(fmt::format("{} 1 {}\n", kMagic, key_name));
+  writer->append(fmt::format("{} 1 {}\n", c_magic, key_name));
   return TraceWriter(std::move(*writer));
 }
 
 void TraceWriter::write(std::span<const Fragment> fragments) {
   for (const Fragment& f : fragments) {
-    char* to = writer_.reserve(kLongestFragment);
-    char* const end = to + kLongestFragment;
+    char* to = writer_.reserve(c_longest_fragment);
+    char* const end = to + c_longest_fragment;
     for (const std::uint32_t value : {f.triangle, std::uint32_t{f.y}, std::uint32_t{f.x}, f.z,
                                       std::uint32_t{f.red}, std::uint32_t{f.green}, std::uint32_t{f.blue}}) {
       to = std::to_chars(to, end, value).ptr;
@@ -49,7 +49,7 @@ Status TraceWriter::commit(std::optional<std::uint64_t> cycles) {
 }
 
 Result<TraceReader> TraceReader::open(const std::filesystem::path& path, std::string_view key_name) {
-  auto reader = LineReader::open(path, kLongestLine);
+  auto reader = LineReader::open(path, c_longest_line);
   if (!reader) return reader.error();
   std::string_view line;
   switch (reader->next(line)) {
@@ -61,7 +61,8 @@ Result<TraceReader> TraceReader::open(const std::filesystem::path& path, std::st
       break;
   }
   const bool spaced = ends_in_space(line);
-  if (take_field(line) != kMagic) return reader->at("no trace; the first line must begin with halfway-trace");
+  if (take_field(line) != c_magic)
+    return reader->at("no trace; the first line must begin with halfway-trace");
   if (take_field(line) != "1") return reader->at("a trace of another version; run the simulation again");
   const std::string found_key(take_field(line));
   if (found_key.empty() || !line.empty() || spaced) {
@@ -120,8 +121,9 @@ Result<std::size_t> TraceReader::read(std::vector<Fragment>& fragments, std::siz
     if (ends_in_space(line)) return reader_.at("a space at the line's end");
     std::array<std::uint32_t, 7> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const auto value = to_number(take_field(line), kLargest[i]);
-      if (!value) return reader_.at(fmt::format("{} must be a number from 0 to {}", kNames[i], kLargest[i]));
+      const auto value = to_number(take_field(line), c_largest[i]);
+      if (!value)
+        return reader_.at(fmt::format("{} must be a number from 0 to {}", c_names[i], c_largest[i]));
       values[i] = static_cast<std::uint32_t>(*value);
     }
     if (!line.empty()) return reader_.at("more than seven fields");

@@ -127,8 +127,8 @@ Status add_pinned(const std::filesystem::path& file, PinnedClocks& clocks) {
 
 Result<PinnedClocks> pinned_clocks(const SimulatorFolders& folders) {
   PinnedClocks clocks;
-  if (Status added = add_pinned(folders.source / synth::kPins, clocks); !added) return added.error();
-  const std::filesystem::path of_studies = folders.source / synth::kStudyPins;
+  if (Status added = add_pinned(folders.source / synth::c_pins, clocks); !added) return added.error();
+  const std::filesystem::path of_studies = folders.source / synth::c_study_pins;
   if (std::filesystem::exists(of_studies))
     if (Status added = add_pinned(of_studies, clocks); !added) return added.error();
   return clocks;
@@ -184,9 +184,9 @@ Status count_cells(const HardwareSource& source, HardwareFigures& figures) {
 // takes at least one logic cell. This avoids minutes and gigabytes of synthesis for the device.
 void take_size(HardwareFigures& figures) {
   if (figures.mhz || !figures.fits || !figures.cells) return;
-  std::string why = synth::does_not_fit("flip-flops", figures.cells->flip_flops, synth::kDeviceCells);
+  std::string why = synth::does_not_fit("flip-flops", figures.cells->flip_flops, synth::c_device_cells);
   if (why.empty())
-    why = synth::does_not_fit("LUTs of multipliers", figures.cells->multiplier_luts, synth::kDeviceCells);
+    why = synth::does_not_fit("LUTs of multipliers", figures.cells->multiplier_luts, synth::c_device_cells);
   if (why.empty()) return;
   figures.clock = std::move(why);
   figures.fits = false;
@@ -228,10 +228,10 @@ Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
   std::erase_if(placed, [](const Placed& each) { return !each.placer; });
   std::mutex mutex;
   Status routed =
-      do_all(placed.size() * synth::kSeeds, options, "placements", [&](std::size_t job) -> Status {
-        Placed& each = placed[job / synth::kSeeds];
+      do_all(placed.size() * synth::c_seeds, options, "placements", [&](std::size_t job) -> Status {
+        Placed& each = placed[job / synth::c_seeds];
         const auto placement =
-            each.placer->place(each.open->source.design(), static_cast<unsigned>(1 + job % synth::kSeeds));
+            each.placer->place(each.open->source.design(), static_cast<unsigned>(1 + job % synth::c_seeds));
         if (!placement) return placement.error();
         if (!placement->ended) return Ok{};  // another seed may succeed
         const std::scoped_lock lock(mutex);
@@ -288,7 +288,7 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
 }
 
 Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders) {
-  const std::filesystem::path file = folders.source / synth::kStudyPins;
+  const std::filesystem::path file = folders.source / synth::c_study_pins;
   synth::Pins pins;
   if (std::filesystem::exists(file)) {
     auto there = synth::read_pins(file);
@@ -297,7 +297,7 @@ Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolder
     std::erase_if(pins, [](const auto& entry) { return entry.second.netlist.empty(); });
   }
   PinnedClocks designs;
-  if (Status added = add_pinned(folders.source / synth::kPins, designs); !added) return added.error();
+  if (Status added = add_pinned(folders.source / synth::c_pins, designs); !added) return added.error();
   for (const auto& [name, figures] : table) {
     pins.erase(name);
     if (figures.ice40 && !designs.contains(figures.netlist))

@@ -55,7 +55,7 @@ inline constexpr const char* c_not_placed = "not placed";
 
 struct HardwareFigures {
   std::optional<Cells> cells;  ///< generic synthesis, no FPGA family; std::nullopt without Yosys
-  /// On an iCE40 HX8K with registered ports: the median of synth::kSeeds placements.
+  /// On an iCE40 HX8K with registered ports: the median of synth::c_seeds placements.
   std::optional<double> mhz;
   /// Origin of the clock: `pinned` or `placed`; otherwise the reason why there is none.
   std::string clock = c_not_placed;
@@ -90,13 +90,13 @@ struct FiguresOptions {
 };
 
 /// The cells and clocks of all hardware that the records name, from the cache if present. Without Yosys the
-/// table has no cells. Pinned clocks are in synth::kPins and synth::kStudyPins; they are found by netlist
+/// table has no cells. Pinned clocks are in synth::c_pins and synth::c_study_pins; they are found by netlist
 /// hash.
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options);
 
-/// Write the clocks of a table made with `place` to synth::kStudyPins, unless synth::kPins has them. Keep the
-/// file's pins of other hardware with the same flow. Return the number of pins in the file.
+/// Write the clocks of a table made with `place` to synth::c_study_pins, unless synth::c_pins has them. Keep
+/// the file's pins of other hardware with the same flow. Return the number of pins in the file.
 Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders);
 
 /// The slowest part of hardware_figures with `place`, in independent pieces: a placement of each hardware
@@ -109,7 +109,7 @@ class Placements {
   static Result<Placements> open(const std::string& scene, std::span<const DesignPoint> points,
                                  const SimulatorFolders& folders, const std::string& rtl);
 
-  std::size_t count() const { return hardware_.size() * synth::kSeeds; }
+  std::size_t count() const { return hardware_.size() * synth::c_seeds; }
   bool is_done(std::size_t number) const;
   /// Make one placement. For hardware with a pinned clock, or that does not fit, only write the mark.
   Status make(std::size_t number) const;
@@ -118,8 +118,8 @@ class Placements {
 
  private:
   Placements() = default;
-  static unsigned seed_of(std::size_t number) { return static_cast<unsigned>(1 + number % synth::kSeeds); }
-  const HardwareSource& source_of(std::size_t number) const { return hardware_[number / synth::kSeeds]; }
+  static unsigned seed_of(std::size_t number) { return static_cast<unsigned>(1 + number % synth::c_seeds); }
+  const HardwareSource& source_of(std::size_t number) const { return hardware_[number / synth::c_seeds]; }
   std::filesystem::path mark(std::size_t number) const;
 
   std::vector<HardwareSource> hardware_;

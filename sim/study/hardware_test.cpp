@@ -154,9 +154,9 @@ TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsCached) {
   EXPECT_EQ(placed.ice40, (synth::Ice40Cells{.luts = 30, .flip_flops = 4}));
   EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
                                 "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
-  EXPECT_EQ(placements(), synth::kSeeds);
+  EXPECT_EQ(placements(), synth::c_seeds);
   EXPECT_EQ(figures(true).mhz, 102.0);
-  EXPECT_EQ(placements(), synth::kSeeds);
+  EXPECT_EQ(placements(), synth::c_seeds);
 }
 
 TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
@@ -182,7 +182,7 @@ TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
     return made ? *made : HardwareTable{};
   };
   const auto pins = [&] {
-    const auto read = synth::read_pins(folders_.source / synth::kStudyPins);
+    const auto read = synth::read_pins(folders_.source / synth::c_study_pins);
     EXPECT_TRUE(read) << read.error().message;
     return read ? *read : synth::Pins{};
   };
@@ -201,11 +201,11 @@ TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
     EXPECT_EQ(figures.clock, "pinned");
     EXPECT_EQ(figures.ice40, cells);
   }
-  EXPECT_EQ(placements(), synth::kSeeds);
+  EXPECT_EQ(placements(), synth::c_seeds);
   // Pins of other hardware stay if they have the same flow.
   synth::Pins others = pins();
   others["other"] = {{1, 2, 3, 4}, 50.0, std::string(32, 'a')};
-  ASSERT_TRUE(synth::write_study_pins(folders_.source / synth::kStudyPins, others, "tools"));
+  ASSERT_TRUE(synth::write_study_pins(folders_.source / synth::c_study_pins, others, "tools"));
   EXPECT_EQ(pinned(table(false)), 2U);
   EXPECT_EQ(pins().at("other").mhz, 50.0);
   // A design's own pin suffices.
@@ -224,7 +224,7 @@ TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
 
 // The pinned clocks must match the netlists of the current RTL.
 TEST(StudyClocks, MatchTheSmallStudysHardware) {
-  const auto pins = synth::read_pins(c_source / synth::kStudyPins);
+  const auto pins = synth::read_pins(c_source / synth::c_study_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   const auto points = read_space((c_source / "sim/studies/small.toml").string());
   ASSERT_TRUE(points) << points.error().message;
@@ -264,10 +264,10 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   StudySettings settings{.scene = scene_,
                          .points = {{.method = Method::gouraud, .size = {32, 24}}},
                          .out = folder_->path() / "out",
-                         .parts = synth::kSeeds,
+                         .parts = synth::c_seeds,
                          .folders = folders_,
                          .placed = {point_}};
-  EXPECT_EQ(most_parts(settings), synth::kSeeds);
+  EXPECT_EQ(most_parts(settings), synth::c_seeds);
   const auto open = [&] {
     const auto parts = open_parts(settings);
     EXPECT_TRUE(parts) << parts.error().message;
@@ -288,11 +288,11 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_EQ(run(1), 0U);
   EXPECT_EQ(run(2) + run(0), 2U);
   EXPECT_TRUE(open().empty());
-  EXPECT_EQ(placements(), synth::kSeeds);
+  EXPECT_EQ(placements(), synth::c_seeds);
   const HardwareFigures placed = figures(true);
   EXPECT_EQ(placed.mhz, 102.0);
   EXPECT_EQ(placed.clock, "placed");
-  EXPECT_EQ(placements(), synth::kSeeds);
+  EXPECT_EQ(placements(), synth::c_seeds);
   // Changing the RTL makes the piece open again.
   fs::remove(folders_.source / "rtl");
   fs::copy(c_source / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
@@ -306,7 +306,7 @@ TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
       .scene = scene_, .out = folder_->path() / "out", .folders = folders_, .placed = {point_}};
   const auto made = run_study(settings);
   ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->placements, synth::kSeeds);
+  EXPECT_EQ(made->placements, synth::c_seeds);
   EXPECT_EQ(placements(), 0U);
   const auto parts = open_parts(settings);
   ASSERT_TRUE(parts) << parts.error().message;

@@ -129,9 +129,9 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
   if (!images) return images.error();
   const auto rtl = hash_of(folders.source / "rtl");
   if (!rtl) return rtl.error();
-  const auto ghdl = version_of("ghdl", kInstallGhdl);
+  const auto ghdl = version_of("ghdl", c_install_ghdl);
   if (!ghdl) return ghdl.error();
-  const auto verilator = version_of("verilator", kInstallVerilator);
+  const auto verilator = version_of("verilator", c_install_verilator);
   if (!verilator) return verilator.error();
   const auto image_functions = image_library();
   if (!image_functions) return image_functions.error();

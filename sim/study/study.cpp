@@ -239,7 +239,7 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
 }
 
 std::size_t most_parts(const StudySettings& settings) {
-  return std::max(pieces_of(settings.points).size(), settings.placed.size() * synth::kSeeds);
+  return std::max(pieces_of(settings.points).size(), settings.placed.size() * synth::c_seeds);
 }
 
 Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {

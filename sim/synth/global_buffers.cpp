@@ -77,12 +77,12 @@ std::vector<Enable> chosen_enables(const json& module) {
   std::vector<Enable> chosen;
   for (auto& [net, enable] : enables) {
     enable.net = net;
-    if (enable.sums >= kLeastSums) chosen.push_back(std::move(enable));
+    if (enable.sums >= c_least_sums) chosen.push_back(std::move(enable));
   }
   std::ranges::sort(chosen, [](const Enable& a, const Enable& b) {
     return std::tie(b.sums, a.name, a.net) < std::tie(a.sums, b.name, b.net);
   });
-  chosen.resize(std::min(chosen.size(), kEnableBuffers));
+  chosen.resize(std::min(chosen.size(), c_enable_buffers));
   return chosen;
 }
 

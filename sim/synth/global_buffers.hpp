@@ -12,16 +12,16 @@
 namespace halfway::synth {
 
 /// Global buffers used for enables, of the device's eight.
-inline constexpr std::size_t kEnableBuffers = 4;
+inline constexpr std::size_t c_enable_buffers = 4;
 /// Minimum number of full sums for an enable to get a buffer: the cells of a tile.
-inline constexpr std::size_t kLeastSums = 8;
+inline constexpr std::size_t c_least_sums = 8;
 
 /// Version of with_global_buffers for hashes, so that results of another version are not used. Change it when
 /// the result of the function changes; a test checks this.
-inline constexpr const char* kBuffersRule = "flow 2";
+inline constexpr const char* c_buffers_rule = "flow 2";
 
 /// `netlist` is Yosys's JSON. Insert an SB_GB after port clk of module `wrapped`, and one for each of at most
-/// kEnableBuffers enables. An enable's buffer drives only the registers' enable pins; other loads keep the
+/// c_enable_buffers enables. An enable's buffer drives only the registers' enable pins; other loads keep the
 /// original net, because a buffer that reaches enables reaches no reset. Enables with the most full sums are
 /// selected, in order of name if equal. A full sum is a register after a lookup table with four inputs, with
 /// I3 a carry. The local inputs of a tile are 32, all used by eight such cells. An enable fits only if it is

@@ -32,8 +32,8 @@ using ::testing::IsEmpty;
 class Netlist {
  public:
   Netlist() {
-    module_["ports"]["clk"] = {{"direction", "input"}, {"bits", {kClock}}};
-    name("clk", {kClock});
+    module_["ports"]["clk"] = {{"direction", "input"}, {"bits", {c_clock}}};
+    name("clk", {c_clock});
     module_["cells"] = json::object();
   }
 
@@ -50,10 +50,10 @@ class Netlist {
       json pins = {{"O", {sum}}};
       for (std::size_t pin = 0; pin < inputs.size(); ++pin)
         pins[fmt::format("I{}", pin)] = inputs[pin] == 'x'   ? json{carry}
-                                        : inputs[pin] == 'a' ? json{kInput}
+                                        : inputs[pin] == 'a' ? json{c_input}
                                                              : json{std::string(1, inputs[pin])};
       cell("SB_LUT4", pins, "O");
-      cell("SB_DFFE", {{"C", {kClock}}, {"D", {sum}}, {"E", {enable}}, {"Q", {output}}}, "Q");
+      cell("SB_DFFE", {{"C", {c_clock}}, {"D", {sum}}, {"E", {enable}}, {"Q", {output}}}, "Q");
     }
   }
   /// Add an enable with this name and number of full sums.
@@ -71,7 +71,7 @@ class Netlist {
   }
   std::string text() const { return json{{"modules", {{"wrapped", module_}}}}.dump(); }
 
-  static constexpr int kClock = 2, kInput = 3;
+  static constexpr int c_clock = 2, c_input = 3;
 
  private:
   json module_;
@@ -121,7 +121,7 @@ TEST(SynthGlobalBuffers, AreForTheClockOnlyWithoutAnEnableOfFullSums) {
   netlist.registers(partial, 9, "aaxa");
   const Buffered buffered(netlist.text());
   EXPECT_EQ(buffered.pins, (Pins{{"clk_SB_GB", 7 + 5 * 9}}));
-  EXPECT_THAT(buffered.users(Netlist::kClock), IsEmpty());
+  EXPECT_THAT(buffered.users(Netlist::c_clock), IsEmpty());
 }
 
 TEST(SynthGlobalBuffers, AreForTheFourLargestOfFiveEnables) {
@@ -141,7 +141,7 @@ TEST(SynthGlobalBuffers, AreForTheFirstNameOfEqualEnables) {
   for (const char* name : {"e", "d", "c", "b"}) netlist.enable(name, 8);
   EXPECT_EQ(Buffered(netlist.text()).pins,
             (Pins{{"clk_SB_GB", 40}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}, {"e_SB_GB", 8}}));
-  netlist.name("a", {Netlist::kInput, several});
+  netlist.name("a", {Netlist::c_input, several});
   EXPECT_EQ(Buffered(netlist.text()).pins,
             (Pins{{"clk_SB_GB", 40}, {"a[1]_SB_GB", 8}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}}));
 }
@@ -151,38 +151,38 @@ TEST(SynthGlobalBuffers, DriveOnlyTheRegistersOfAnEnable) {
   const int enable = netlist.enable("enable", 8), other = netlist.enable("other", 3);
   netlist.registers(enable, 2, "00aa");
   netlist.cell("SB_LUT4", {{"I0", {enable}}, {"O", {netlist.net()}}}, "O");
-  netlist.cell("SB_DFFSR", {{"C", {Netlist::kClock}}, {"D", {Netlist::kInput}}, {"R", {enable}}}, "Q");
-  netlist.cell("SB_RAM40_4K", {{"RCLK", {Netlist::kClock}}, {"WE", {enable}}}, "RDATA");
+  netlist.cell("SB_DFFSR", {{"C", {Netlist::c_clock}}, {"D", {Netlist::c_input}}, {"R", {enable}}}, "Q");
+  netlist.cell("SB_RAM40_4K", {{"RCLK", {Netlist::c_clock}}, {"WE", {enable}}}, "RDATA");
   const Buffered buffered(netlist.text());
   EXPECT_EQ(buffered.pins, (Pins{{"clk_SB_GB", 8 + 3 + 2 + 2}, {"enable_SB_GB", 10}}));
   EXPECT_THAT(buffered.users(enable), ::testing::UnorderedElementsAre("I0", "R", "WE"));
   EXPECT_THAT(buffered.users(other), ElementsAre("E", "E", "E"));
 }
 
-// A hash over results of all cases above. If it changes, kBuffersRule must change too, because other hashes
+// A hash over results of all cases above. If it changes, c_buffers_rule must change too, because other hashes
 // contain only that name.
 TEST(SynthGlobalBuffers, HaveANewRuleNameForANewResult) {
   Netlist many, few;
   many.enable("c", 12);
   const int several = many.enable("z", 8);
   for (const char* name : {"e", "d", "b"}) many.enable(name, 8);
-  many.name("a", {Netlist::kInput, several});
+  many.name("a", {Netlist::c_input, several});
   few.enable("seven", 7);
   const int enable = few.enable("eight", 8), partial = few.net();
   few.name("partial", {partial});
   for (const char* inputs : {"0aax", "a1ax", "aa0x", "aaaa", "aaxa"}) few.registers(partial, 9, inputs);
   few.registers(enable, 2, "00aa");
   few.cell("SB_LUT4", {{"I0", {enable}}, {"O", {few.net()}}}, "O");
-  few.cell("SB_DFFSR", {{"C", {Netlist::kClock}}, {"D", {Netlist::kInput}}, {"R", {enable}}}, "Q");
-  few.cell("SB_RAM40_4K", {{"RCLK", {Netlist::kClock}}, {"WE", {enable}}}, "RDATA");
+  few.cell("SB_DFFSR", {{"C", {Netlist::c_clock}}, {"D", {Netlist::c_input}}, {"R", {enable}}}, "Q");
+  few.cell("SB_RAM40_4K", {{"RCLK", {Netlist::c_clock}}, {"WE", {enable}}}, "RDATA");
   ContentHash results;
   for (const Netlist& netlist : {many, few}) {
     const auto text = with_global_buffers(netlist.text());
     ASSERT_TRUE(text) << text.error().message;
     results.add(*text);
   }
-  EXPECT_EQ(fmt::format("{}: {}", kBuffersRule, results.hex()), "flow 2: a2b226e0f65aeedd6d833118f083aebd")
-      << "give it another name, kBuffersRule, and then this hash; pin the clocks anew by make synth PIN=1";
+  EXPECT_EQ(fmt::format("{}: {}", c_buffers_rule, results.hex()), "flow 2: a2b226e0f65aeedd6d833118f083aebd")
+      << "give it another name, c_buffers_rule, and then this hash; pin the clocks anew by make synth PIN=1";
 }
 
 TEST(SynthGlobalBuffers, ADesignWithoutClockIsRefused) {
@@ -245,7 +245,7 @@ end architecture;
 
 TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
   for (const char* tool : {"ghdl", "yosys", "nextpnr-ice40"})
-    ASSERT_FALSE(find_program(tool).empty()) << "no " << tool << ": " << kInstallTools;
+    ASSERT_FALSE(find_program(tool).empty()) << "no " << tool << ": " << c_install_tools;
   auto folder = TemporaryFolder::make(fs::temp_directory_path());
   ASSERT_TRUE(folder) << folder.error().message;
   const fs::path root = folder->path(), cache = root / "cache";

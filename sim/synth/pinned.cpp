@@ -31,12 +31,12 @@ Status write(const std::filesystem::path& path, const Pins& pins, const std::str
       "# Cells of each design on an iCE40 by itself, and its clock on an HX8K with registered ports, median "
       "seed.{}{}{}{}.\n{}{}\n{}"
       "# name luts carries flip_flops rams mhz netlist, and of how many seeds the clock is where not of {}\n",
-      c_written_by, command, c_written_with, versions, c_flow, flow_hash(), notes, kSeeds);
+      c_written_by, command, c_written_with, versions, c_flow, flow_hash(), notes, c_seeds);
   for (const auto& [name, pin] : pins) {
     text += fmt::format("{} {} {} {} {} {:.1f}", name, pin.cells.luts, pin.cells.carries,
                         pin.cells.flip_flops, pin.cells.rams, pin.mhz);
     if (!pin.netlist.empty()) text += " " + pin.netlist;
-    if (!pin.netlist.empty() && pin.mhz > 0 && pin.seeds != kSeeds) text += fmt::format(" {}", pin.seeds);
+    if (!pin.netlist.empty() && pin.mhz > 0 && pin.seeds != c_seeds) text += fmt::format(" {}", pin.seeds);
     text += '\n';
   }
   return write_file(path, text);
@@ -121,7 +121,7 @@ Result<std::string> readme_clocks(const Pins& pins) {
   const auto placed = [&](const char* name) -> Result<Pin> {
     const auto found = pins.find(name);
     if (found == pins.end() || found->second.mhz == 0)
-      return bad_input(fmt::format("{}: {}: not pinned with a clock, which README tells", kPins, name));
+      return bad_input(fmt::format("{}: {}: not pinned with a clock, which README tells", c_pins, name));
     return found->second;
   };
   constexpr const char* c_shaders[] = {"quadratic_shader_grey_published", "quadratic_shader_grey_exact",
@@ -166,11 +166,11 @@ std::string compare(const std::string& name, const Pins& pins, const Ice40Cells&
                     std::optional<double> mhz) {
   const std::string how = fmt::format("make synth DESIGN={} PIN=1", name);
   const auto found = pins.find(name);
-  if (found == pins.end()) return fmt::format("{}: {}: nothing is pinned; {} pins it\n", kPins, name, how);
+  if (found == pins.end()) return fmt::format("{}: {}: nothing is pinned; {} pins it\n", c_pins, name, how);
   const Pin& pin = found->second;
   std::string wrong;
   const auto differs = [&](const std::string& what) {
-    wrong += fmt::format("{}:{}: {}: {}; {} pins what it is now\n", kPins, pin.line, name, what, how);
+    wrong += fmt::format("{}:{}: {}: {}; {} pins what it is now\n", c_pins, pin.line, name, what, how);
   };
   const auto exactly = [&](const char* what, std::uint64_t is, std::uint64_t was) {
     if (is != was) differs(fmt::format("{} {}, {} are pinned", is, what, was));

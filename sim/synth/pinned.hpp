@@ -13,8 +13,8 @@
 namespace halfway::synth {
 
 // Relative to the project's root.
-inline constexpr const char* kPins = "tb/synth/pinned.txt";
-inline constexpr const char* kStudyPins = "sim/studies/clocks.txt";  ///< for the hardware of studies
+inline constexpr const char* c_pins = "tb/synth/pinned.txt";
+inline constexpr const char* c_study_pins = "sim/studies/clocks.txt";  ///< for the hardware of studies
 
 /// LUTs and carries may differ by this share or by this number, whichever is larger, because versions of
 /// Yosys map differently. Flip-flops and RAMs are fixed by the RTL and must be equal.
@@ -25,19 +25,19 @@ inline constexpr double c_clock_share = 0.08;
 
 struct Pin {
   Ice40Cells cells;
-  double mhz = 0;           ///< median of the seeds; 0 if the design is not placed
-  std::string netlist{};    ///< Synthesizer::netlist_hash of the clock's netlist; empty: unknown
-  unsigned seeds = kSeeds;  ///< number of placements that the clock is the median of
-  std::size_t line = 0;     ///< line number in the file
+  double mhz = 0;            ///< median of the seeds; 0 if the design is not placed
+  std::string netlist{};     ///< Synthesizer::netlist_hash of the clock's netlist; empty: unknown
+  unsigned seeds = c_seeds;  ///< number of placements that the clock is the median of
+  std::size_t line = 0;      ///< line number in the file
 };
 using Pins = std::map<std::string, Pin>;
 
 /// One line per design: name luts carries flip-flops RAMs MHz netlist seeds. `#` starts a comment. `netlist`
-/// may be missing; `seeds` may be missing if it is kSeeds. A line `flow HASH` contains the flow_hash of the
+/// may be missing; `seeds` may be missing if it is c_seeds. A line `flow HASH` contains the flow_hash of the
 /// pins. If it is missing or differs from the current one, all netlists count as unknown.
 Result<Pins> read_pins(const std::filesystem::path& path);
 Status write_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
-/// Write kStudyPins.
+/// Write c_study_pins.
 Status write_study_pins(const std::filesystem::path& path, const Pins& pins, const std::string& versions);
 /// The tools' versions that were given to write_pins; empty if the file has none.
 Result<std::string> pin_versions(const std::filesystem::path& path);

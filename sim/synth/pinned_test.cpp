@@ -16,14 +16,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr Ice40Cells kCells{.luts = 200, .carries = 39, .flip_flops = 40, .rams = 1};
+constexpr Ice40Cells c_cells{.luts = 200, .carries = 39, .flip_flops = 40, .rams = 1};
 
 TEST(SynthPins, SayWhatIsNotAsPinned) {
-  const Pins pins = {{"a", {.cells = kCells, .mhz = 100, .line = 7}}, {"unplaced", {.cells = kCells}}};
-  EXPECT_EQ(compare("a", pins, kCells, 100), "");
-  EXPECT_EQ(compare("a", pins, kCells, {}), "");
-  EXPECT_EQ(compare("unplaced", pins, kCells, 0), "");
-  EXPECT_THAT(compare("b", pins, kCells, 100), HasSubstr("nothing is pinned"));
+  const Pins pins = {{"a", {.cells = c_cells, .mhz = 100, .line = 7}}, {"unplaced", {.cells = c_cells}}};
+  EXPECT_EQ(compare("a", pins, c_cells, 100), "");
+  EXPECT_EQ(compare("a", pins, c_cells, {}), "");
+  EXPECT_EQ(compare("unplaced", pins, c_cells, 0), "");
+  EXPECT_THAT(compare("b", pins, c_cells, 100), HasSubstr("nothing is pinned"));
   const auto with = [&](std::uint64_t luts, std::uint64_t carries, std::uint64_t flip_flops,
                         std::uint64_t rams) {
     return compare("a", pins, {luts, carries, flip_flops, rams}, {});
@@ -39,12 +39,12 @@ TEST(SynthPins, SayWhatIsNotAsPinned) {
   EXPECT_THAT(with(200, 39, 41, 1), HasSubstr("41 flip-flops, 40 are pinned"));
   EXPECT_THAT(with(200, 39, 39, 1), HasSubstr("flip-flops"));
   EXPECT_THAT(with(200, 39, 40, 2), HasSubstr("RAMs"));
-  EXPECT_EQ(compare("a", pins, kCells, 92.5), "");
-  EXPECT_EQ(compare("a", pins, kCells, 107.5), "");
-  EXPECT_THAT(compare("a", pins, kCells, 91.5), HasSubstr("slower"));
-  EXPECT_THAT(compare("a", pins, kCells, 108.5), HasSubstr("faster"));
-  EXPECT_THAT(compare("a", pins, kCells, 0), HasSubstr("no clock, 100.0 MHz are pinned"));
-  EXPECT_THAT(compare("unplaced", pins, kCells, 100), HasSubstr("100.0 MHz, and no clock is pinned"));
+  EXPECT_EQ(compare("a", pins, c_cells, 92.5), "");
+  EXPECT_EQ(compare("a", pins, c_cells, 107.5), "");
+  EXPECT_THAT(compare("a", pins, c_cells, 91.5), HasSubstr("slower"));
+  EXPECT_THAT(compare("a", pins, c_cells, 108.5), HasSubstr("faster"));
+  EXPECT_THAT(compare("a", pins, c_cells, 0), HasSubstr("no clock, 100.0 MHz are pinned"));
+  EXPECT_THAT(compare("unplaced", pins, c_cells, 100), HasSubstr("100.0 MHz, and no clock is pinned"));
 }
 
 TEST(SynthPins, ComeBackFromTheirFile) {
@@ -53,17 +53,17 @@ TEST(SynthPins, ComeBackFromTheirFile) {
   const auto path = folder->path() / "pinned.txt";
   const std::string hash = "0123456789abcdef0123456789abcdef";
   ASSERT_TRUE(write_pins(path,
-                         {{"a", {kCells, 123.4, hash}},
+                         {{"a", {c_cells, 123.4, hash}},
                           {"b", {{1, 2, 3, 4}, 0}},
-                          {"c", {.cells = kCells, .mhz = 99, .netlist = hash, .seeds = 1}}},
+                          {"c", {.cells = c_cells, .mhz = 99, .netlist = hash, .seeds = 1}}},
                          "Yosys 0.23"));
   const auto pins = read_pins(path);
   ASSERT_TRUE(pins) << pins.error().message;
   ASSERT_EQ(pins->size(), 3U);
-  EXPECT_EQ(pins->at("a").cells, kCells);
+  EXPECT_EQ(pins->at("a").cells, c_cells);
   EXPECT_EQ(pins->at("a").mhz, 123.4);
   EXPECT_EQ(pins->at("a").netlist, hash);
-  EXPECT_EQ(pins->at("a").seeds, kSeeds);
+  EXPECT_EQ(pins->at("a").seeds, c_seeds);
   EXPECT_EQ(pins->at("c").netlist, hash);
   EXPECT_EQ(pins->at("c").seeds, 1U);
   EXPECT_EQ(pins->at("b").netlist, "");
@@ -105,7 +105,7 @@ TEST(SynthPins, HaveWhatThePapersPrintBeside) {
 
 // Otherwise a study would have no clocks.
 TEST(SynthPins, AreOfTheFlowAsItIs) {
-  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / kPins);
+  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   EXPECT_TRUE(std::ranges::any_of(*pins, [](const auto& pin) { return !pin.second.netlist.empty(); }))
       << "of another flow than " << flow_hash() << ": make synth PIN=1";
@@ -113,7 +113,7 @@ TEST(SynthPins, AreOfTheFlowAsItIs) {
 
 TEST(SynthPins, AreWhatThePageSays) {
   const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-  const auto pins = read_pins(root / kPins);
+  const auto pins = read_pins(root / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   const auto clocks = readme_clocks(*pins);
   ASSERT_TRUE(clocks) << clocks.error().message;
@@ -125,7 +125,7 @@ TEST(SynthPins, AreWhatThePageSays) {
 }
 
 TEST(SynthPins, AllHaveAClockThatThePageShows) {
-  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / kPins);
+  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   Pins others = *pins;
   others.at("accumulator_40").mhz = 0;

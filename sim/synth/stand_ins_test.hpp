@@ -17,7 +17,7 @@ namespace halfway::synth {
 class StandInTools : public ::testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_FALSE(find_program("ghdl").empty()) << "no ghdl: " << kInstallGhdl;
+    ASSERT_FALSE(find_program("ghdl").empty()) << "no ghdl: " << c_install_ghdl;
     auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
     ASSERT_TRUE(folder) << folder.error().message;
     folder_.emplace(std::move(*folder));

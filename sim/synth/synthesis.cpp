@@ -23,18 +23,18 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::chrono::minutes kTimeout{60};
-constexpr const char* kNoEnd = "no_end";
-constexpr const char* kWrapped = "wrapped.json";
-constexpr unsigned kMostInputs = 256;  // flip-flops before a design
-constexpr int kFrequency = 200;        // target clock in MHz, higher than any design reaches
+constexpr std::chrono::minutes c_timeout{60};
+constexpr const char* c_no_end = "no_end";
+constexpr const char* c_wrapped = "wrapped.json";
+constexpr unsigned c_most_inputs = 256;  // flip-flops before a design
+constexpr int c_frequency = 200;         // target clock in MHz, higher than any design reaches
 
 // nextpnr's error message if it runs out of logic cells.
-constexpr std::string_view kTooLarge = "Unable to place cell";
+constexpr std::string_view c_too_large = "Unable to place cell";
 
 Result<std::string> run(Command command, const std::string& doing) {
-  command.timeout = kTimeout;
-  const auto end = run_process(command, kInstallTools);
+  command.timeout = c_timeout;
+  const auto end = run_process(command, c_install_tools);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
   return tool_failed(fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing,
@@ -73,11 +73,11 @@ std::string wrapped_script(std::string_view entity) {
       "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
       "top {0}; "
       "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {1}",
-      entity, kWrapped);
+      entity, c_wrapped);
 }
 
 std::vector<std::string> nextpnr_arguments() {
-  return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(kFrequency),
+  return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(c_frequency),
           "--no-promote-globals"};
 }
 // nextpnr's options for a placement that affect the result.
@@ -308,9 +308,9 @@ std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64
 }
 
 std::string does_not_fit(const Ice40Cells& cells) {
-  for (const auto& [what, count, most] : {std::tuple{"LUTs", cells.luts, kDeviceCells},
-                                          {"flip-flops", cells.flip_flops, kDeviceCells},
-                                          {"RAMs", cells.rams, kDeviceRams}})
+  for (const auto& [what, count, most] : {std::tuple{"LUTs", cells.luts, c_device_cells},
+                                          {"flip-flops", cells.flip_flops, c_device_cells},
+                                          {"RAMs", cells.rams, c_device_rams}})
     if (std::string why = does_not_fit(what, count, most); !why.empty()) return why;
   return {};
 }
@@ -337,13 +337,13 @@ Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& desig
 std::string flow_hash() {
   constexpr std::string_view c_top = "top";
   // A port of each kind, and more input bits than the wrapper's flip-flops.
-  static_assert(kMostInputs < 300);
+  static_assert(c_most_inputs < 300);
   const auto around = wrapper(
       "module top\n  (input  clk,\n   input  [299:0] a,\n   input  b,\n   output [1:0] c,\n   output d);\n"
       "endmodule\n",
-      c_top, kMostInputs);
+      c_top, c_most_inputs);
   ContentHash hash;
-  hash.add(ice40_script(c_top)).add(wrapped_script(c_top)).add(*around).add(kBuffersRule);
+  hash.add(ice40_script(c_top)).add(wrapped_script(c_top)).add(*around).add(c_buffers_rule);
   for (const std::string& argument : place_arguments(1)) hash.add(argument);
   return hash.hex();
 }
@@ -424,7 +424,7 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
   if (!core) return core.error();
   ContentHash hash;
   hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
-  if (!around.empty()) hash.add(kBuffersRule);
+  if (!around.empty()) hash.add(c_buffers_rule);
   return kept(
       cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex()),
       [&](const std::filesystem::path& fresh) -> Status {
@@ -435,7 +435,7 @@ Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, con
         if (!around.empty())
           if (Status written = write_file(fresh / "wrapper.v", around); !written) return written;
         if (Status made = run_yosys(script, fresh, design); !made || around.empty()) return made;
-        return buffer_globals(fresh / kWrapped);
+        return buffer_globals(fresh / c_wrapped);
       });
 }
 
@@ -484,7 +484,7 @@ Result<Ecp5Cells> Synthesizer::ecp5(const Design& design) const {
 Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) const {
   const auto text = netlist_of(library_, design);
   if (!text) return text.error();
-  const auto around = wrapper(*text, design.entity, kMostInputs);
+  const auto around = wrapper(*text, design.entity, c_most_inputs);
   if (!around) return around.error();
   return from_mapped(design, "wrapped", wrapped_script(design.entity), *around);
 }
@@ -500,7 +500,7 @@ Result<Packing> Synthesizer::pack(const Design& design) const {
   ContentHash hash;
   hash.add("packed 1").add(nextpnr_).add(wrapped->filename().string());
   for (const std::string& argument : arguments) hash.add(argument);
-  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / kWrapped).string()});
+  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / c_wrapped).string()});
   const auto folder = kept(cache_ / fmt::format("{}-packed-{}", design.name, hash.hex()),
                            [&](const std::filesystem::path& fresh) -> Status {
                              const auto said =
@@ -522,7 +522,7 @@ Result<std::string> Synthesizer::no_room(const Design& design) const {
   if (std::string why = does_not_fit(*cells); !why.empty()) return why;
   const auto packing = pack(design);
   if (!packing) return packing.error();
-  if (packing->cells_used > kMostPlaced)
+  if (packing->cells_used > c_most_placed)
     return fmt::format("too full: {} of the HX8K's {} logic cells", packing->cells_used,
                        packing->cells_there);
   return std::string();
@@ -531,7 +531,7 @@ Result<std::string> Synthesizer::no_room(const Design& design) const {
 Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {
   const auto wrapped = wrapped_folder(design);
   if (!wrapped) return wrapped.error();
-  const std::string net = (*wrapped / kWrapped).string();
+  const std::string net = (*wrapped / c_wrapped).string();
   const std::vector<std::string> arguments = place_arguments(seed);
   ContentHash hash;
   hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
@@ -546,17 +546,17 @@ Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const 
   const auto folder =
       kept(cache_ / fmt::format("{}-placed{}-{}", design.name, seed, hash.hex()),
            [&](const std::filesystem::path& fresh) -> Status {
-             const Command command{.arguments = limited, .working_folder = fresh, .timeout = kTimeout};
-             const auto end = run_process(command, kInstallTools);
+             const Command command{.arguments = limited, .working_folder = fresh, .timeout = c_timeout};
+             const auto end = run_process(command, c_install_tools);
              if (!end) return end.error();
              // A timeout and a full device are valid results without a report.
-             if (end->signal == SIGXCPU) return write_file(fresh / kNoEnd, "");
-             if (end->succeeded() || end->output.find(kTooLarge) != std::string::npos) return Ok{};
+             if (end->signal == SIGXCPU) return write_file(fresh / c_no_end, "");
+             if (end->succeeded() || end->output.find(c_too_large) != std::string::npos) return Ok{};
              return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}",
                                             design.name, end->how(), end->output, to_string(command)));
            });
   if (!folder) return folder.error();
-  if (std::filesystem::exists(*folder / kNoEnd)) return Placement{.seed = seed, .ended = false};
+  if (std::filesystem::exists(*folder / c_no_end)) return Placement{.seed = seed, .ended = false};
   const auto report = read_file(*folder / "report.json");
   if (!report) return Placement{.seed = seed};
   const auto text = read_file(net);

@@ -15,19 +15,19 @@
 
 namespace halfway::synth {
 
-inline constexpr const char* kInstallTools = "apt-get install yosys nextpnr-ice40";
+inline constexpr const char* c_install_tools = "apt-get install yosys nextpnr-ice40";
 
 /// Number of logic cells of an HX8K, and the largest number that nextpnr 0.4's placers can place; they do not
 /// finish at 95 %.
-inline constexpr std::uint64_t kDeviceCells = 7680, kMostPlaced = kDeviceCells * 9 / 10;
-inline constexpr std::uint64_t kDeviceRams = 32;
+inline constexpr std::uint64_t c_device_cells = 7680, c_most_placed = c_device_cells * 9 / 10;
+inline constexpr std::uint64_t c_device_rams = 32;
 
 /// Default number of placements. The clock is their median.
-inline constexpr unsigned kSeeds = 3;
+inline constexpr unsigned c_seeds = 3;
 
 /// Limit of nextpnr's processor time over all its threads, independent of the machine's load. A successful
 /// placement takes a tenth of it.
-inline constexpr std::chrono::seconds kPlaceTime{20 * 60};
+inline constexpr std::chrono::seconds c_place_time{20 * 60};
 
 /// An entity to synthesize: of rtl/ or of the additional sources given to `open`.
 struct Design {
@@ -102,7 +102,7 @@ class Synthesizer {
   /// project's root. A placement that exceeds `place_time` counts as not ended.
   static Result<Synthesizer> open(const SimulatorFolders& folders, bool place,
                                   const std::vector<std::string>& more = {},
-                                  std::chrono::seconds place_time = kPlaceTime);
+                                  std::chrono::seconds place_time = c_place_time);
 
   /// Versions of GHDL, Yosys and nextpnr, for the page.
   const std::string& versions() const { return versions_; }
@@ -135,7 +135,7 @@ class Synthesizer {
   GhdlLibrary library_;
   std::filesystem::path cache_;
   std::string yosys_, nextpnr_, versions_;
-  std::chrono::seconds place_time_ = kPlaceTime;
+  std::chrono::seconds place_time_ = c_place_time;
 };
 
 }  // namespace halfway::synth

@@ -10,13 +10,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kNetlist =
+constexpr const char* c_netlist =
     "module other\n  (input  clk);\nendmodule\nmodule top\n  (input  clk,\n   input  go,\n   input  [2:0] "
     "a,\n"
     "   output [1:0] sum,\n   output done);\nendmodule\n";
 
 TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
-  const auto text = wrapper(kNetlist, "top", 256);
+  const auto text = wrapper(c_netlist, "top", 256);
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_THAT(*text, HasSubstr("reg [3:0] in;"));
   EXPECT_THAT(*text, HasSubstr("assign go = {in[0]};"));
@@ -27,25 +27,25 @@ TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
 }
 
 TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {
-  const auto text = wrapper(kNetlist, "top", 3);
+  const auto text = wrapper(c_netlist, "top", 3);
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_THAT(*text, HasSubstr("reg [2:0] in;"));
   EXPECT_THAT(*text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
 }
 
 TEST(SynthWrapper, RefusesAMissingModuleOrOutput) {
-  EXPECT_FALSE(wrapper(kNetlist, "absent", 256));
-  EXPECT_FALSE(wrapper(kNetlist, "other", 256));  // no output
+  EXPECT_FALSE(wrapper(c_netlist, "absent", 256));
+  EXPECT_FALSE(wrapper(c_netlist, "other", 256));  // no output
 }
 
 // Two flip-flops, with a lookup table and a carry between them.
-constexpr const char* kWrapped = R"({"modules": {"wrapped": {"cells": {
+constexpr const char* c_wrapped = R"({"modules": {"wrapped": {"cells": {
   "dut.first_SB_DFF_Q": {"type": "SB_DFF", "connections": {"C": [1], "D": [2], "Q": [3]}},
   "dut.x_SB_LUT4_I0": {"type": "SB_LUT4", "connections": {"I0": [3], "O": [4]}},
   "dut.second_SB_DFF_Q": {"type": "SB_DFF", "connections": {"C": [1], "D": [4], "Q": [5]}}},
   "netnames": {"dut.n7_q": {"hide_name": 0, "bits": [9, 3]}, "dut.unit.first": {"hide_name": 0, "bits": [9, 3]},
   "dut.second_SB_LUT4_O": {"hide_name": 0, "bits": [5]}, "dut.second": {"hide_name": 0, "bits": [5]}}}}})";
-constexpr const char* kReport = R"({"critical_paths": [
+constexpr const char* c_report = R"({"critical_paths": [
   {"from": "<async>", "to": "posedge clk", "path": []},
   {"from": "posedge clk", "to": "posedge clk", "path": [
   {"type": "clk-to-q", "delay": 0.5, "from": {"cell": "dut.first_SB_DFF_Q_DFFLC", "port": "CLK"}, "to": {"cell": "dut.first_SB_DFF_Q_DFFLC", "port": "O"}},
@@ -58,7 +58,7 @@ constexpr const char* kReport = R"({"critical_paths": [
   "utilization": {"ICESTORM_LC": {"available": 7680, "used": 12}}})";
 
 TEST(SynthPlacement, ReadsClockCellsAndPath) {
-  const auto placement = read_placement(kReport, kWrapped, 4);
+  const auto placement = read_placement(c_report, c_wrapped, 4);
   ASSERT_TRUE(placement) << placement.error().message;
   EXPECT_EQ(placement->seed, 4U);
   EXPECT_EQ(placement->mhz, 125.5);
@@ -73,9 +73,9 @@ TEST(SynthPlacement, ReadsClockCellsAndPath) {
 }
 
 TEST(SynthPlacement, RefusesWhatItCannotRead) {
-  EXPECT_FALSE(read_placement("", kWrapped, 1));
-  EXPECT_FALSE(read_placement("{}", kWrapped, 1));
-  EXPECT_FALSE(read_placement(kReport, "{}", 1));
+  EXPECT_FALSE(read_placement("", c_wrapped, 1));
+  EXPECT_FALSE(read_placement("{}", c_wrapped, 1));
+  EXPECT_FALSE(read_placement(c_report, "{}", 1));
 }
 
 TEST(SynthPacking, ReadsNextpnrsOutput) {

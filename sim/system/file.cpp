@@ -18,7 +18,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t kBufferBytes = 1U << 20;
+constexpr std::size_t c_buffer_bytes = 1U << 20;
 
 Error cannot(ExitCode code, const std::filesystem::path& path, std::string_view what, int error) {
   return {code, fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(error))};
@@ -42,11 +42,11 @@ int write_all(int descriptor, const char* bytes, std::size_t count) {
   return 0;
 }
 
-constexpr const char* kFolderPrefix = ".halfway-";
+constexpr const char* c_folder_prefix = ".halfway-";
 // Upper bound of the time between creating and locking a temporary file.
-constexpr time_t kYoungSeconds = 60;
+constexpr time_t c_young_seconds = 60;
 // A tool that ran out of disk space may have released some of it when it ended.
-constexpr unsigned long kLittleRoom = 4UL << 20;
+constexpr unsigned long c_little_room = 4UL << 20;
 
 // Remove the entries of `folder` that start with `prefix` and that no process has locked.
 void remove_stale(const std::filesystem::path& folder, const std::string& prefix) {
@@ -58,7 +58,7 @@ void remove_stale(const std::filesystem::path& folder, const std::string& prefix
     if (descriptor < 0) continue;
     struct stat status {};
     std::error_code ignored;
-    if (::fstat(descriptor, &status) == 0 && ::time(nullptr) - status.st_mtime >= kYoungSeconds &&
+    if (::fstat(descriptor, &status) == 0 && ::time(nullptr) - status.st_mtime >= c_young_seconds &&
         ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
       std::filesystem::remove_all(entry->path(), ignored);
     ::close(descriptor);
@@ -81,7 +81,7 @@ std::string room_note(const std::vector<std::filesystem::path>& folders) {
   for (const auto& folder : folders) {
     struct statvfs disk {};
     if (::statvfs(folder.c_str(), &disk) != 0) continue;
-    if (disk.f_bavail * disk.f_frsize < kLittleRoom || (disk.f_files != 0 && disk.f_favail == 0))
+    if (disk.f_bavail * disk.f_frsize < c_little_room || (disk.f_files != 0 && disk.f_favail == 0))
       note += fmt::format("\n{}: {}; make room and try again", folder.string(), std::strerror(ENOSPC));
   }
   return note;
@@ -156,8 +156,8 @@ std::string ContentHash::hex() const {
 
 Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& parent) {
   if (auto made = make_folders(parent); !made) return made.error();
-  remove_stale(parent, kFolderPrefix);
-  std::string name = (parent / kFolderPrefix).string() + "XXXXXX";
+  remove_stale(parent, c_folder_prefix);
+  std::string name = (parent / c_folder_prefix).string() + "XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) return cannot(code_of(errno), parent, "make a folder in it", errno);
   ::chmod(name.c_str(), 0755);
   const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -210,7 +210,7 @@ LineWriter::LineWriter(std::filesystem::path path, std::filesystem::path tempora
     : path_(std::move(path)),
       temporary_(std::move(temporary)),
       descriptor_(descriptor),
-      buffer_(kBufferBytes) {}
+      buffer_(c_buffer_bytes) {}
 
 LineWriter::LineWriter(LineWriter&& other) noexcept
     : path_(std::move(other.path_)),
@@ -269,7 +269,7 @@ LineReader::LineReader(std::filesystem::path path, int descriptor, std::size_t l
     : path_(std::move(path)),
       descriptor_(descriptor),
       longest_line_(longest_line),
-      buffer_(std::max(kBufferBytes, longest_line + 2)) {}
+      buffer_(std::max(c_buffer_bytes, longest_line + 2)) {}
 
 LineReader::LineReader(LineReader&& other) noexcept
     : path_(std::move(other.path_)),

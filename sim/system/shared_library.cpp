@@ -9,12 +9,12 @@
 namespace halfway {
 namespace {
 
-constexpr std::chrono::minutes kBuildTimeout{20};
+constexpr std::chrono::minutes c_build_timeout{20};
 
 }  // namespace
 
 Result<std::string> run_tool(Command command, const std::string& install, const std::string& doing) {
-  command.timeout = kBuildTimeout;
+  command.timeout = c_build_timeout;
   const auto end = run_process(command, install);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
@@ -50,7 +50,7 @@ std::string processor() {
 
 Result<Compiler> Compiler::find(const std::string& wanted) {
   Compiler found{!wanted.empty() ? wanted : (find_program("clang++").empty() ? "g++" : "clang++"), {}};
-  const auto version = ask({found.program, "--version"}, kInstallCompiler);
+  const auto version = ask({found.program, "--version"}, c_install_compiler);
   if (!version) return version.error();
   found.identity = found.program + '\n' + *version + '\n' + processor();
   return found;

@@ -13,8 +13,8 @@
 
 namespace halfway {
 
-inline constexpr const char* kInstallVerilator = "apt-get install verilator";
-inline constexpr const char* kInstallCompiler = "apt-get install clang";
+inline constexpr const char* c_install_verilator = "apt-get install verilator";
+inline constexpr const char* c_install_compiler = "apt-get install clang";
 
 /// Return the output of the command. If the command fails, the error contains all of its output and starts
 /// with `doing`.

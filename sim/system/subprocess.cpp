@@ -21,18 +21,18 @@ extern char** environ;
 namespace halfway {
 namespace {
 
-constexpr std::size_t kKeptOutput = 32U << 10;  ///< bytes kept of the start and of the end
+constexpr std::size_t c_kept_output = 32U << 10;  ///< bytes kept of the start and of the end
 
 /// Keeps the start and the end of a program's output.
 class KeptOutput {
  public:
   void add(const char* bytes, std::size_t count) {
-    const std::size_t to_head = std::min(count, kKeptOutput - head_.size());
+    const std::size_t to_head = std::min(count, c_kept_output - head_.size());
     head_.append(bytes, to_head);
     tail_.append(bytes + to_head, count - to_head);
-    if (tail_.size() > 2 * kKeptOutput) {
-      left_out_ += tail_.size() - kKeptOutput;
-      tail_.erase(0, tail_.size() - kKeptOutput);
+    if (tail_.size() > 2 * c_kept_output) {
+      left_out_ += tail_.size() - c_kept_output;
+      tail_.erase(0, tail_.size() - c_kept_output);
     }
   }
   std::string text() const {

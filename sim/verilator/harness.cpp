@@ -20,7 +20,7 @@
 
 namespace {
 
-constexpr bool kWaves =
+constexpr bool c_waves =
 #ifdef HALFWAY_WAVES
     true;
 #else
@@ -30,8 +30,8 @@ constexpr bool kWaves =
 constexpr std::size_t words_of(std::size_t bits) {
   return (bits + 31) / 32;
 }
-constexpr std::size_t kInitWords = words_of(HALFWAY_INIT_BITS);
-constexpr int kLateCycles = 8;  // clocks to wait for a fault, as in tb/frame_tb.vhd
+constexpr std::size_t c_init_words = words_of(HALFWAY_INIT_BITS);
+constexpr int c_late_cycles = 8;  // clocks to wait for a fault, as in tb/frame_tb.vhd
 
 // Ports of up to 64 bits are integers, wider ones arrays of words.
 template <class Port>
@@ -41,7 +41,7 @@ void write_port(Port& port, const std::uint32_t* words) {
     if constexpr (sizeof(Port) == 8) value |= static_cast<std::uint64_t>(words[1]) << 32;
     port = static_cast<Port>(value);
   } else {
-    static_assert(sizeof(Port) == 4 * kInitWords);
+    static_assert(sizeof(Port) == 4 * c_init_words);
     std::memcpy(&port[0], words, sizeof(Port));
   }
 }
@@ -70,17 +70,17 @@ void settle_directly(Root& root) {
   Vshader___024root___eval_ico(&root);
 }
 
-constexpr bool kDirect =
+constexpr bool c_direct =
 #ifdef HALFWAY_PLAIN_EVAL
     false;
 #else
-    !kWaves && HasOneTrigger<Vshader___024root>;
+    !c_waves && HasOneTrigger<Vshader___024root>;
 #endif
 
 class Model {
  public:
   explicit Model(const HalfwayOptions& options) : options_(options), random_(options.stall_seed) {
-    context_.traceEverOn(kWaves);
+    context_.traceEverOn(c_waves);
     shader_ = std::make_unique<Vshader>(&context_, "shader");
 #ifdef HALFWAY_WAVES
     if (options.waves_path != nullptr) {
@@ -126,7 +126,7 @@ class Model {
  private:
   // Inputs changed: update the logic that depends on them directly.
   void settle() {
-    if constexpr (kDirect) {
+    if constexpr (c_direct) {
       settle_directly(*shader_->rootp);
     } else {
       shader_->eval();
@@ -134,7 +134,7 @@ class Model {
   }
 
   void rising_edge() {
-    if constexpr (kDirect) {
+    if constexpr (c_direct) {
       rise_directly(*shader_->rootp);
     } else {
       shader_->clk = 1;
@@ -169,7 +169,7 @@ class Model {
 
   // A counter may detect an error of a token after the token has left.
   bool faults_late() {
-    for (int i = 0; i < kLateCycles && !shader_->fault; ++i) rising_edge();
+    for (int i = 0; i < c_late_cycles && !shader_->fault; ++i) rising_edge();
     return shader_->fault;
   }
 
@@ -224,7 +224,7 @@ class Model {
         holding_ = valid && !emit;
       }
       if (emit) streams.fragments[streams.count++] = fragment();
-      if constexpr (kWaves) {
+      if constexpr (c_waves) {
         if (started_) dump(cycle, false);
       }
       if (take || emit) {
@@ -240,13 +240,13 @@ class Model {
         }
       }
       rising_edge();
-      if constexpr (kWaves) {
+      if constexpr (c_waves) {
         if (started_) dump(cycle, true);
       }
       ++cycle;
       if (take) {
         offered_ = false;
-        streams.words += kInitWords;
+        streams.words += c_init_words;
         --streams.vectors;
         if (!drain && streams.vectors == 0) {
           drive_due_ = true;
@@ -294,7 +294,7 @@ HALFWAY_EXPORT uint32_t halfway_harness_version(void) {
 
 HALFWAY_EXPORT void* halfway_create(const HalfwayOptions* options) {
   if (options->init_bits != HALFWAY_INIT_BITS) return nullptr;
-  if (options->waves_path != nullptr && !kWaves) return nullptr;
+  if (options->waves_path != nullptr && !c_waves) return nullptr;
   auto model = std::make_unique<Model>(*options);
   return model->waves_failed() ? nullptr : model.release();
 }

@@ -11,19 +11,19 @@
 namespace halfway {
 namespace {
 
-constexpr const char* kLibraryName = "shader.so";
+constexpr const char* c_library_name = "shader.so";
 
 // Every warning is an error, with these exceptions. COMBDLY and CASEINCOMPLETE are caused by GHDL's output of
 // state machines. UNOPTFLAT reports that parts of a vector depend on one another, such as the copies of a
 // grey colour. Verilator then evaluates it more than once, which only costs time.
-const std::vector<std::string> kVerilatorFlags = {
+const std::vector<std::string> c_verilator_flags = {
     "--cc",          "--prefix",   "Vshader", "--x-assign", "fast",         "--x-initial",
     "fast",          "--noassert", "-O3",     "--flatten",  "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE",
     "-Wno-UNOPTFLAT"};
-const std::vector<std::string> kCompilerFlags = {
+const std::vector<std::string> c_compiler_flags = {
     "-std=gnu++20", "-march=native",       "-fPIC",           "-pthread",
     "-w",           "-fvisibility=hidden", "-DVM_COVERAGE=0", "-DVM_SC=0"};
-const std::vector<std::string> kLinkFlags = {"-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-latomic"};
+const std::vector<std::string> c_link_flags = {"-shared", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-latomic"};
 
 Result<std::vector<std::string>> generated_sources(const std::filesystem::path& folder) {
   std::vector<std::string> names;
@@ -59,11 +59,12 @@ Result<Runtime> runtime_of(const std::filesystem::path& parent, const std::strin
   compile.arguments.emplace_back("-O1");
   Command precompile = compile;
   compile.arguments.insert(compile.arguments.end(), {"-c", "runtime.cpp", "-o", "runtime.o"});
-  if (auto done = run_tool(compile, kInstallCompiler, "Verilator's runtime"); !done) return done.error();
+  if (auto done = run_tool(compile, c_install_compiler, "Verilator's runtime"); !done) return done.error();
   if (compiler.find("clang") != std::string::npos) {
     precompile.arguments.insert(precompile.arguments.end(), {"-x", "c++-header", headers + "/verilated.h",
                                                              "-o", runtime.header.filename().string()});
-    if (auto done = run_tool(precompile, kInstallCompiler, "Verilator's header"); !done) return done.error();
+    if (auto done = run_tool(precompile, c_install_compiler, "Verilator's header"); !done)
+      return done.error();
   }
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   return runtime;
@@ -75,9 +76,9 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   // Run these in parallel, because each takes long to start.
   auto asked_root =
       std::async(std::launch::async, ask, std::vector<std::string>{"verilator", "--getenv", "VERILATOR_ROOT"},
-                 std::string(kInstallVerilator));
+                 std::string(c_install_verilator));
   auto asked_compiler = std::async(std::launch::async, Compiler::find, build.compiler);
-  const auto verilator_version = ask({"verilator", "--version"}, kInstallVerilator);
+  const auto verilator_version = ask({"verilator", "--version"}, c_install_verilator);
   const auto verilator_root = asked_root.get();
   const auto compiler = asked_compiler.get();
   if (!verilator_version) return verilator_version.error();
@@ -86,7 +87,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   const auto harness = read_file(build.harness);
   if (!harness) return tool_failed(harness.error().message);
 
-  std::vector<std::string> flags = kCompilerFlags;
+  std::vector<std::string> flags = c_compiler_flags;
   // g++ would share inline variables between all libraries of the process.
   if (compiler->program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
   flags.emplace_back(build.waves ? "-DVM_TRACE=1" : "-DVM_TRACE=0");
@@ -104,7 +105,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
     if (!text) return tool_failed(text.error().message);
     hash.add(*text);
   }
-  for (const auto* list : {&kVerilatorFlags, &kLinkFlags, &build.definitions}) {
+  for (const auto* list : {&c_verilator_flags, &c_link_flags, &build.definitions}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& flag : *list) hash.add(flag);
   }
@@ -121,11 +122,11 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
       return written.error();
 
     Command verilate{.arguments = {"verilator"}, .working_folder = fresh->path()};
-    verilate.arguments.insert(verilate.arguments.end(), kVerilatorFlags.begin(), kVerilatorFlags.end());
+    verilate.arguments.insert(verilate.arguments.end(), c_verilator_flags.begin(), c_verilator_flags.end());
     verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "--Mdir", "verilated"});
     if (build.waves) verilate.arguments.emplace_back("--trace-fst");
     verilate.arguments.emplace_back("netlist.v");
-    if (auto done = run_tool(verilate, kInstallVerilator, build.name); !done) return done.error();
+    if (auto done = run_tool(verilate, c_install_verilator, build.name); !done) return done.error();
 
     const auto sources = generated_sources(fresh->path() / "verilated");
     if (!sources) return sources.error();
@@ -142,24 +143,25 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
     arguments.insert(arguments.end(), flags.begin(), flags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
-    arguments.insert(arguments.end(),
-                     {"-I" + std::filesystem::absolute(build.include_folder).string(), "-Iverilated",
-                      "unity.cpp", std::filesystem::absolute(runtime->object).string(), "-o", kLibraryName});
-    arguments.insert(arguments.end(), kLinkFlags.begin(), kLinkFlags.end());
+    arguments.insert(
+        arguments.end(),
+        {"-I" + std::filesystem::absolute(build.include_folder).string(), "-Iverilated", "unity.cpp",
+         std::filesystem::absolute(runtime->object).string(), "-o", c_library_name});
+    arguments.insert(arguments.end(), c_link_flags.begin(), c_link_flags.end());
     if (build.waves) arguments.emplace_back("-lz");
     bool compiled = false;
     if (std::filesystem::exists(runtime->header)) {
       // clang++ refuses a precompiled header whose sources have changed.
       Command quick = compile;
       quick.arguments.insert(quick.arguments.end(), {"-include-pch", runtime->header.string()});
-      compiled = static_cast<bool>(run_tool(quick, kInstallCompiler, build.name));
+      compiled = static_cast<bool>(run_tool(quick, c_install_compiler, build.name));
     }
     if (!compiled)
-      if (auto done = run_tool(compile, kInstallCompiler, build.name); !done) return done.error();
+      if (auto done = run_tool(compile, c_install_compiler, build.name); !done) return done.error();
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   }
 
-  return SharedLibrary::load(folder / kLibraryName);
+  return SharedLibrary::load(folder / c_library_name);
 }
 
 }  // namespace halfway

@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t kChunk = 1U << 11;  ///< fragments handed on at a time: they stay in the cache
+constexpr std::size_t c_chunk = 1U << 11;  ///< fragments handed on at a time: they stay in the cache
 
 static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
 static_assert(offsetof(Fragment, triangle) == offsetof(HalfwayFragment, triangle));
@@ -49,7 +49,7 @@ struct VerilatorSimulator::State : Hardware {
   }
 
   std::string wave_path;
-  std::vector<Fragment> chunk = std::vector<Fragment>(kChunk);
+  std::vector<Fragment> chunk = std::vector<Fragment>(c_chunk);
   void* model = nullptr;
 };
 
@@ -148,7 +148,7 @@ Status VerilatorSimulator::advance(std::span<const std::uint32_t> init_words, bo
   for (std::uint64_t left = most;; left -= streams.count) {
     // One more than allowed, to see whether there is one.
     streams.fragments = reinterpret_cast<HalfwayFragment*>(s.chunk.data());
-    streams.capacity = left < kChunk ? left + 1 : kChunk;
+    streams.capacity = left < c_chunk ? left + 1 : c_chunk;
     streams.count = 0;
     const int status = drain ? s.drain(s.model, &streams) : s.run(s.model, &streams);
     if (streams.count != 0) on_drawn(std::span(s.chunk).first(streams.count));

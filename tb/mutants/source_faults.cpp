@@ -111,7 +111,7 @@ Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::p
   for (const auto& arguments : {import, std::vector<std::string>{"ghdl", "-m", "-O2", "--std=08", top}}) {
     const auto end =
         run_process({.arguments = arguments, .working_folder = folder->path(), .timeout = c_testbench_time},
-                    kInstallGhdl);
+                    c_install_ghdl);
     if (!end) return end.error();
     if (end->timed_out) return TestEnd::unfinished;
     if (!end->succeeded())
@@ -122,7 +122,7 @@ Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::p
                                               "--ieee-asserts=disable", "--assert-level=error"},
                                 .working_folder = folder->path(),
                                 .timeout = c_testbench_time},
-                               kInstallGhdl);
+                               c_install_ghdl);
   if (!end) return end.error();
   if (end->timed_out) return TestEnd::unfinished;
   const bool passed = end->succeeded() && end->output.find(top + ": passed") != std::string::npos;

@@ -20,9 +20,9 @@
 namespace halfway {
 namespace {
 
-constexpr unsigned kStimulusBits = 160, kLaneBits = 80, kLanes = 42;
-constexpr unsigned kResponseBits = kLaneBits * kLanes;
-constexpr std::size_t kVectors = 4000;
+constexpr unsigned c_stimulus_bits = 160, c_lane_bits = 80, c_lanes = 42;
+constexpr unsigned c_response_bits = c_lane_bits * c_lanes;
+constexpr std::size_t c_vectors = 4000;
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
 enum class Netlist { raw, mended };
@@ -39,9 +39,9 @@ std::string to_hex(std::span<const std::uint32_t> words, unsigned bits) {
 /// operands, small values.
 std::vector<std::uint32_t> make_stimuli() {
   std::mt19937 random(20240229);
-  constexpr std::size_t words = kStimulusBits / 32;
-  std::vector<std::uint32_t> stimuli(kVectors * words);
-  for (std::size_t i = 0; i < kVectors; ++i) {
+  constexpr std::size_t words = c_stimulus_bits / 32;
+  std::vector<std::uint32_t> stimuli(c_vectors * words);
+  for (std::size_t i = 0; i < c_vectors; ++i) {
     std::uint32_t* vector = &stimuli[i * words];
     for (std::size_t w = 0; w < words; ++w) vector[w] = static_cast<std::uint32_t>(random());
     const auto set_bit = [&](unsigned bit, bool value) {
@@ -102,8 +102,9 @@ class NetlistConstructs : public testing::Test {
     EXPECT_TRUE(library) << library.error().message;
     const auto in = scratch_->path() / "stimuli.txt", out = scratch_->path() / "responses.txt";
     std::string text;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      text += to_hex(std::span(stimuli_).subspan(i * kStimulusBits / 32, kStimulusBits / 32), kStimulusBits) +
+    for (std::size_t i = 0; i < c_vectors; ++i) {
+      text += to_hex(std::span(stimuli_).subspan(i * c_stimulus_bits / 32, c_stimulus_bits / 32),
+                     c_stimulus_bits) +
               '\n';
     }
     EXPECT_TRUE(write_file(in, text));
@@ -114,7 +115,7 @@ class NetlistConstructs : public testing::Test {
     command.arguments.push_back("-gg_responses=" + out.string());
     command.arguments.emplace_back("--ieee-asserts=disable");
     command.timeout = std::chrono::minutes(5);
-    const auto end = run_process(command, kInstallGhdl);
+    const auto end = run_process(command, c_install_ghdl);
     EXPECT_TRUE(end) << end.error().message;
     EXPECT_TRUE(end->succeeded()) << end->how() << '\n' << end->output;
     std::vector<std::string> lines;
@@ -122,7 +123,7 @@ class NetlistConstructs : public testing::Test {
     EXPECT_TRUE(reader);
     std::string_view line;
     while (reader->next(line) == LineReader::Next::line) lines.emplace_back(line);
-    EXPECT_EQ(lines.size(), kVectors);
+    EXPECT_EQ(lines.size(), c_vectors);
     return lines;
   }
 
@@ -152,12 +153,12 @@ class NetlistConstructs : public testing::Test {
     const auto run =
         verilated->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
     if (!run) return run.error();
-    std::vector<std::uint32_t> responses(kVectors * kResponseBits / 32);
-    (*run)(stimuli_.data(), kVectors, responses.data());
+    std::vector<std::uint32_t> responses(c_vectors * c_response_bits / 32);
+    (*run)(stimuli_.data(), c_vectors, responses.data());
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < kVectors; ++i) {
-      lines.push_back(
-          to_hex(std::span(responses).subspan(i * kResponseBits / 32, kResponseBits / 32), kResponseBits));
+    for (std::size_t i = 0; i < c_vectors; ++i) {
+      lines.push_back(to_hex(std::span(responses).subspan(i * c_response_bits / 32, c_response_bits / 32),
+                             c_response_bits));
     }
     return lines;
   }
@@ -166,9 +167,9 @@ class NetlistConstructs : public testing::Test {
   static std::string differences(const std::vector<std::string>& ghdl,
                                  const std::vector<std::string>& verilator) {
     std::string found;
-    constexpr std::size_t digits = kLaneBits / 4;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t at = (kLanes - 1 - lane) * digits;
+    constexpr std::size_t digits = c_lane_bits / 4;
+    for (std::size_t lane = 0; lane < c_lanes; ++lane) {
+      const std::size_t at = (c_lanes - 1 - lane) * digits;
       for (std::size_t i = 0; i < ghdl.size(); ++i) {
         const std::string a = ghdl[i].substr(at, digits), b = verilator[i].substr(at, digits);
         if (a == b) continue;
@@ -192,10 +193,10 @@ TEST_F(NetlistConstructs, EveryConstructOfTheRtlIsEqual) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(differences(expected, *found), "") << generics[0].second;
     // The value of every lane must have changed.
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
+    for (std::size_t lane = 0; lane < c_lanes; ++lane) {
+      const std::size_t at = (c_lanes - 1 - lane) * c_lane_bits / 4;
       std::vector<std::string> values;
-      for (const std::string& line : expected) values.push_back(line.substr(at, kLaneBits / 4));
+      for (const std::string& line : expected) values.push_back(line.substr(at, c_lane_bits / 4));
       std::sort(values.begin(), values.end());
       const auto distinct = std::unique(values.begin(), values.end()) - values.begin();
       EXPECT_GE(distinct, lane == 35 && generics[0].second == "true" ? 1 : 2)
@@ -212,9 +213,9 @@ TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
   EXPECT_EQ(differences(expected, *found), "");
   constexpr std::size_t used_lanes = 24;
   for (std::size_t lane = 0; lane < used_lanes; ++lane) {
-    const std::size_t at = (kLanes - 1 - lane) * kLaneBits / 4;
+    const std::size_t at = (c_lanes - 1 - lane) * c_lane_bits / 4;
     std::set<std::string> values;
-    for (const std::string& line : expected) values.insert(line.substr(at, kLaneBits / 4));
+    for (const std::string& line : expected) values.insert(line.substr(at, c_lane_bits / 4));
     EXPECT_GE(values.size(), 50U) << "lane " << lane << " hardly moves";
   }
 }

@@ -51,9 +51,9 @@ bool has_word(std::string_view code, std::string_view word) {
 
 /// All constructs are allowed above the architecture and inside a package: GHDL folds these constants, and
 /// they are not hardware. Other lines that are not hardware are marked with `-- elaboration only`.
-constexpr std::string_view kElaborationOnly = "-- elaboration only";
+constexpr std::string_view c_elaboration_only = "-- elaboration only";
 /// Comments that make a synthesizer skip text. GHDL simulates exactly the text that is synthesized.
-constexpr std::array<std::string_view, 3> kDirectives = {"translate_off", "synthesis_off", "pragma"};
+constexpr std::array<std::string_view, 3> c_directives = {"translate_off", "synthesis_off", "pragma"};
 
 std::vector<std::string> faults_in(const std::string& name, std::string_view text) {
   // Reserved in Verilog or SystemVerilog, but not in VHDL. GHDL writes them unchanged.
@@ -80,11 +80,11 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
     const auto fault = [&](std::string_view what) {
       faults.push_back(fmt::format("{}:{}: {}", name, number, what));
     };
-    for (const std::string_view directive : kDirectives)
+    for (const std::string_view directive : c_directives)
       if (line.find(directive) != std::string_view::npos)
         fault(fmt::format("{}: write one text for simulation and synthesis", directive));
     const std::string code = code_of(line);
-    if (line.find(kElaborationOnly) == std::string_view::npos) {
+    if (line.find(c_elaboration_only) == std::string_view::npos) {
       if (has_word(code, "shift_right") && code.find("shift_right(unsigned(") == std::string::npos) {
         fault("shift_right: concatenate the sign's bits and a slice");
       }

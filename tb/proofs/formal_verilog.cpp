@@ -10,7 +10,7 @@
 namespace halfway::proofs {
 namespace {
 
-constexpr std::string_view kDut = "dut_";
+constexpr std::string_view c_dut = "dut_";
 
 std::string_view without_leading_spaces(std::string_view line) {
   const std::size_t begin = line.find_first_not_of(' ');
@@ -21,7 +21,7 @@ std::string_view without_leading_spaces(std::string_view line) {
 // inside the instance `dut`: Yosys does so by the name when it flattens.
 std::string connected_to_dut(std::string_view name, std::string_view value) {
   const int bits = std::stoi(std::string(value));
-  const std::string inside = fmt::format("\\dut.{} ", name.substr(kDut.size()));
+  const std::string inside = fmt::format("\\dut.{} ", name.substr(c_dut.size()));
   return fmt::format("  (* hierconn *) wire [{}:0] {};\n  assign {} = {};\n", bits - 1, inside, name, inside);
 }
 
@@ -47,7 +47,7 @@ FormalVerilog with_properties(std::string_view netlist) {
       ++result.counts.assumes;
     } else if (contains(line, "'bX; // (signal)")) {
       // Drop the driver of a signal that the unit leaves free: Yosys makes it an arbitrary value.
-      if (const auto name = between(line, "assign ", " "); name.starts_with(kDut))
+      if (const auto name = between(line, "assign ", " "); name.starts_with(c_dut))
         result.text += connected_to_dut(name, between(line, "= ", "'"));
     } else {
       result.text.append(line).push_back('\n');

@@ -42,8 +42,8 @@ GoldenTable entries_of(golden::Function function) {
 }
 
 Result<GoldenTable> function_table(const Generics& generics) {
-  constexpr int kFunctions = 3;
-  for (int which = 0; which < kFunctions; ++which) {
+  constexpr int c_functions = 3;
+  for (int which = 0; which < c_functions; ++which) {
     if (value_of(generics, "g_which") != std::to_string(which)) continue;
     const auto function = static_cast<golden::Function>(which);
     if (value_of(generics, "g_exact") == "true") return entries_of<golden::Exact>(function);

@@ -24,8 +24,8 @@
 namespace halfway::proofs {
 namespace {
 
-constexpr std::size_t kQuickFaults = 4;  // per proof; all faults of a walker take longer than all proofs
-constexpr unsigned kThreads = 2;
+constexpr std::size_t c_quick_faults = 4;  // per proof; all faults of a walker take longer than all proofs
+constexpr unsigned c_threads = 2;
 
 struct Options {
   bool faults = true;
@@ -40,9 +40,9 @@ struct Options {
 // Keeps faults at equal distances.
 void keep_few(std::vector<Fault>& faults) {
   const std::size_t count = faults.size();
-  if (count <= kQuickFaults) return;
-  for (std::size_t i = 0; i < kQuickFaults; ++i) faults[i] = faults[i * count / kQuickFaults];
-  faults.resize(kQuickFaults);
+  if (count <= c_quick_faults) return;
+  for (std::size_t i = 0; i < c_quick_faults; ++i) faults[i] = faults[i * count / c_quick_faults];
+  faults.resize(c_quick_faults);
 }
 
 Result<std::vector<Proof>> select_proofs(const Options& options) {
@@ -126,7 +126,7 @@ Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs) {
   Outcomes outcomes{.proofs = std::vector<Outcome>(proofs.size())};
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
-  work_on_threads(kThreads, [&] {
+  work_on_threads(c_threads, [&] {
     for (std::size_t at; (at = next++) < jobs.size();) {
       const Job& job = jobs[at];
       const Proof& proof = proofs[job.proof];
@@ -202,9 +202,10 @@ int main(int argc, char** argv) {
   proofs::Options options;
   CLI::App app{"Proves properties of the RTL, and checks that each proof refutes its faults",
                "halfway_proofs"};
-  CLI::Option* quick = app.add_flag(
-      "--quick", options.quick,
-      fmt::format("only proofs that take a few seconds, each with {} faults at most", proofs::kQuickFaults));
+  CLI::Option* quick =
+      app.add_flag("--quick", options.quick,
+                   fmt::format("only proofs that take a few seconds, each with {} faults at most",
+                               proofs::c_quick_faults));
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
   CLI::Option* page =
       app.add_option("--page", options.page, "page whose table is replaced; needs all proofs and faults");

@@ -19,19 +19,19 @@
 namespace halfway::proofs {
 namespace {
 
-constexpr const char* kFolder = "tb/proofs";
-constexpr int kFaultClocks = 10;  // unless the file says otherwise
-constexpr int kMostClocks = 1000;
-constexpr std::array<std::string_view, 5> kMethods = {"induction", "bounded", "bounded_abc", "pdr", "gappa"};
+constexpr const char* c_folder = "tb/proofs";
+constexpr int c_fault_clocks = 10;  // unless the file says otherwise
+constexpr int c_most_clocks = 1000;
+constexpr std::array<std::string_view, 5> c_methods = {"induction", "bounded", "bounded_abc", "pdr", "gappa"};
 
 // Keys that a [[proof]] has, or the file for all of its proofs that do not have them.
-const std::vector<std::string_view> kSharedKeys = {
+const std::vector<std::string_view> c_shared_keys = {
     "method",        "clocks",       "fault_clocks", "quick",        "generics", "formats",
     "fault_formats", "any_products", "contracts",    "golden_table", "faults"};
-const std::vector<std::string_view> kFaultKeys = {"file", "old", "new", "occurs"};
+const std::vector<std::string_view> c_fault_keys = {"file", "old", "new", "occurs"};
 
 std::vector<std::string_view> with_shared_keys(std::vector<std::string_view> keys) {
-  keys.insert(keys.end(), kSharedKeys.begin(), kSharedKeys.end());
+  keys.insert(keys.end(), c_shared_keys.begin(), c_shared_keys.end());
   return keys;
 }
 
@@ -49,10 +49,10 @@ class ProofFile {
  public:
   // `name` is relative to tb/proofs.
   ProofFile(const std::filesystem::path& source, const std::filesystem::path& name)
-      : source_(source), name_(name), file_((kFolder / name).string()) {}
+      : source_(source), name_(name), file_((c_folder / name).string()) {}
 
   Result<std::vector<Proof>> read() {
-    const auto text = read_file(source_ / kFolder / name_);
+    const auto text = read_file(source_ / c_folder / name_);
     if (!text) return text.error();
     try {
       root_ = toml::parse(*text, file_);
@@ -104,8 +104,8 @@ class ProofFile {
 
   int number(Where node, std::string_view key, int least) {
     const auto value = node->value_exact<std::int64_t>();
-    if (!value || *value < least || *value > kMostClocks) {
-      fail(node, "{} must be a whole number from {} to {}", key, least, kMostClocks);
+    if (!value || *value < least || *value > c_most_clocks) {
+      fail(node, "{} must be a whole number from {} to {}", key, least, c_most_clocks);
       return least;
     }
     return static_cast<int>(*value);
@@ -148,7 +148,7 @@ class ProofFile {
     for (const char* extension : {".psl", ".gappa"}) {
       auto unit = name_;
       unit.replace_extension(extension);
-      if (std::filesystem::exists(source_ / kFolder / unit)) units.push_back(unit.string());
+      if (std::filesystem::exists(source_ / c_folder / unit)) units.push_back(unit.string());
     }
     if (units.size() == 1)
       unit_ = units.front();
@@ -167,7 +167,7 @@ class ProofFile {
 
   Fault read_fault(Where node) {
     const toml::table& table = this->table(node, "a fault");
-    check_keys(table, kFaultKeys);
+    check_keys(table, c_fault_keys);
     for (const char* key : {"old", "new"})
       if (!table.contains(key)) {
         fail(node, "a fault has no '{}'; a fault is {{ old = \"text of the RTL\", new = \"another\" }}", key);
@@ -226,12 +226,12 @@ class ProofFile {
 
   Method read_method(Where node) {
     const std::string name = text(node, "method");
-    const auto at = std::ranges::find(kMethods, name);
-    if (at == kMethods.end()) {
-      fail(node, "method is '{}', but must be one of {}", name, fmt::join(kMethods, ", "));
+    const auto at = std::ranges::find(c_methods, name);
+    if (at == c_methods.end()) {
+      fail(node, "method is '{}', but must be one of {}", name, fmt::join(c_methods, ", "));
       return {};
     }
-    const auto method = static_cast<Method>(at - kMethods.begin());
+    const auto method = static_cast<Method>(at - c_methods.begin());
     if ((method == Method::gappa) != unit_.ends_with(".gappa"))
       fail(node, "method '{}' does not fit {}; gappa is for units named .gappa", name, unit_);
     return method;
@@ -247,7 +247,7 @@ class ProofFile {
       proof.fault_clocks = number(node, "fault_clocks", std::max(1, proof.clocks));
       if (proof.method == Method::gappa) fail(node, "method gappa takes no fault_clocks; remove them");
     } else if (proof.method != Method::gappa) {
-      proof.fault_clocks = std::max(kFaultClocks, proof.clocks);
+      proof.fault_clocks = std::max(c_fault_clocks, proof.clocks);
     }
   }
 
@@ -289,8 +289,8 @@ class ProofFile {
     std::vector<std::string> contracts;
     for (const toml::node& item : list(node, "contracts")) {
       contracts.push_back(text(&item, "a contract"));
-      if (!std::filesystem::exists(source_ / kFolder / contracts.back()))
-        fail(&item, "{}/{} does not exist", kFolder, contracts.back());
+      if (!std::filesystem::exists(source_ / c_folder / contracts.back()))
+        fail(&item, "{}/{} does not exist", c_folder, contracts.back());
     }
     return contracts;
   }
@@ -345,7 +345,7 @@ Status check_units(const std::vector<std::filesystem::path>& files, const std::v
   for (const auto& file : files)
     if (is_unit(file) && !used.contains(file.string()))
       return bad_input(
-          fmt::format("{0}/{1}: no proof uses it; describe it in {2}.toml next to it, or remove it", kFolder,
+          fmt::format("{0}/{1}: no proof uses it; describe it in {2}.toml next to it, or remove it", c_folder,
                       file.string(), file.stem().string()));
   return Ok{};
 }
@@ -353,7 +353,7 @@ Status check_units(const std::vector<std::filesystem::path>& files, const std::v
 }  // namespace
 
 Result<std::vector<Proof>> read_proofs(const std::filesystem::path& source) {
-  const auto files = files_below(source / kFolder);
+  const auto files = files_below(source / c_folder);
   if (!files) return files.error();
   std::vector<Proof> proofs;
   for (const auto& file : *files) {

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 // A complete proof; tests add keys or replace them.
-constexpr const char* kProof =
+constexpr const char* c_proof =
     "entity = \"box\"\n"
     "[[proof]]\n"
     "property = \"It holds\"\n"
@@ -116,23 +116,23 @@ TEST_F(ProofFiles, TakesValuesOfTheFileUnlessAProofHasItsOwn) {
 }
 
 TEST_F(ProofFiles, LooksForFaultsInTenClocksOrAllOfTheProof) {
-  const auto few = read(kProof);
+  const auto few = read(c_proof);
   ASSERT_TRUE(few) << few.error().message;
   EXPECT_EQ(few->front().fault_clocks, 10);
-  const auto many = read(replaced(kProof, "clocks = 3", "clocks = 30"));
+  const auto many = read(replaced(c_proof, "clocks = 3", "clocks = 30"));
   ASSERT_TRUE(many) << many.error().message;
   EXPECT_EQ(many->front().fault_clocks, 30);
 }
 
 TEST_F(ProofFiles, NarrowsFormatsForFaultsAlone) {
-  const auto proofs = read(std::string(kProof) + "fault_formats = { depth = [4, 2] }\n");
+  const auto proofs = read(std::string(c_proof) + "fault_formats = { depth = [4, 2] }\n");
   ASSERT_TRUE(proofs) << proofs.error().message;
   EXPECT_TRUE(proofs->front().formats.empty());
   EXPECT_EQ(proofs->front().fault_formats.size(), 1U);
 }
 
 TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
-  const std::string proof = kProof;
+  const std::string proof = c_proof;
   const std::string file = "tb/proofs/raster/box.toml";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"a = 1\nb = ]\n", file + ":2: bad TOML: "},
@@ -175,21 +175,21 @@ TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
 }
 
 TEST_F(ProofFiles, RefusesAFileWithoutAUnitAndAUnitWithoutAFile) {
-  EXPECT_EQ(error(kProof), "no error");
+  EXPECT_EQ(error(c_proof), "no error");
   write("tb/proofs/raster/lost.psl", "");
-  EXPECT_THAT(error(kProof), StartsWith("tb/proofs/raster/lost.psl: no proof uses it; "));
-  EXPECT_EQ(error(std::string(kProof) + "contracts = [\"raster/lost.psl\"]\n"), "no error");
+  EXPECT_THAT(error(c_proof), StartsWith("tb/proofs/raster/lost.psl: no proof uses it; "));
+  EXPECT_EQ(error(std::string(c_proof) + "contracts = [\"raster/lost.psl\"]\n"), "no error");
   std::filesystem::rename(folder_->path() / "tb/proofs/raster/lost.psl",
                           folder_->path() / "tb/proofs/raster/box.gappa");
-  EXPECT_THAT(error(kProof), HasSubstr("box.toml: two units next to it; "));
+  EXPECT_THAT(error(c_proof), HasSubstr("box.toml: two units next to it; "));
   std::filesystem::remove(folder_->path() / "tb/proofs/raster/box.gappa");
   std::filesystem::remove(folder_->path() / "tb/proofs/raster/box.psl");
-  EXPECT_THAT(error(kProof), HasSubstr("box.toml: no unit next to it; "));
+  EXPECT_THAT(error(c_proof), HasSubstr("box.toml: no unit next to it; "));
 }
 
 TEST_F(ProofFiles, GivesTheEntriesOfAGoldenTable) {
   const auto proofs =
-      read(std::string(kProof) +
+      read(std::string(c_proof) +
            "golden_table = \"cosine\"\n"
            "generics = { g_exact = false, g_power = 2, g_address_bits = 6, g_data_bits = 6 }\n");
   ASSERT_TRUE(proofs) << proofs.error().message;

@@ -17,10 +17,10 @@
 namespace halfway::proofs {
 namespace {
 
-constexpr const char* kInstall = "apt-get install yosys cvc5 gappa";
-constexpr std::chrono::minutes kTimeout{10};
-constexpr const char* kTimedOut = "no answer within 10 minutes";
-constexpr const char* kFormats = "rtl/tables/formats_pkg.vhd";
+constexpr const char* c_install = "apt-get install yosys cvc5 gappa";
+constexpr std::chrono::minutes c_timeout{10};
+constexpr const char* c_timed_out = "no answer within 10 minutes";
+constexpr const char* c_formats = "rtl/tables/formats_pkg.vhd";
 
 Result<std::string> read_unit(const Folders& folders, const std::string& name) {
   auto text = read_file(folders.source / "tb/proofs" / name);
@@ -33,15 +33,15 @@ Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::str
   return run_process({.arguments = std::move(arguments),
                       .working_folder = folder,
                       .standard_output = standard_output,
-                      .timeout = kTimeout},
-                     kInstall);
+                      .timeout = c_timeout},
+                     c_install);
 }
 
 // The first message of the tool stands for those that follow from it.
 Error no_verdict(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
-  constexpr std::size_t kMostCharacters = 1000;
+  constexpr std::size_t c_most_characters = 1000;
   return tool_failed(fmt::format("{}: {} gave no verdict ({}):\n{}", proof.unit, tool, end.how(),
-                                 end.output.substr(0, std::min(end.output.find("\n\n"), kMostCharacters))));
+                                 end.output.substr(0, std::min(end.output.find("\n\n"), c_most_characters))));
 }
 
 std::string last_line_with(std::string_view text, std::string_view part) {
@@ -77,7 +77,7 @@ Result<std::vector<VhdlSource>> read_rtl(const Folders& folders, const Proof& pr
   auto rtl = read_rtl_sources(folders.source);
   if (!rtl) return rtl;
   if (const auto& formats = formats_of(proof, fault); !formats.empty())
-    if (VhdlSource* package = find_source(*rtl, kFormats)) package->content = formats_package(formats);
+    if (VhdlSource* package = find_source(*rtl, c_formats)) package->content = formats_package(formats);
   if (fault != nullptr) {
     auto text = text_with_fault(*rtl, *fault);
     if (!text) return text.error();
@@ -118,9 +118,9 @@ struct Unit {
 Result<Unit> make_unit(const Folders& folders, const Proof& proof) {
   auto text = read_unit(folders, proof.unit);
   if (!text) return text.error();
-  constexpr std::string_view kEntries = "$entries\n";
+  constexpr std::string_view c_entries = "$entries\n";
   if (const std::size_t at = text->find("\n$entries\n"); at != std::string::npos)
-    text->replace(at + 1, kEntries.size(), vhdl_of_table(proof));
+    text->replace(at + 1, c_entries.size(), vhdl_of_table(proof));
   if (contains(*text, " case "))
     return bad_input(
         fmt::format("tb/proofs/{}: GHDL drops what follows `when others`; write if and elsif instead of case",
@@ -202,7 +202,7 @@ Result<Answer> run_cvc5(const std::filesystem::path& folder, const Proof& proof,
   command.push_back("model.smt2");
   const auto end = run(folder, command);
   if (!end) return end.error();
-  if (end->timed_out) return Answer{Verdict::open, kTimedOut};
+  if (end->timed_out) return Answer{Verdict::open, c_timed_out};
   if (end->succeeded() && contains(end->output, "Status: PASSED")) return Answer{Verdict::holds};
   if (end->exit_status != 1 || !contains(end->output, "Status: FAILED"))
     return no_verdict(proof, "yosys-smtbmc", *end);
@@ -215,7 +215,7 @@ Result<Answer> run_cvc5(const std::filesystem::path& folder, const Proof& proof,
 Result<Answer> run_abc(const std::filesystem::path& folder, const Proof& proof, const std::string& engine) {
   const auto end = run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; orpos; " + engine});
   if (!end) return end.error();
-  if (end->timed_out) return Answer{Verdict::open, kTimedOut};
+  if (end->timed_out) return Answer{Verdict::open, c_timed_out};
   if (contains(end->output, "Property proved.") || contains(end->output, "No output asserted in"))
     return Answer{Verdict::holds};
   if (contains(end->output, "was asserted in frame"))
@@ -278,8 +278,8 @@ Result<Answer> prove_by_gappa(const Folders& folders, const std::filesystem::pat
   if (!rtl) return rtl.error();
   const auto unit = read_unit(folders, proof.unit);
   if (!unit) return unit.error();
-  const VhdlSource* package = find_source(*rtl, kFormats);
-  if (package == nullptr) return bad_input(fmt::format("{}: is not in rtl/files.f; add it", kFormats));
+  const VhdlSource* package = find_source(*rtl, c_formats);
+  if (package == nullptr) return bad_input(fmt::format("{}: is not in rtl/files.f; add it", c_formats));
   const auto text = with_formats(*unit, package->content);
   if (!text) return bad_input(fmt::format("tb/proofs/{}: {}", proof.unit, text.error().message));
   if (auto written = write_file(folder / "unit.gappa", *text); !written) return written.error();
@@ -298,7 +298,7 @@ Status find_tools() {
   for (const char* tool : {"ghdl", "yosys", "yosys-smtbmc", "yosys-abc", "cvc5", "gappa"}) {
     if (!find_program(tool).empty()) continue;
     return tool_failed(fmt::format("{}: is missing; install it with: {}", tool,
-                                   std::string_view(tool) == "ghdl" ? kInstallGhdl : kInstall));
+                                   std::string_view(tool) == "ghdl" ? c_install_ghdl : c_install));
   }
   return Ok{};
 }

@@ -10,7 +10,7 @@
 
 namespace halfway::synth {
 
-inline constexpr const char* kAccumulator = "tb/synth/accumulator.vhd";  ///< not in rtl/
+inline constexpr const char* c_accumulator = "tb/synth/accumulator.vhd";  ///< not in rtl/
 
 struct ListedDesign {
   Design design;       ///< its name in the page and in pinned.txt

@@ -32,7 +32,7 @@ std::vector<std::string> names() {
 TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   auto sources = read_rtl_sources(c_root);
   ASSERT_TRUE(sources) << sources.error().message;
-  auto beside = read_vhdl_source(c_root, kAccumulator);
+  auto beside = read_vhdl_source(c_root, c_accumulator);
   ASSERT_TRUE(beside) << beside.error().message;
   sources->push_back(std::move(*beside));
   const std::regex entity(R"((?:^|\n)entity (\w+) is)");
@@ -59,7 +59,7 @@ TEST(SynthDesigns, ArePinnedEachOnceAndNothingElseIs) {
     if (design.ice40) listed.push_back(design.design.name);
   std::ranges::sort(listed);
   EXPECT_EQ(std::ranges::adjacent_find(listed), listed.end()) << "two designs of one name";
-  const auto pins = read_pins(c_root / kPins);
+  const auto pins = read_pins(c_root / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   std::vector<std::string> pinned;
   for (const auto& [name, pin] : *pins) pinned.push_back(name);
@@ -73,12 +73,12 @@ TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
   ASSERT_TRUE(tool) << tool.error().message;
   auto sources = read_rtl_sources(c_root);
   ASSERT_TRUE(sources) << sources.error().message;
-  auto beside = read_vhdl_source(c_root, kAccumulator);
+  auto beside = read_vhdl_source(c_root, c_accumulator);
   ASSERT_TRUE(beside) << beside.error().message;
   sources->push_back(std::move(*beside));
   const auto library = GhdlLibrary::for_synthesis(*tool, *sources, HALFWAY_CACHE_DIR);
   ASSERT_TRUE(library) << library.error().message;
-  const auto pins = read_pins(c_root / kPins);
+  const auto pins = read_pins(c_root / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   const auto designs = all_designs();
   std::vector<std::string> others(designs.size());
@@ -91,7 +91,7 @@ TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
     if (*hash != pin->second.netlist)
       others[i] =
           fmt::format("{}:{}: {}: its netlist is not the one that is pinned; make synth PIN=1 pins anew\n",
-                      kPins, pin->second.line, design.name);
+                      c_pins, pin->second.line, design.name);
     return Ok{};
   });
   ASSERT_TRUE(made) << made.error().message;
@@ -102,7 +102,7 @@ TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
 TEST(SynthDesigns, HaveTheirRowsInThePage) {
   const auto page = read_file(c_root / "docs/results/synthesis.md");
   ASSERT_TRUE(page) << page.error().message;
-  const auto pins = read_pins(c_root / kPins);
+  const auto pins = read_pins(c_root / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   const std::size_t figures = page->find("\n## Figures\n");
   ASSERT_NE(figures, std::string::npos);

@@ -32,7 +32,7 @@ void PrintTo(const Drawn& drawn, std::ostream* out) {
 class MappedFrame : public ::testing::TestWithParam<Drawn> {};
 
 TEST_P(MappedFrame, EqualsTheGoldenModels) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << kInstallTools;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_tools;
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const SimulatorFolders folders{source, HALFWAY_CACHE_DIR};
   const auto scene = load_scene(GetParam().scene, source / "sim" / "scenes");

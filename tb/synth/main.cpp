@@ -31,18 +31,18 @@
 namespace halfway::synth {
 namespace {
 
-constexpr std::string_view kTable = "## Figures\n";  // of the page; the text after it is rewritten
-constexpr std::string_view kHead =
+constexpr std::string_view c_table = "## Figures\n";  // of the page; the text after it is rewritten
+constexpr std::string_view c_head =
     "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | published, ns | "
     "critical path | ECP5: LUTs | flip-flops | RAMs | multipliers |\n"
     "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
 
-constexpr const char* kReadmePart = "clocks";
-constexpr const char* kEndless = "nextpnr does not end";
+constexpr const char* c_readme_part = "clocks";
+constexpr const char* c_endless = "nextpnr does not end";
 
 struct Options {
   bool quick = false, cells = false, pin = false, check = false;
-  unsigned seeds = kSeeds, jobs = 2;
+  unsigned seeds = c_seeds, jobs = 2;
   std::filesystem::path page{}, readme{};
   SimulatorFolders folders{};
   std::string part{};
@@ -76,14 +76,14 @@ std::string not_placed(const Figures& f) {
   if (!f.ice40) return "not placed: its processors alone do not fit the HX8K";
   if (!f.no_room.empty()) return "not placed: " + f.no_room;
   if (!f.placements.empty()) return "not placed: does not fit the HX8K";
-  return f.endless > 0 ? fmt::format("not placed: {} with {} seeds", kEndless, f.endless) : "not placed";
+  return f.endless > 0 ? fmt::format("not placed: {} with {} seeds", c_endless, f.endless) : "not placed";
 }
 
 // The range and number of the seeds of which the clock is the median.
 std::string seeds_text(const Figures& f) {
   return fmt::format("{:.0f} to {:.0f} of {}{}", f.placements.front().mhz, f.placements.back().mhz,
                      f.placements.size(),
-                     f.endless > 0 ? fmt::format("; {}: {}", kEndless, f.endless) : std::string());
+                     f.endless > 0 ? fmt::format("; {}: {}", c_endless, f.endless) : std::string());
 }
 
 std::string row(const ListedDesign& listed, const Figures& f) {
@@ -115,7 +115,7 @@ Status check_written(const Options& options) {
   if (options.readme.empty()) return Ok{};
   const auto readme = read_file(options.readme);
   if (!readme) return readme.error();
-  if (const auto part = page_part(*readme, kReadmePart); !part)
+  if (const auto part = page_part(*readme, c_readme_part); !part)
     return bad_input(fmt::format("{}: {}", options.readme.string(), part.error().message));
   return Ok{};
 }
@@ -125,8 +125,8 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
                   const std::string& versions) {
   auto text = read_file(path);
   if (!text) return text.error();
-  const std::size_t figures = std::min(text->find(kTable), text->size());
-  std::string table(kHead);
+  const std::size_t figures = std::min(text->find(c_table), text->size());
+  std::string table(c_head);
   for (const ListedDesign& listed : all_designs()) {
     const std::string& name = listed.design.name;
     const auto measured = rows.find(name);
@@ -137,13 +137,13 @@ Status write_page(const std::filesystem::path& path, const std::map<std::string,
       table += text->substr(before, text->find('\n', before) + 1 - before);
   }
   text->resize(figures);
-  return write_file(path, fmt::format("{}{}\nBy {}, on {}, {}.\n\n{}", *text, kTable, versions, machine(),
+  return write_file(path, fmt::format("{}{}\nBy {}, on {}, {}.\n\n{}", *text, c_table, versions, machine(),
                                       operating_system(), table));
 }
 
 // With a part, the other pins are kept. Without one, or without a file, all are written again.
 Result<Pins> pins_before(const Options& options) {
-  const auto path = options.folders.source / kPins;
+  const auto path = options.folders.source / c_pins;
   if (options.pin && (options.part.empty() || !std::filesystem::exists(path))) return Pins{};
   return read_pins(path);
 }
@@ -155,7 +155,7 @@ Status write_readme(const std::filesystem::path& path, const std::filesystem::pa
   const auto clocks = readme_clocks(*pins);
   if (!clocks) return clocks.error();
   return rewrite_page(path,
-                      [&](const std::string& page) { return with_page_part(page, kReadmePart, *clocks); });
+                      [&](const std::string& page) { return with_page_part(page, c_readme_part, *clocks); });
 }
 
 class Run {
@@ -280,7 +280,7 @@ class Run {
     const std::lock_guard lock(mutex_);
     if (!placement->ended) {
       ++f.endless;
-      return std::string(kEndless);
+      return std::string(c_endless);
     }
     f.placements.push_back(*placement);
     if (!placement->fits()) return std::string("does not fit the HX8K");
@@ -289,7 +289,7 @@ class Run {
 
   ExitCode report() {
     std::map<std::string, std::string> rows;
-    fmt::print("\n{}", kHead);
+    fmt::print("\n{}", c_head);
     for (std::size_t i = 0; i < designs_.size(); ++i) {
       rows[designs_[i].design.name] = row(designs_[i], figures_[i]);
       fmt::print("{}", rows[designs_[i].design.name]);
@@ -319,24 +319,24 @@ class Run {
         pin.mhz = f.mhz();
         pin.netlist = f.netlist;
         if (f.fits()) pin.seeds = static_cast<unsigned>(f.placements.size());
-        if (f.fits() && pin.seeds < kSeeds) ++hasty;
+        if (f.fits() && pin.seeds < c_seeds) ++hasty;
       }
     }
     std::set<std::string> listed;
     for (const ListedDesign& each : all_designs())
       if (each.ice40) listed.insert(each.design.name);
     std::erase_if(pins_, [&](const auto& pin) { return !listed.contains(pin.first); });
-    const Status written = write_pins(options_.folders.source / kPins, pins_, synthesizer_.versions());
+    const Status written = write_pins(options_.folders.source / c_pins, pins_, synthesizer_.versions());
     if (!written) return written.error();
     if (!options_.readme.empty())
-      if (const Status told = write_readme(options_.readme, options_.folders.source / kPins); !told)
+      if (const Status told = write_readme(options_.readme, options_.folders.source / c_pins); !told)
         return told.error();
     fmt::print("{} designs are pinned\n", pinned);
     if (hasty > 0)
       cli::say(fmt::format(
           "note: {} clocks are pinned of fewer than the usual {} seeds, as {} says of each; of few "
           "a median is luck",
-          hasty, kSeeds, kPins));
+          hasty, c_seeds, c_pins));
     return ExitCode::equal;
   }
 
@@ -386,7 +386,7 @@ int main_of(const Options& options) {
   auto pins = pins_before(options);
   if (!pins) return cli::report(pins.error());
   if (options.check) return 0;
-  const auto synthesizer = Synthesizer::open(options.folders, !options.cells, {kAccumulator});
+  const auto synthesizer = Synthesizer::open(options.folders, !options.cells, {c_accumulator});
   if (!synthesizer) {
     cli::say(synthesizer.error().message);
     return static_cast<int>(synthesizer.error().code);

@@ -56,7 +56,7 @@ class SynthProgram : public StandInTools {
     if (IsSkipped() || HasFatalFailure()) return;
     for (const char* name : {"tb/synth", "cache"}) ASSERT_TRUE(make_folders(root() / name));
     fs::create_directory_symlink(c_source / "rtl", root() / "rtl");
-    fs::create_symlink(c_source / kAccumulator, root() / kAccumulator);
+    fs::create_symlink(c_source / c_accumulator, root() / c_accumulator);
     // GHDL itself checks the VHDL, which takes most of the time.
     ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source / "build/cache/ghdl", root() / "cache/ghdl");
@@ -67,7 +67,7 @@ class SynthProgram : public StandInTools {
   }
   fs::path page() const { return root() / "page.md"; }
   void pin(double mhz) const {
-    ASSERT_TRUE(write_pins(root() / kPins, {{"accumulator_24", {.cells = {24, 23, 24, 0}, .mhz = mhz}}},
+    ASSERT_TRUE(write_pins(root() / c_pins, {{"accumulator_24", {.cells = {24, 23, 24, 0}, .mhz = mhz}}},
                            "stand-ins"));
   }
   Outcome run(std::vector<std::string> arguments, const std::string& part = "accumulator_24") const {
@@ -111,17 +111,17 @@ TEST_F(SynthProgram, PinsOfHowManySeedsAClockIs) {
   const Outcome few = run({"--pin", "--seeds", "1"});
   EXPECT_EQ(few.exit_status, 0) << few.errors;
   EXPECT_THAT(few.errors, HasSubstr("note: 1 clocks are pinned of fewer than the usual 3 seeds"));
-  auto pins = read_pins(root() / kPins);
+  auto pins = read_pins(root() / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   EXPECT_EQ(pins->at("accumulator_24").seeds, 1U);
   // One of four placements does not end.
   const Outcome enough = run({"--pin", "--seeds", "4"});
   EXPECT_EQ(enough.exit_status, 0) << enough.errors;
   EXPECT_EQ(enough.errors, "");
-  pins = read_pins(root() / kPins);
+  pins = read_pins(root() / c_pins);
   ASSERT_TRUE(pins) << pins.error().message;
   EXPECT_EQ(pins->at("accumulator_24").seeds, 3U);
-  EXPECT_THAT(*read_file(root() / kPins), Not(::testing::ContainsRegex("[0-9a-f]{32} 3\n")));
+  EXPECT_THAT(*read_file(root() / c_pins), Not(::testing::ContainsRegex("[0-9a-f]{32} 3\n")));
 }
 
 // One of the two designs is for ECP5 only.
@@ -169,7 +169,7 @@ TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
   const Outcome good = run({"--check", "--page", page().string()});
   EXPECT_EQ(good.exit_status, 0) << good.errors;
   EXPECT_EQ(good.output + good.errors, "");
-  ASSERT_TRUE(write_file(root() / kPins, "accumulator_24 1 2\n"));
+  ASSERT_TRUE(write_file(root() / c_pins, "accumulator_24 1 2\n"));
   EXPECT_EQ(run({"--check"}).exit_status, 2);
   EXPECT_FALSE(fs::exists(root() / "cache/synth"));
 }
