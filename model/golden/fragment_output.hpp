@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/fragment_output.vhd: a shaded object as a fragment.
+// Golden model of rtl/shaders/fragment_output.vhd: converts a shaded object to a fragment.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace halfway::golden {
 
-/// With one channel, grey: all colours are that channel's.
+/// With one channel (grey) all colours are equal.
 template <class Preset>
 Fragment fragment_output(const ShadingToken<Preset>& token, int channels) {
   const auto colour = [&](std::size_t channel) {

@@ -18,7 +18,7 @@ class LightState {
     if (shadows) counter_.emplace();
   }
 
-  /// Takes a token that is not an object.
+  /// Processes a token that is not an object.
   void take(const ShadingToken<Preset>& token) {
     const bool own = token.light_number == number_;
     switch (token.command) {
@@ -41,7 +41,7 @@ class LightState {
         return;
     }
   }
-  /// Takes an object. Returns true if no shadow volume contains it. Resets the counter of its column.
+  /// Processes an object. Returns true if no shadow volume contains it. Resets the counter of its column.
   bool take_object(const ShadingToken<Preset>& token) {
     return !counter_ || counter_->take(token.x, light_.around_eye);
   }

@@ -25,8 +25,8 @@ struct ProcessorsConfig {
   constexpr int processors() const { return 1 + lights() * ((diffuse ? 1 : 0) + (specular ? 1 : 0)); }
 };
 
-/// Commands of the host's vectors and of tokens. In tokens the first three carry an object to shade and tell
-/// its position relative to the previous object: at another pixel, at the same pixel, on another line.
+/// Commands of the host's vectors and of tokens. In tokens the first three carry an object to shade. They
+/// give its position relative to the last object: at another pixel, at the same pixel, on another line.
 enum class Command : std::uint32_t {
   new_pixel = 0,
   new_object = 1,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/processors_shader.vhd: the host's vectors to fragments, in the order that the hardware
-// emits them.
+// Golden model of rtl/shaders/processors_shader.vhd: converts the host's vectors to fragments, in the
+// hardware's order.
 #pragma once
 
 #include <cassert>
@@ -19,7 +19,7 @@
 
 namespace halfway::golden {
 
-/// Lights, shadow counts and the object stage's line live from a vector to the next.
+/// Keeps lights, shadow counts and the object stage's line from one vector to the next.
 template <class Preset>
 class ProcessorsShader {
  public:
@@ -31,14 +31,14 @@ class ProcessorsShader {
 
   int init_bits() const { return layout_.init_bits(); }
   std::size_t init_words() const { return words_of(init_bits()); }
-  /// Each vector stands alone.
+  /// Every group is one vector: no line records follow.
   std::size_t group(std::span<const std::uint32_t>) const { return 1; }
-  /// A count of shadow volumes went wrong: what came since is worth nothing.
+  /// True if a count of shadow volumes has exceeded its format. All later fragments are then invalid.
   bool fault() const { return pipeline_.fault(); }
 
-  /// Processes one vector. Calls emit(fragment) for each pixel that leaves the pipeline, watch.line(*this)
-  /// when the span stage loads a line, watch.span(*this, x) at each pixel of it, and
-  /// watch.processor(*this, x, number) for each object that leaves a processor.
+  /// Processes one vector. Calls emit(fragment) for each pixel output by the pipeline, watch.line(*this) when
+  /// the span stage loads a line, watch.span(*this, x) at each pixel of it, and watch.processor(*this, x,
+  /// number) for each object output by a processor.
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
     assert(vector.size() >= init_words());
@@ -70,7 +70,7 @@ class ProcessorsShader {
         });
   }
 
-  /// Whether a vector is for the processors alone: it covers no pixel.
+  /// True if only the processors use the vector. It then covers no pixel.
   static bool is_load(std::span<const std::uint32_t> vector) {
     return is_load(static_cast<Command>(get_bits(vector, RequestAt::command)));
   }
@@ -79,10 +79,10 @@ class ProcessorsShader {
     return rasterizer_.walker_of(vector);
   }
 
-  // The registers, for a watch.
+  // Registers, for callbacks.
   const ZInterpolator<Exact>& depth() const { return rasterizer_.depth(); }
   std::int64_t plane_value(int plane) const { return rasterizer_.plane_value(plane); }
-  /// The object that has left a processor.
+  /// In watch.processor: the object as that processor outputs it.
   const ShadingToken<Preset>& token() const { return rasterizer_.token(); }
 
  private:

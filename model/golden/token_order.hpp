@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/token_order.vhd: the command of an object says where it lies.
+// Golden model of rtl/shaders/token_order.vhd: an object's command gives its position relative to the last.
 #pragma once
 
 #include <cstdint>

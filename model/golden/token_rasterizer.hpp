@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of rtl/shaders/token_rasterizer.vhd: a triangle as tokens, one for each pixel that it covers.
+// Golden model of rtl/shaders/token_rasterizer.vhd: converts a triangle to tokens, one per covered pixel.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ class TokenRasterizer {
   explicit TokenRasterizer(const ProcessorsConfig& config)
       : config_(config), layout_(config), planes_(static_cast<std::size_t>(layout_.planes())) {}
 
-  /// Calls line() when the span stage loads a line, and pixel(x) at each pixel of it, whose token is token().
+  /// Calls line() when the span stage loads a line, and pixel(x) at each of its pixels. token() is its token.
   template <class Line, class Pixel>
   void draw(std::span<const std::uint32_t> vector, Line&& line, Pixel&& pixel) {
     using At = typename Preset::request_header_at;
@@ -37,18 +37,18 @@ class TokenRasterizer {
     }
   }
 
-  /// The token of a pixel; its command is the vector's. Who shades it changes it.
+  /// The token of the pixel with the vector's command. The caller may change it.
   Token& token() { return token_; }
   const Token& token() const { return token_; }
   const TriangleWalker<Exact>& walker() const { return walker_; }
-  /// As a vector that draws, or passes over the line, loads it.
+  /// The triangle walker after it loaded the header of this vector.
   TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
     TriangleWalker<Exact> walker;
     walker.line_load(walk_of(vector));
     return walker;
   }
   const ZInterpolator<Exact>& depth() const { return depth_; }
-  /// The plane's top bits: the host has added half a step of what they drop.
+  /// The upper bits of the plane's value. Setup has added half a step, so truncation rounds.
   std::int64_t plane_value(int plane) const {
     constexpr int c_drop = Preset::c_plane_sum_bits - Preset::c_vector_bits;
     return planes_[static_cast<std::size_t>(plane)].value().value() >> c_drop;
@@ -59,11 +59,11 @@ class TokenRasterizer {
   using Plane = PlaneInterpolator<Preset::c_plane_sum_bits>;
 
   static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
-  /// The colour before the first processor: the half that rounds the last one, where it has a fraction.
+  /// Colour before the first processor: half a step if it has a fraction, so that truncation rounds.
   static constexpr std::uint32_t c_first_radiance =
       Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
 
-  // It begins amid a word.
+  // The header starts within a word, so copy it.
   std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk_of(
       std::span<const std::uint32_t> vector) const {
     std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk;

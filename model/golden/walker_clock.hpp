@@ -30,8 +30,8 @@ class WalkerClock {
   /// leaves the edge stage, but one clock later after the first line of a triangle.
   std::int64_t read() const { return read_; }
 
-  /// The clock in which the line and its record are taken. Its first pixel is output in the next clock, the
-  /// others follow.
+  /// The clock in which the line and its record are accepted. Its first pixel is output in the next clock,
+  /// followed by the others.
   std::int64_t take_line(std::int64_t pixels) {
     if (lines_++ != 0) handed_on_ = line_free_;
     line_free_ = pixels == 0 ? handed_on_ + 1 : std::max(handed_on_ + 1, span_free_);

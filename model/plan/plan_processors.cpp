@@ -34,8 +34,8 @@ std::optional<std::size_t> first_curved(const Scene& scene) {
   return std::nullopt;
 }
 
-// Whether N is normalized at each pixel, with the reason. The scene's own call for unit vectors does not say
-// whether the N of a pixel must be normalized.
+// Whether N is normalized at each pixel, with the reason. That the scene needs unit vectors does not imply
+// that the N of a pixel must be normalized.
 Call call_normalize(const Scene& scene, const SceneCalls& calls, Preset preset) {
   const Call& lit = calls[Effect::normalization];
   if (!lit.called_for) return lit;

@@ -22,8 +22,8 @@ class ShadowRays {
   explicit ShadowRays(const Scene& scene);
 
   /// True if the light reaches a point of one of the scene's triangles. False if the triangle itself faces
-  /// away from the light, whatever its interpolated normal is, or if a triangle that faces away from the
-  /// light (light_ray.hpp) is between the point and the light.
+  /// away from the light, for any interpolated normal, or if a triangle that faces away from the light
+  /// (light_ray.hpp) is between the point and the light.
   bool reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle) const;
 
   /// True if a triangle that faces away from the light is on the ray, more than `least_way` from its start.

@@ -200,8 +200,8 @@ TEST(Arc, PowersOfTheAmplitudeUnderflowToZero) {
   EXPECT_GT(zeros, 1000);
 }
 
-// H = (L + V)/|L + V| is 0/0 if light and eye are opposite. Whatever value replaces it, the highlight is
-// zero.
+// H = (L + V)/|L + V| is 0/0 if light and eye are opposite. For any value that replaces it, the highlight
+// must be zero.
 TEST(Arc, HalfwayVectorOfZeroOverZeroGivesNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();

@@ -246,7 +246,7 @@ Scene ground_scene(unsigned seed, int cells, double half) {
 }
 
 // The eye stands on ground that extends behind it, so that triangles cross the near plane, the far plane, the
-// guard band and the frame. The ray through each pixel tells whether it must show ground.
+// guard band and the frame. The ray through each pixel determines whether it must show ground.
 TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   std::mt19937 random(99);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

@@ -228,8 +228,8 @@ class Comparison {
   void span(const Shader& shader, golden::SpanXWord at) {
     const std::int64_t x = at.value(), y = shader.walker().y();
     const Int128 u = centre(x, points_[0].x, unit_bits_), v = centre(y, points_[0].y, unit_bits_);
-    // Where the words are those of one quadratic, only how far the pixel is from the start counts, not the
-    // way.
+    // If the words belong to one quadratic, only the distance of the pixel from the start matters, not the
+    // path to it.
     const std::int64_t lines = y - walk_.y, steps = std::abs(carries_ + x - line_start_), k = lines + steps;
 
     const Int128 exact = (numerator_[0] * u + numerator_[1] * v + numerator_[3]) * u +
@@ -261,7 +261,7 @@ class Comparison {
   }
 
   void fragment(const Fragment& f) {
-    // What the shader's header states: 0.5 by rounding and what the differences may add.
+    // The bound of the shader's header: 0.5 for rounding, plus the error of the differences.
     const double colour_off = std::abs(f.red - exact_colour_);
     ASSERT_LE(colour_off, 0.65) << "pixel " << f.x << ',' << f.y;
     worst_.colour_steps = std::max(worst_.colour_steps, colour_off);

@@ -33,8 +33,8 @@ struct QuadraticSetupOptions {
 enum class SpanEnds {
   on_surface,  ///< the surface at the centres of the end pixels, perspective-correct
   /// As published: spherical interpolation along the triangle's edges. Triangles are never split into
-  /// columns, whatever the threshold. The errors are large if a light is close to the surface or a spot's
-  /// edge crosses it.
+  /// columns, for any threshold. The errors are large if a light is close to the surface or a spot's edge
+  /// crosses it.
   slerped_along_edges,
 };
 

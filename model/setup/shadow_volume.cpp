@@ -110,7 +110,7 @@ double extent_of(const Scene& scene, const LightPoint& light, const std::vector<
 }
 
 /// Gives the same result for all triangles that share the point. The volumes of a positional light are cones:
-/// a triangle scaled about the light has the same outline as the triangle, whatever angle it spans.
+/// a triangle scaled about the light has the same outline as the triangle, for any angle that it spans.
 glm::dvec3 far_end(const glm::dvec3& point_world, const LightPoint& light, double extent) {
   const glm::dvec3 away = -light.way_from(point_world);
   return light.w == 0.0 ? point_world + extent * away : light.xyz_world + extent * away;

@@ -12,14 +12,14 @@
 // The counting rule. A pixel starts with the number of volumes around the eye. Each polygon strictly nearer
 // than the visible surface (depth <) adds one if it opens a volume (faces the eye), and subtracts one if it
 // closes a volume. The light reaches the surface if the result is zero. Polygons to draw:
-//  - Sides. At equal depth they do not count: there they only start, on the silhouette of their own caster.
-//  - The part of the sides in front of the near plane, at depth 0, because the count starts at the eye. Only
-//  the
+//
+//  - Sides. At equal depth they do not count: there they only start, on the silhouette of their own
+//    caster.
+//  - The part of the sides in front of the near plane, at depth 0, because the count starts at the eye. The
 //    part nearer than c_least_near of the near distance is omitted: it matters only if the eye almost touches
 //    a side.
 //  - Near caps, only in rare cases. A cap that faces the eye lies on a drawn triangle, so no visible surface
-//  is
-//    behind it. The inside of a mesh is visible only if the mesh is open, if the eye is in the mesh, or if
+//    is behind it. The inside of a mesh is visible only if the mesh is open, if the eye is in the mesh, or if
 //    the near plane cuts it open. Only then such caps are drawn.
 //  - Far caps, never: eye and scene are in front of them.
 #pragma once

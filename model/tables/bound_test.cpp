@@ -43,7 +43,7 @@ TEST(Bound, IsPrintedInOneLine) {
   EXPECT_EQ(to_string(off_by(0x1p-17, "", "u / 2", "diffuse")), "diffuse: off by at most 2^-17: u / 2");
 }
 
-// A bound far above its derivation would say nothing about the format.
+// The derivation must be at least 0.8 of the bound: otherwise the bound is too wide.
 void expect_near(double stated, double derived, const std::string& name) {
   EXPECT_LE(derived, stated * (1 + 1e-9)) << name;
   EXPECT_GE(derived, stated * 0.8) << name;

@@ -325,9 +325,9 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
   return *it;
 }
 
-// What the spherical shader has beside the walk: with the header of `init` a word a channel; then for each
-// line and light a diffuse and a specular part. Angles are in units of half a bell: 1 is where the bell has
-// come down to zero.
+// Fields of the spherical shader, except those of the walk: one word per channel after the header of `init`;
+// then for each line and light a diffuse and a specular part. Angles are in units of half a bell: the bell
+// reaches zero at 1.
 std::vector<Layout> spherical_layouts(bool exact) {
   std::vector<Field> specular = {{"angle", "angle", "angle at the first pixel of the line"},
                                  {"slope", "angle", "its step per pixel"}};
@@ -341,7 +341,7 @@ std::vector<Layout> spherical_layouts(bool exact) {
   };
 }
 
-// What the shading processors have beside the walk; processors_pkg says where the blocks lie.
+// Fields of the shading processors, except those of the walk. processors_pkg defines the blocks' positions.
 std::vector<Layout> processors_layouts(bool exact) {
   std::vector<Field> axis = {{"place", "light_place", "direction to the light, or its place"},
                              {"axis", "direction", "axis of the cone"}};
