@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The two drivers on a small RTL of the test's own, with the shader's ports: both must give the fragments
-// that can be foretold, the same cycles, and see each fault.
+// Tests both simulators on a small RTL with the shader's ports: both must give the expected fragments and the
+// same cycles, and detect each fault.
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -37,8 +37,8 @@ package body formats_pkg is
 end package body;
 )";
 
-// Emits `count` fragments along x for each vector: bits 11..0 count, 43..12 triangle, 55..44 y. @...@ is put
-// in by the tests.
+// Emits `count` fragments along x for each vector: bits 11..0 count, 43..12 triangle, 55..44 y. The tests
+// replace the marks @...@.
 const char* const c_shader = R"(
 library ieee;
 use ieee.std_logic_1164.all;
@@ -199,7 +199,7 @@ class Simulators : public testing::Test {
     return trace;
   }
 
-  /// Fed in pieces, as a streaming caller would.
+  /// The vectors are given in pieces, as by a caller that streams.
   Result<Trace> verilator(const VerilatorOptions& options = {}, std::size_t most = 1U << 20,
                           std::size_t piece = 2) {
     auto simulator = VerilatorSimulator::open(key_, folders_, options);
@@ -256,8 +256,8 @@ TEST_F(Simulators, BothGiveTheExpectedFragmentsAndCycles) {
   const auto from_ghdl = ghdl();
   ASSERT_TRUE(from_ghdl) << from_ghdl.error().message;
   EXPECT_EQ(from_ghdl->fragments, expected_);
-  // One cycle takes the first vector, then a fragment a cycle; three vectors without one cost a cycle each,
-  // as the next cannot be taken along with a last fragment.
+  // One cycle for the first vector, then one per fragment. Each of the three vectors without fragments costs
+  // a cycle, because the next vector cannot be accepted together with a last fragment.
   EXPECT_EQ(from_ghdl->cycles, expected_.size() + 1 + 3);
   for (const std::size_t piece : {std::size_t{1}, std::size_t{2}, init_.size()}) {
     const auto from_verilator = verilator({}, expected_.size(), piece);
@@ -318,7 +318,7 @@ TEST_F(Simulators, AHangIsSeen) {
 }
 
 TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
-  // With the last vector's fragment, and a few cycles later, when nothing is held any more.
+  // The fault comes with the last vector's fragment, and a few cycles later when the pipeline is empty.
   for (const char* delay : {"0", "4"}) {
     write_rtl(
         {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
@@ -329,7 +329,7 @@ TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
 
 TEST_F(Simulators, APayloadThatMovesIsSeen) {
   write_rtl({.red = "(7 downto 1 => '0') & fragment_ready"});
-  // The payload changes with fragment_ready alone.
+  // The payload changes only with fragment_ready.
   expect_both_fail("changed while it was not taken", "changed or was withdrawn");
 }
 
@@ -406,7 +406,7 @@ TEST_F(Simulators, AFullDiskIsToldAndLeavesNoTrace) {
   ASSERT_TRUE(runner) << runner.error().message;
   const auto init_file = scratch_->path() / "init.txt";
   ASSERT_TRUE(write_init_file(init_file, key_.name(), init_));
-  // A folder that takes no file stands for the disk that takes none: /dev/full under the temporary name.
+  // Simulate a full disk: the temporary name is a link to /dev/full.
   const auto trace = scratch_->path() / "full.trace";
   std::filesystem::create_symlink("/dev/full", trace.string() + ".part-" + std::to_string(::getpid()));
   const auto run = runner->run(init_file, trace);
@@ -420,7 +420,7 @@ TEST_F(Simulators, MissingToolsAreToldWithTheCommandThatBringsThem) {
   ::setenv("PATH", (scratch_->path() / "empty").c_str(), 1);
   const auto from_ghdl = ghdl();
   const auto from_verilator = verilator();
-  // ghdl alone, without Verilator
+  // Only ghdl, without Verilator.
   std::filesystem::create_directories(scratch_->path() / "bin");
   for (const char* name :
        {"ghdl", "ghdl-llvm", "ghdl-mcode", "ghdl-gcc", "sh", "dirname", "gcc", "as", "ld"}) {

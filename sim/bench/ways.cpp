@@ -57,7 +57,7 @@ std::string ghdl_program(Way way, const SimulatorFolders& folders) {
   return way == Way::ghdl_llvm ? "ghdl-llvm" : ghdl_mcode(folders);
 }
 
-/// RTL in this process; with the golden model and a comparison of every field on this thread, or alone.
+/// RTL in this process, alone, or with the golden model and a comparison of every field on the same thread.
 Result<Go> in_process(Way way, const WayInput& input) {
   const bool lanes = way == Way::lanes || way == Way::lanes_compared;
   const bool compared = way == Way::lanes_compared || way == Way::verilator_compared;
@@ -67,7 +67,7 @@ Result<Go> in_process(Way way, const WayInput& input) {
   const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
   return Go([=, engine = *opened, &s = *input.batches]() -> Result<double> {
     StreamComparator comparator;
-    std::span<const std::uint32_t> words = s.words;  // for which the golden model has not drawn
+    std::span<const std::uint32_t> words = s.words;  // not yet drawn by the golden model
     std::size_t count = 0;
     const auto draw = [&](const Engine::OnDrawn& on_drawn) -> Status {
       if (Status ran = engine->draw(s.words, SIZE_MAX, on_drawn); !ran) return ran;
@@ -83,7 +83,7 @@ Result<Go> in_process(Way way, const WayInput& input) {
     comparator.finish();
     if (comparator.mismatches() != 0 || count != s.golden.size()) return wrong(way, s.key);
     if (compared) return seconds;
-    // Once more, not timed.
+    // Draw once more, not timed, and check the picture.
     std::size_t known = 0;
     bool same = true;
     if (Status again = draw([&](std::span<const Fragment> drawn) {
@@ -133,7 +133,7 @@ ReferenceImage reference_of(const WayInput& input, const std::vector<ScreenTrian
   return render_reference(*input.scene, triangles, {.frame = input.size, .subpixel_bits = 4});
 }
 
-/// The pixels that are covered with all their neighbours.
+/// The pixels of which all neighbours are covered too.
 std::vector<std::uint8_t> inside(const std::vector<std::uint8_t>& mask, FrameSize size) {
   std::vector<std::uint8_t> inner(mask.size());
   for (std::size_t y = 1; y + 1 < size.height; ++y)
@@ -184,7 +184,7 @@ Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions) {
       .arguments = {(input.folders.source / c_mesa_program).string(), input.scene->name,
                     fmt::format("{}x{}", input.size.width, input.size.height), std::to_string(repetitions),
                     file.string()},
-      // One thread, this one; and no graphics card, where there is one.
+      // Use this thread only, and no graphics card.
       .environment = {
           {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "0"}}};
   const auto end = run_process(command, "make bench");

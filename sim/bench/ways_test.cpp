@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// That `make bench` measures what it says: every way to a picture draws the right one, and a wrong one is
-// seen. No times.
+// Tests `make bench`: every way to a picture draws the correct picture and detects a wrong one. Times are not
+// tested.
 #include "sim/bench/ways.hpp"
 
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
     size_ = {160, 120};
   }
   const std::string lacks = lacking(way, input().folders);
-  // GHDL's other back end is downloaded, not installed: a machine without network has none.
+  // GHDL's other back end is downloaded, not installed, so it is missing on a machine without network.
   if (way == Way::ghdl_mcode && !lacks.empty()) GTEST_SKIP() << to_string(way) << ": not here: " << lacks;
   ASSERT_EQ(lacks, "") << to_string(way);
   const auto go = make_way(way, input());
@@ -60,14 +60,14 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   const auto seconds = (*go)();
   ASSERT_TRUE(seconds) << seconds.error().message;
   EXPECT_GT(*seconds, 0.0);
-  // The way draws as before: now that is wrong.
+  // Change the input. The way still draws the first one, which is now wrong.
   if (way == Way::mesa)
     scene_.materials[0].colour *= 0.5;
   else if (way == Way::lanes_compared || way == Way::verilator_compared)
     batches_.golden.pop_back();
   else
     batches_.golden.back().red ^= 1;
-  if (way == Way::reference || way == Way::golden) return;  // nothing is held against these
+  if (way == Way::reference || way == Way::golden) return;  // not compared with these
   const auto wrong = (*go)();
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().code, ExitCode::differs) << wrong.error().message;
@@ -120,7 +120,7 @@ TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
     EXPECT_GT(walk.lost_to_lines, 0U);
     EXPECT_GT(walk.lost_to_headers, 0U);
     EXPECT_GE((*engine)->cycles(), expected);
-    // The pipeline once, and the processors' lights.
+    // Additional clocks: the pipeline's depth once, and the processors' lights.
     EXPECT_LE((*engine)->cycles(), expected + (shader == Shader::processors ? 40 : 11)) << to_string(shader);
   }
 }
@@ -134,7 +134,7 @@ TEST(BenchWorkload, SpheresHaveTheTrianglesAskedFor) {
   }
 }
 
-// All of it is worked out, on whatever processor.
+// The compiler must not omit any addition, for any processor.
 TEST(BenchYardstick, SumsAllThatItSays) {
   for (const std::uint32_t rounds : {0U, 1U, 1000U}) {
     std::uint32_t sums[8];
@@ -160,7 +160,7 @@ TEST(BenchWorkload, LinesAreFitted) {
   EXPECT_LT(line.largest_deviation, 1e-9);
   const double bent[] = {7, 25, 205, 4010};
   EXPECT_GT(fit(rows, bent).largest_deviation, 0.1);
-  // Bent by a third term, that is a second one where the rows have it, and nothing where they have it twice.
+  // A third term bends the line. With its column the fit is exact; with a dependent column it is empty.
   const double rooted[] = {5 + 2 + 30 * 1, 5 + 20 + 30 * 3, 5 + 200 + 30 * 10, 5 + 2000 + 30 * 32};
   EXPECT_GT(fit(rows, rooted).largest_deviation, 0.1);
   const double roots[] = {1, 3, 10, 32};

@@ -32,7 +32,7 @@
 namespace halfway {
 namespace {
 
-/// Bytes of this process in memory: now, or the most since the last call of forget_peak.
+/// Memory of this process in bytes: now, or the maximum since the last call of forget_peak.
 std::uint64_t memory_bytes(const char* what) {
   const auto text = read_file("/proc/self/status");
   if (!text) return 0;
@@ -54,12 +54,12 @@ void forget_peak() {
   }
 }
 
-// Of a frame whose process has drawn for so long, or a whole frame, before: as all but the first of `make
-// view`.
+// Before a measurement the process draws for this many seconds, or a whole frame. So the measured frame is
+// like every frame of `make view` except the first.
 constexpr double c_warm_seconds = 0.25;
 
-/// Draws the scene into a frame of before, `between` the batches something else; no further when the
-/// processor has worked for `most_seconds`.
+/// Draws the scene. The memory of `rtl` is used again. Calls `between` between the batches. Stops when the
+/// drawing has taken `most_seconds` of processor time.
 Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, RtlFrame& rtl,
                   const std::function<void()>& between, double most_seconds, FrameCost& cost) {
   const double setup_start = thread_seconds();
@@ -99,7 +99,7 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
   std::vector<Fragment> paced;
   std::vector<double> paces;
   const auto take_pace = [&] {
-    // Once more before: a large frame would else seem quick, as its batches leave the caches to others.
+    // Draw twice and time the second: a large frame evicts the pace's data from the caches.
     double start = 0.0;
     for (int i = 0; i < 2; ++i) {
       start = thread_seconds();
@@ -133,7 +133,7 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
 }  // namespace
 
 Scene sphere_scene(std::uint64_t triangles) {
-  // 2 slices (stacks - 1), about square pieces at the equator; not more than asked for.
+  // 2 slices (stacks - 1), at most the requested number. Pieces at the equator are almost square.
   const auto n = static_cast<double>(triangles);
   const auto stacks = std::max(2U, to_integer<std::uint32_t>(0.5 + std::sqrt(0.25 + 0.25 * n)));
   const auto slices = std::max(3U, static_cast<std::uint32_t>(triangles / (2 * (stacks - 1))));
@@ -164,7 +164,7 @@ Scene many_spheres(std::uint64_t triangles) {
   scene.triangles.clear();
   for (std::uint64_t i = 0; i < triangles / c_each; ++i) {
     const std::uint64_t place = i * 61 % c_places;  // scattered
-    // Those of one place lie almost in one another, so that all are of one size.
+    // Spheres at one place almost coincide, so that all have the same size.
     const glm::dvec3 centre(c_spacing * (static_cast<double>(place % c_side) - 0.5 * (c_side - 1)),
                             c_spacing * (static_cast<double>(place / c_side) - 0.5 * (c_side - 1)),
                             -0.02 * static_cast<double>(i / c_places));
@@ -246,8 +246,8 @@ WalkCounts count_walk(const InitBatches& batches) {
   WalkCounts n;
   golden::TriangleWalker<golden::Exact> walker;
   golden::WalkerClock clock(batches.key.shader == Shader::spherical);
-  // With lines alone: the line stage takes one a clock, the span stage a pixel, and whichever has more to do
-  // until the next span begins is waited for.
+  // Clocks lost to lines alone: the line stage handles one line per clock, the span stage one pixel per
+  // clock. The next span starts when both are ready.
   std::uint64_t span = 0, lines = 0;
   const bool processors = batches.key.shader == Shader::processors;
   for (auto rest = std::span<const std::uint32_t>(batches.words); !rest.empty();) {
@@ -255,7 +255,7 @@ WalkCounts count_walk(const InitBatches& batches) {
     rest = rest.subspan(golden->group(rest) * batches.words_per_vector());
     if (processors && golden::get_bits(vector, golden::Exact::request_header_at::command) !=
                           static_cast<std::uint64_t>(golden::Command::draw))
-      continue;  // a light
+      continue;  // the vector defines a light
     std::array<std::uint32_t, (golden::Exact::c_init_header_bits + 31) / 32> header;
     for (std::size_t i = 0; i < header.size(); ++i)
       header[i] = static_cast<std::uint32_t>(
@@ -290,15 +290,15 @@ double Fit::at(const Terms& row) const {
 }
 
 Fit fit(const std::vector<Terms>& rows, std::span<const double> t) {
-  // Of 1 = the sum of factors by terms / t: orthogonal columns, one after the other.
+  // Fit 1 = the sum of factors times terms / t. Make the columns orthogonal, one after the other.
   const std::size_t terms = rows.empty() ? 0 : rows.front().size();
-  std::vector<Terms> columns(terms + 1, Terms(rows.size(), 1.0));  // the last one is what they are to come to
+  std::vector<Terms> columns(terms + 1, Terms(rows.size(), 1.0));  // the last column is the right side
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = 0; k < terms; ++k) columns[k][i] = rows[i][k] / t[i];
   const auto product = [&](std::size_t a, std::size_t b) {
     return std::inner_product(columns[a].begin(), columns[a].end(), columns[b].begin(), 0.0);
   };
-  // How much of column k is in each behind it.
+  // The component along column k of each later column.
   std::vector<Terms> parts(terms, Terms(terms + 1, 0.0));
   for (std::size_t k = 0; k < terms; ++k) {
     const double before = std::inner_product(

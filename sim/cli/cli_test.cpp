@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program as a user meets it: exit codes, what stands where, and every kind of bad input.
+// Tests the program as a user runs it: exit codes, outputs and their places, and every kind of bad input.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
   }
   EXPECT_EQ(run({"--help"}).exit_code, 0);
   EXPECT_THAT(run({"view", "--help"}).output, HasSubstr("threads, each of which draws whole frames"));
-  // With standard output closed to us, nothing of the help may be left on standard error.
+  // If standard output is closed, no part of the help may appear on standard error.
   const Outcome quiet = run_as({"sh", "-c", std::string("exec '") + HALFWAY_PROGRAM + "' --help >/dev/null"});
   EXPECT_EQ(quiet.output, "");
 }
@@ -90,7 +90,7 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
   }
 }
 
-// Zero is a number that was given, and what no `make tables` can make is not advised.
+// A zero is a given number. A size that `make tables` cannot make must not be advised.
 TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
   const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
       {"0", "0", "--address-bits: 0 is not 3 to 12"},
@@ -154,7 +154,7 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
   const Outcome uncut = run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"});
   EXPECT_EQ(uncut.exit_code, 2) << uncut.output;
   EXPECT_THAT(uncut.output, HasSubstr("--threshold goes with --span-ends surface"));
-  // A method in double that is spherical whatever hardware --shader names.
+  // This method in double is always spherical, for any hardware named by --shader.
   EXPECT_EQ(run({"render", mesh, "--method", "spherical-fixed", "--span-ends", "slerp", "--size", "20x15"})
                 .exit_code,
             0);
@@ -225,7 +225,7 @@ TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
   }
 }
 
-// A triangle between the centres of pixels, one smaller than 1/16 pixel, and one seen from behind.
+// A triangle between the centres of pixels, a triangle smaller than 1/16 pixel, and a back-facing triangle.
 TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
   const std::string corners = "v 0 0 0\nv {0} 0 0\nv 0 {0} 0\n";
   write("small.obj", fmt::format(fmt::runtime(corners), "0.1") + "f 1 2 3\n");
@@ -266,7 +266,7 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
               name == "tiny" ? 1 : 0);
   }
 
-  // A summary changed by hand: the reference covers pixels, and setup finds no triangle.
+  // A summary changed by hand: the reference covers pixels, but setup found no triangle.
   const auto path = out() / "averted" / "quadratic" / "summary.json";
   const auto summary = read_file(path);
   ASSERT_TRUE(summary);
@@ -313,7 +313,7 @@ TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
   EXPECT_EQ(run({"compare", mesh, "--out", out()}).exit_code, 0);
 }
 
-// Both kinds of hardware leave their results side by side, with the same fragments and frames.
+// Results of both kinds of hardware are in separate folders, with the same fragments and frames.
 TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
   const auto mesh = write("one.obj", c_triangle);
   for (const std::string shader : {"quadratic", "spherical"}) {
@@ -369,7 +369,7 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   const auto whole = read_file(path);
   ASSERT_TRUE(whole);
 
-  // The first fragment's blue, one step off.
+  // Change the first fragment's blue by one step.
   const std::size_t line_end = whole->find('\n', whole->find('\n') + 1);
   const std::size_t blue = whole->rfind(' ', line_end) + 1;
   const int value = std::stoi(whole->substr(blue, line_end - blue));
@@ -394,7 +394,7 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   }
 }
 
-// Part of the results is no reason to say that all are equal.
+// If some results are missing, the output must not report that all are equal.
 TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   const auto mesh = write("one.obj", c_triangle);
   const std::vector<std::string> sim = {"sim", mesh, "--out", out(), "--size", "20x15"},
@@ -417,7 +417,7 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   EXPECT_EQ(gone.exit_code, 2) << gone.output;
   EXPECT_THAT(gone.output, HasSubstr("ghdl.trace is gone; run `make sim SCENE=one OUT="));
 
-  // As sim leaves it where it was broken off, and where GHDL ended with a fault.
+  // The same folder as after an interrupted `sim`, and as after a fault in GHDL.
   std::filesystem::remove(folder / "summary.json");
   const Outcome broken_off = run(compare);
   EXPECT_EQ(broken_off.exit_code, 2) << broken_off.output;
@@ -437,8 +437,8 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   EXPECT_THAT(damaged.output, HasSubstr("summary.json: not a summary"));
 }
 
-// Without a terminal too, whoever waits says so, once; and neither looks at what the other is writing.
-/// Whether some process stands before the lock on the file, as the system tells.
+/// True if a process waits for the lock on the file, as reported by the system. The next test waits for this
+/// before it releases the lock.
 bool is_waited_for(const std::filesystem::path& file) {
   struct stat status;
   if (::stat(file.c_str(), &status) != 0) return false;
@@ -513,7 +513,7 @@ TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
 }
 
 TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
-  // A limit on file sizes stands for the full disk: writes fail in the same place.
+  // A limit on file sizes simulates a full disk: writes fail in the same way.
   const Outcome outcome = run_as({"bash", "-c",
                                   std::string("trap '' XFSZ; ulimit -f 16; exec '") + HALFWAY_PROGRAM +
                                       "' sim spheres --size 320x240 --simulator verilator --out out"});
@@ -522,7 +522,7 @@ TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
     EXPECT_FALSE(std::filesystem::exists(out() / "spheres" / "quadratic" / file)) << file;
 }
 
-// What is printed is a result as well.
+// Printed output is a result, too.
 TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsTold) {
   const auto full = [&](const std::string& arguments) {
     return run_as({"sh", "-c", fmt::format("exec '{}' {} >/dev/full", HALFWAY_PROGRAM, arguments)});
@@ -539,7 +539,7 @@ TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsTold) {
   EXPECT_THAT(full("view --frames 1" + small).output, HasSubstr("(No space left on device)"));
 }
 
-// A scene's name is a file's: any bytes. It goes into summary.json, whose texts are UTF-8.
+// A scene's name is that of a file, so it may contain any bytes. The texts of summary.json are UTF-8.
 TEST_F(CliTest, AScenesNameMayBeAnyBytes) {
   const auto scene = write("caf\xe9.toml", "[[mesh]]\nkind = \"box\"\n");
   const Outcome outcome = run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()});
@@ -562,7 +562,7 @@ TEST_F(CliTest, TooLittleMemoryExitsThree) {
   GTEST_SKIP() << "AddressSanitizer reserves terabytes of addresses";
 #endif
 #endif
-  // What loading the libraries takes, and some.
+  // The memory that the libraries need when loaded, plus a little more.
   const Outcome outcome = run_as({"bash", "-c",
                                   std::string("ulimit -c 0; ulimit -v 700000; exec '") + HALFWAY_PROGRAM +
                                       "' sim spheres --size 4096x4096 --simulator verilator --out out"});
@@ -589,7 +589,7 @@ TEST_F(CliTest, WhyAgreesOnRightHardware) {
   EXPECT_THAT(nothing.output, HasSubstr("0 triangles cover it"));
 }
 
-// The last fragment leaves in the last of the clocks that sim counts, whatever the way to it takes.
+// The last fragment is output in the last of the clocks that `sim` counts, for any latency of the shader.
 TEST_F(CliTest, WhyTellsTheFragmentsClock) {
   const auto mesh = write("one.obj", c_triangle);
   const auto given = [&](std::vector<std::string> arguments) {
@@ -606,7 +606,7 @@ TEST_F(CliTest, WhyTellsTheFragmentsClock) {
   EXPECT_THAT(why.output, HasSubstr(fmt::format("fragment stage, cycle {}\n", *trace->cycles - 1)));
 }
 
-// Names of any length, in one column; and words.
+// Names of any length are aligned in one column.
 TEST_F(CliTest, WhyAlignsItsColumns) {
   for (const std::string shader : {"quadratic", "spherical"}) {
     const Outcome outcome =
@@ -627,7 +627,7 @@ TEST_F(CliTest, WhyAlignsItsColumns) {
   }
 }
 
-// Wrong hardware: a copy of the sources with one thing changed.
+// Wrong hardware: a copy of the sources with one change.
 struct Fault {
   const char *name, *shader, *file, *from, *to, *stage;
 };
@@ -639,7 +639,7 @@ void PrintTo(const Fault& fault, std::ostream* out) {
 class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
  protected:
   std::filesystem::path copy() const { return folder_->path() / "source"; }
-  /// The sources with the first `from` after `after` changed in a file of rtl/.
+  /// Changes the first `from` after `after` in a file of rtl/.
   void change(const std::string& file, const std::string& after, const std::string& from,
               const std::string& to) const {
     ASSERT_EQ(copy_checkout(), copy());
@@ -671,7 +671,7 @@ TEST_P(WrongRtl, IsCaughtAndLocated) {
 
 using WrongTable = WrongRtl;
 
-// A bit of a table that the scene's hardware has, and one of a table that it has not.
+// Changes a bit of a table that the scene's hardware contains. The next test: of a table that it lacks.
 TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
   ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,"));
   const Outcome used = sim("spherical", "verilator");
@@ -694,7 +694,7 @@ TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
                     ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
 }
 
-// GHDL's testbench ends a run that draws on and on, and knows no cycles then.
+// If the hardware does not stop, GHDL's testbench ends the run and reports no cycles.
 using RunawayRtl = WrongRtl;
 TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
   ASSERT_NO_FATAL_FAILURE(change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;"));

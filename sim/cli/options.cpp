@@ -22,7 +22,7 @@ namespace {
 
 constexpr int c_most_levels = 5;  // of subdivision
 
-// Hardware for which an option says something: a shader, in one preset or in both.
+// Hardware to which an option applies: a shader, in one preset or in both.
 struct Hardware {
   Shader shader;
   std::optional<Preset> preset = std::nullopt;
@@ -34,7 +34,7 @@ std::string name_of(const Hardware& hardware) {
   return name;
 }
 
-// What is given for other hardware would be passed over: refused instead.
+// An option for other hardware would be ignored, so refuse it.
 Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
   struct Option {
     const char* name;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the commands share: what to draw, how to say how far it is.
+// Shared by the commands: options of what to draw, and progress messages.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -18,7 +18,7 @@
 
 namespace halfway::cli {
 
-/// Options of every command that draws. What is not given is setup's or the plan's to choose.
+/// Options of every command that draws. Setup or the plan chooses the values of options that are not given.
 struct DrawOptions {
   std::string shader = "quadratic";
   std::optional<int> address_bits, data_bits;  ///< of the spherical shader's tables
@@ -26,7 +26,7 @@ struct DrawOptions {
   std::optional<unsigned> lights;  ///< with all effects
   std::optional<std::string> span_ends;
   std::string preset = "exact";
-  std::optional<std::string> form;  ///< of the shading processors; none: unrolled
+  std::optional<std::string> form;  ///< of the shading processors; std::nullopt: unrolled
   std::string size = "640x480";
   std::string out = "build/out";
   std::optional<std::string> highlight_test;
@@ -37,7 +37,7 @@ struct DrawOptions {
   void add_to(CLI::App& command);
 };
 
-/// The same, checked.
+/// The checked options.
 struct DrawSettings {
   PlanRequest plan;
   FrameSize size;
@@ -48,30 +48,30 @@ struct DrawSettings {
 
 Result<DrawSettings> checked(const DrawOptions& options);
 
-/// WIDTHxHEIGHT, as the option has it.
+/// Parses WIDTHxHEIGHT, the form of the option.
 Result<FrameSize> checked_size(const std::string& text, const char* option = "--size");
 
 /// For help texts.
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
-/// By its name.
+/// Finds a shader by its name.
 Result<Shader> checked_shader(const std::string& name);
-/// Why an option is refused that is another shader's; `owners`: such as "the quadratic shader".
+/// The message for an option that belongs to another shader; `owners`: such as "the quadratic shader".
 std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
-/// By their names, which must be of `known`, in its order; none given: GHDL and Verilator.
+/// Finds simulators by name. All must be in `known`; the result has its order. Default: GHDL and Verilator.
 Result<std::vector<EngineKind>> checked_simulators(const std::vector<std::string>& names,
                                                    std::span<const EngineKind> known = c_engine_kinds);
 
 /// The built-in scenes' names, in alphabetical order.
 Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
 
-/// The folder's name under which the results of a scene lie, however it was named: without folder and ending.
+/// Name of the folder with a scene's results: the scene's name or file without folder and extension.
 std::string result_name(const std::string& scene);
 
-/// Says on stderr, terminal or not, that another run holds a folder of results.
+/// Prints on stderr, also without a terminal, that another run has locked a folder of results.
 void say_waiting(const std::filesystem::path& folder);
 
-/// A line on a terminal that is written over; silent elsewhere.
+/// A line on a terminal that is updated in place. Prints nothing if stderr is no terminal.
 class Progress {
  public:
   explicit Progress(std::string what);
@@ -89,7 +89,7 @@ class Progress {
   int last_percent_ = -1;
 };
 
-// One function a command: adds itself to `app` and sets `exit_code` when it has run.
+// One function per command. It adds the command to `app`; the command's callback sets `exit_code`.
 void add_sim(CLI::App& app, const Folders& folders, int& exit_code);
 void add_plan(CLI::App& app, const Folders& folders, int& exit_code);
 void add_render(CLI::App& app, const Folders& folders, int& exit_code);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway plan`: which hardware a scene calls for, why, and what leaving the rest out saves.
+// `halfway plan`: the hardware that a scene needs, the reasons, and the savings compared with all effects.
 #include "plan/plan.hpp"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ std::string units_text(const UnitCounts& units) {
   return text;
 }
 
-// What an effect costs, or would: the two keys' difference.
+// The cost of an effect: the difference in cells of the two keys.
 std::string cells_text(const PlannedEffect& effect, const HardwareKey& key, const CellsByKey& cells) {
   const auto other = effect.other ? cells.find(effect.other->name()) : cells.end();
   if (other == cells.end()) return {};
@@ -122,7 +122,7 @@ void print_units(const PlanUnits& units) {
   }
 }
 
-// The cells of all keys, side by side: each takes seconds, or minutes for many lights.
+// Counts the cells of all keys in parallel: each takes seconds, or minutes for many lights.
 Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, unsigned threads,
                              Progress& progress) {
   std::vector<HardwareKey> keys;
@@ -158,7 +158,7 @@ void print_seconds(const std::string& simulator, std::optional<double> called_fo
             fmt::format("{:.4g}", *everything), saved(*called_for, *everything));
 }
 
-// The object stage, which comes with shadows, lets no object out that another one hides.
+// The object stage exists only with shadows. It does not output hidden objects.
 bool hides_more(const Plan& plan) {
   return plan.called_for.processors.shadows != plan.everything.processors.shadows;
 }
@@ -183,7 +183,7 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
              hides_more(plan) ? ", of which the object stage leaves out the hidden ones" : "");
 }
 
-// The same of the pipelines that the scene calls for, at the clocks that theirs take.
+// The same for the pipelines that the scene needs, with the clocks of their slowest processor.
 void print_own_processors(const Scene& scene, const ShadingLoad& load) {
   fmt::print(
       "as measured (table 4), of the pipeline that the scene calls for\n  {:<10} {:<9} {:<36} {:>6}  {:<20} "

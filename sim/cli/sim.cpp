@@ -28,7 +28,7 @@ struct SimOptions {
   std::uint32_t stall_seed = 0;
 };
 
-// What each scene is busy with, on one line of a terminal.
+// The current step of each scene, on one line of a terminal.
 class Board {
  public:
   explicit Board(const std::vector<std::string>& scenes)
@@ -90,7 +90,7 @@ Outcome outcome_of(std::promise<Outcome>& promise) {
   }
 }
 
-// Whether all was equal, and something was compared.
+// Returns true if at least one fragment was compared and all are equal.
 bool print(const Drawn& drawn) {
   for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
     for (const std::string& note : *notes) say(note);
@@ -129,7 +129,7 @@ int run(const Folders& folders, const SimOptions& options) {
     scenes = std::move(*builtin);
   }
 
-  // Results lie under a scene's name.
+  // Results are stored under the scene's name, so two scenes must not have the same one.
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (result_name(scenes[i]) == result_name(scenes[j]))
@@ -144,7 +144,7 @@ int run(const Folders& folders, const SimOptions& options) {
       return report(status.error());
   }
 
-  // Scenes side by side: GHDL runs on one core, and it is what takes the time.
+  // Run scenes in parallel: GHDL uses one core and takes most of the time.
   const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);
   settings.threads = std::max(1U, draw->threads / workers);
   Board board(scenes);
@@ -162,8 +162,8 @@ int run(const Folders& folders, const SimOptions& options) {
         }
     });
 
-  // Frames are equal wherever no fragment needs what was changed: a wrong entry of a table, say, at an angle
-  // that no scene has.
+  // Frames may be equal although a generated file was changed: for example, a wrong table entry for an angle
+  // that no scene contains.
   bool equal = true;
   for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
     board.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway view`: a scene from all sides, by the RTL in Verilator or lanes, as fast as it draws.
+// `halfway view`: a scene from all sides, drawn by the RTL in Verilator or lanes as fast as possible.
 #include "sim/run/view.hpp"
 
 #include <fmt/format.h>
@@ -36,11 +36,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr unsigned c_usual_rate = 16;  // the papers'
+constexpr unsigned c_usual_rate = 16;  // as in the papers
 constexpr unsigned c_most_rate = 1000, c_most_columns = 4096;
 
-// Buffers as large as a frame's fragments come and go with each frame: given back to the system, all their
-// pages would be faulted in again.
+// Buffers for a frame's fragments are allocated and freed for each frame. Keep freed memory: otherwise the
+// system would have to map all its pages again.
 void keep_freed_memory() {
   constexpr int c_most_kept = 256 << 20, c_largest_threshold = 32 << 20;
   ::mallopt(M_TRIM_THRESHOLD, c_most_kept);
@@ -62,14 +62,14 @@ struct ViewCommand {
   std::optional<std::string> colours;
 };
 
-// Where the frames go.
+// Where the frames are written.
 struct Outputs {
   bool images = false, ppm = false;
   std::filesystem::path folder;  ///< of images
   std::optional<std::filesystem::path> video;
   unsigned rate = c_usual_rate;
   bool terminal = false;
-  std::optional<std::uint32_t> columns;  ///< none: the terminal's
+  std::optional<std::uint32_t> columns;  ///< std::nullopt: those of the terminal
   TerminalColours colours = TerminalColours::full;
 
   std::string name_of(std::uint32_t number) const {
@@ -122,7 +122,7 @@ Result<Outputs> checked(const ViewCommand& c) {
   return o;
 }
 
-// None: the fastest that can be had.
+// std::nullopt: the fastest available engine.
 Result<std::optional<EngineKind>> checked_engine(const std::string& name) {
   if (name == "auto") return std::optional<EngineKind>();
   for (const EngineKind kind : {EngineKind::verilator, EngineKind::lanes})
@@ -130,8 +130,8 @@ Result<std::optional<EngineKind>> checked_engine(const std::string& name) {
   return bad_input(fmt::format("--simulator: '{}' is none of auto, verilator and lanes", name));
 }
 
-// Frames of an earlier turn, which may have been a longer one, must not pass for this one's; nor what a
-// killed run left unfinished.
+// Removes the frames of an earlier turn, which may have had more frames, and unfinished files of a killed
+// run.
 Status forget_frames(const std::filesystem::path& folder) {
   const std::regex ours("frame_[0-9]{4}\\.(png|ppm)(\\.part-.*)?");
   std::error_code error;
@@ -146,7 +146,7 @@ Status forget_frames(const std::filesystem::path& folder) {
   return Ok{};
 }
 
-// Half blocks on standard output, one picture over the other where that is a terminal.
+// Half blocks on standard output. On a terminal each picture overwrites the previous one.
 class Screen {
  public:
   explicit Screen(const Outputs& outputs) : o_(outputs), terminal_(isatty(STDOUT_FILENO) != 0) {}
@@ -160,7 +160,7 @@ class Screen {
     if (terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col != 0 &&
         window.ws_row > 1) {
       if (!o_.columns) columns = window.ws_col;
-      lines = window.ws_row - 1U;  // the last one is the caption's
+      lines = window.ws_row - 1U;  // the last one shows the caption
     }
     std::string text;
     if (terminal_) text += entered_ ? "\033[H" : "\033[?25l\033[2J\033[H";
@@ -174,7 +174,7 @@ class Screen {
       return Ok{};
     return tool_failed(fmt::format("standard output: {}", std::strerror(errno)));
   }
-  /// The terminal as it was, below the last picture.
+  /// Restores the terminal below the last picture.
   void leave() {
     constexpr std::string_view c_restore = "\033[0m\033[?25h\n";
     if (terminal_ && entered_ && ::write(STDOUT_FILENO, c_restore.data(), c_restore.size()) < 0) return;
@@ -215,7 +215,7 @@ class View {
     for (const std::string& note : scene->notes) say(note);
     const auto lock = prepare_folder(scene->name);
     if (!lock) return lock.error();
-    // Now, for it takes as long as many small frames, and may not be there.
+    // Load the library now: it takes as long as many small frames, and it may be missing.
     if (o_.images && !o_.ppm)
       if (const auto library = image_library(); !library) return library.error();
 
@@ -255,7 +255,7 @@ class View {
     };
 
     auto summary = view(*scene, settings);
-    // Never had again once a signal has come: what it broke off is no error.
+    // Not acquired after a signal: the interrupted work must not be reported as an error.
     std::shared_lock<std::shared_timed_mutex> writing;
     if (interruption) writing = interruption->writing();
     progress_.clear();
@@ -280,7 +280,7 @@ class View {
   }
 
  private:
-  // Held while frames go there; none where none do.
+  // Locks the folder while frames are written to it. Without images no folder is locked.
   Result<std::optional<FolderLock>> prepare_folder(const std::string& scene) {
     if (!o_.images) return std::optional<FolderLock>();
     o_.folder = c_.out_given ? draw_.out : ResultFiles::of(draw_.out, scene, draw_.plan).folder / "view";
@@ -304,7 +304,7 @@ class View {
     return Ok{};
   }
 
-  // Before a signal ends the process.
+  // Called before a signal ends the process.
   void tidy() {
     if (video_) video_->abandon();
     if (o_.terminal) screen_.leave();
@@ -332,7 +332,7 @@ int run(const Folders& folders, const ViewCommand& command) {
   const auto equal = View(command, folders, *draw, *engine, std::move(*outputs)).run();
   if (!equal) return report(equal.error());
   bool right = *equal;
-  // As for sim: frames are equal wherever no fragment needs what was changed.
+  // As in sim.cpp: frames may be equal although a generated file was changed.
   for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
     fmt::print(stderr, "{}\n", message);
     right = false;

@@ -202,7 +202,7 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"matte", "--colours", "256"}, "--colours goes with --terminal"},
       {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
       {{"matte", "--terminal"}, "standard output is no terminal"},
-      // Nobody, not even root, can write there.
+      // No user, not even root, can write to this folder.
       {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
       {{"matte", "--out", "file/out"}, "file/out"}};
   ASSERT_TRUE(write_file(at("file"), "not a folder"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway why`: a pixel stage by stage, golden model beside RTL.
+// `halfway why`: one pixel stage by stage, golden model and RTL side by side.
 #include "sim/run/why.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ std::string word(std::uint64_t bits, const StageValue& v) {
                      static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << v.fraction_bits));
 }
 
-// As wide as the widest name and golden word of the page.
+// Widths of the columns: the longest name and the longest golden word.
 struct Widths {
   std::size_t name = 0, golden = 0;
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The RTL of one hardware key in a simulator: init vectors in, fragments out. What draws frames holds an
-// Engine and does not ask which one it is.
+// The RTL of one hardware key in a simulator: init vectors in, fragments out. Code that draws frames uses
+// this interface and does not depend on the kind of simulator.
 //
 // To add an engine:
 //   1. Derive a class from Engine, in a folder of its own under sim/.
 //   2. Add its kind to EngineKind, c_engine_kinds, to_string() and title().
 //   3. Open it in open_engine(), sim/run/open_engine.cpp.
-// `halfway sim --simulator NAME` then draws in it, compares every fragment with the golden model's and writes
-// NAME.trace, NAME.png and an entry of summary.json. `halfway view` and `halfway plan` list the kinds that
-// they take.
+// `halfway sim --simulator NAME` then draws with it, compares every fragment with the golden model's and
+// writes NAME.trace, NAME.png and an entry of summary.json. `halfway view` and `halfway plan` have their own
+// lists of supported kinds.
 #pragma once
 
 #include <algorithm>
@@ -25,11 +25,11 @@
 
 namespace halfway {
 
-/// In the order in which results name them.
+/// In the order used in results.
 enum class EngineKind { ghdl, verilator, lanes };
 inline constexpr EngineKind c_engine_kinds[] = {EngineKind::ghdl, EngineKind::verilator, EngineKind::lanes};
 
-/// As options, files and summaries name it.
+/// Name in options, files and summaries.
 constexpr const char* to_string(EngineKind kind) {
   switch (kind) {
     case EngineKind::ghdl:
@@ -42,7 +42,7 @@ constexpr const char* to_string(EngineKind kind) {
   return "lanes";
 }
 
-/// As sentences name it.
+/// Name in sentences.
 constexpr const char* title(EngineKind kind) {
   switch (kind) {
     case EngineKind::ghdl:
@@ -65,23 +65,23 @@ class Engine {
   /// Another engine of the same hardware, reset, with the same options, for another thread.
   virtual Result<std::shared_ptr<Engine>> another() const = 0;
 
-  /// Draws the vectors of whole triangles. The last fragments may come with the next call. A fault of the
-  /// hardware (a hang, more than `most` fragments) is an error with the exit code `differs`; the fragments
-  /// before it may have come.
+  /// Draws the vectors of whole triangles. The last fragments may be output by the next call. A fault of the
+  /// hardware (a hang, more than `most` fragments) is an error with the exit code `differs`; fragments before
+  /// the fault may have been output.
   virtual Status draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
                       const OnDrawn& on_drawn) = 0;
-  /// Draws what is left, until the hardware is empty. The next vectors begin another frame.
+  /// Draws the remaining fragments until the hardware is empty. The next vectors start another frame.
   virtual Status drain(std::uint64_t most, const OnDrawn& on_drawn) = 0;
 
-  /// Clocks from the first vector taken to the last vector or fragment that moved, both counted, of all
-  /// frames. None: the engine cannot tell.
+  /// Clocks from the first accepted vector to the last accepted vector or output fragment, both included, of
+  /// all frames. std::nullopt if the engine cannot count them.
   virtual std::optional<std::uint64_t> cycles() const = 0;
-  /// Pieces of the frame that were drawn each from the reset on.
+  /// Number of parts of the frame that were drawn separately, each after a reset.
   virtual std::uint64_t parts() const { return 1; }
-  /// Whether fragments come in drain() alone.
+  /// True if fragments are output by drain() only.
   virtual bool draws_late() const { return false; }
 
-  /// The same, appended to `out`, which holds no more than `most` fragments.
+  /// The same, but appends the fragments to `out`. Its size is limited to `most`.
   Status run(std::span<const std::uint32_t> init_words, std::vector<Fragment>& out, std::uint64_t most) {
     return draw(init_words, room(out, most), appended_to(out));
   }
@@ -98,7 +98,7 @@ class Engine {
   }
 };
 
-/// An engine that was opened, for callers that hold any.
+/// Converts an opened engine to a shared pointer, for callers that accept any engine.
 template <class Opened>
 Result<std::shared_ptr<Engine>> shared_engine(Result<Opened> opened) {
   if (!opened) return opened.error();

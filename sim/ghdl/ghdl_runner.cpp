@@ -45,7 +45,7 @@ class ScratchFile {
   std::filesystem::path path_;
 };
 
-/// The numbers of the last two lines, `cycles <n>` and `end <count>`, if they are there.
+/// The numbers of the last two lines, `cycles <n>` and `end <count>`; std::nullopt if they are missing.
 std::optional<GhdlRun> read_trailer(const std::filesystem::path& trace_file) {
   std::ifstream file(trace_file, std::ios::binary | std::ios::ate);
   if (!file) return std::nullopt;
@@ -69,7 +69,7 @@ std::optional<GhdlRun> read_trailer(const std::filesystem::path& trace_file) {
   return run;
 }
 
-/// GHDL's file of signals to write. It has no indices: a scope's name stands for all scopes of a loop.
+/// GHDL's file of signals to write. It has no indices: a scope's name selects all scopes of a loop.
 std::string wave_options(const std::vector<std::string>& signals) {
   std::string text = "$ version 1.1\n";
   for (const std::string& signal : signals) {
@@ -85,7 +85,7 @@ std::string wave_options(const std::vector<std::string>& signals) {
   return text;
 }
 
-/// What the testbench reported, without GHDL's own lines around it; empty where it reported nothing.
+/// The testbench's message, without the lines that GHDL adds. Empty if there is no message.
 std::string reported_failure(const std::string& output) {
   constexpr std::string_view mark = "(report failure): ";
   const std::size_t at = output.find(mark);
@@ -99,8 +99,8 @@ std::string reported_failure(const std::string& output) {
 Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::filesystem::path& source_folder) {
   auto testbench = read_vhdl_source(source_folder, c_testbench_file);
   if (!testbench) return testbench.error();
-  // All shaders have the same ports: one testbench, into which the entity, its generics and the width of
-  // init_data are put.
+  // All shaders have the same ports, so one testbench serves all: insert the entity, its generics and the
+  // width of init_data.
   const auto put = [&](std::string_view what, const std::string& with) -> Status {
     const std::size_t at = testbench->content.find(what);
     if (at == std::string::npos)
@@ -149,8 +149,8 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   generic("g_max_fragments", std::to_string(std::min(options.max_fragments, 0x7fffffffU)));
   generic("g_idle_limit", std::to_string(std::clamp(options.idle_limit, 1U, 0x7fffffffU)));
   generic("g_stall_seed", std::to_string(options.stall_seed & 0x7fffffffU));
-  // The registers of the data path have no value until the first triangle loads them; the testbench itself
-  // looks for metavalues in all that comes out.
+  // The registers of the data path have no value until the first triangle loads them. The testbench checks
+  // the outputs for metavalues.
   command.arguments.emplace_back("--ieee-asserts=disable");
   command.arguments.emplace_back("--assert-level=error");
   if (!options.wave_file.empty()) {

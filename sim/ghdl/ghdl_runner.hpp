@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a shader's RTL in GHDL, through tb/frame_tb.vhd: an init file in, a trace out.
+// Runs a shader's RTL in GHDL with tb/frame_tb.vhd: reads an init file, writes a trace.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@ namespace halfway {
 
 struct GhdlRunOptions {
   std::uint32_t max_fragments = 0x7fffffff;
-  std::uint32_t idle_limit = 100'000;  ///< cycles in which nothing moves: a hang
-  std::uint32_t stall_seed = 0;        ///< 0: full speed; else both streams stall at random
+  std::uint32_t idle_limit = 100'000;  ///< cycles without progress that count as a hang
+  std::uint32_t stall_seed = 0;        ///< 0: full speed; otherwise both streams stall at random
   std::optional<std::chrono::milliseconds> timeout{};
-  std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< with the bytes of trace written so far
+  std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< argument: bytes written so far
   std::filesystem::path wave_file{};                              ///< .ghw, .fst or .vcd; empty: none
-  /// What goes into it, such as frame_tb/dut/walker/x; empty: every signal. Of a generate loop all are
-  /// written.
+  /// Signals in the wave file, such as frame_tb/dut/walker/x; empty: every signal. A signal of a generate
+  /// loop selects it in all iterations.
   std::vector<std::string> wave_signals{};
 };
 
@@ -34,16 +34,16 @@ struct GhdlRun {
 
 class GhdlRunner {
  public:
-  /// tb/frame_tb.vhd with the key's shader in it.
+  /// tb/frame_tb.vhd with the key's shader inserted.
   static Result<VhdlSource> testbench(const HardwareKey& key, const std::filesystem::path& source_folder);
 
-  /// Analyses the RTL and the testbench, or takes them from the cache.
+  /// Analyses the RTL and the testbench unless the cache has them.
   static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders,
                                  const std::string& program = "ghdl");
 
-  /// Writes `trace_file` (under a temporary name until it is whole). A fault of the hardware that the
-  /// testbench sees (a hang, a metavalue, a payload that does not stand still) ends with the exit code
-  /// `differs`.
+  /// Writes `trace_file`, under a temporary name until it is complete. A fault of the hardware that the
+  /// testbench detects (a hang, a metavalue, a payload that changes while it waits) is an error with the exit
+  /// code `differs`.
   Result<GhdlRun> run(const std::filesystem::path& init_file, const std::filesystem::path& trace_file,
                       const GhdlRunOptions& options = {}) const;
 

@@ -43,7 +43,7 @@ MemoryWords place_memories(const std::map<std::string, LaneMemory>& memories, co
   };
   const auto end_bank = [&] { words = (words + c_bank_words - 1) / c_bank_words * c_bank_words; };
 
-  // Group the written memories by size and by when and where they are written; place the others.
+  // Group the written memories by size and by the conditions and addresses of writes; place the others.
   using When = std::pair<Guard, int>;
   std::map<std::tuple<std::size_t, When, When>, std::vector<std::string>> together;
   for (const auto& [name, memory] : memories) {

@@ -20,10 +20,10 @@
 namespace halfway {
 namespace {
 
-/// In vectors and fragments: a part ends with some clocks in which nothing comes, all with lanes that wait
-/// for the last part.
+/// In vectors and fragments. A part ends with some clocks without output, and a run ends with lanes that wait
+/// for the last part, so parts must not be too short.
 constexpr std::size_t c_shortest_part = 100;
-/// Of a thread, drawn before they are handed on: they stay in the processor's second cache.
+/// Fragments per thread drawn before they are output: they stay in the processor's second-level cache.
 constexpr std::size_t c_batch = 64 * 1024;
 
 struct Triangle {
@@ -79,7 +79,7 @@ struct LaneSimulator::State : Hardware {
     return sum;
   }
 
-  /// The one that the words begin with.
+  /// The triangle at the start of the words.
   Triangle triangle(std::span<const std::uint32_t> words) const {
     const std::size_t vectors =
         std::clamp<std::size_t>(golden->group(words), 1, words.size() / vector_words());
@@ -88,21 +88,21 @@ struct LaneSimulator::State : Hardware {
   std::size_t vector_words() const { return (init_bits + 31) / 32; }
 
   std::unique_ptr<GoldenModel>
-      golden;                       ///< knows which vectors belong together, and how many pixels they cover
-  bool knows_pixels;                ///< not of other hardware than the shaders
-  bool drawing = false;             ///< or they broke off, and stand in the middle of triangles
+      golden;            ///< finds the vectors of a triangle and the number of pixels covered by it
+  bool knows_pixels;     ///< false for hardware that is not one of the shaders
+  bool drawing = false;  ///< true after an interruption: lanes are within triangles
   std::uint64_t cycles_before = 0;  ///< of lanes that were replaced
   std::vector<void*> threads;
 };
 
-// A call's vectors on their way through the lanes: what is ahead becomes parts, lanes draw these, and the
-// first ones that are whole are handed on.
+// The progress of a call's vectors: triangles ahead are grouped into parts, lanes draw the parts, and the
+// complete parts at the front are output.
 class LaneSimulator::Passage {
  public:
   Passage(State& state, std::span<const std::uint32_t> init_words, std::uint64_t most)
       : s_(state), words_(init_words), left_(most) {}
 
-  /// Enough for a run, unless too many wait already; false where none are left.
+  /// Adds enough parts for a run, unless too many fragments wait. Returns false if no part is left.
   bool add_parts();
   Status draw();
   Status hand_on(const OnDrawn& on_drawn);
@@ -117,16 +117,16 @@ class LaneSimulator::Passage {
 
   State& s_;
   std::span<const std::uint32_t> words_;
-  std::deque<Triangle> ahead_;  ///< behind the last part
+  std::deque<Triangle> ahead_;  ///< after the last part
   std::vector<HalfwayPart> parts_;
-  std::vector<std::size_t> pixels_;  ///< that each covers
-  std::uint64_t left_;               ///< fragments that may still be handed on
-  std::size_t seen_ = 0;             ///< vectors that are ahead or before
-  std::size_t vector_ = 0;           ///< behind the last part
+  std::vector<std::size_t> pixels_;  ///< covered by each part
+  std::uint64_t left_;               ///< fragments that may still be output
+  std::size_t seen_ = 0;             ///< vectors in parts or ahead
+  std::size_t vector_ = 0;           ///< first vector after the last part
   std::size_t work_ahead_ = 0;       ///< of the triangles ahead
   std::size_t first_ = 0;            ///< number of the first part
-  std::size_t next_ = 0;             ///< of the first that no lane has begun
-  bool more_ = false;                ///< parts are to be added when lanes have begun these
+  std::size_t next_ = 0;             ///< number of the first part not yet started
+  bool more_ = false;                ///< more parts must be added when all are started
 };
 
 void LaneSimulator::Passage::look_ahead() {
@@ -149,7 +149,7 @@ bool LaneSimulator::Passage::add_parts() {
   const auto full = [&] { return waiting != 0 && waiting >= s_.options.most_waiting * threads(); };
   const auto enough = [&] { return work >= c_batch * threads(); };
   for (look_ahead(); !ahead_.empty() && !full() && !enough(); look_ahead()) {
-    // Shorter ones at the end, so that all lanes end together.
+    // Make shorter parts towards the end, so that all lanes end at about the same time.
     const std::size_t wanted = std::max(c_shortest_part, work_ahead_ / (4 * lanes()));
     Triangle sum{0, 0};
     for (; !ahead_.empty() && sum.work() < wanted; ahead_.pop_front()) {
@@ -188,7 +188,7 @@ Status LaneSimulator::Passage::draw() {
       }
     }
   });
-  next_ = std::min(next_, batch.end);  // who found none to begin has counted, too
+  next_ = std::min(next_, batch.end);  // lanes that found no part have incremented it too
   switch (worst) {
     case HALFWAY_DONE:
       return Ok{};

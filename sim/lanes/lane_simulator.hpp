@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader's RTL in lanes: many copies of the hardware in one vector of the processor, each with triangles of
-// its own. The same fragments as from VerilatorSimulator, several times as fast; no waves.
+// A shader's RTL in lanes: many copies of the hardware in one vector of the processor, each with its own
+// triangles. The fragments equal those of VerilatorSimulator. Several times faster, but without waveforms.
 #pragma once
 
 #include <cstddef>
@@ -19,51 +19,51 @@
 namespace halfway {
 
 struct LaneOptions {
-  unsigned threads = 1;                ///< each with lanes of its own
-  std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves in a lane: a hang
-  /// Fragments a thread that wait for a part in front of theirs, from which on no part is begun.
+  unsigned threads = 1;                ///< each with its own lanes
+  std::uint64_t idle_limit = 100'000;  ///< cycles without progress in a lane that count as a hang
+  /// Fragments per thread that wait for an earlier part. At this number no further part is started.
   std::size_t most_waiting = std::size_t{1} << 21;
   std::uint32_t stall_seed =
-      0;                   ///< 0: full speed; else both streams stall at random, in each lane for itself
-  bool fast = true;        ///< worth a long compilation
-  std::string compiler{};  ///< empty: clang++ where it is installed, else g++
+      0;                   ///< 0: full speed; otherwise both streams stall at random, separately in each lane
+  bool fast = true;        ///< optimize, which takes long to compile
+  std::string compiler{};  ///< empty: clang++ if installed, otherwise g++
 };
 
 class LaneSimulator final : public Engine {
  public:
-  /// Why there are no lanes for hardware of this key, whatever its netlist; empty where there may be.
+  /// The reason why hardware of this key has no lanes, for any netlist; empty if lanes are possible.
   static std::string refused(const HardwareKey& key);
 
-  /// Builds the lanes, or takes them from the cache, and resets them. What lanes cannot be had for is an
-  /// error that says so: who may, as view() in `auto`, takes VerilatorSimulator. Such are the processors
-  /// shader, whose lights and counters outlive a triangle, and a netlist with what the generator does not
-  /// know.
+  /// Builds the lanes, or takes them from the cache, and resets them. Hardware without lanes is an error with
+  /// a message; a caller such as view() with `auto` then uses VerilatorSimulator. Refused are the processors
+  /// shader, whose lights and counters keep their state from triangle to triangle, and netlists with
+  /// constructs that the generator does not support.
   static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                     const LaneOptions& options = {});
 
   EngineKind kind() const override { return EngineKind::lanes; }
   Result<std::shared_ptr<Engine>> another() const override;
-  /// Draws from idle to idle, and hands on fragments part by part in the order of a single stream, whatever
-  /// the number of lanes and threads; this thread calls `on_drawn`. More fragments than the vectors cover,
-  /// and some, are a fault. After an error the next call begins with lanes just reset. More vectors in a call
-  /// are faster: thousands.
+  /// Draws all vectors of the call, and outputs fragments part by part in the order of a single stream, for
+  /// any number of lanes and threads. `on_drawn` is called by this thread. It is a fault if the fragments
+  /// exceed the pixels covered by the vectors by more than c_most_surplus. After an error the next call
+  /// starts with reset lanes. Use thousands of vectors per call for speed.
   ///
-  /// Lanes go on from part to part and wait for one another at a call's end alone, and where `most_waiting`
-  /// fragments wait. Memory does not grow with a call's vectors: a thread's lanes hold that many and a part
-  /// or triangle that covers more, in room for four times as many at most; room for 2^21 in all stays for
-  /// what comes next.
+  /// A lane that has drawn its part starts the next one. Lanes wait for each other only at the end of a call,
+  /// or if `most_waiting` fragments wait. Memory does not depend on the number of vectors: the lanes of a
+  /// thread store at most that many fragments plus one larger part or triangle, in buffers of up to four
+  /// times that size. Buffers for 2^21 fragments in total are kept for the next call.
   Status draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
               const OnDrawn& on_drawn) override;
   Status drain(std::uint64_t, const OnDrawn&) override { return Ok{}; }
-  /// None: the clocks of lanes are not the stream's.
+  /// std::nullopt: the clocks of lanes are not those of a single stream.
   std::optional<std::uint64_t> cycles() const override { return std::nullopt; }
 
-  /// Clocks of all lanes while they had something to draw, summed: more than one hardware would need, as each
-  /// part ends with the pipeline running empty.
+  /// Clocks of all lanes while they had something to draw, summed. This exceeds the clocks of a single
+  /// hardware, because the pipeline runs empty at the end of each part.
   std::uint64_t lane_cycles() const;
 
  private:
-  struct Hardware;  // what others of the same share
+  struct Hardware;  // shared by all objects for the same hardware
   struct State;
   class Passage;
   explicit LaneSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shaders in lanes: every fragment as the golden model has it, and so as Verilator, whose frames are
-// compared with it elsewhere.
+// Shaders in lanes: every fragment equals the golden model's, and so Verilator's, whose frames are compared
+// with the golden model by other tests.
 #include "sim/lanes/lane_simulator.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class ShadersInLanes : public testing::TestWithParam<Case> {
     ASSERT_TRUE(plan) << plan.error().message;
     key_ = plan->key;
     add(*scene, {96, 72});
-    // From nearby: much of it beside the frame.
+    // From nearby: large parts of the scene are outside the frame.
     const auto middle = scene->camera.target_world;
     scene->camera.eye_world = middle + 0.4 * (scene->camera.eye_world - middle);
     add(*scene, {48, 40});
@@ -68,7 +68,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
     EXPECT_TRUE(drawn == expected_);
     EXPECT_GE(lanes->lane_cycles(), drawn.size());
 
-    // Part by part, each of whole triangles, by other lanes of the same hardware.
+    // Part by part, each of whole triangles, in other lanes of the same hardware.
     const auto others = lanes->another();
     ASSERT_TRUE(others) << others.error().message;
     std::span<const std::uint32_t> ahead = words_;
@@ -84,7 +84,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
     EXPECT_GT(parts, 8U);
     const auto ignore = [](std::span<const Fragment>) {};
     EXPECT_FALSE((*others)->draw(words_, expected_.size() - 1, ignore));
-    // Broken off in the middle of triangles, which come in no later call.
+    // Interrupted within triangles, which must not appear in a later call.
     EXPECT_FALSE((*others)->draw(words_, 1, ignore));
     ahead = words_;
     at = 0;
@@ -94,7 +94,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ExitCode::bad_input);
 
-    // Again, in batches of nothing, one triangle, fewer than lanes, and many, into what is there already.
+    // Again, in batches of no triangle, one, fewer than lanes, and many, appended to the earlier fragments.
     drawn.clear();
     std::span<const std::uint32_t> rest = words_;
     for (std::size_t triangles = 0; !rest.empty(); ++triangles) {
@@ -117,7 +117,7 @@ TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
     const Status ran = lanes->run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_) << "seed " << seed;
-    // Half of all fragments wait a clock or more.
+    // Half of all fragments wait at least one clock.
     EXPECT_GT(lanes->lane_cycles(), 2 * drawn.size());
   }
 }
@@ -128,7 +128,7 @@ TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
       auto lanes = LaneSimulator::open(key_, c_folders,
                                        {.threads = threads, .most_waiting = most_waiting, .fast = false});
       ASSERT_TRUE(lanes) << lanes.error().message;
-      // Many times what a run draws before it hands on.
+      // Many times the fragments that a run draws before it outputs them.
       constexpr std::size_t c_turns = 24;
       std::vector<std::uint32_t> words;
       for (std::size_t i = 0; i < c_turns; ++i) words.insert(words.end(), words_.begin(), words_.end());

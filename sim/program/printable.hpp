@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts that hold names from files, on their way to a terminal.
+// Removes control characters from texts with names from files, before they are printed to a terminal.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace halfway {
 
-/// The text with '?' for control characters, C1's in UTF-8 included, but line ends and tabs: a name in a file
-/// could else move the cursor, or paint what we did not say.
+/// The text with '?' for control characters (C1's in UTF-8 included), except line ends and tabs. A name in a
+/// file could otherwise move the cursor or change the colours.
 inline std::string printable(std::string_view text) {
   std::string shown(text);
   for (std::size_t i = 0; i < shown.size(); ++i) {

@@ -91,7 +91,7 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   EXPECT_FALSE(draw_front(front_of(read("point,method\n")), here()));
 }
 
-// README's front: of the checkout's scene, space and hardware, and drawn from the table beside it.
+// README's front must be of the checkout's scene, space and hardware, and agree with front.csv next to it.
 class GalleryFront : public FrontTest {
  protected:
   void SetUp() override {

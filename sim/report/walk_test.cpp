@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walks of a pixel on the pages of docs/rtl are what `halfway why` prints.
+// The examples of a pixel's stages on the pages of docs/rtl must equal the output of `halfway why`.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -16,7 +16,7 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// The text with single spaces, so that columns may be as wide as they are.
+// The text with single spaces, because columns may have different widths.
 std::string squeezed(const std::string& text) {
   std::string out;
   for (const std::string& word : words_of(text)) out += word + ' ';

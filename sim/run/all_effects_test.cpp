@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hardware with every effect draws what hardware with the effects called for draws, fragment by fragment:
-// scenes with each subset of effects through the golden model, some through the RTL.
+// Hardware with every effect must draw the same fragments as hardware with only the effects that the scene
+// needs. Each subset of effects goes through the golden model, some also through the RTL.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ namespace {
 
 constexpr FrameSize c_frame{40, 30};
 
-/// What a scene has.
+/// The lights and effects of a scene.
 struct Subset {
   unsigned directional = 0, positional = 0, spots = 0;
   bool ambient = true, diffuse = false, specular = false;
@@ -42,7 +42,7 @@ struct Subset {
   }
 };
 
-// Of what every shader has.
+// All combinations of effects that every shader has.
 std::vector<Subset> every_subset() {
   std::vector<Subset> subsets;
   for (unsigned lights = 0; lights < 27; ++lights)
@@ -52,7 +52,7 @@ std::vector<Subset> every_subset() {
   return subsets;
 }
 
-// Of what the shading processors have besides.
+// All combinations of effects that the shading processors have.
 std::vector<Subset> every_subset_of_processors() {
   std::vector<Subset> subsets;
   for (Subset subset : every_subset())
@@ -65,8 +65,8 @@ std::vector<Subset> every_subset_of_processors() {
   return subsets;
 }
 
-/// A sphere of two materials, lit from the eye's side; its exponents take different tables. Where there are
-/// shadows, a box before it casts one on it.
+/// A sphere of two materials, lit from the eye's side. Its two exponents use different tables. With shadows,
+/// a box in front of the sphere casts one on it.
 Scene scene_of(const Subset& subset) {
   Scene scene;
   scene.name = "subset";
@@ -96,7 +96,7 @@ Scene scene_of(const Subset& subset) {
   }
   Mesh mesh = make_uv_sphere(8, 6, 1.0);
   if (!subset.curved) {
-    // One normal a triangle: its first corner's.
+    // Use one normal per triangle: that of its first corner.
     for (SceneTriangle& t : mesh.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
   }
   scene.positions_world = mesh.positions;
@@ -162,8 +162,8 @@ void expect_equal(const std::vector<Fragment>& called_for, const std::vector<Fra
   }
 }
 
-// Of each pixel the fragment that the frame keeps: hardware that goes by lines draws in another order, and
-// only these.
+// For each pixel the fragment that the frame keeps. Hardware that draws line by line has another order, and
+// outputs only these fragments.
 std::vector<Fragment> nearest(const std::vector<Fragment>& fragments) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, Fragment> kept;
   for (const Fragment& f : fragments)
@@ -195,11 +195,11 @@ TEST_P(EachShader, DrawTheSameForEverySubset) {
         expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.everything).golden));
   }
   fmt::print("{} scenes, {} kinds of hardware called for\n", every_subset().size(), keys.size());
-  // Lights 0 to 6; of these but the first: diffuse, specular by colours, both; in one and three channels.
+  // Lights: 0 to 6. For each number above 0: diffuse, specular by colours, both; one and three channels.
   EXPECT_EQ(keys.size(), GetParam().shader == Shader::quadratic ? 2U : 2 + 6 * (2 + 2 * (1 + 2)));
 }
 
-// No subset is drawn alike because its effect does not show.
+// Each effect must change the frame: otherwise equal frames would prove nothing.
 TEST_P(EachShader, EachShowsInTheFrame) {
   const Subset full{2, 2, 2, true, true, true, true, true};
   std::vector<Subset> less(8, full);
@@ -250,8 +250,8 @@ TEST(AllEffects, ProcessorsDrawTheSameFrameForEverySubset) {
                                            nearest(draw(scene, plan.everything).golden)));
     }
     fmt::print("{} scenes, {} kinds of hardware called for\n", subsets.size(), keys.size());
-    // One and three channels. Of each but the first of 27 sets of lights: diffuse, specular, both; with and
-    // without shadows; in preset exact, with and without N normalized.
+    // One and three channels. For each of 26 sets of lights: diffuse, specular, both; with and without
+    // shadows; in preset exact also with and without normalization of N.
     EXPECT_EQ(keys.size(), 2U * (1 + 26 * 3 * 2 * (preset == Preset::exact ? 2 : 1)));
   }
 }
@@ -311,7 +311,7 @@ TEST_P(EachShader, DrawTheSameInTheRtl) {
     EXPECT_EQ(all.rtl, all.golden);
     fmt::print("{}: {} cycles as called for ({}), {} with all effects ({})\n", subset.name(), few.cycles,
                plan.called_for.name(), all.cycles, plan.everything.name());
-    // Without line records none is waited for; all else goes beside the same walk.
+    // Without line records no clock is spent on them. The other effects do not change the clocks of the walk.
     EXPECT_LE(few.cycles, all.cycles);
     EXPECT_TRUE(few.cycles == all.cycles || !plan.called_for.spherical.records());
   }

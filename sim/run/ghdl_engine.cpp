@@ -15,8 +15,8 @@
 namespace halfway {
 namespace {
 
-// A part's clocks: this share of all that is left, so more than eight cores gain nothing, but not so few that
-// GHDL's start counts.
+// Size of a part: this share of all remaining clocks, so more than eight cores bring no gain, but at least
+// c_least_part clocks, so that GHDL's start does not dominate.
 constexpr std::uint64_t c_share = 8, c_least_part = 2048;
 constexpr std::uint64_t c_between_places = 256;  // clocks
 constexpr std::size_t c_block = 4096;            // vectors or fragments at a time

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shader's RTL in GHDL. GHDL works through files and is one thread: it draws when the last vector has come,
-// a long stream in several parts side by side.
+// A shader's RTL in GHDL. GHDL works on files and uses one thread, so it draws when all vectors are known,
+// and draws a long stream as several parts in parallel.
 #pragma once
 
 #include <cstdint>
@@ -20,31 +20,31 @@
 
 namespace halfway {
 
-/// Where a stream of init vectors may be cut: before a triangle, some way behind the last place.
+/// Finds places where a stream of init vectors may be cut: before a triangle, at minimum distances.
 class Cuts {
  public:
   explicit Cuts(const HardwareKey& key);
-  /// The stream's next vectors, whole triangles.
+  /// Adds the stream's next vectors, which must be whole triangles.
   void add(std::span<const std::uint32_t> init_words);
-  /// The first vectors of the parts to draw in, by the frame alone and not by the machine; the first one's is
-  /// 0. Parts of many clocks first, an eighth of all, then of fewer, so that whoever takes them by turns ends
-  /// together. One part where triangles hang on those before (the shading processors: lights, shadow
-  /// counters), or where there is little to draw.
+  /// Returns the number of the first vector of each part; that of the first part is 0. It depends on the
+  /// frame only, not on the machine. The first part has an eighth of all clocks, later parts have fewer, so
+  /// that threads that take part after part end together. The result is a single part if triangles depend on
+  /// earlier vectors (shading processors: lights, shadow counters), or if the frame is small.
   std::vector<std::uint64_t> parts() const;
 
  private:
   struct Place {
-    std::uint64_t vectors, clocks;  ///< before
+    std::uint64_t vectors, clocks;  ///< before the place
   };
-  std::unique_ptr<GoldenModel> golden_;  ///< none where there is no place to cut
+  std::unique_ptr<GoldenModel> golden_;  ///< null if the stream cannot be cut
   std::vector<Place> places_{{0, 0}};
   Place end_{0, 0};
 };
 
-/// Runs `runner` on each part of `init_file`, up to `threads` at a time, each from the reset on, and then
-/// hands on their fragments in order: the same as of one run. Where a part ends with a fault, none are handed
-/// on. Gives the sum of the parts' cycles: a few more for each, in which the hardware fills and drains.
-/// Leaves the parts' files next to `init_file`.
+/// Runs `runner` on each part of `init_file`, at most `threads` at a time, each after a reset. Then outputs
+/// the fragments in the order of a single run, or none if a part ends with a fault. Returns the sum of the
+/// parts' cycles. This is more than the cycles of a single run, because each part fills and drains the
+/// pipeline. The parts' files stay next to `init_file`.
 Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
                                    const std::filesystem::path& init_file,
                                    std::span<const std::uint64_t> first_vectors,
@@ -78,8 +78,8 @@ class GhdlEngine final : public Engine {
   std::filesystem::path cache_;
   unsigned threads_;
   GhdlRunOptions options_;
-  std::optional<TemporaryFolder> folder_;  ///< of a frame's files
-  std::optional<InitFileWriter> init_;     ///< none before a frame's first vector
+  std::optional<TemporaryFolder> folder_;  ///< for the files of a frame
+  std::optional<InitFileWriter> init_;     ///< std::nullopt before a frame's first vector
   Cuts cuts_;
   std::optional<std::uint64_t> cycles_;
   std::uint64_t parts_ = 1;

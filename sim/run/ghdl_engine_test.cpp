@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream in parts draws what it draws in one.
+// A stream drawn in parts must give the same fragments as in one run.
 #include "sim/run/ghdl_engine.hpp"
 
 #include <gmock/gmock.h>
@@ -44,7 +44,7 @@ Stream stream_of(const char* name, Shader shader, FrameSize frame) {
   return all;
 }
 
-// The first vectors of triangles, one after the other.
+// The numbers of the vectors that start a triangle.
 std::vector<std::uint64_t> triangles_of(const Stream& s) {
   const auto golden = make_golden_model(s.key);
   std::vector<std::uint64_t> firsts;
@@ -74,7 +74,7 @@ TEST(GhdlParts, BeginAtTrianglesAndHangOnTheFrameAlone) {
                            .size());
     }
     EXPECT_EQ(std::accumulate(pixels.begin(), pixels.end(), std::size_t{0}), s.golden.size());
-    // None is long beside what the others have left when it begins.
+    // No part is long compared with the parts that remain when it starts.
     std::uint64_t rest = s.golden.size();
     for (const std::uint64_t part : pixels) {
       EXPECT_LE(part, std::max<std::uint64_t>(3'500, rest / 6));
@@ -106,7 +106,7 @@ TEST(GhdlParts, DrawWhatOneRunDraws) {
     const std::vector<std::uint64_t> triangles = triangles_of(s);
     const auto one = runner->run(init, trace);
     ASSERT_TRUE(one) << one.error().message;
-    // The second part ends where the third begins; the last one is a triangle.
+    // The second part ends where the third starts. The last part is a single triangle.
     const std::uint64_t parts[] = {0, triangles[1], triangles[triangles.size() / 2], triangles.back()};
     std::vector<Fragment> drawn;
     const auto take = [&](std::span<const Fragment> part) {
@@ -129,7 +129,7 @@ TEST(GhdlParts, DrawWhatOneRunDraws) {
   }
 }
 
-// Frame after frame, and one without a vector.
+// Several frames, one of them without a vector.
 TEST(GhdlEngine, DrawsInDrainAlone) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const Stream s = stream_of("spheres", Shader::quadratic, {64, 48});

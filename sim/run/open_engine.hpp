@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens an engine by its kind; and when lanes pay.
+// Opens an engine by its kind, and decides when lanes save time.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 namespace halfway {
 
 struct EngineOptions {
-  unsigned threads = 1;          ///< of engines that can use several
+  unsigned threads = 1;          ///< for engines that use several
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
-  bool fast = true;              ///< worth a long compilation
-  /// Of engines that draw late: told how many bytes of trace there are.
+  bool fast = true;              ///< optimize, which takes long to compile
+  /// Called by engines that draw late, with the number of bytes of trace written so far.
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};
 };
 
-/// Builds the engine, or takes it from the cache. What the key's hardware cannot be drawn by is bad input.
+/// Builds the engine, or takes it from the cache. Returns bad input if it cannot draw the key's hardware.
 Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
                                             const SimulatorFolders& folders,
                                             const EngineOptions& options = {});
 
-/// Of all frames together; from here on lanes save more than the 5 s that their compilation takes.
+/// Pixels of all frames from which on lanes save more than the 5 s of their compilation.
 inline constexpr double c_least_lane_pixels = double(1U << 26);
 
-/// Whether to draw so many pixels in lanes rather than in Verilator: on processors with AVX-512, a shader
-/// whose triangles stand alone, and work enough.
+/// True if lanes draw this number of pixels faster than Verilator: on a processor with AVX-512, for a shader
+/// whose triangles are independent, and for at least c_least_lane_pixels.
 bool lanes_pay(const HardwareKey& key, double pixels);
 
 }  // namespace halfway

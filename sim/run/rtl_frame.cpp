@@ -36,7 +36,7 @@ Status RtlFrame::add(std::span<const std::uint32_t> init_words, std::span<const 
     expected_ += o_.golden ? o_.golden->all_pixels(init_words) : golden.size();
     Status drawn = Ok{};
     if (alive_) drawn = ended(engine_->draw(init_words, most(), [this](auto part) { take(part); }));
-    // Keep the golden fragments of what is still in the hardware, and of what a fault left out.
+    // Keep the golden fragments of triangles that are still in the hardware, or that a fault omitted.
     compare({}, SIZE_MAX);
     return drawn;
   });
@@ -70,12 +70,12 @@ Status RtlFrame::draw(const Scene& scene, SceneStream& stream) {
   return finish();
 }
 
-// The fragments that may still come: those expected, and a surplus, past which a runaway is stopped.
+// Upper limit of further fragments: the expected ones and a surplus. More means that the hardware runs away.
 std::uint64_t RtlFrame::most() const {
   return expected_ - std::min(expected_, count_) + c_most_surplus;
 }
 
-// A fault of the hardware ends the drawing; other errors are the caller's.
+// A fault of the hardware ends the drawing. Other errors are returned to the caller.
 Status RtlFrame::ended(const Status& drawn) {
   if (error_) return *error_;
   if (drawn || drawn.error().code != ExitCode::differs) return drawn;
@@ -119,7 +119,7 @@ std::span<const Fragment> RtlFrame::next_golden(std::size_t count) {
   return next;
 }
 
-// Wrong hardware may draw anywhere; the frame then holds what it drew inside.
+// Wrong hardware may draw outside the frame. The frame then contains only the fragments inside.
 void RtlFrame::assemble(std::span<const Fragment> fragments) {
   while (!fragments.empty()) {
     const std::uint64_t before = assembler_.fragments();

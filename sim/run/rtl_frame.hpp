@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame that an engine draws: its fragments compared with the golden model's and assembled to a picture.
+// A frame drawn by an engine. Its fragments are compared with the golden model's and assembled to a picture.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +23,15 @@
 
 namespace halfway {
 
-/// What a simulator made of a scene.
+/// Result of a simulator for a scene.
 struct SimulatorRun {
   std::string simulator;
   std::uint64_t fragments = 0, mismatches = 0;
-  /// Of the whole run; none where a fault ended it before its simulator could say.
+  /// Of the whole run; std::nullopt if a fault ended it before the simulator could report them.
   std::optional<std::uint64_t> cycles;
-  std::uint64_t parts = 1;        ///< each from the reset on: some cycles more than in one
-  std::optional<double> seconds;  ///< of the engine, by the clock; none as for cycles
-  std::string fault;              ///< of the hardware, as the simulator tells it; empty: none
+  std::uint64_t parts = 1;        ///< number, each after a reset; several need more cycles than one
+  std::optional<double> seconds;  ///< elapsed time of the engine; std::nullopt as for cycles
+  std::string fault;              ///< of the hardware, as reported by the simulator; empty: none
   std::string description;        ///< the first mismatches and their counts; empty: none
   std::vector<Mismatch> first;
   std::vector<std::filesystem::path> evidence;  ///< difference image, waveform
@@ -39,16 +39,16 @@ struct SimulatorRun {
 };
 
 struct RtlFrameOptions {
-  std::optional<Tile> tile{};  ///< the frame's part that is kept; none: all of it
-  /// Draws the golden fragments here, a few triangles at a time, when the engine's come: they are not kept.
-  /// Null: add() is given them.
+  std::optional<Tile> tile{};  ///< the part of the frame to store; std::nullopt: all of it
+  /// Draws the golden fragments here, a few triangles at a time, when the engine's fragments are compared;
+  /// they are not stored. Null: the caller passes them to add().
   std::shared_ptr<GoldenModel> golden{};
-  /// Else the golden model, which must be here, only tells how many fragments are to come.
+  /// False: the golden model, which must not be null, only counts the expected fragments.
   bool compare = true;
-  /// Of an engine that draws late: golden fragments are read from this trace, not kept. It must be whole when
-  /// finish() is called. Empty: they are kept.
+  /// For an engine that draws late: golden fragments are read from this trace instead of being stored. It
+  /// must be complete when finish() is called. Empty: they are stored.
   std::filesystem::path golden_trace{};
-  Engine::OnDrawn on_drawn{};  ///< sees the engine's fragments too
+  Engine::OnDrawn on_drawn{};  ///< also called with the engine's fragments
 };
 
 class RtlFrame {
@@ -56,21 +56,21 @@ class RtlFrame {
   RtlFrame(std::shared_ptr<Engine> engine, FrameSize size, glm::dvec3 background,
            RtlFrameOptions options = {});
 
-  /// Begins another frame, in the same room.
+  /// Starts another frame in the same memory.
   void clear();
 
-  /// The vectors of whole triangles and what the golden model draws for them. A fault of the hardware ends
-  /// the drawing and is no error: see SimulatorRun::fault.
+  /// Draws vectors of whole triangles; `golden` are the golden model's fragments for them. A fault of the
+  /// hardware ends the drawing, but is not an error: see SimulatorRun::fault.
   Status add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden = {});
-  /// No more will come.
+  /// Ends the frame.
   Status finish();
-  /// All of a scene's stream, to its end; bad input where the scene cannot be drawn.
+  /// Draws a scene's complete stream. Returns bad input if the scene cannot be drawn.
   Status draw(const Scene& scene, SceneStream& stream);
-  /// After finish().
+  /// Call it after finish().
   SimulatorRun result();
 
   const Engine& engine() const { return *engine_; }
-  /// False after a fault: what the engine draws is worth nothing from then on.
+  /// False after a fault: later fragments are invalid.
   bool alive() const { return alive_; }
   const FrameAssembler& assembler() const { return assembler_; }
 
@@ -84,8 +84,8 @@ class RtlFrame {
   std::uint64_t most() const;
   Status ended(const Status& drawn);
   void take(std::span<const Fragment> drawn);
-  /// Compares fragments with the golden model's next ones, of which there are `golden_count` or all. Gives
-  /// how many there were.
+  /// Compares fragments with the next golden ones: `golden_count` of them, or all that remain. Returns the
+  /// number of golden fragments.
   std::size_t compare(std::span<const Fragment> drawn, std::size_t golden_count);
   /// Valid until the next call.
   std::span<const Fragment> next_golden(std::size_t count);
@@ -95,16 +95,16 @@ class RtlFrame {
   RtlFrameOptions o_;
   StreamComparator comparator_;
   FrameAssembler assembler_;
-  std::span<const std::uint32_t> words_;  ///< of this call, for which the golden model has not drawn
-  std::span<const Fragment> given_;       ///< of this call, not compared yet
+  std::span<const std::uint32_t> words_;  ///< of this call, not yet drawn by the golden model
+  std::span<const Fragment> given_;       ///< of this call, not yet compared
   std::optional<TraceReader> trace_;
   std::vector<Fragment> read_;
-  std::uint64_t expected_ = 0, count_ = 0, golden_count_ = 0;  ///< fragments, of the vectors so far
+  std::uint64_t expected_ = 0, count_ = 0, golden_count_ = 0;  ///< fragments of the vectors so far
   Stretch stretch_;
-  double golden_clock_ = 0.0, compare_clock_ = 0.0, assemble_clock_ = 0.0;  ///< parts of it
+  double golden_clock_ = 0.0, compare_clock_ = 0.0, assemble_clock_ = 0.0;  ///< elapsed seconds of its pieces
   std::string fault_;
   bool alive_ = true;
-  std::optional<Error> error_;  ///< of the golden trace
+  std::optional<Error> error_;  ///< when reading the golden trace
 };
 
 }  // namespace halfway

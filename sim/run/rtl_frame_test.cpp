@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame of any engine: what is compared, kept and told, whatever it draws and when.
+// Tests a frame of any engine: what is compared, stored and reported, for all fragments and moments.
 #include "sim/run/rtl_frame.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ Fragment fragment(std::uint16_t x, std::uint8_t red) {
 }
 const std::vector<Fragment> c_golden{fragment(0, 10), fragment(1, 20), fragment(2, 30)};
 
-/// Draws what it is told, `late` fragments of it in drain(); then, perhaps, ends with an error.
+/// Outputs the given fragments, `late` of them in drain(). If `error` is set, draw() then returns it.
 class StandIn final : public Engine {
  public:
   explicit StandIn(std::vector<Fragment> fragments, std::size_t late = 0)
@@ -31,7 +31,7 @@ class StandIn final : public Engine {
   Result<std::shared_ptr<Engine>> another() const override { return tool_failed("not needed"); }
   Status draw(std::span<const std::uint32_t>, std::uint64_t most, const OnDrawn& on_drawn) override {
     limits.push_back(most);
-    // In pieces, as they come.
+    // One fragment at a time.
     for (std::size_t i = 0; i + late_ < fragments_.size(); ++i) on_drawn(std::span(fragments_).subspan(i, 1));
     return error ? Status(*error) : Status(Ok{});
   }
@@ -51,7 +51,7 @@ std::shared_ptr<StandIn> stand_in(std::vector<Fragment> fragments, std::size_t l
   return std::make_shared<StandIn>(std::move(fragments), late);
 }
 
-// Wrong hardware's frame has whatever lies in it, before and behind what does not.
+// The frame of wrong hardware contains all fragments inside it, before and after those outside.
 TEST(RtlFrame, KeepsWhatLiesInTheFrame) {
   RtlFrame frame(
       stand_in({fragment(0, 10), fragment(7, 99), fragment(1, 20), fragment(8, 99), fragment(2, 30)}), {3, 1},
@@ -83,7 +83,7 @@ TEST(RtlFrame, ComparesWheneverFragmentsCome) {
       EXPECT_EQ(run.cycles, 7U);
       EXPECT_TRUE(run.seconds);
       EXPECT_EQ(seen, c_golden);
-      // What is still to come, and a surplus.
+      // The expected fragments that are missing, plus a surplus.
       EXPECT_EQ(engine->limits, (std::vector<std::uint64_t>{10'003, 10'000 + late}));
     }
   }
@@ -134,7 +134,7 @@ TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
   const auto trace = scratch->path() / "golden.trace";
   const auto finish = [&](std::shared_ptr<StandIn> engine) {
     RtlFrame frame(std::move(engine), {3, 1}, {}, {.golden_trace = trace});
-    // Counted here, and not kept.
+    // These fragments are only counted.
     EXPECT_TRUE(frame.add({}, std::vector<Fragment>(3, fragment(2, 99))));
     const Status ended = frame.finish();
     return ended ? Result<SimulatorRun>(frame.result()) : ended.error();
@@ -147,7 +147,7 @@ TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
   const auto few = finish(stand_in({c_golden[0]}, 1));
   ASSERT_TRUE(few) << few.error().message;
   EXPECT_EQ(few->mismatches, 2U);
-  // A trace that is cut off.
+  // A truncated trace.
   ASSERT_TRUE(write_file(trace, "halfway-trace 1 key\n0 0 0 1 10 0 0\n"));
   EXPECT_FALSE(finish(stand_in(c_golden, 3)));
 }
@@ -173,7 +173,7 @@ Vectors vectors_of(Shader shader) {
   return all;
 }
 
-// By a golden model of its own, which keeps no more than a triangle's.
+// With a golden model of its own, the frame stores the golden fragments of one triangle at most.
 TEST(RtlFrame, DrawsGoldenFragmentsWhenTheyAreNeeded) {
   for (const Shader shader : c_shaders) {
     const Vectors all = vectors_of(shader);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::uint32_t c_least_batch = 8, c_first_batch = 64, c_largest_batch = 8192;  // triangles
 constexpr std::uint32_t c_least_lines = 1, c_first_lines = 32;
 constexpr std::uint32_t c_most_chunk = 256;                  // units
-constexpr std::size_t c_batch_bytes = std::size_t{8} << 20;  // about what a batch should hold
+constexpr std::size_t c_batch_bytes = std::size_t{8} << 20;  // approximate size of a batch
 
 std::size_t bytes(const Batch& batch) {
   return batch.init_words.size() * sizeof(batch.init_words[0]) +
@@ -34,7 +34,7 @@ SceneStream::SceneStream(const Setup& setup, const HardwareKey& key, unsigned th
       key_(key),
       threads_(std::max(1U, threads)),
       options_(options),
-      // Without fragments a batch ends early enough by itself.
+      // Without fragments a batch is small enough, so start with the largest number of units.
       batch_units_(!options.golden           ? c_largest_batch
                    : setup.units_are_lines() ? c_first_lines
                                              : c_first_batch) {
@@ -76,10 +76,10 @@ bool SceneStream::next(Batch& batch) {
 }
 
 SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batch room) const {
-  // Small enough for all threads to have some, and for a batch to end early.
+  // Chunks are small enough for all threads to get some, and for a batch to end early.
   const std::uint32_t chunk_units = std::clamp((end - begin) / (4 * threads_), 1U, c_most_chunk);
   const std::size_t chunks = (end - begin + chunk_units - 1) / chunk_units;
-  const bool alone = threads_ == 1;  // all goes into one part
+  const bool alone = threads_ == 1;  // one thread has a single part
   std::vector<Work> parts(alone ? 1 : chunks);
   room.init_words.clear();
   room.golden.clear();
@@ -90,7 +90,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
   struct Chunk {
     std::size_t number, held;
   };
-  // None behind the last, or when the batch holds enough.
+  // Returns std::nullopt after the last chunk, or if the batch is large enough.
   const auto take = [&]() -> std::optional<Chunk> {
     const std::scoped_lock lock(mutex);
     if (taken == chunks || full) return std::nullopt;
@@ -131,7 +131,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
   };
   work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads_, chunks)), work);
   Work all = std::move(parts[0]);
-  // A part that was ended early is the last; those behind it are made again.
+  // A part that ended early is the last one. Discard the parts after it; they will be made again.
   std::size_t joined = 1, words = 0, fragments = 0;
   for (; joined < parts.size() && all.end == begin + joined * chunk_units; ++joined) {
     if (parts[joined].end == 0) break;

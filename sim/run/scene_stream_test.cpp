@@ -145,7 +145,7 @@ TEST(SceneStream, LargeTrianglesAfterSmallOnesEndTheirBatch) {
   }
 }
 
-// Sheets one after the other before a wall, with the light behind the eye.
+// Sheets one behind another in front of a wall, with the light behind the eye.
 Scene sheets(int count) {
   Scene scene;
   scene.name = "sheets";
@@ -184,7 +184,7 @@ TEST(SceneStream, TooManyShadowVolumesAreRefused) {
   }
 }
 
-// The eye is behind all sheets, so no shadow volume starts before a pixel.
+// The eye is behind all sheets, so the volumes contain it and are counted from the start.
 TEST(SceneStream, VolumesAroundTheEyeCount) {
   Scene scene = sheets(40);
   scene.camera = {.eye_world = {0.95, 0.18, -3.0},

@@ -33,7 +33,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Times white, past which a light's brightness is worth a note.
+// In multiples of white: brighter lights get a note.
 constexpr double c_bright = 2.0;
 
 class Simulation {
@@ -63,7 +63,7 @@ class Simulation {
         std::async(std::launch::async, [this] { return draw_reference(); });
     if (Status status = open_engines(); !status) return status.error();
     if (Status status = stream(); !status) return status.error();
-    // Engines that draw late take the longest: all else is done meanwhile.
+    // Engines that draw late take longest, so do all other work at the same time.
     for (Drawing& drawing : drawings_)
       drawing.finished = std::async(std::launch::async, [&drawing] { return drawing.frame.finish(); });
     wait_for_threads();
@@ -85,14 +85,14 @@ class Simulation {
   }
 
  private:
-  // An engine, what it draws, and where its fragments are written.
+  // An engine with its frame, and the trace of its fragments.
   struct Drawing {
     RtlFrame frame;
     std::shared_ptr<TraceWriter> trace;
     std::future<Status> finished;
   };
 
-  // What a broken run leaves must not pass for this run's.
+  // Remove old results: if this run is interrupted, they must not be taken for its own.
   Status forget_old_results() const {
     std::vector<std::string> drawers{"golden"};
     for (const EngineKind kind : c_engine_kinds) drawers.emplace_back(to_string(kind));
@@ -105,7 +105,7 @@ class Simulation {
     for (const char* who : {"reference", "diff"})
       if (Status status = forget(files_.frame(who)); !status) return status;
     if (Status status = forget(files_.init()); !status) return status;
-    // Unfinished files: with the folder locked, of runs that were killed.
+    // Remove unfinished files. The folder is locked, so they are from killed runs.
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(files_.folder, error)) {
       const std::string name = entry.path().filename().string();
@@ -121,7 +121,7 @@ class Simulation {
     return Ok{};
   }
 
-  // Count the hardware's entities, where any hardware is simulated.
+  // Count the hardware's entities if any hardware is simulated.
   Status count_units() {
     if (s_.engines.empty()) return Ok{};
     auto counter = UnitCounter::open(s_.folders);
@@ -134,7 +134,7 @@ class Simulation {
 
   void note(std::string text) { summary_.notes.push_back(scene_.name + ": " + std::move(text)); }
 
-  // A frame that proves little, or is worse than asked for, is not passed over in silence.
+  // Add notes about a frame that proves little or is less accurate than requested.
   void note_what_is_unusual() {
     if (scene_.shadows && s_.plan.shader != Shader::processors && !reflected_lights(scene_).empty())
       note("its shadows are drawn by the shading processors alone; the frame has none, the reference has");
@@ -182,7 +182,7 @@ class Simulation {
       if (m.exponent > c_largest_exponent)
         note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
                          c_largest_exponent));
-      // At 1 the bell is the cosine itself.
+      // At exponent 1 the bell is the cosine itself.
       const double steps =
           exact && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
       if (steps > 1.0)
@@ -210,7 +210,7 @@ class Simulation {
                             {.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)});
   }
 
-  // Side by side, for some take long.
+  // Open the engines in parallel, because some take long.
   Status open_engines() {
     const HardwareKey& key = summary_.plan.key;
     std::vector<std::future<Result<std::shared_ptr<Engine>>>> opening;
@@ -236,7 +236,7 @@ class Simulation {
     return Ok{};
   }
 
-  // Setup, golden model and engines, batch by batch; init file and traces written on the way.
+  // Run setup, golden model and engines, batch by batch. Write init file and traces on the way.
   Status stream() {
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, summary_.plan.key, s_.setup);
     const std::string key = summary_.plan.key.name();
@@ -268,7 +268,7 @@ class Simulation {
     return Ok{};
   }
 
-  // How far an engine is that draws late: its trace is about as long as the golden one.
+  // Show the progress of an engine that draws late: its trace is about as long as the golden one.
   void show_late(EngineKind kind, std::uintmax_t bytes) {
     late_began_ = true;
     std::error_code ignored;
@@ -276,8 +276,8 @@ class Simulation {
     s_.on_progress(title(kind), std::min(1.0, static_cast<double>(bytes) / golden));
   }
 
-  // While the pictures' library loads, 0.3 s, no thread can be made: so engines that draw late make theirs
-  // first.
+  // While OpenImageIO is loaded (0.3 s), glibc starts no thread. So wait until the engines that draw late
+  // have started theirs.
   void wait_for_threads() const {
     for (const Drawing& drawing : drawings_)
       while (drawing.frame.engine().draws_late() && !late_began_ &&
@@ -285,7 +285,7 @@ class Simulation {
       }
   }
 
-  // What an engine leaves. A run that was broken off has no trace, which could pass for whole.
+  // Store the results of an engine. A trace is committed only if it is complete.
   Result<SimulatorRun> keep(Drawing& drawing) const {
     if (Status status = drawing.finished.get(); !status) return status.error();
     SimulatorRun run = drawing.frame.result();
@@ -324,7 +324,7 @@ class Simulation {
     auto path = write_mismatch_waveform(
         summary_.plan.key, s_.folders, files_, run.simulator,
         run.first.empty() ? std::nullopt : std::optional(run.first.front().index), s_.stall_seed);
-    // The mismatch is what there is to tell; a waveform that cannot be had must not hide it.
+    // The mismatch must be reported even if the waveform cannot be written.
     if (!path) {
       run.description +=
           fmt::format("  no waveform: {}\n", path.error().message.substr(0, path.error().message.find('\n')));
@@ -339,8 +339,8 @@ class Simulation {
   ResultFiles files_;
   FrameAssembler golden_;
   SceneSummary summary_;
-  std::atomic<bool> late_began_ = false;  ///< to draw
-  std::vector<Drawing> drawings_;         ///< by s_.engines
+  std::atomic<bool> late_began_ = false;  ///< an engine that draws late has started to draw
+  std::vector<Drawing> drawings_;         ///< in the order of s_.engines
 };
 
 }  // namespace
@@ -389,7 +389,7 @@ nlohmann::ordered_json number_or_null(std::optional<Number> number) {
   return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
 }
 
-// " tables 4/4", where the hardware has tables of another size than the project's own.
+// For example " tables 4/4", if the hardware has tables of another size than the default.
 std::string unusual_tables(const HardwareKey& key) {
   const tables::CosineSizes sizes;
   const tables::CosineSize usual = (key.preset == Preset::exact ? sizes.exact : sizes.published).front();
@@ -423,7 +423,7 @@ std::string to_json(const SceneSummary& s) {
       {"fragments", s.fragments},
       {"hardware", {{"key", s.plan.key.name()}, {"all_effects", s.all_effects}, {"units", units}}},
       {"runs", runs},
-      // JSON has no infinity: null where golden and reference are the same.
+      // JSON has no infinity: null if golden and reference frame are equal.
       {"accuracy",
        {{"psnr_db", std::isfinite(s.accuracy.psnr_db) ? nlohmann::ordered_json(s.accuracy.psnr_db) : nullptr},
         {"max_lsb", s.accuracy.max_lsb},
@@ -448,7 +448,7 @@ std::string to_json(const SceneSummary& s) {
       {"setup_seconds", s.setup_seconds},
       {"golden_seconds", s.golden_seconds},
       {"seconds", s.seconds}};
-  // A scene's name is a file's, and any bytes.
+  // A scene's name is that of a file, so it may contain any bytes.
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The main job: a scene through golden model, simulators and reference renderer; streams compared, frames and
-// summary written.
+// The main job: draws a scene by golden model, simulators and reference renderer, compares the streams, and
+// writes frames and summary.
 #pragma once
 
 #include <cstdint>
@@ -31,15 +31,15 @@ struct SimulateSettings {
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
   std::filesystem::path out;
   SimulatorFolders folders;
-  /// Told what is being done, and how far it is (0 to 1, or below 0 where that is not known).
+  /// Called with the current step and its progress: 0 to 1, or below 0 if unknown.
   std::function<void(const std::string& what, double done)> on_progress = [](const std::string&, double) {};
-  /// Told the folder of results where another run holds it.
+  /// Called with the folder of results if another run has locked it.
   std::function<void(const std::filesystem::path& folder)> on_wait = [](const std::filesystem::path&) {};
 };
 
 struct SceneSummary {
   std::string scene, shader;
-  bool all_effects = false;  ///< elaborated, whatever the scene calls for
+  bool all_effects = false;  ///< elaborated, even if the scene does not need them
   Plan plan;
   UnitCounts units;  ///< entities that are elaborated
   FrameSize size;
@@ -47,35 +47,35 @@ struct SceneSummary {
   std::uint64_t triangles = 0;  ///< of the scene
   std::uint64_t fragments = 0;  ///< golden
   std::vector<SimulatorRun> runs;
-  FrameDistance accuracy;          ///< golden frame against the reference, over the pixels that either covers
-  std::vector<std::string> notes;  ///< what a reader of the figures should know
+  FrameDistance accuracy;          ///< golden frame and reference, over the pixels that either covers
+  std::vector<std::string> notes;  ///< remarks for a reader of the figures
   double setup_seconds = 0.0, golden_seconds = 0.0, seconds = 0.0;
   bool equal() const;
-  /// None: some fragment was compared, or the scene has none and the reference agrees. Else what was missed
-  /// and what to change.
+  /// std::nullopt if some fragment was compared, or if the scene has none and the reference agrees. Otherwise
+  /// the reason, and what to change.
   std::optional<std::string> nothing_compared() const;
 };
 
-/// Triangles that are neither seen from behind nor outside the view: on the screen, or too small for it.
+/// Triangles that are neither back-facing nor outside the view: on the screen, or too small for it.
 inline std::uint64_t triangles_in_view(const SetupCounts& counts) {
   return counts.triangles + counts.projection.degenerate;
 }
-/// The same of what a run left: `fragments` compared, triangles in view, pixels that the reference covers.
+/// The same for stored results: fragments compared, triangles in view, pixels that the reference covers.
 std::optional<std::string> nothing_compared(std::uint64_t fragments, std::uint64_t in_view,
                                             std::uint64_t reference_pixels);
 
-/// Removes the summary that an earlier run left, which says that its results are whole: of a scene that is
-/// yet to be drawn they must not pass for this run's. Waits while another run holds the folder.
+/// Removes the summary of an earlier run: it says that the results are complete, but those of a scene that
+/// this run has not drawn yet are old. Waits while another run has locked the folder.
 Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait);
 
-/// Results lie in ResultFiles::of(out, scene, plan). Hardware that differs is no error: see
+/// Results are in ResultFiles::of(out, scene, plan). A difference in the hardware is not an error: see
 /// SceneSummary::equal.
 Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);
 
-/// summary.json.
+/// The text of summary.json.
 std::string to_json(const SceneSummary& summary);
 
-/// One line: triangles, fragments, cycles, cycles a fragment, mismatches, PSNR, largest error, seconds.
+/// One line: triangles, fragments, cycles, cycles per fragment, mismatches, PSNR, largest error, seconds.
 std::string to_line(const SceneSummary& summary);
 
 }  // namespace halfway

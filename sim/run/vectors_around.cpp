@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t c_around = 2;
 
-// What the shading processors are told once, and what they keep of a line.
+// Vectors of the shading processors that define a state; and the line whose state an object stage keeps.
 bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
   return key.shader == Shader::processors && golden::ProcessorsShader<golden::Exact>::is_load(vector);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of a frame's init vectors, those that a simulator must be given to draw some triangles as in the frame.
+// Selects the init vectors of a frame with which a simulator draws some triangles as in the whole frame.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace halfway {
 
-/// Keeps the wanted triangles' vectors, those of two triangles before and after each, and of hardware that
-/// keeps something from a vector to the next also what it was told once, and all of the line.
+/// Keeps the vectors of the wanted triangles and of two triangles before and after each. For hardware with a
+/// state from vector to vector it also keeps the vectors that define the state, and the whole line.
 class VectorsAround {
  public:
   struct Triangle {
@@ -25,15 +25,15 @@ class VectorsAround {
 
   explicit VectorsAround(HardwareKey key) : key_(std::move(key)) {}
 
-  /// The next triangle of the frame: its vectors, `count` of them.
+  /// Adds the next triangle of the frame, with `count` vectors.
   void add(std::span<const std::uint32_t> words, std::size_t count, bool wanted);
-  /// No more will come. Keeps the last triangles where none was wanted.
+  /// Ends the frame. If no triangle was wanted, keeps the last ones.
   void finish();
-  /// Nothing more is kept unless another triangle is wanted.
+  /// True if nothing more will be kept unless another triangle is wanted.
   bool complete() const { return any_wanted_ && after_ == 0; }
-  /// In the frame's order.
+  /// The kept triangles in the frame's order.
   const std::vector<Triangle>& kept() const { return kept_; }
-  /// All their words.
+  /// The words of all kept triangles.
   std::vector<std::uint32_t> words() const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame by the RTL in Verilator, for who wants it right or not at all.
+// One frame drawn by the RTL in Verilator. The frame is correct, or the result is an error.
 #pragma once
 
 #include <cstdint>
@@ -19,16 +19,16 @@ namespace halfway {
 class MadeFormats;
 
 struct VerilatorFrame {
-  Frame frame;                     ///< or a tile of it
-  std::vector<std::uint8_t> mask;  ///< a byte a pixel: 1 where a fragment covers it
+  Frame frame;                     ///< the frame or a tile of it
+  std::vector<std::uint8_t> mask;  ///< one byte per pixel: 1 if a fragment covers it
   std::uint64_t fragments = 0;     ///< of the frame or tile
-  std::uint64_t cycles = 0;        ///< with those in which pixels beside the tile are drawn
-  SetupCounts counts;              ///< the tiles' of a frame together are the frame's
+  std::uint64_t cycles = 0;        ///< includes the cycles for pixels outside the tile
+  SetupCounts counts;              ///< the sum over the tiles of a frame equals the frame's counts
 };
 
-/// Every fragment is compared with the golden model's: one that differs, or a fault of the hardware, is an
-/// error (ExitCode::differs) that tells the first ones. Of a tile's pixels every fragment is the whole
-/// frame's. `formats` makes setup and golden model of a key with other word lengths; null: the program's own.
+/// Compares every fragment with the golden model's. A difference or a fault of the hardware is an error
+/// (ExitCode::differs) with the first differences. A tile's pixels have the same fragments as in the whole
+/// frame. `formats` makes setup and golden model of a key with other word lengths; null: use the program's.
 Result<VerilatorFrame> draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
                                          const SetupOptions& options, const SimulatorFolders& folders,
                                          unsigned threads, const std::optional<Tile>& tile = {},

@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Each drawing thread has a copy of the scene, whose camera it moves; larger scenes are drawn by fewer.
+// Each drawing thread has a copy of the scene, whose camera it moves. Use fewer threads for larger scenes.
 constexpr std::size_t c_most_copied_bytes = std::size_t{1} << 30;
 
 std::size_t bytes(const Scene& scene) {
@@ -42,12 +42,12 @@ struct DrawnFrame {
   std::vector<std::string> notes;
   bool covered = false;
   std::uint64_t in_view = 0;           ///< triangles
-  std::uint64_t reference_pixels = 0;  ///< where no fragment was drawn
-  bool again = false;                  ///< Verilator drew it after the engine
+  std::uint64_t reference_pixels = 0;  ///< covered by the reference; counted if no fragment was drawn
+  bool again = false;                  ///< drawn again by Verilator
   std::optional<ViewDifference> difference;
 };
 
-// An engine, and the scene that it draws from place to place.
+// An engine with its copy of the scene, which it draws from different places.
 class Easel {
  public:
   Easel(Scene scene, std::shared_ptr<Engine> engine, const ViewSettings& settings, const SetupOptions& setup,
@@ -103,7 +103,7 @@ class Easel {
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, setup_);
     drawn.notes = setup->notes();
     drawn.seconds.setup += thread_seconds() - setup_start;
-    // With a thread a frame there is another frame to draw meanwhile.
+    // With one thread per frame another frame can be drawn meanwhile, so make no batch ahead.
     SceneStream stream(*setup, key_, threads_, {.golden = false, .ahead = threads_ > 1});
     if (Status status = rtl.draw(scene_, stream); !status) return status.error();
     drawn.in_view = triangles_in_view(stream.counts());
@@ -140,12 +140,12 @@ class Easel {
   Frame frame_;
 };
 
-// Numbers of frames for the threads, and their frames in that order for whoever takes them.
+// Gives the numbers of the frames to the threads, and outputs their frames in that order.
 class Turn {
  public:
   Turn(const ViewSettings& settings, ViewSummary& summary) : s_(settings), summary_(summary) {}
 
-  /// None when all are drawn or one went wrong.
+  /// std::nullopt if all frames are taken or one failed.
   std::optional<std::uint32_t> next() {
     const std::scoped_lock lock(mutex_);
     if (stop_ || next_ == s_.frames) return std::nullopt;
@@ -160,7 +160,7 @@ class Turn {
     }
     in_turn_.wait(lock, [&] { return taken_ == number || failed_ < number; });
     if (failed_ < number) return;
-    // Alone here until `taken_` goes on.
+    // Only one thread gets here until `taken_` is incremented.
     lock.unlock();
     const Status taken = s_.on_next(number, frame);
     lock.lock();
@@ -173,7 +173,7 @@ class Turn {
     if (drawn->again) summary_.drawn_again.push_back(number);
     ++summary_.frames;
     ++taken_;
-    if (drawn->difference) {  // the last, whatever later ones came to
+    if (drawn->difference) {  // this is the last frame; ignore all later ones
       summary_.difference = drawn->difference;
       error_.reset();
       failed_ = number;
@@ -186,7 +186,7 @@ class Turn {
     }
     in_turn_.notify_all();
   }
-  /// What came from elsewhere, such as out of memory: nobody waits any more.
+  /// Ends all waiting after an exception in a thread, such as lack of memory.
   void abandon() {
     const std::scoped_lock lock(mutex_);
     stop_ = true;
@@ -198,7 +198,7 @@ class Turn {
   std::uint32_t bare() const { return bare_; }
 
  private:
-  // Frames are begun in order: those before the first failure are all drawn, whichever thread is fast.
+  // Frames start in order, so all frames before the first failure are drawn, however fast each thread is.
   void fail(std::uint32_t number, const Error& error) {
     stop_ = true;
     if (number < failed_) {
@@ -217,13 +217,13 @@ class Turn {
   std::mutex mutex_;
   std::condition_variable in_turn_;
   std::uint32_t next_ = 0, taken_ = 0;
-  std::uint32_t failed_ = c_most_view_frames;  ///< the first frame that is not to be taken any more
+  std::uint32_t failed_ = c_most_view_frames;  ///< the first frame that must not be output
   bool stop_ = false;
   std::optional<Error> error_;
   std::uint32_t bare_ = 0;
 };
 
-// "lanes", or "lanes, verilator in frames 3, 8".
+// For example "lanes", or "lanes, verilator in frames 3, 8".
 std::string who_drew(const ViewSummary& s) {
   if (s.drawn_again.empty()) return to_string(s.engine);
   constexpr std::size_t c_named = 10;

@@ -27,18 +27,18 @@ struct ViewSettings {
   SetupOptions setup;
   unsigned threads = 1;
   std::uint32_t frames = 36;         ///< of one turn; 1 to c_most_view_frames
-  bool compare = true;               ///< else the golden model does not draw
-  std::optional<EngineKind> engine;  ///< none: lanes where they pay and can be had, else Verilator
+  bool compare = true;               ///< false: the golden model does not draw
+  std::optional<EngineKind> engine;  ///< std::nullopt: lanes if possible and faster, otherwise Verilator
   SimulatorFolders folders;
-  /// Told the key before its hardware is built, and for what.
+  /// Called with the key and the engine before the hardware is built.
   std::function<void(const std::string& key, EngineKind engine)> on_build = [](const std::string&,
                                                                                EngineKind) {};
-  /// Called once the hardware is there, before anything is drawn.
+  /// Called when the hardware is built, before anything is drawn.
   std::function<Status()> on_ready = []() -> Status { return Ok{}; };
-  /// Called with each frame once it is drawn: by several threads at once, in no order.
+  /// Called with each frame when it is drawn, by several threads at the same time and in any order.
   std::function<Status(std::uint32_t number, const Frame& frame)> on_drawn =
       [](std::uint32_t, const Frame&) -> Status { return Ok{}; };
-  /// Called with each frame in their order, one at a time, after on_drawn.
+  /// Called with each frame in order, one at a time, after on_drawn.
   std::function<Status(std::uint32_t number, const Frame& frame)> on_next =
       [](std::uint32_t, const Frame&) -> Status { return Ok{}; };
 };
@@ -50,7 +50,7 @@ struct ViewSeconds {
   ViewSeconds& operator+=(const ViewSeconds& other);
 };
 
-/// The first frame whose stream differs from the golden model's, or whose hardware went wrong.
+/// The first frame with a difference from the golden model or a fault of the hardware.
 struct ViewDifference {
   std::uint32_t frame;
   Camera camera;
@@ -65,31 +65,31 @@ struct ViewSummary {
   std::uint32_t frames = 0;     ///< drawn; all, unless one differs
   std::uint64_t fragments = 0;  ///< of the RTL, in all frames
   bool compared = true;
-  std::uint64_t in_view = 0;                  ///< triangles, the most in a frame
-  std::uint64_t reference_pixels = 0;         ///< in frames without a fragment, the most in one
-  EngineKind engine = EngineKind::verilator;  ///< which drew
-  std::vector<std::uint32_t> drawn_again;     ///< frames that Verilator drew after it
+  std::uint64_t in_view = 0;                  ///< maximum number of triangles in a frame
+  std::uint64_t reference_pixels = 0;         ///< maximum over the frames without a fragment
+  EngineKind engine = EngineKind::verilator;  ///< the engine that drew
+  std::vector<std::uint32_t> drawn_again;     ///< frames that Verilator drew again
   unsigned threads = 1;
-  double seconds = 0.0;  ///< from when the hardware was there until the last frame was taken
+  double seconds = 0.0;  ///< from the end of the build until the last frame was output
   ViewSeconds parts;
   std::optional<ViewDifference> difference;
-  std::vector<std::string> notes;  ///< what a reader of the figures should know
-  /// As SceneSummary::nothing_compared, of all frames; none where nothing was to be compared.
+  std::vector<std::string> notes;  ///< remarks for a reader of the figures
+  /// As SceneSummary::nothing_compared, for all frames; std::nullopt if no comparison was requested.
   std::optional<std::string> nothing_compared() const;
   double rate() const { return seconds > 0.0 ? frames / seconds : 0.0; }
 };
 
-/// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once: no
-/// effect depends on the camera. Threads draw whole frames, each in an engine of its own, which is not reset
-/// between them. Where lanes would pay, see lanes_pay(), and cannot be had, Verilator draws, with a note. A
-/// frame that differs, or in which the engine ends with a fault, is drawn again in Verilator, unless that
-/// drew it: Verilator reports more, the cycle of a fault and the fragments before it. If Verilator finds no
-/// difference, the engine is wrong: an error with the exit code `differs`. Memory is bounded by the threads,
-/// by the frame, and by SceneStream and the engine, not by the number of frames or of triangles. Ends after
-/// the first frame that differs, which is no error: see ViewSummary::difference.
+/// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once,
+/// because no effect depends on the camera. Each thread draws whole frames in its own engine, which is not
+/// reset between them. If lanes would save time (lanes_pay) but cannot be built, Verilator draws, with a
+/// note. If a frame of lanes differs or ends with a fault, Verilator draws it again, because it reports more:
+/// the cycle of a fault, and the fragments before it. If Verilator finds no difference, the lanes are wrong:
+/// an error with the exit code `differs`. Memory depends on the threads, the frame size, SceneStream and the
+/// engine, not on the number of frames or triangles. Ends after the first frame that differs, which is not an
+/// error: see ViewSummary::difference.
 Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
 
-/// Two lines: frames a second, mismatches; the parts of a frame's time.
+/// Two lines: frames per second and mismatches; the parts of a frame's time.
 std::string to_lines(const ViewSummary& summary);
 
 }  // namespace halfway

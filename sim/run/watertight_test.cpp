@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Closed convex meshes, drawn by the RTL: every covered pixel exactly once, split or not.
+// Closed convex meshes drawn by the RTL: each covered pixel exactly once, with and without splitting.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-// A UV sphere squeezed and turned at random: still convex and closed, so one layer faces the eye.
+// A UV sphere, scaled and rotated at random. It stays convex and closed, so one layer faces the eye.
 Scene random_solid(std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::uniform_int_distribution<std::uint32_t> count(3, 14);
@@ -34,7 +34,7 @@ Scene random_solid(std::mt19937& random) {
   material.exponent = 1.0 + 300.0 * unit(random);
   scene.materials = {material};
   scene.directional.push_back({glm::normalize(glm::dvec3(unit(random), unit(random), 1.0)), glm::dvec3(1.0)});
-  // Near enough that the solid often leaves the frame.
+  // So close that parts of the solid are often outside the frame.
   scene.camera = fit_camera(bounding_sphere(scene), {unit(random) - 0.5, unit(random) - 0.5, 1.0});
   scene.camera.vertical_fov_degrees *= 0.5 + unit(random);
   return scene;
@@ -59,7 +59,7 @@ TEST_P(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
     const Scene scene = random_solid(random);
     const HardwareKey key = plan_scene(scene, {.shader = GetParam()})->key;
     SetupOptions options;
-    // Split nearly everywhere, or nowhere.
+    // Split almost all triangles, or none.
     options.quadratic.threshold = options.spherical.threshold = round % 2 == 0 ? 0.25 : 1e6;
     const auto setup = make_setup(scene, c_frame, key, options);
     SceneStream stream(*setup, key, 2);
@@ -70,9 +70,9 @@ TEST_P(Watertight, TheRtlDrawsEveryPixelOfAClosedSolidOnce) {
     ASSERT_TRUE(rtl->finish(drawn, 1 << 20));
     split += stream.counts().subdivided;
 
-    // What the solid covers, from exact coverage of the whole, unsplit triangles; and the pixels of triangles
-    // that look away from the eye but were turned over by snapping, on the outline, where they lie over their
-    // neighbours.
+    // Expected pixels: exact coverage of the unsplit triangles. On the outline, snapping may turn over
+    // triangles that face away from the eye. Their pixels overlap those of their neighbours and may be drawn
+    // twice.
     using Pixel = std::pair<std::uint32_t, std::uint32_t>;
     std::multiset<Pixel> covered, seen;
     std::set<Pixel> turned_over;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t c_vectors_a_read = 64;
 
-// The simulators write waveforms under the name given, and do not tell of a full disk.
+// The simulators write waveforms directly to the given name and do not report a full disk.
 Result<std::filesystem::path> put_in_place(const std::filesystem::path& written,
                                            const std::filesystem::path& path) {
   if (const std::string note = room_note({path.parent_path()}); !note.empty())
@@ -32,7 +32,7 @@ Result<std::filesystem::path> put_in_place(const std::filesystem::path& written,
   return path;
 }
 
-// Runs the init file until `fragments` have come, or to the end.
+// Runs the init file until `fragments` fragments are drawn, or to its end.
 Status run_until(VerilatorSimulator& simulator, const ResultFiles& files, const std::string& key_name,
                  std::uint64_t fragments) {
   auto file = InitFileReader::open(files.init(), key_name);

@@ -23,14 +23,14 @@
 namespace halfway {
 namespace {
 
-// A field of a flat vector, wherever its block lies.
+// A field of a flat vector, with the position of its block.
 struct PlacedField {
   std::string name;
   golden::Field field;
   int block_low;
 };
 
-// What both sides are given: the fields of a triangle's first vector, and of a line's record.
+// Inputs of both sides: the fields of a triangle's first vector and of a line's record.
 struct Given {
   std::vector<PlacedField> init, record;
 };
@@ -55,7 +55,7 @@ Given spherical_given(const HardwareKey& key) {
   for (int c = 0; c < config.channels; ++c)
     given.init.push_back({channel_name(static_cast<unsigned>(c), key.channels) + " ambient",
                           P::ambient_channel_at::ambient, at.ambient_low(c)});
-  // A slice's part of a record: its header's fields, then a word a channel.
+  // A slice's part of a record: the fields of its header, then one word per channel.
   const auto place = [&](std::span<const golden::Field> header, int header_bits,
                          std::span<const golden::Field> channel, int channel_bits, int channels,
                          const std::string& slice, int low) {
@@ -165,7 +165,7 @@ class Explainer {
   }
 
  private:
-  // An event of the golden model, and the pixel's story that it belongs to.
+  // An event of the golden model, and the number of the story of its pixel.
   struct Expected {
     GoldenEvent event;
     std::optional<std::size_t> story;
@@ -173,7 +173,7 @@ class Explainer {
 
   std::size_t words_per_vector() const { return (setup_->init_bits() + 31) / 32; }
 
-  // The whole frame in Verilator, fragment by fragment.
+  // Compare the whole frame in Verilator, fragment by fragment.
   Status compare_frame() {
     auto engine = open_engine(EngineKind::verilator, key_, s_.folders);
     if (!engine) return engine.error();
@@ -190,12 +190,12 @@ class Explainer {
     report_.fault = run.fault;
     if (run.first.empty()) return Ok{};
     report_.frame_difference = run.first.front();
-    // What comes after the last fragment is of the last triangle.
+    // A fragment after the last golden one belongs to the last triangle.
     if (report_.fragments > 0) first_wrong_ = std::min(run.first.front().index, report_.fragments - 1);
     return Ok{};
   }
 
-  // Those that cover the pixel, and the one with the first fragment that differs.
+  // Choose the triangles that cover the pixel, and the one with the first fragment that differs.
   VectorsAround choose_triangles() {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
     VectorsAround kept(key_);
@@ -217,11 +217,11 @@ class Explainer {
 
   bool is_asked(std::uint32_t x, std::uint32_t y) const { return x == s_.x && y == s_.y; }
 
-  // What is expected of each stage, and the pixel's stories, without the RTL's side.
+  // Draw the expected events of each stage, and the golden part of the pixel's stories.
   void draw_golden(const VectorsAround::Triangle& triangle) {
     const std::vector<Stage>& stages = stages_->stages();
     std::vector<GoldenEvent> events = stages_->draw(triangle.words);
-    std::size_t line = 0, pixel = 0;  // events that began this line, this pixel
+    std::size_t line = 0, pixel = 0;  // first events of this line and of this pixel
     std::vector<std::optional<std::size_t>> story(events.size());
     for (std::size_t i = 0; i < events.size(); ++i) {
       const GoldenEvent& event = events[i];
@@ -257,7 +257,7 @@ class Explainer {
                               words[i].fraction_bits, words[i].is_signed});
   }
 
-  // A stage's events, one by one.
+  // Compare the events of a stage one by one.
   void check(std::size_t stage, const std::vector<RtlEvent>& rtl) {
     const std::string& name = stages_->stages()[stage].name;
     const std::string& entity = stages_->stages()[stage].entity;
@@ -289,7 +289,7 @@ class Explainer {
     }
   }
 
-  // Keeps the earliest; of equal cycles that of the later stage, which holds an earlier pixel.
+  // Keep the earliest difference; of equal cycles that of the later stage, because its pixel is earlier.
   void differ(FirstDifference difference) {
     if (!report_.first || difference.cycle < report_.first->cycle) report_.first = std::move(difference);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// One pixel's way through the hardware, stage by stage, golden model beside RTL; and where the two part. The
-// frame is compared fragment by fragment in Verilator; the triangles that cover the pixel, and the one with
-// the first fragment that differs, are simulated alone in GHDL, whose trace has every stage's registers.
+// The stages of one pixel in the hardware, in golden model and RTL, and their first difference. Verilator
+// compares the whole frame fragment by fragment. GHDL simulates only the triangles that cover the pixel and
+// the one with the first fragment that differs; its trace contains the registers of every stage.
 #pragma once
 
 #include <cstdint>
@@ -30,19 +30,19 @@ struct WhySettings {
   std::function<void(double done)> on_progress = [](double) {};
 };
 
-/// A register or port, as both sides have it.
+/// A register or port in golden model and RTL.
 struct StageValue {
   std::string name;
   std::uint64_t golden = 0;
-  std::optional<std::uint64_t> rtl;  ///< nothing where a bit is neither 0 nor 1
+  std::optional<std::uint64_t> rtl;  ///< std::nullopt if a bit is neither 0 nor 1
   int bits = 0, fraction_bits = 0;
   bool is_signed = false;
 };
 
-/// What a stage held for the pixel.
+/// The values of a stage for the pixel.
 struct StageState {
   std::string stage;                   ///< "line", "span", spherical: "sample", "product"; "fragment"
-  std::optional<std::uint64_t> cycle;  ///< of GHDL's run; nothing where the RTL never came here
+  std::optional<std::uint64_t> cycle;  ///< of GHDL's run; std::nullopt if the RTL has no such event
   std::vector<StageValue> values;
 };
 
@@ -50,12 +50,12 @@ struct StageState {
 struct PixelStory {
   std::uint64_t vector;  ///< number of the init vector in the stream
   std::uint32_t triangle;
-  std::vector<StageValue> init;    ///< golden == rtl: both are given it
-  std::vector<StageValue> record;  ///< of the pixel's line, where lines have records
+  std::vector<StageValue> init;    ///< golden == rtl: both have the same input
+  std::vector<StageValue> record;  ///< of the pixel's line; empty without line records
   std::vector<StageState> stages;
 };
 
-/// Where RTL and golden model part for the first time in GHDL's run.
+/// The first difference between RTL and golden model in GHDL's run.
 struct FirstDifference {
   std::string stage, entity, value;
   std::uint64_t cycle;
@@ -65,10 +65,10 @@ struct FirstDifference {
 
 struct WhyReport {
   HardwareKey key;
-  std::vector<PixelStory> stories;  ///< in the order drawn; empty where nothing covers the pixel
+  std::vector<PixelStory> stories;  ///< in drawing order; empty if no triangle covers the pixel
   std::optional<FirstDifference> first;
   std::optional<Mismatch> frame_difference;  ///< the first fragment of the frame that differs in Verilator
-  std::string fault;                         ///< a hang or the like; empty: none
+  std::string fault;                         ///< for example a hang; empty: none
   std::uint64_t fragments = 0;               ///< golden, in the frame
   std::uint64_t in_view = 0;                 ///< triangles
 };

@@ -25,7 +25,7 @@ inline constexpr const char* c_install_valgrind = "apt-get install valgrind";
                                            const SetupOptions& options, const MadeFormats* formats);
 
 /// For each line of the file, a name: call `each` in a new process, then print the process id and the name on
-/// standard output. All processes start with the same heap, whatever the names, because the allocator's
+/// standard output. All processes start with the same heap, for any names, because the allocator's
 /// instructions depend on its history.
 Status in_processes(const std::filesystem::path& names,
                     const std::function<Status(const std::string&)>& each);

@@ -29,9 +29,9 @@ struct Drawing {
 };
 
 struct Measurement {
-  Frame frame;              ///< of the RTL, where it is hardware's
-  FrameDistance picture;    ///< against the reference, over the pixels that either covers
-  FrameDistance highlight;  ///< over those of Reference::highlight
+  Frame frame;              ///< drawn by the RTL if the method is hardware
+  FrameDistance picture;    ///< compared with the reference, over the pixels that either covers
+  FrameDistance highlight;  ///< over the pixels of Reference::highlight
   std::uint64_t perceived =
       0;  ///< pixels with a visible difference (Yee, at 100 cd/m2 and 45 degrees of view)
   MachBands mach_bands;

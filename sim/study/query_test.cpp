@@ -231,7 +231,7 @@ TEST_F(QueryTest, TheHardwaresOwnClockHasPriority) {
   EXPECT_THAT(mixed, HasSubstr("time in nanoseconds, the"));
   // The clock of one of the three is unknown.
   EXPECT_THAT(ask({.largest_error = 2.0}), HasSubstr("time in cycles, and in nanoseconds where"));
-  // Does not fit: the offer ranks as slower than those that fit, whatever its cycles, and not as unknown.
+  // Does not fit: the offer ranks after those that fit, for any number of cycles, and not as unknown.
   hardware_["processors"].fits = false;
   const std::string fitting = ask({.seconds = 1.0});
   EXPECT_THAT(fitting, HasSubstr("time in nanoseconds, the"));

@@ -14,8 +14,8 @@
 
 namespace halfway::study {
 
-/// All that a point's results depend on besides the point. A record of another provenance is not used, and
-/// the point is measured again.
+/// Everything that a point's results depend on, except the point itself. A record of another provenance is
+/// not used, and the point is measured again.
 struct Provenance {
   std::string scene;       ///< by name
   std::string scene_hash;  ///< over all numbers of the scene

@@ -77,7 +77,7 @@ std::string does_not_fit(const Ice40Cells& cells);
 Result<Packing> read_packing(std::string_view said);
 
 /// Hash of a design's netlist after GHDL, mend_netlist and nameless. Designs with equal hashes are the same
-/// hardware, whatever their names. With equal flow_hash they have the same clock.
+/// hardware, even if their names differ. With equal flow_hash they have the same clock.
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
 
 /// Hash of everything else that a clock depends on, except the tools' versions: Yosys's scripts, the wrapper,

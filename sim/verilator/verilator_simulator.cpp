@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t c_chunk = 1U << 11;  ///< fragments handed on at a time: they stay in the cache
+constexpr std::size_t c_chunk = 1U << 11;  ///< fragments output at a time: they stay in the cache
 
 static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
 static_assert(offsetof(Fragment, triangle) == offsetof(HalfwayFragment, triangle));
@@ -55,7 +55,7 @@ struct VerilatorSimulator::State : Hardware {
 
 Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
                                                     const VerilatorOptions& options) {
-  // The others are for looking at a few cycles, at every wire.
+  // Builds with waveforms or another netlist simulate few cycles, so compile them without optimization.
   const bool fast = options.wave_file.empty() && options.netlist.empty();
   auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
@@ -146,7 +146,7 @@ Status VerilatorSimulator::advance(std::span<const std::uint32_t> init_words, bo
                                  s.options.init_bits));
   HalfwayStreams streams{init_words.data(), init_words.size() / words_per_vector, nullptr, 0, 0};
   for (std::uint64_t left = most;; left -= streams.count) {
-    // One more than allowed, to see whether there is one.
+    // Allow one more than the limit, to detect that it is exceeded.
     streams.fragments = reinterpret_cast<HalfwayFragment*>(s.chunk.data());
     streams.capacity = left < c_chunk ? left + 1 : c_chunk;
     streams.count = 0;

@@ -19,14 +19,14 @@
 namespace halfway {
 
 struct VerilatorOptions {
-  std::uint32_t stall_seed = 0;  ///< 0: full speed; else both streams stall at random, as in tb/frame_tb.vhd
-  std::uint64_t idle_limit = 100'000;  ///< cycles in which nothing moves: a hang
-  std::filesystem::path wave_file{};   ///< FST; empty: none. Another cached build, several times slower
+  std::uint32_t stall_seed = 0;        ///< 0: full speed; otherwise random stalls as in tb/frame_tb.vhd
+  std::uint64_t idle_limit = 100'000;  ///< cycles without progress that count as a hang
+  std::filesystem::path wave_file{};   ///< FST; empty: none. Uses another cached build, several times slower
   std::uint64_t waves_from = 0, waves_to = UINT64_MAX;  ///< cycles [from, to)
-  std::string compiler{};                               ///< empty: clang++ where it is installed, else g++
-  bool plain_eval = false;  ///< only through Verilator's eval(), to test the harness's shorter way
-  /// Verilog with the key's top and its ports, in place of what GHDL makes of the RTL; such as what Yosys
-  /// makes of that.
+  std::string compiler{};                               ///< empty: clang++ if installed, otherwise g++
+  bool plain_eval = false;  ///< use only Verilator's eval(), to test the harness's direct calls
+  /// Verilog with the key's top and its ports, which replaces GHDL's netlist of the RTL. For example that
+  /// netlist after synthesis by Yosys.
   std::string netlist{};
 };
 
@@ -37,16 +37,16 @@ class VerilatorSimulator final : public Engine {
                                          const VerilatorOptions& options = {});
 
   EngineKind kind() const override { return EngineKind::verilator; }
-  /// Without waveforms.
+  /// The other engine writes no waveforms.
   Result<std::shared_ptr<Engine>> another() const override;
-  /// Returns when the last vector is taken. Another fault is a payload that does not stand still.
+  /// Returns when the last vector is accepted. A payload that changes while it waits is a fault, too.
   Status draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
               const OnDrawn& on_drawn) override;
   Status drain(std::uint64_t most, const OnDrawn& on_drawn) override;
   std::optional<std::uint64_t> cycles() const override;
 
  private:
-  struct Hardware;  // what others of the same share
+  struct Hardware;  // shared by all objects for the same hardware
   struct State;
   static Result<VerilatorSimulator> with_model(std::shared_ptr<State> state);
   explicit VerilatorSimulator(std::shared_ptr<State> state) : state_(std::move(state)) {}

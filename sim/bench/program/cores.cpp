@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What several threads gain, compared with work that shares nothing.
+// Speed-up by several threads, compared with work that shares nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,9 +18,9 @@
 namespace halfway {
 namespace {
 
-/// Times of work that threads share, one of its pieces after the other.
+/// Times of pieces of work. Each thread takes the next piece when it has finished one.
 struct Shared {
-  double seconds, processor;  ///< by the clock, and of all threads
+  double seconds, processor;  ///< elapsed time; processor time of all threads
 };
 Shared share(unsigned threads, std::size_t pieces, const std::function<void(unsigned, std::size_t)>& work) {
   std::atomic<std::size_t> next = 0;
@@ -49,8 +49,8 @@ std::vector<std::span<const std::uint32_t>> fifths_of(const InitBatches& s) {
 
 }  // namespace
 
-// Golden model, lanes and comparison of fifths of frames that the threads take by turns, and after each the
-// yardstick on as many threads.
+// Golden model, lanes and comparison of fifths of frames, which the threads take one after another. After
+// each measurement the yardstick runs on the same number of threads.
 void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
   constexpr std::size_t c_frames = 12;
   constexpr int c_repetitions = 15;
@@ -63,8 +63,8 @@ void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
     engines.push_back(must(open_engine(EngineKind::lanes, s.key, c_folders)));
     goldens.push_back(make_golden_model(s.key));
   }
-  // The speed of a core changes with time: one thread is compared with several right after it. The best of
-  // its times would be compared with moments in which all cores were fast together.
+  // The speed of a core changes with time, so compare several threads with one thread of the same repetition.
+  // The best time of one thread over all repetitions would be a moment in which all cores were fast.
   struct Ratios {
     std::vector<double> speed, processor, yardstick, beside;
   };

@@ -20,7 +20,7 @@ struct Point {
   int repetitions;
 };
 
-/// Which part of a frame's time is compared with a line.
+/// The part of a frame's time to which a line is fitted.
 enum class Fitted { all, drawing, nothing };
 
 constexpr FrameSize c_growth_frame{1000, 1000};
@@ -52,9 +52,9 @@ Measurements::Counters counters_of(const FrameCost& cost) {
   return counters;
 }
 
-// The mean of all repetitions, at the pace of the run's best moment. Not the best of all: the largest frames
-// take a minute, over which the load of the machine evens out, and the smallest would find a quiet
-// millisecond.
+// The mean of all repetitions, scaled to the pace of the run's best moment. The best repetition is not used:
+// the largest frames take a minute, over which the machine's load averages out, but the smallest would find a
+// millisecond without load.
 FrameCost typical(const Measurements& measurements, const Point& point, double best_pace) {
   const auto value = [&](const char* statistic, const char* counter) {
     return measurements.statistic(point.name, statistic, counter).value();
@@ -84,7 +84,7 @@ struct Growth::Series {
 
 namespace {
 
-// The same with a term for lines.
+// The fit with an additional term for lines.
 Json lines_note(const std::vector<Point>& points, std::vector<Terms> rows, std::span<const double> t) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const InitBatches batches =

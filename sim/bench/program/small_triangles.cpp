@@ -13,7 +13,7 @@ void measure_small_triangles(Json& speed) {
   constexpr FrameSize c_frame{500, 500};
   std::vector<std::pair<double, Scene>> scenes;
   for (const double wanted : {1.25, 3.0, 10.0, 30.0, 100.0}) {
-    // So many pixels for each triangle that covers one.
+    // Number of triangles for which each triangle that covers a pixel covers `wanted` pixels.
     double triangles = 1e5;
     for (int i = 0; i < 4; ++i) {
       const InitBatches all = must(make_batches(sphere_scene(static_cast<std::uint64_t>(triangles)), c_frame,
