@@ -13,7 +13,7 @@ namespace {
 
 using golden::Exact, golden::Published;
 
-// The largest difference between a golden interpolator and start + k slope over so many steps, for real
+// The largest difference between a golden interpolator and start + k slope over `steps` steps, for real
 // starts and slopes that are rounded as in setup. Angles that wrap are compared modulo the word.
 template <int Bits>
 Finding drift(int fraction, std::int64_t steps, int tries) {

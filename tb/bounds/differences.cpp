@@ -255,8 +255,8 @@ struct Drawn {
   std::string samples;
 };
 
-// A right triangle of `side` lines and pixels with a vertical start edge, drawn with so many fraction bits.
-// As in setup, the value contains half a colour step for rounding.
+// A right triangle of `side` lines and pixels with a vertical start edge, drawn with FractionBits fraction
+// bits. As in setup, the value contains half a colour step for rounding.
 template <class P, int FractionBits>
 Drawn right_triangle(int side, int sample_bits, int tries, std::int64_t stride) {
   const std::array<ScreenPoint, 3> points = {{{0, 0}, {side * c_unit, side * c_unit}, {0, side * c_unit}}};

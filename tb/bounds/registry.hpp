@@ -87,7 +87,7 @@ struct RuleCase {
 };
 RuleCase published_rule_case();
 
-/// The drift of the spherical paper's angle with so many bits below the table's address.
+/// The drift of the spherical paper's angle with `bits_below` bits below the table's address.
 struct DriftRow {
   int bits_below, steps;
   double addresses;  ///< addresses of the table, in both directions; found by the golden interpolator

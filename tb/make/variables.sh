@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Whether the Makefile refuses a variable that a target does not use, and whether its table is that of its recipes.
+# Tests that the Makefile refuses unused variables, and that its table of variables agrees with its recipes.
 #
 #   variables.sh MAKEFILE WORK_FOLDER
 set -u
@@ -17,14 +17,14 @@ fail() {
   failures=$((failures + 1))
 }
 
-# The table as the Makefile itself reports it: the targets, the variables of one target, all variables.
+# The table as reported by the Makefile: the targets, the variables of one target, all variables.
 targets() { sed -n 's/^\([a-z0-9-]*\):[^=].*/\1/p; s/^\([a-z0-9-]*\):$/\1/p' "$1" | sort -u; }
 taken() { make -f "$1" -n "$2" NO_SUCH_VARIABLE=1 2>&1 | sed -n 's/.* uses: \(.*\)\.  Stop\.$/\1/p' | sed 's/^no variables$//' | xargs -n 1 | sort -u; }
 known() { sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' "$1" | sort -u; }
-# The variables in the recipes of a target and of all that it depends on.
+# The variables in the recipes of a target and of all targets that it depends on.
 used() { make -f "$1" -n "$2" 2>/dev/null | grep -oE '\$\{?[A-Z_]+' | tr -d '${' | sort -u | comm -12 - <(known "$1"); }
 
-# Whether a target's recipes use exactly what the table says.
+# True if a target's recipes use exactly the variables in the table.
 agrees() { [ "$(used "$1" "$2")" = "$(taken "$1" "$2")" ]; }
 
 # Without these files, make report would call make again.
@@ -37,13 +37,13 @@ for target in $(targets Makefile); do
     fail "make $target: its recipe uses $(used Makefile "$target" | xargs), its table says $(taken Makefile "$target" | xargs)"
 done
 
-# The check above finds a variable that the table lacks, and one too many.
+# The check above must detect a variable that is missing in the table, and one too many.
 sed 's/^\(takes_why := .*\) PIXEL/\1/' Makefile >lacking.mk
 sed 's/^\(takes_search := .*\)/\1 PIXEL/' Makefile >surplus.mk
 ! agrees lacking.mk why || fail "a variable that the table lacks is not found"
 ! agrees surplus.mk search || fail "a variable too many in the table is not found"
 
-# Refused: exit code 2, a message that names all that matters, and nothing done.
+# Expected refusal: exit code 2, a complete message, and no other action.
 refused() { # arguments of make, words of the message
   local arguments=$1 output word
   shift
@@ -68,10 +68,10 @@ accepted 'make -n sim "SCENE=a b=c \$(touch touched)" SIZE=9x9 OUT='
 [ ! -e touched ] || fail 'make runs the text of a variable'
 accepted 'make -n tables ADDRESS_BITS=10 DATA_BITS=9'
 accepted 'make -n sim compare SIZE=9x9'
-# The environment is not the command line.
+# Variables in the environment are not refused.
 accepted 'ADDRESS_BITS=10 make -n sim'
 
-# Every variable of the table is explained.
+# make help must explain every variable of the table.
 make help >help.log || fail 'make help fails'
 for name in $(known Makefile); do
   grep -q "^  $name  *[^ ]" help.log || fail "make help does not explain $name"

@@ -37,7 +37,7 @@ Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::str
                      c_install);
 }
 
-// The first message of the tool stands for those that follow from it.
+// Prints only the tool's first message, because the others follow from it.
 Error no_verdict(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
   constexpr std::size_t c_most_characters = 1000;
   return tool_failed(fmt::format("{}: {} gave no verdict ({}):\n{}", proof.unit, tool, end.how(),
@@ -172,8 +172,8 @@ Status write_formal_verilog(const std::filesystem::path& folder, const Proof& pr
 
 // ---- Solvers
 
-// ABC works bit by bit. It finds the refutation of a fault in seconds where cvc5 takes minutes, whatever
-// method proves the property; but it refuses a netlist without registers.
+// ABC works bit by bit. It finds the refutation of a fault in seconds where cvc5 needs minutes, for any
+// method that proves the property. It refuses a netlist without registers.
 bool uses_abc(const Proof& proof, const Fault* fault) {
   return proof.method == Method::pdr || proof.method == Method::bounded_abc ||
          (fault != nullptr && proof.clocks > 1);

@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# A full disk: exit code 3, a message that names a file or folder and "No space left on device", and nothing left
-# that is half written. On a small tmpfs of its own name space.
+# With a full disk a command must end with exit code 3 and a message with a file or folder and "No space left on
+# device", and leave no incomplete file. Uses a small tmpfs in its own mount name space.
 #
 #   tb/robustness/disk.sh HALFWAY GENERATOR CHECKOUT SCRATCH
 #
-# Exit codes: 0 all held, 1 something did not, 77 no tmpfs can be mounted here.
+# Exit codes: 0 passed, 1 failed, 77 skipped because no tmpfs can be mounted.
 set -u
 if [ "${HALFWAY_DISK_INSIDE-}" = '' ]; then
   as_root=-r
@@ -30,7 +30,7 @@ fail() {
   failed=1
 }
 
-# An empty disk of so many KiB, of which the last are free.
+# Mount a disk of this size in KiB, of which the given number of KiB is free.
 new_disk() { # size free
   umount "$disk" 2>/dev/null
   mount -t tmpfs -o "size=$1k" tmpfs "$disk" || exit 1
@@ -41,7 +41,7 @@ sums() { # folder
   (cd "$1" && find . -name '*.vhd' -exec cksum {} + | sort)
 }
 
-# The command must fail for want of room and leave no file but those allowed.
+# The command must fail with a full disk and leave only files that match the pattern.
 expect_full() { # what allowed-pattern command...
   local what=$1 allowed=$2 status left
   shift 2
@@ -54,7 +54,7 @@ expect_full() { # what allowed-pattern command...
   echo "$what: $(grep 'No space left on device' "$scratch/log" | tail -n 1)"
 }
 
-# Results: files that were finished before are whole, and may stay; no summary says that they are all.
+# Results: finished files may stay and must be complete. There must be no summary, because results are missing.
 sim=("$halfway" sim spheres --size 160x120 --threads 1)
 for free in 0 8 100 400 1000; do
   for simulator in ghdl verilator; do
@@ -75,15 +75,15 @@ new_disk 1024 8
 expect_full 'init, 8 KiB' '^$' "$halfway" init spheres --file "$disk/init.txt"
 expect_full 'render, 8 KiB' '^$' "$halfway" render spheres --size 160x120 --file "$disk/picture.png"
 
-# Caches: our own files, then GHDL's.
+# Caches of this project, then GHDL's.
 rm -rf "$scratch/source"
 mkdir -p "$scratch/source"
 for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"; done
 ln -s "$disk" "$scratch/source/build"
 for free in 0 300 1200; do
   new_disk 8192 "$free"
-  # What is there under its last name is whole: the sources, and a netlist of them, where what is made of these had
-  # no room.
+  # Files with their final names must be complete: the sources, and a netlist of them. The files made from these did not
+  # fit.
   expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/(rtl/[a-z_/]*\.vhd|netlists/[a-z_]*-[0-9a-f]*\.v)$' \
     "$halfway" --source "$scratch/source" "${sim[@]:1}" --out "$scratch/out"
   for entry in "$disk"/cache/ghdl/[0-9a-f]*/rtl; do
@@ -94,7 +94,7 @@ for free in 0 300 1200; do
   done
 done
 
-# Tables: the files as they were.
+# Tables: the old files must be unchanged.
 new_disk 4096 4096
 mkdir -p "$disk/rtl/tables" "$disk/model/golden" "$disk/docs/rtl"
 "$generator" --source "$disk" tables >/dev/null || fail 'tables with room'
@@ -105,7 +105,7 @@ expect_full tables '/(rtl/tables|model/golden|docs/rtl)/[a-z_-]*\.[a-z]*$' "$gen
 [ "$before" = "$(cd "$disk" && cksum rtl/tables/* model/golden/* docs/rtl/*)" ] || fail 'tables: a file has changed'
 umount "$disk"
 
-# A folder that may not be written is bad usage, not a full disk. Root may write everywhere but here.
+# A read-only folder is bad usage, not a full disk. Root can write to all folders except on a read-only mount.
 mount -t tmpfs -o ro tmpfs "$disk" || exit 1
 for command in "${sim[*]} --out $disk/out" "$halfway render matte --size 24x18 --file $disk/x.png" \
   "$halfway init matte --size 24x18 --file $disk/x.txt"; do

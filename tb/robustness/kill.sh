@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# kill -9 at moments drawn by chance: whatever it breaks off, nothing passes for whole that is not, and the next
-# run ends well with the same results as an undisturbed one.
+# kill -9 at random moments. No incomplete file may count as complete, and the next run must give the same results as an
+# undisturbed run.
 #
 #   tb/robustness/kill.sh HALFWAY GENERATOR CHECKOUT SCRATCH [KILLS [SEED]]
 #
-# Exit codes: 0 all held, 1 something did not.
+# Exit codes: 0 passed, 1 failed.
 set -u
 halfway=$(realpath "$1")
 generator=$(realpath "$2")
@@ -24,7 +24,7 @@ fail() {
   failed=1
 }
 
-# Runs a command in a process group of its own and kills the group after so many milliseconds.
+# Runs a command in its own process group and kills the group after the given time.
 kill_after() { # milliseconds command...
   local after=$1
   shift
@@ -35,7 +35,7 @@ kill_after() { # milliseconds command...
   wait "$group" 2>/dev/null
 }
 
-# The same as soon as the folder holds a file of that name, finished or not.
+# The same, but kills the group when the file exists under its final or its temporary name.
 kill_at() { # file command...
   local file=$1
   shift
@@ -46,7 +46,7 @@ kill_at() { # file command...
   wait "$group" 2>/dev/null
 }
 
-# A text file of ours is whole with its last line, a PNG with its last chunk.
+# A complete text file has its last line, a complete PNG its last chunk.
 check_files() { # folder
   local file
   for file in "$1"/*; do
@@ -58,7 +58,7 @@ check_files() { # folder
   done
 }
 
-# Seconds differ from run to run.
+# Print the results without measured seconds, which differ from run to run.
 results() { # folder
   sed -e '/seconds"/d' -e 's/, *$//' "$1/summary.json"
   (cd "$1" && cksum init.txt ./*.trace ./*.png)
@@ -66,7 +66,7 @@ results() { # folder
 
 draw=(sim matte --size 320x240 --threads 1)
 
-# ---- make sim, its caches too
+# ---- make sim and its caches
 rm -rf "$scratch/source" "$scratch/out" "$scratch/calm"
 mkdir -p "$scratch/source"
 for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"; done
@@ -85,7 +85,7 @@ check_run() {
   fi
 }
 for ((i = 0; i < kills; ++i)); do
-  # The first half falls into the building of caches, which is done at once where they are whole.
+  # The first half of the kills interrupts the building of caches. With complete caches a run is much shorter.
   if ((2 * i < kills)); then moment=$((RANDOM % 6000 + 100)); else moment=$((RANDOM % 900 + 20)); fi
   printf 'sim: killed after %d ms\n' "$moment"
   kill_after "$moment" "${run[@]}"
@@ -106,7 +106,7 @@ cmp <(results "$scratch/calm/matte/quadratic") <(results "$folder") || fail "res
 left=$(find "$folder" -name '*part*' -o -name '.halfway-*')
 [ -z "$left" ] || fail "left behind: $left"
 
-# ---- make tables: two sizes in turn
+# ---- make tables, alternately with two sizes
 tree=$scratch/tree
 sizes=(--preset published --address-bits 5 --data-bits 6)
 tables() { "$generator" --source "$1" tables "${@:2}"; }
@@ -126,7 +126,7 @@ for ((i = 0; i < 3 * kills; ++i)); do
     cmp -s "$file" "$scratch/usual/$name" || cmp -s "$file" "$scratch/other/$name" || fail "$name is of neither size"
   done
 done
-# What lies about for a minute is nobody's.
+# Temporary files older than a minute count as abandoned.
 find "$tree" -name '*.part-*' -exec touch -d '2 minutes ago' {} +
 tables "$tree" "${sizes[@]}" >/dev/null && tables "$tree" >/dev/null || fail "the last tables"
 diff -r "$scratch/usual" "$tree" >/dev/null || fail "the tables differ from the undisturbed run's, or something is left behind"

@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs at once in one checkout: each ends well, with the results of a run alone.
+# Runs at the same time in one checkout: each must succeed with the results of a single run.
 #
 #   tb/robustness/together.sh HALFWAY GENERATOR CHECKOUT SCRATCH
 #
-# Exit codes: 0 all held, 1 something did not.
+# Exit codes: 0 passed, 1 failed.
 set -u
 halfway=$(realpath "$1")
 generator=$(realpath "$2")
@@ -25,7 +25,7 @@ results() { # out scene
 draw=(--size 128x96 --threads 2)
 "$halfway" sim matte spheres "${draw[@]}" --out "$scratch/alone" >/dev/null || fail 'the run alone'
 
-# The same scenes twice, one of them alone, and tables beside: those of the checkout, which stay as they are.
+# Two runs of the same scenes, one of a single scene, and runs of make tables; the checkout's tables must not change.
 pids=()
 names=()
 start() {
@@ -50,7 +50,7 @@ done
 (cd "$scratch/tree" && for file in rtl/tables/* model/golden/*; do cmp -s "$file" "$checkout/$file" || exit 1; done) ||
   fail 'tables written by two at once'
 
-# A run that has begun no longer lets an earlier run's results pass, of scenes that it has not come to either.
+# When a run starts, old results of all its scenes become invalid, also of scenes that it has not drawn yet.
 "$halfway" sim spheres matte --size 320x240 --threads 1 --simulator ghdl --out "$scratch/out" >"$scratch/log" 2>&1 &
 run=$!
 while [ -f "$scratch/out/matte/quadratic/summary.json" ] && kill -0 $run 2>/dev/null; do sleep 0.02; done

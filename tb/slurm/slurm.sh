@@ -1,14 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Studies on a real Slurm: munged, slurmctld and slurmd of this machine's own, started here and ended here. The job
-# array's table equals the local run's byte for byte; a task that is killed is tried again by Slurm; a study that
-# is killed goes on where it was, and what a task then finds damaged is told. First with a point a task, then with
-# placements, by stand-ins for Yosys and nextpnr, then with frames that are cut into tiles: of those the pictures that
-# are put together equal the local run's and those of the frames in one.
+# Runs studies on a real Slurm: starts and stops munged, slurmctld and slurmd on this machine. Checks that the table of
+# a job array equals that of a local run byte for byte, that Slurm repeats a killed task, that a killed study continues
+# with the results that it has, and that a damaged file found by a task is reported. Three kinds of studies: one point
+# per task; placements, with replacements for Yosys and nextpnr; and frames in tiles, whose assembled pictures must
+# equal those of the local run and of frames in one piece.
 #
 #   tb/slurm/slurm.sh HALFWAY CHECKOUT SCRATCH
 #
-# Exit codes: 0 all held, 1 something did not, 3 Slurm is not installed, 77 it cannot run here.
+# Exit codes: 0 passed, 1 failed, 3 Slurm is not installed, 77 skipped because the daemons cannot run.
 set -u
 halfway=$(realpath "$1")
 checkout=$(realpath "$2")
@@ -36,10 +36,10 @@ for tool in munged slurmctld slurmd sbatch squeue scontrol scancel; do
   }
 done
 
-# ---- Slurm, all of it in the scratch folder
+# ---- Slurm, with all its files in the scratch folder
 
 daemons=()
-# What a pattern in a command line names, of this test alone: its folder is in it.
+# Process ids of commands that match the pattern. The pattern contains the folder of this test.
 ours() { # pattern
   for process in /proc/[0-9]*; do
     { tr '\0' ' ' <"$process/cmdline"; } 2>/dev/null | grep -q -- "$1" && echo "${process#/proc/}"
@@ -47,7 +47,7 @@ ours() { # pattern
 }
 finish() {
   [ -n "${SLURM_CONF-}" ] && timeout 10 scancel --user "$(id -un)" --quiet 2>/dev/null
-  # Job steps outlive slurmd; they name the worker and its folder.
+  # Job steps continue after slurmd's end. Their command lines contain the worker and its folder.
   for id in $(ours "$scratch/.*--part"); do kill -KILL "$id" 2>/dev/null; done
   for ((i = ${#daemons[@]} - 1; i >= 0; i--)); do kill -TERM "${daemons[i]}" 2>/dev/null; done
   for ((i = ${#daemons[@]} - 1; i >= 0; i--)); do
@@ -57,7 +57,7 @@ finish() {
     done
     kill -KILL "${daemons[i]}" 2>/dev/null
   done
-  # slurmstepd changes its name; its environment keeps the configuration.
+  # slurmstepd changes its command line, but its environment still names the configuration.
   for process in /proc/[0-9]*; do
     if grep -qs '^slurmstepd' "$process/comm" &&
       { tr '\0' '\n' <"$process/environ"; } 2>/dev/null | grep -qx "SLURM_CONF=$scratch/slurm.conf"; then
@@ -84,7 +84,7 @@ chmod 711 "$scratch/munge"
 chmod 700 "$scratch/state"
 head -c 1024 /dev/urandom >"$scratch/munge/key"
 chmod 600 "$scratch/munge/key"
-# Credentials of 5 s: as long as a requeued job waits before it runs again.
+# Credentials expire after 5 s: a requeued job waits for this time before it runs again.
 cat >"$scratch/slurm.conf" <<END
 ClusterName=halfway
 SlurmctldHost=$node(127.0.0.1)
@@ -133,7 +133,7 @@ done
   skip "Slurm does not run here: $(tail -qn 1 "$scratch/slurmctld.log" "$scratch/slurmd.log" 2>/dev/null)"
 note "$(slurmctld -V): the node is idle"
 
-# ---- What both studies are asked
+# ---- Steps common to the studies
 
 run_local() { # name, arguments of the study...
   local name=$1
@@ -147,7 +147,7 @@ same_table() { # name, name of the local run
   cmp "$scratch/$2/study.csv" "$scratch/$1/study.csv" || fail "$1: another table than the local run's"
 }
 
-# Starts the study, and kills the first of its tasks that runs.
+# Start the study and kill its first running task.
 run_with_a_task_killed() { # name, arguments of the study...
   local name=$1 run killed='' tries retried
   shift
@@ -164,7 +164,7 @@ run_with_a_task_killed() { # name, arguments of the study...
   [ "$retried" = 1 ] || fail "$name: $retried tasks were tried again after one was killed"
 }
 
-# Starts the study, and kills it and its tasks when it has some of the records with this word, but not all.
+# Start the study. Kill it and its tasks when some, but not all, records contain this word.
 run_until_killed() { # name, how many, word, arguments of the study...
   local name=$1 most=$2 word=$3 run tries
   shift 3
@@ -184,12 +184,12 @@ run_until_killed() { # name, how many, word, arguments of the study...
   touch "$scratch/moment"
 }
 
-# Records with this word.
+# Records that contain this word.
 kept() { # name, word
   grep -ls -- "$2" "$scratch/$1"/points/*.json
 }
 
-# How many, by what the tasks say that have run since.
+# The number in the messages of the tasks that ran since the kill.
 said() { # name, what
   find "$scratch/$1/slurm" -name 'task-*.log' -newer "$scratch/moment" -exec grep -ho "[0-9]* $2" {} + |
     awk '{ count += $1 } END { print count + 0 }'
@@ -205,7 +205,7 @@ go_on() { # name, how many, what, arguments of the study...
   note "$name: killed with $before records, $anew $what when it went on"
 }
 
-# ---- Points: hardware, and frames that take a task a second or two each
+# ---- Points: hardware, and software frames that need a task one or two seconds each
 
 cat >"$scratch/space.toml" <<END
 [[sweep]]
@@ -234,7 +234,7 @@ grep -q "note: $damaged: damaged; the point is measured again" "$scratch/resumed
   fail "a task found a damaged frame, which was not told: $(cat "$scratch/resumed.log")"
 same_table resumed local
 
-# ---- Placements: a seed a task, each task another one, and one that was there before
+# ---- Placements: one seed per task, of which one was placed by an earlier part
 
 mkdir "$scratch/bin"
 cat >"$scratch/bin/yosys" <<'END'
@@ -260,7 +260,7 @@ echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critica
 END
 chmod +x "$scratch/bin/yosys" "$scratch/bin/nextpnr-ice40"
 
-# A checkout without pinned clocks, whose cache has nothing of what stands in.
+# A checkout without pinned clocks. Its cache contains nothing from Yosys and nextpnr.
 checkout_without_clocks() { # name
   local root=$scratch/checkout-$1 folder
   mkdir -p "$root/tb/synth" "$root/build/cache"
@@ -293,7 +293,7 @@ same_table placed-array placed-local
 note "placements as a job array: $(tail -n 1 "$scratch/placed-array.log")"
 PATH=$path
 
-# ---- Tiles: 6 of each of three pictures, and of the reference
+# ---- Tiles: 6 for each of three pictures, and 6 for the reference
 
 cat >"$scratch/tiles.toml" <<END
 [[sweep]]
@@ -325,7 +325,7 @@ same_table tiles-array tiles
 same_frames tiles-array whole
 note "tiles as a job array, a task killed and tried again by Slurm: $(cat "$scratch/tiles-array.log")"
 run_until_killed tiles-resumed 24 '"tile":' "${on_slurm[@]}"
-# Whose tiles are gone, 6 each: points but Phong's, which is the reference.
+# The tiles of an assembled point are removed: add 6 for each, except for Phong's point, which is the reference.
 for record in $(kept tiles-resumed '"figures":'); do
   grep -q '"point": "phong' "$record" || before=$((before + 6))
 done

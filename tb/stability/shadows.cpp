@@ -383,7 +383,7 @@ using Request = golden::Exact::request_header_at;
 using Axes = golden::Exact::light_axes_header_at;
 using Walked = golden::Exact::init_header_at;
 
-// The stream of a wall of one line, with so many polygons of light 1 before it that open and close volumes.
+// The stream of a wall of one line, after `opening` and `closing` shadow polygons of light 1.
 std::vector<std::uint32_t> counted(const Scene& scene, FrameSize frame, ProcessorForm form, int around,
                                    int opening, int closing, HardwareKey& key) {
   std::vector<std::uint32_t> words;

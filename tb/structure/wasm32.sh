@@ -16,7 +16,7 @@ command -v $compiler >/dev/null || fail "$compiler: not found; install it with: 
 [ -d /usr/include/wasm32-wasi ] || fail 'wasi-libc: not found; install it with: apt-get install wasi-libc' 3
 [ -d /usr/include/wasm32-wasi/c++/v1 ] || fail 'libc++: not found; install it with: apt-get install libc++-14-dev-wasm32' 3
 
-# Headers of two libraries are taken from /usr/include, and nothing else there: it is another system's.
+# Use only these two libraries of /usr/include, because its other headers are those of another system.
 rm -rf "$scratch"
 mkdir -p "$scratch/include"
 ln -s /usr/include/glm /usr/include/fmt "$scratch/include"

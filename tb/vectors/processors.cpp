@@ -162,7 +162,7 @@ std::string name_of(const ProcessorsConfig& c) {
                      c.specular, c.normalize, c.shadows);
 }
 
-// Shadow polygons of one column until its count leaves its format, and some more.
+// More shadow polygons of one column than its count can represent.
 constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
 
 // A line: token; the output token, fault afterwards.

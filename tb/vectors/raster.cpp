@@ -221,7 +221,7 @@ struct LineRecord {
   }
 };
 
-// In: clear, token; out: the output tokens.
+// In: clear, token. Out: the output tokens.
 template <class Preset>
 Status write_objects(const std::filesystem::path& folder) {
   using At = typename Preset::pixel_header_at;
@@ -240,7 +240,7 @@ Status write_objects(const std::filesystem::path& folder) {
     if (twin.passes(command, x, z, triangle)) out.words_of(token, c_bits).end_vector();
   };
   for (int line = 0; line < 90; ++line) {
-    // On few columns a token meets the one before; lines of the frame's whole width now and then.
+    // Use few columns, so that tokens often share one. Some lines use the frame's last columns.
     const std::int64_t first = random.one_in(3) ? random.between(0, 4090) : 4096 - 6 * random.between(1, 2);
     const std::int64_t columns = random.between(1, 6), objects = random.between(1, 12);
     struct Span {
@@ -249,15 +249,15 @@ Status write_objects(const std::filesystem::path& folder) {
     std::vector<Span> drawn;
     const auto triangle = static_cast<std::uint32_t>(random.bits(32));
     for (std::int64_t i = 0; i < objects; ++i) {
-      // Depths that meet, and such as differ in their highest or lowest bit alone.
+      // Equal depths, and depths that differ only in their highest or lowest bit.
       constexpr std::uint32_t c_depths[] = {0, 1, 0x7fffff, 0x800000, 0xffffff};
       const std::uint32_t z = random.one_in(3) ? static_cast<std::uint32_t>(random.word(Preset::c_depth_bits))
                                                : c_depths[random.between(0, 4)];
       drawn.push_back({static_cast<std::uint32_t>(first + random.between(0, columns - 1)), z,
-                       // The same one, or another in a single bit.
+                       // The same triangle, or one that differs in a single bit.
                        triangle ^ (random.one_in(3) ? 0 : 1U << random.between(0, 31))});
     }
-    // Often each object is drawn right behind its depth.
+    // In some lines each object is drawn directly after its depth.
     const bool at_once = random.one_in(3);
     for (const Span& s : drawn) {
       put(Command::depth, s.x, s.z, s.triangle);
@@ -268,13 +268,13 @@ Status write_objects(const std::filesystem::path& folder) {
       put(Command::shadow, s.x, (s.z + static_cast<std::uint32_t>(random.between(-1, 1))) & 0xffffff,
           static_cast<std::uint32_t>(random.bits(32)));
     }
-    // A clear that finds something, now and then; or the next line comes upon what this one left.
+    // Sometimes clear the state here, or leave it to the next line without drawing.
     if (random.one_in(3)) {
       in.flag(true).words_of(random_vector(random, c_bits), c_bits).end_vector();
       twin.clear();
     }
     if (random.one_in(6)) continue;
-    // Twice: each pixel is given once.
+    // Draw twice: each pixel must be output once.
     for (int round = 0; round < 2; ++round)
       for (const Span& s : drawn) put(Command::draw, s.x, s.z, s.triangle);
   }

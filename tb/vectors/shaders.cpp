@@ -53,7 +53,7 @@ void put_colours(InitVector& init, Random& random, int channels) {
 // promises. Clocks count from the first accepted init vector.
 class QuadraticClock {
  public:
-  /// Most clocks that are lost after a triangle of so many pixels.
+  /// The largest number of clocks that may be lost after a triangle of `pixels` pixels.
   static std::int64_t may_lose(std::int64_t pixels) { return std::max<std::int64_t>(2 - pixels, 0); }
 
   /// The clock in which the next vector is accepted.
