@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sets the machine up, builds, and calls `halfway`; the program itself holds everything else.
+# Installs tools, builds, and calls `halfway`. All other functions are in the program.
 
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 
-# The variables that each target takes. A variable on the command line that no target of the call takes is an error:
-# it would be ignored.
+# The variables that each target uses. A variable on the command line that no given target uses is an error:
+# otherwise it would be ignored.
 drawing := SCENE SHADER FORM PRESET SIZE ALL_EFFECTS LIGHTS
 takes_sim := $(drawing) SIMULATOR OUT THREADS JOBS
 takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
@@ -38,7 +38,7 @@ takes_build := JOBS
 takes_program := JOBS
 takes_generator := JOBS
 
-# What `make help` says of each variable.
+# The text of `make help` for each variable.
 about_SCENE := a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)
 about_SHADER := quadratic, spherical or processors   (default: quadratic)
 about_FORM := folded or unrolled shading processors   (default: unrolled)
@@ -59,26 +59,26 @@ about_OBJECTS := objects per pixel that the shading processors draw
 about_SPACE := a TOML file of designs
 about_FULL := 1: make study: the whole space of designs; make mutate: all faults
 about_TILE := larger frames are drawn in tiles of WIDTHxHEIGHT   (default: 1280x960)
-about_ERROR := the cheapest hardware within so many steps of 1/255
-about_PSNR := the cheapest hardware of at least so many dB
-about_TIME := the best hardware in such a time, as in 10ms
-about_CLOCK := MHz of hardware whose clock is not known
+about_ERROR := query: the cheapest hardware with a largest error of at most this many steps of 1/255
+about_PSNR := query: the cheapest hardware with at least this PSNR in dB
+about_TIME := query: the best hardware that draws a frame in this time, such as 10ms
+about_CLOCK := MHz assumed for hardware whose clock is unknown
 about_PLACE := 1: place and route hardware for its clock, minutes for each design
-about_PIN := 1: pin the figures instead of comparing them; make study PLACE=1: the clocks
-about_EXECUTOR := local, or slurm: as a job array   (default: local)
+about_PIN := 1: store the figures instead of comparing them; make study PLACE=1: store the clocks
+about_EXECUTOR := local or slurm (a job array)   (default: local)
 about_PARTS := tasks of the job array   (default: 64)
 about_ADDRESS_BITS := address bits of the cosine tables   (default: 9; published 6)
 about_DATA_BITS := data bits of the cosine tables   (default: 8; published 6)
 about_TESTS := a regular expression: only the tests that match
 about_ENTITY := the entity whose testbench runs, such as triangle_walker
-about_FILES := only C++ files with this in their paths   (default: all)
+about_FILES := only C++ files with this text in their paths   (default: all)
 about_SECONDS := seconds for each fuzzer   (default: 60)
-about_TARGET := one fuzzer alone
-about_TRIANGLES := random triangles   (default: 10000000)
-about_SEED := which random triangles   (default: 1)
-about_PROOF := only proofs with this in their names, such as raster/edge_walker   (default: all)
-about_DESIGN := only designs with this in their names   (default: all)
-about_SEEDS := seeds of placement   (default: 3)
+about_TARGET := only this fuzzer
+about_TRIANGLES := number of random triangles   (default: 10000000)
+about_SEED := seed of the random triangles   (default: 1)
+about_PROOF := only proofs with this text in their names, such as raster/edge_walker   (default: all)
+about_DESIGN := only designs with this text in their names   (default: all)
+about_SEEDS := number of placement seeds   (default: 3)
 about_JOBS := parallel compilations, tests and fuzzers   (default: all cores)
 
 variables_in_order = $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
@@ -94,20 +94,20 @@ $(error make $(goals) does not use $(unused): $(if $(call users_of,$(unused)),it
   $(call users_of,$(unused)),no target uses it); make $(goals) uses: $(or $(strip $(used)),no variables))
 endif
 
-# Values travel through the environment and are quoted where they are used: neither make nor a shell ever reads them as
-# code.
+# Values are passed in the environment and quoted where they are used, so that neither make nor a shell executes them
+# as code.
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
 
 jobs := $${JOBS:-$$(nproc)}
 option = $${$(1):+$(2)="$$$(1)"}
-# A flag is given where its variable is neither empty nor 0.
+# Passes a flag if its variable is neither empty nor 0.
 flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
-# One set-up, configuration or build at a time in this checkout: ninja would write into the other's files.
-# What is started does not inherit the lock: it would outlive this make in whatever that leaves running.
+# Only one set-up, configuration or build at a time in this checkout: two runs of ninja would overwrite each other's
+# files. The commands do not inherit the lock (-o): a background process would keep it after the end of make.
 lock = mkdir -p build && { flock -n build/make.lock true || echo 'waiting for another make in this checkout' >&2; } \
   && flock -o build/make.lock
-# What is built with sanitizers: make sanitize and make fuzz share it.
+# The build with sanitizers, which make sanitize and make fuzz share.
 sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ninja -DHALFWAY_SANITIZE=ON \
   -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
 scene := $${SCENE:+-- "$$SCENE"}
@@ -129,48 +129,48 @@ help: ## this list
 	@echo
 	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
 	@echo
-	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600, and the targets that take each'
+	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600, and the targets that use each'
 	@printf '  %s\t%s   [%s]\n' $(foreach name,$(variables_in_order),'$(name)' '$(about_$(name))' \
 	  '$(if $(filter JOBS,$(name)),every target that builds,$(call users_of,$(name)))') | expand -t 16
 
-sim: program ## scenes through golden model, GHDL and Verilator: compare, write frames
+sim: program ## draw scenes by golden model, GHDL and Verilator, compare, write frames
 	@build/halfway sim $(sim_options) $(scene)
 
-view: program ## one scene from all sides, by the RTL in Verilator or lanes (SCENE; VIDEO=turn.mp4, TERMINAL=1)
+view: program ## draw one scene from all sides, by the RTL in Verilator or lanes (SCENE; VIDEO=turn.mp4, TERMINAL=1)
 	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
 	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
 	  $(call flag,TERMINAL,--terminal) $(scene)
 
-compare: program ## the frames that make sim left, once more
+compare: program ## compare the stored results of make sim again
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \
 	  $(call option,OUT,--out) $(scene)
 
-why: program ## one pixel stage by stage, golden beside RTL (SCENE, PIXEL)
+why: program ## show one pixel stage by stage, in golden model and RTL (SCENE, PIXEL)
 	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)
 
-plan: program ## the hardware that a scene calls for, and why (SCENE; MEASURE=1: cells and time)
+plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEASURE=1: cells and time)
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
 	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
 
-savings: program ## the tables of docs/effects.md, measured again: minutes
+savings: program ## measure the tables of docs/effects.md again (minutes)
 	@build/halfway savings $(call option,THREADS,--threads)
 
-study: program ## accuracy against time over the design space (FULL=1; SCENE; ERROR, PSNR, TIME ask; EXECUTOR=slurm)
+study: program ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/studies/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
 	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) $(call flag,PIN,--pin) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 
-slurm-test: configure ## a study as a job array on a Slurm that the test starts on this machine, and ends
+slurm-test: configure ## test a study as a job array, on a Slurm that the test starts and stops on this machine
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway
 	@tb/slurm/slurm.sh build/halfway . build/tb/slurm
 
-figures: program ## what the papers print, drawn and measured anew: published beside measured, in docs/results/figures
+figures: program ## draw and measure the papers' figures and tables again; write docs/results/figures
 	@build/halfway figures --out build/figures --page docs/results/figures
 
-# What the page is made of is made first where it is missing; GHDL draws by shading processors for minutes.
-report: program ## one HTML page: frames, accuracy against time, effects, figures, waveforms, tables
+# Missing parts of the page are made first. The shading processors are drawn only by Verilator: GHDL needs minutes.
+report: program ## write one HTML page: frames, accuracy against time, effects, figures, waveforms, tables
 	@for shader in quadratic spherical processors; do for scene in sim/scenes/*.toml; do name=$$(basename "$$scene" .toml); \
 	  [ -f "build/out/$$name/$$shader/summary.json" ] || build/halfway sim --shader $$shader \
 	    $$([ $$shader != processors ] || echo --simulator verilator) -- "$$name" || [ $$? = 1 ] || exit 3; done; done
@@ -178,93 +178,93 @@ report: program ## one HTML page: frames, accuracy against time, effects, figure
 	@[ -f build/figures/figures.json ] || [ -f docs/results/figures/figures.json ] || $(MAKE) figures
 	@build/halfway report
 
-check-report: build ## the page of make report in headless Chromium, by mouse and by keys
+check-report: build ## test the page of make report in headless Chromium, with mouse and keys
 	@ctest --test-dir build --output-on-failure --no-tests=error -R '^ReportPage'
 
-diagrams: setup ## the shaders' block diagrams in rtl/diagrams, drawn from their text
+diagrams: setup ## draw the shaders' block diagrams in rtl/diagrams from their text
 	@scripts/diagrams.sh build/diagrams
 
-gallery: program ## the pictures in docs/results/gallery, drawn again by the RTL; README.md's plot, measured again
+gallery: program ## draw the pictures in docs/results/gallery by the RTL, and measure README.md's plot, again
 	@scripts/gallery.sh build/gallery
 	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
 	@build/halfway report --study build/gallery/study --front docs/results/gallery --readme README.md
 
-tables: generator ## write ROMs and formats anew
+tables: generator ## write the generated ROMs and formats
 	@build/halfway_generator tables $(table_options)
 
 check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
-test: build mcode ## every test
+test: build mcode ## run every test
 	@unset MAKEFLAGS; flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
 
-testbench: configure ## one VHDL testbench in GHDL, on vectors from the golden model (ENTITY)
+testbench: configure ## run one VHDL testbench in GHDL, with vectors from the golden model (ENTITY)
 	@[ -n "$$ENTITY" ] || { echo 'testbench: give ENTITY=name, such as make testbench ENTITY=triangle_walker' >&2; exit 2; }
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
 	@ctest --test-dir build --output-on-failure --no-tests=error -R "^tb\.$$ENTITY\$$"
 
 # Warnings of clang-tidy and of GHDL are errors.
-lint: configure ## clang-tidy on the C++ (FILES: only some), GHDL's warnings on the VHDL
+lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
 	@scripts/lint.sh build "$(jobs)" "$$FILES"
 	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^RtlLint'
 
-sanitize: setup ## every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
+sanitize: setup ## run every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
 	@unset MAKEFLAGS; LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/fuzz/leaks.txt:print_suppressions=0" flock -o build/test.lock \
 	  ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
 	  $${TESTS:+--tests-regex "$$TESTS"}
 
-fuzz: setup ## libFuzzer on every kind of input (SECONDS each; TARGET: one alone)
+fuzz: setup ## run libFuzzer on every kind of input (SECONDS each; TARGET: only one)
 	@$(sanitized) --target halfway_fuzz_targets
 	@scripts/fuzz.sh "$${SECONDS:-60}" "$(jobs)" $${TARGET:+"$$TARGET"}
 
-kills: build ## the long form of the tests with kill -9: 60 moments in place of a few
+kills: build ## run the long form of the tests with kill -9: 60 moments instead of a few
 	@tb/robustness/kill.sh build/halfway build/halfway_generator . build/tb/kills 60
 
-mutate: configure ## small faults in the hardware, which the tests must find: a sample, or thousands (FULL=1)
+mutate: configure ## insert small faults into the hardware, which the tests must find: a sample, or thousands (FULL=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
 	@build/tb/halfway_vectors all build/tb/vectors
 	@build/tb/halfway_mutants --step "$$(case "$$FULL$$DESIGN" in ('' | 0) echo 10 ;; (*) echo 1 ;; esac)" --jobs "$(jobs)" \
 	  $$([ -n "$$DESIGN" ] || echo --page docs/results/mutants.md) . build/tb/vectors build/tb/mutants $${DESIGN:+"$$DESIGN"}
 
-prove: configure ## formal proofs on the RTL, each with faults that it must refute (PROOF: only some, and no page)
+prove: configure ## prove properties of the RTL; each proof must also refute faults (PROOF: only some, without a page)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
 	@build/tb/halfway_proofs $$([ -n "$$PROOF" ] || echo --page docs/results/proofs.md) . build/proofs $${PROOF:+"$$PROOF"}
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
-stability: configure ## hard cases, in specification, golden model and RTL: what breaks, and what holds
+stability: configure ## test hard cases in specification, golden model and RTL
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability halfway_page
 	@rm -rf build/stability
 	@printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 \
 	  '--gtest_filter={}/HardCases.Full/*' --gtest_output=xml:build/stability/{}.xml
 	@build/tb/halfway_page docs/results/hard_cases.md $(families:%=build/stability/%.xml)
 
-search: configure ## random triangles in golden model and RTL; what fails is shrunk and kept (TRIANGLES, SEED)
+search: configure ## test random triangles in golden model and RTL; reduce and store a failing input (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
 	  --page=docs/results/hard_cases.md --keep=tb/stability/regressions .
 
-bounds: configure ## every bound of formats and tables: derived, proved, and how near the worst found comes
+bounds: configure ## check every error bound of formats and tables: derivation, proof, largest error found
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds halfway_page
 	@build/tb/halfway_bounds --gtest_brief=1 '--gtest_filter=*.Full/*:Checks.*' --gtest_output=xml:build/bounds.xml
 	@build/tb/halfway_page docs/results/bounds.md build/bounds.xml
 
-synth: configure ## cells on two FPGAs, and the clock on one, against what is pinned (DESIGN, SEEDS, PIN=1)
+synth: configure ## compare cells on two FPGAs and the clock on one with the stored figures (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
 	@build/tb/halfway_synth --check $(synth_options)
 	@build/tb/synth_frames
 	@build/tb/halfway_synth $(synth_options)
 
-bench: configure mcode ## speed: other ways to the same picture, growth, small triangles, cores; writes its page
+bench: configure mcode ## measure speed: ways to the same picture, growth, small triangles, cores; write the page
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
 	@build/halfway_bench --jobs "$(jobs)" --page docs/results/speed.md
 
-# GHDL's other back end, beside the installed one.
+# GHDL's other back end, in addition to the installed one.
 mcode: setup
-	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || echo 'without it: its way is skipped' >&2
+	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || echo 'ghdl-mcode is missing and will be skipped' >&2
 
-build: program ## program and tests
+build: program ## build program and tests
 	@$(lock) cmake --build build -j "$(jobs)"
 
 program: configure
@@ -273,14 +273,14 @@ program: configure
 generator: configure
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_generator
 
-# Again when set-up found a change on the machine; from scratch when the checkout has moved.
+# Configures again if set-up has changed the machine, and from scratch if the checkout was moved.
 configure: setup
 	@$(lock) sh -c 'here=$$(pwd -P); key=$$(cat build/setup*.stamp); fresh=; cd "$$here"; \
 	if ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$$here" build/CMakeCache.txt; then fresh=--fresh; \
 	elif [ -f build/configure.stamp ] && [ "$$(cat build/configure.stamp)" = "$$key" ]; then exit 0; fi; \
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
-# Installs what scripts/packages.txt lists and the machine lacks: for every target the groups build and sim.
+# Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
 with_tools := bench bounds check-report diagrams figures format check-format fuzz gallery lint mutate prove report sanitize \
   savings slurm-test study synth test
 setup:
@@ -289,7 +289,7 @@ setup:
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,tools)) \
 	  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,tools))
 
-doctor: ## tools and libraries found, and the command that mends what is missing
+doctor: ## list tools and libraries, and the command that installs the missing ones
 	@sh scripts/setup.sh --doctor
 
 format: setup ## format C++ and VHDL
