@@ -161,7 +161,7 @@ void add_compare(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub = app.add_subcommand(
       "compare", "compare the results of sim: traces field by field, frames pixel by pixel");
   auto command = std::make_shared<CompareCommand>();
-  sub->add_option("scene", command->scenes, "as for sim; none: all built-in scenes");
+  sub->add_option("scene", command->scenes, "as for sim (default: all built-in scenes)");
   sub->add_option("--shader", command->shader, c_shader_names)->capture_default_str();
   sub->add_flag("--all-effects", command->all_effects, "the results of sim --all-effects");
   sub->add_option("--out", command->out, "folder of results")->capture_default_str();

@@ -116,17 +116,17 @@ int run(const Folders& folders, const FiguresCommand& command) try {
 
 void add_figures(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub =
-      app.add_subcommand("figures", "draw the papers' figures, and compare their numbers with ours");
+      app.add_subcommand("figures", "draw the papers' figures and compare their numbers with measurements");
   auto command = std::make_shared<FiguresCommand>();
   sub->add_option("figure", command->only, "such as spherical-05, or spherical (default: all)");
   sub->add_option("--out", command->out, "folder for pictures, README.md and figures.json")
       ->capture_default_str();
   auto* page = sub->add_option(
       "--page", command->page,
-      "folder that takes them too, once all is well; times there stay until a verdict changes");
+      "second folder, written if all figures agree; its times change only if a verdict changes");
   sub->add_flag("--check", command->check,
-                "draw by the golden model, measure what is quick, and fail where docs/results/figures has "
-                "anything else")
+                "draw by the golden model, measure only quick figures, and fail if docs/results/figures "
+                "differs")
       ->excludes(page);
   sub->add_option("--threads", command->threads, "threads (0: all cores)")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });

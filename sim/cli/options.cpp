@@ -91,11 +91,11 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
   command.add_option("--out", out, "folder for results")->capture_default_str();
   command.add_option("--highlight-test", highlight_test,
-                     "quadratic: when a triangle is split in four: none, centroid (as published), or\n"
+                     "quadratic: test for splitting a triangle in four: none, centroid (as published), or\n"
                      "conservative (default: conservative in preset exact, centroid in published)");
   command.add_option(
       "--threshold", threshold,
-      fmt::format("error past which a triangle is split (quadratic) or cut into columns (spherical, preset\n"
+      fmt::format("error above which a triangle is split (quadratic) or cut into columns (spherical, preset\n"
                   "exact), in colour steps of 1/255 (default: {})",
                   QuadraticSetupOptions{}.threshold));
   command.add_option("--max-level", max_level,
@@ -107,20 +107,20 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--data-bits", data_bits, "spherical: data bits of the cosine tables");
   command.add_flag(
       "--all-effects", all_effects,
-      "elaborate every effect that the shader has, not only those that the scene calls for, with\n"
-      "coefficients of zero; the frame stays the same");
+      "elaborate every effect of the shader, not only those that the scene needs; unused effects\n"
+      "have coefficients of zero, and the frame stays the same");
   command.add_option(
       "--lights", lights,
-      "spherical and processors, with --all-effects: for how many lights, up to 16 (default: the\n"
-      "scene's, and at least one)");
+      "spherical and processors, with --all-effects: number of lights, up to 16 (default: that\n"
+      "of the scene, at least one)");
   command.add_option("--form", form,
-                     "processors: unrolled, an object a clock, or folded, as published: one datapath a\n"
-                     "processor, several clocks an object (default: unrolled)");
+                     "processors: unrolled, one object per clock, or folded, as published: one datapath\n"
+                     "per processor, several clocks per object (default: unrolled)");
   command.add_option(
       "--span-ends", span_ends,
-      "spherical, preset exact: vectors at a span's ends from the surface, or by slerp along the\n"
-      "edges, as published: never cut into columns, however large the error, so bad where a light is\n"
-      "close (default: surface)");
+      "spherical, preset exact: surface or slerp: vectors at a span's ends from the surface, or by\n"
+      "slerp along the edges, as published: never cut into columns, so errors are large close to a\n"
+      "light (default: surface)");
   command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
       ->capture_default_str();
 }

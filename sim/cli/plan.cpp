@@ -311,18 +311,18 @@ int run(const Folders& folders, const PlanCommand& command) {
 }  // namespace
 
 void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub = app.add_subcommand("plan", "the hardware that a scene calls for, and why");
+  CLI::App* sub = app.add_subcommand("plan", "list the hardware that a scene needs, with reasons");
   auto command = std::make_shared<PlanCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
   command->draw.add_to(*sub);
   sub->add_flag(
       "--measure", command->measure,
-      "count cells by Yosys, and cycles and seconds by simulation, as called for and with all effects;\n"
-      "also each effect's own cells; of the shading processors this takes some minutes, for ten lights many");
-  sub->add_option("--simulator", command->simulators, "to measure in: ghdl or verilator (default: both)");
+      "count cells by Yosys, and cycles and seconds by simulation, for the scene and with all effects;\n"
+      "also the cells of each effect. Takes minutes for shading processors, longer for ten lights");
+  sub->add_option("--simulator", command->simulators, "for --measure: ghdl or verilator (default: both)");
   sub->add_option("--objects", command->objects,
-                  "objects a pixel: how many shading processors keep up (processors paper, table 5)");
-  sub->add_option("--rate", command->rate, "frames a second, for the same (default: 30)");
+                  "objects per pixel, for the number of processors (processors paper, table 5)");
+  sub->add_option("--rate", command->rate, "frames per second, for the same table (default: 30)");
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 

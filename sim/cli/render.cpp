@@ -90,14 +90,13 @@ int run(const Folders& folders, const RenderCommand& command) {
 }  // namespace
 
 void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub =
-      app.add_subcommand("render", "draw a scene in software, and measure it against the reference");
+  CLI::App* sub = app.add_subcommand("render", "draw a scene in software and compare it with the reference");
   auto command = std::make_shared<RenderCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
   command->draw.add_to(*sub);
   sub->add_option("--method", command->method,
                   "reference, gouraud or golden; spherical-fixed or spherical-both: spherical interpolation\n"
-                  "in double, with one vector held fixed or both interpolated")
+                  "in double, with one vector fixed or both interpolated")
       ->capture_default_str();
   sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });

@@ -74,16 +74,16 @@ int run(const Folders& folders, const ReportCommand& command) {
 
 void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
   const auto command = std::make_shared<ReportCommand>();
-  CLI::App* sub = app.add_subcommand("report", "write one HTML page of what the other commands left");
+  CLI::App* sub = app.add_subcommand("report", "write one HTML page with the results of the other commands");
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
-  sub->add_option("--results", command->results, "what sim left")->capture_default_str();
-  sub->add_option("--study", command->study, "what study left")->capture_default_str();
+  sub->add_option("--results", command->results, "results of sim")->capture_default_str();
+  sub->add_option("--study", command->study, "results of study")->capture_default_str();
   sub->add_option("--figures", command->figures,
-                  "what figures left (build/figures, else docs/results/figures)");
-  sub->add_flag("--no-timing", command->no_timing, "no timing diagrams, and so no GHDL");
+                  "results of figures (build/figures, otherwise docs/results/figures)");
+  sub->add_flag("--no-timing", command->no_timing, "omit the timing diagrams, which need GHDL");
   sub->add_option(
       "--front", command->front,
-      "folder for front.svg and front.csv, the plot of a study's error against cells, and no page");
+      "write front.svg and front.csv, a study's error against cells, to this folder, and no page");
   sub->add_option("--readme", command->readme,
                   "with --front: a page whose parts \"front\" and \"shaders\" are written");
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });

@@ -49,10 +49,10 @@ int run(const Folders& folders, const SavingsCommand& command) {
 
 void add_savings(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub =
-      app.add_subcommand("savings", "measure the tables of docs/effects.md again and write them: minutes");
+      app.add_subcommand("savings", "measure the tables of docs/effects.md again and write them (minutes)");
   const auto command = std::make_shared<SavingsCommand>();
-  sub->add_option("--threads", command->threads, "at a time (0: all cores)")->capture_default_str();
-  sub->add_flag("--draw", command->draw, fmt::format("measure nothing: write what {} has", c_savings));
+  sub->add_option("--threads", command->threads, "threads (0: all cores)")->capture_default_str();
+  sub->add_flag("--draw", command->draw, fmt::format("do not measure; write the figures of {}", c_savings));
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 

@@ -190,14 +190,14 @@ void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   auto options = std::make_shared<SimOptions>();
   command->add_option("scene", options->scenes,
                       "a built-in scene's name, a scene file (.toml) or a mesh (.obj .ply .stl .gltf .glb);\n"
-                      "none: all built-in scenes");
+                      "default: all built-in scenes");
   options->draw.add_to(*command);
   command->add_option("--simulator", options->simulators,
                       "ghdl or verilator (default: both), or lanes: many copies of the RTL at once (see\n"
-                      "sim/lanes), which tell no cycles");
+                      "sim/lanes), which report no cycles");
   command
       ->add_option("--stalls", options->stall_seed,
-                   "stall both streams at random, by this seed (0: full speed)")
+                   "stall both streams at random, with this seed (0: full speed)")
       ->capture_default_str();
   command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
 }

@@ -268,10 +268,10 @@ int run(const Folders& folders, const StudyCommand& command) {
 
 void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
   const auto command = std::make_shared<StudyCommand>();
-  CLI::App* study = app.add_subcommand("study", "measure accuracy against time over a space of designs");
+  CLI::App* study = app.add_subcommand("study", "measure accuracy and time over a space of designs");
   study->add_option("SCENE", command->scene, "a built-in scene, a TOML file or a mesh file (a grey sphere)");
   study->add_option("--space", command->space,
-                    "TOML file of the designs (sim/studies/small.toml; for a question designs.toml)");
+                    "TOML file of the designs (sim/studies/small.toml; for a query designs.toml)");
   study->add_option("--size", command->size, "WIDTHxHEIGHT, of every point (the space's)");
   study->add_option("--tile", command->tile,
                     "WIDTHxHEIGHT: larger frames are drawn in tiles of this size (the space's, or 1280x960)");
@@ -287,8 +287,8 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
       fmt::format("write placed clocks, and hardware that does not fit, into {}", synth::c_study_pins));
   study
       ->add_option("--out", command->out,
-                   fmt::format("folder for results: the table {}, of a question {}, and points/",
-                               c_study_table, c_question_table))
+                   fmt::format("folder for results: the table {}, of a query {}, and points/", c_study_table,
+                               c_question_table))
       ->capture_default_str();
   study->add_option("--threads", command->threads, "points at a time (0: all cores)")->capture_default_str();
   study->add_option("--executor", command->executor, "local, or slurm: as a job array (sbatch)")
@@ -298,9 +298,9 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
                     "slurm: an additional option of sbatch, such as --partition=short");
   study->add_option(
       "--part", command->part,
-      "I/N: measures this part of the points, with --place of placements too, and writes no table");
+      "I/N: measure only this part of the points (with --place: and of the placements); no table");
   study->add_option("--set-up", command->set_up,
-                    "a file of points' names: makes their init vectors and no more, to be counted");
+                    "a file with names of points: only make their init vectors, for counting instructions");
   study->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
 

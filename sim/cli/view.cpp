@@ -351,31 +351,30 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
   command->draw.add_to(*sub);
   CLI::Option* out = sub->get_option("--out");
   out->description(
-      "folder for frame_0000.png and on; older frames there are removed (default:\n"
+      "folder for frame_0000.png and so on; older frames in it are removed (default:\n"
       "build/out/<scene>/<shader>/view; none with --video or --terminal)");
   out->default_str("");
   sub->get_option("--threads")->description("threads, each of which draws whole frames (0: all cores)");
-  sub->add_option("--frames", command->frames,
-                  fmt::format("of one turn of the camera around its target, 1 to {}", c_most_view_frames))
+  sub->add_option(
+         "--frames", command->frames,
+         fmt::format("frames of one turn of the camera around its target, 1 to {}", c_most_view_frames))
       ->capture_default_str();
-  sub->add_option("--format", command->format, "of images: png or ppm (default: png)");
+  sub->add_option("--format", command->format, "format of images: png or ppm (default: png)");
   sub->add_option("--video", command->video, "file for a video, by ffmpeg, such as turn.mp4");
   sub->add_option("--rate", command->rate,
-                  fmt::format("frames a second that the video shows, 1 to {} (default: {}, the papers')",
+                  fmt::format("frames per second of the video, 1 to {} (default: {}, as in the papers)",
                               c_most_rate, c_usual_rate));
   sub->add_flag("--terminal", command->terminal, "draw in the terminal, by half blocks");
-  sub->add_option(
-      "--columns", command->columns,
-      "with --terminal: width of the pictures, which are then written to what is no terminal too\n"
-      "(default: the terminal's)");
-  sub->add_option("--colours", command->colours,
-                  "with --terminal: 24bit or 256 (default: as COLORTERM says)");
+  sub->add_option("--columns", command->columns,
+                  "with --terminal: width of the pictures; they are then also written without a terminal\n"
+                  "(default: the terminal's)");
+  sub->add_option("--colours", command->colours, "with --terminal: 24bit or 256 (default: by COLORTERM)");
   sub->add_option("--simulator", command->engine,
-                  "verilator; lanes: many copies of the RTL in one vector, faster, and longer to build; or\n"
+                  "verilator; lanes: many copies of the RTL in one vector, faster, but longer to build; or\n"
                   "auto: lanes from 2^26 pixels of all frames on, with AVX-512, quadratic and spherical")
       ->capture_default_str();
   sub->add_flag("--no-compare", command->no_compare,
-                "leave the golden model out: faster, and nothing says whether the frames are right");
+                "do not compare with the golden model: faster, but the frames are not checked");
   sub->callback([=, &folders, &exit_code] {
     command->out_given = out->count() != 0;
     exit_code = run(folders, *command);

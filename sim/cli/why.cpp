@@ -147,7 +147,7 @@ int run(const Folders& folders, const WhyCommand& command) {
 }  // namespace
 
 void add_why(CLI::App& app, const Folders& folders, int& exit_code) {
-  CLI::App* sub = app.add_subcommand("why", "a pixel's way stage by stage, golden model beside RTL");
+  CLI::App* sub = app.add_subcommand("why", "show one pixel stage by stage, in golden model and RTL");
   auto command = std::make_shared<WhyCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
   sub->add_option("--pixel", command->pixel, "x,y from the frame's top left")->required();

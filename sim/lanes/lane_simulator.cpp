@@ -195,13 +195,13 @@ Status LaneSimulator::Passage::draw() {
     case HALFWAY_BUFFER_FULL:
       return too_many(limit);
     case HALFWAY_HANG:
-      return Error{
-          ExitCode::differs,
-          fmt::format("{} in lanes: hang: nothing moved in a lane for as long as is allowed, after {} "
-                      "cycles of all lanes",
-                      s_.key.name(), s_.cycles_of_all())};
+      return Error{ExitCode::differs,
+                   fmt::format("{} in lanes: hang: no progress in a lane within the idle limit, after {} "
+                               "cycles of all lanes",
+                               s_.key.name(), s_.cycles_of_all())};
     case HALFWAY_FAULT:
-      return Error{ExitCode::differs, fmt::format("{} in lanes: the hardware tells a fault", s_.key.name())};
+      return Error{ExitCode::differs,
+                   fmt::format("{} in lanes: the hardware reports a fault", s_.key.name())};
     default:
       return tool_failed(fmt::format("{} in lanes: unknown status {}", s_.key.name(), worst.load()));
   }
