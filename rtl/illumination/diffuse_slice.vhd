@@ -15,7 +15,7 @@
 -- Latency     1 clock from span_load to lit, 1 from span_step to the sample stage, 3 from sample_step to products
 -- Throughput  1 pixel per clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
--- Source      spherical paper, section 5 and figure 12 (diffuse part)
+-- Source      spherical paper, section 4 and figure 12 (diffuse part)
 -- Golden twin model/golden/diffuse_slice.hpp
 
 library ieee;

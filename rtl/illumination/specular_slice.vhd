@@ -16,7 +16,7 @@
 --             products
 -- Throughput  1 pixel per clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
--- Source      spherical paper, section 5 and figure 12 (specular part): preset published has only cosine squared, and
+-- Source      spherical paper, section 4 and figure 12 (specular part): preset published has only cosine squared, and
 --             its bells have no ends. Other powers and in_range are ours
 -- Golden twin model/golden/specular_slice.hpp
 

@@ -34,7 +34,7 @@
 -- Throughput  with line_ready = '1' 1 fragment per clock, within and between spans and triangles. Exceptions: a triangle
 --             takes 2 clocks at least, and an empty line takes 1 clock if no span is drawn meanwhile.
 -- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
--- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter)
+-- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter); spherical paper, section 5, figure 13
 -- Golden twin model/golden/triangle_walker.hpp
 
 library ieee;

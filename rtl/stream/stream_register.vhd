@@ -8,7 +8,7 @@
 -- Latency     1 clock
 -- Throughput  1 word per clock
 -- Error       none: each word comes out once, unchanged, in order
--- Source      quadratic paper, section 5 (the next triangle is initialized while this one is drawn); valid/ready is
+-- Source      quadratic paper, section 6 (the next triangle is initialized while this one is drawn); valid/ready is
 --             ours
 -- Golden twin model/golden/stream_register.hpp
 

@@ -8,7 +8,7 @@
 -- Latency     1 clock from an address with enable to its sample
 -- Throughput  1 sample per clock
 -- Error       half a step of the sample, plus half a cell of the angle times the greatest slope: see cosine_pkg
--- Source      spherical paper, section 5 and figure 11
+-- Source      spherical paper, section 4 and figure 11
 -- Golden twin model/golden/cosine_rom.hpp
 
 library ieee;
