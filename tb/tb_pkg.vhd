@@ -6,6 +6,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use std.textio.all;
 use work.formats_pkg.all;
+use work.line_pkg.all;
 
 package tb_pkg is
 
@@ -22,6 +23,12 @@ package tb_pkg is
     -- Reads the next word of this vector.
     procedure read_word (word : out std_logic_vector);
     procedure read_flag (flag : out std_logic);
+    -- Drives `target` with the next word of this vector; a line with one word per field.
+    procedure drive (signal target : out std_logic);
+    procedure drive (signal target : out std_logic_vector);
+    procedure drive (signal target : out unsigned);
+    procedure drive (signal target : out signed);
+    procedure drive (signal target : out line_t);
     -- Compares `got` with the next word of this vector.
     procedure check_word (name : in string; got : in std_logic_vector);
     -- As check_word if `checked` is '1'; otherwise skips the word.
@@ -30,6 +37,8 @@ package tb_pkg is
     procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic);
     -- Reads the next word as a number below 2**31.
     impure function read_number return natural;
+    -- Compares the only word of the next vector with the hardware's latency.
+    procedure expect_latency (latency : in natural);
     -- Stops the run. The message gives the file and the number of the vector.
     procedure fail (message : in string);
   end protected;
@@ -53,10 +62,10 @@ package body tb_pkg is
 
   type vectors_t is protected body
     file vectors         : text;
-    variable file_name   : line;
-    variable text_in     : line;
-    variable position    : positive;
-    variable count       : natural;
+    variable file_name : line;
+    variable text_in   : line;
+    variable position  : positive;
+    variable count     : natural;
 
     procedure fail (message : in string) is
     begin
@@ -139,12 +148,62 @@ package body tb_pkg is
       flag := word(0);
     end procedure;
 
+    procedure drive (signal target : out std_logic) is
+      variable flag : std_logic;
+    begin
+      read_flag(flag);
+      target <= flag;
+    end procedure;
+
+    procedure drive (signal target : out std_logic_vector) is
+      variable word : std_logic_vector(target'range);
+    begin
+      read_word(word);
+      target <= word;
+    end procedure;
+
+    procedure drive (signal target : out unsigned) is
+      variable word : std_logic_vector(target'range);
+    begin
+      read_word(word);
+      target <= unsigned(word);
+    end procedure;
+
+    procedure drive (signal target : out signed) is
+      variable word : std_logic_vector(target'range);
+    begin
+      read_word(word);
+      target <= signed(word);
+    end procedure;
+
+    procedure drive (signal target : out line_t) is
+    begin
+      drive(target.triangle);
+      drive(target.y);
+      drive(target.start);
+      drive(target.stop);
+      drive(target.remaining);
+      drive(target.empty);
+      drive(target.backward);
+      drive(target.carry);
+    end procedure;
+
     impure function read_number return natural is
       variable word : std_logic_vector(31 downto 0);
     begin
       read_word(word);
       return to_integer(unsigned(word));
     end function;
+
+    procedure expect_latency (latency : in natural) is
+      variable expected : natural;
+    begin
+      expect_vector("the latency");
+      expected := read_number;
+      if latency /= expected then
+        fail("the latency is " & to_string(latency) & ", expected " & to_string(expected));
+      end if;
+    end procedure;
 
     -- Hexadecimal. If a digit has metavalues, append all bits.
     function to_text (word : std_logic_vector) return string is

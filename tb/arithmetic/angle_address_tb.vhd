@@ -32,8 +32,7 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_address_bits) & ".txt");
     while vectors.next_vector loop
-      vectors.read_word(word);
-      angle <= word;
+      vectors.drive(angle);
       wait for 1 ns;
       vectors.check_word("address of " & to_hstring(word), address);
       vectors.check_flag("in_range of " & to_hstring(word), in_range);

@@ -31,24 +31,16 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable base_now : std_logic_vector(base'range);
-    variable exponent_now : std_logic_vector(exponent'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= power_latency(g_exact) then
-      vectors.fail("the latency is another than the hardware's, " & to_string(power_latency(g_exact)));
-    end if;
+    vectors.expect_latency(power_latency(g_exact));
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(base_now);
-      vectors.read_word(exponent_now);
-      enable     <= enable_now;
-      base       <= base_now;
-      exponent   <= exponent_now;
+      vectors.drive(enable);
+      vectors.drive(base);
+      vectors.drive(exponent);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "result", result);
     end loop;

@@ -30,21 +30,15 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable square_now : std_logic_vector(square'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= reciprocal_root_latency(g_exact) then
-      vectors.fail("the latency is another than the hardware's, " & to_string(reciprocal_root_latency(g_exact)));
-    end if;
+    vectors.expect_latency(reciprocal_root_latency(g_exact));
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(square_now);
-      enable     <= enable_now;
-      square     <= square_now;
+      vectors.drive(enable);
+      vectors.drive(square);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "reciprocal", reciprocal);
     end loop;

@@ -31,8 +31,7 @@ begin
     vectors.open_file(g_folder & "/" & to_string(g_value_bits) & "_" & to_string(g_fraction_bits) & "_"
       & to_string(g_result_bits) & ".txt");
     while vectors.next_vector loop
-      vectors.read_word(word);
-      value <= word;
+      vectors.drive(value);
       wait for 1 ns;
       vectors.check_word("result of " & to_hstring(word), result);
     end loop;

@@ -35,22 +35,16 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable terms_now           : std_logic_vector(terms'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_terms) & "_" & to_string(g_term_bits) & "_"
       & to_string(g_fraction_bits) & "_" & to_string(g_result_bits) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= 1 then
-      vectors.fail("the latency is not that of the hardware, 1");
-    end if;
+    vectors.expect_latency(1);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(terms_now);
-      enable <= enable_now;
-      terms  <= terms_now;
+      vectors.drive(enable);
+      vectors.drive(terms);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "result", result);
     end loop;

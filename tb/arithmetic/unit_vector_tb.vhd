@@ -31,23 +31,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable components_now : std_logic_vector(components'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_vector_bits) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= unit_vector_latency(g_exact) then
-      vectors.fail("the latency is another than the hardware's, " & to_string(unit_vector_latency(g_exact)));
-    end if;
+    vectors.expect_latency(unit_vector_latency(g_exact));
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(components_now);
-      enable     <= enable_now;
-      components <= components_now;
+      vectors.drive(enable);
+      vectors.drive(components);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "unit", unit);
     end loop;

@@ -30,24 +30,16 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable a_now : std_logic_vector(a'range);
-    variable b_now : std_logic_vector(b'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_a_bits) & "_" & to_string(g_b_bits) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_vector_multiply_latency then
-      vectors.fail("the latency is another than the hardware's, " & to_string(c_vector_multiply_latency));
-    end if;
+    vectors.expect_latency(c_vector_multiply_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(a_now);
-      vectors.read_word(b_now);
-      enable     <= enable_now;
-      a          <= a_now;
-      b          <= b_now;
+      vectors.drive(enable);
+      vectors.drive(a);
+      vectors.drive(b);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "products", products);
     end loop;

@@ -29,21 +29,15 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable components_now : std_logic_vector(components'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_vector_bits) & "_" & to_string(g_result_bits) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_vector_shift_latency then
-      vectors.fail("the latency is another than the hardware's, " & to_string(c_vector_shift_latency));
-    end if;
+    vectors.expect_latency(c_vector_shift_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(components_now);
-      enable     <= enable_now;
-      components <= components_now;
+      vectors.drive(enable);
+      vectors.drive(components);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "shifted", shifted);
     end loop;

@@ -43,29 +43,19 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable normal_now : std_logic_vector(normal'range);
-    variable direction_now : std_logic_vector(direction'range);
-    variable exponent_now : std_logic_vector(exponent'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_highlight)) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(normal_now);
-      vectors.read_word(direction_now);
-      vectors.read_word(exponent_now);
-      enable    <= enable_now;
-      normal    <= normal_now;
-      direction <= direction_now;
-      exponent  <= exponent_now;
+      vectors.drive(enable);
+      vectors.drive(normal);
+      vectors.drive(direction);
+      vectors.drive(exponent);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "result", result);
     end loop;

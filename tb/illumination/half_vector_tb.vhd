@@ -43,29 +43,19 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable positional_now : std_logic;
-    variable to_light_now : std_logic_vector(to_light'range);
-    variable to_eye_now : std_logic_vector(to_eye'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_normalize)) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_flag(positional_now);
-      vectors.read_word(to_light_now);
-      vectors.read_word(to_eye_now);
-      enable     <= enable_now;
-      positional <= positional_now;
-      to_light   <= to_light_now;
-      to_eye     <= to_eye_now;
+      vectors.drive(enable);
+      vectors.drive(positional);
+      vectors.drive(to_light);
+      vectors.drive(to_eye);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "half", half);
     end loop;

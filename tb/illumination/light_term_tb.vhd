@@ -46,27 +46,19 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable light_now           : std_logic_vector(light'range);
-    variable token_now           : std_logic_vector(token'range);
-    variable result              : std_logic_vector(terms'length downto 0);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
+    variable result  : std_logic_vector(terms'length downto 0);
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_kind) & to_string(g_light) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(light_now);
-      vectors.read_word(token_now);
-      enable <= enable_now;
-      light  <= light_now;
-      token  <= token_now;
+      vectors.drive(enable);
+      vectors.drive(light);
+      vectors.drive(token);
       wait until rising_edge(clk);
       result := (others => '0');
       if above /= '0' then

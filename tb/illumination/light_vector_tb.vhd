@@ -48,35 +48,21 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable positional_now : std_logic;
-    variable place_now : std_logic_vector(place'range);
-    variable shift_now : std_logic_vector(shift'range);
-    variable point_now : std_logic_vector(point'range);
-    variable distance_now : std_logic_vector(distance'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_positional)) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_flag(positional_now);
-      vectors.read_word(place_now);
-      vectors.read_word(shift_now);
-      vectors.read_word(point_now);
-      vectors.read_word(distance_now);
-      enable     <= enable_now;
-      positional <= positional_now;
-      place      <= place_now;
-      shift      <= shift_now;
-      point      <= point_now;
-      distance   <= distance_now;
+      vectors.drive(enable);
+      vectors.drive(positional);
+      vectors.drive(place);
+      vectors.drive(shift);
+      vectors.drive(point);
+      vectors.drive(distance);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "to_light", to_light);
     end loop;

@@ -55,38 +55,22 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable spot_now : std_logic;
-    variable axis_now : std_logic_vector(axis'range);
-    variable outer_now : std_logic_vector(outer'range);
-    variable slope_now : std_logic_vector(slope'range);
-    variable to_light_now : std_logic_vector(to_light'range);
-    variable cosine_now : std_logic_vector(cosine'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_lead) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_flag(spot_now);
-      vectors.read_word(axis_now);
-      vectors.read_word(outer_now);
-      vectors.read_word(slope_now);
-      vectors.read_word(to_light_now);
-      vectors.read_word(cosine_now);
-      enable   <= enable_now;
-      spot     <= spot_now;
-      axis     <= axis_now;
-      outer    <= outer_now;
-      slope    <= slope_now;
-      to_light <= to_light_now;
-      cosine   <= cosine_now;
+      vectors.drive(enable);
+      vectors.drive(spot);
+      vectors.drive(axis);
+      vectors.drive(outer);
+      vectors.drive(slope);
+      vectors.drive(to_light);
+      vectors.drive(cosine);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "weight", weight);
     end loop;

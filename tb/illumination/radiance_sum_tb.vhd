@@ -41,27 +41,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable add_now : std_logic;
-    variable radiance_now : std_logic_vector(radiance'range);
-    variable terms_now : std_logic_vector(terms'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_flag(add_now);
-      vectors.read_word(radiance_now);
-      vectors.read_word(terms_now);
-      enable   <= enable_now;
-      add      <= add_now;
-      radiance <= radiance_now;
-      terms    <= terms_now;
+      vectors.drive(enable);
+      vectors.drive(add);
+      vectors.drive(radiance);
+      vectors.drive(terms);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "result", result);
     end loop;

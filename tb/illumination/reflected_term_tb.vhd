@@ -48,27 +48,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable coefficients_now : std_logic_vector(coefficients'range);
-    variable intensities_now : std_logic_vector(intensities'range);
-    variable weight_now : std_logic_vector(weight'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_" & to_string(boolean'pos(g_weighted)) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_latency then
-      vectors.fail("the latency is not the hardware's, " & to_string(c_latency));
-    end if;
+    vectors.expect_latency(c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(coefficients_now);
-      vectors.read_word(intensities_now);
-      vectors.read_word(weight_now);
-      enable       <= enable_now;
-      coefficients <= coefficients_now;
-      intensities  <= intensities_now;
-      weight       <= weight_now;
+      vectors.drive(enable);
+      vectors.drive(coefficients);
+      vectors.drive(intensities);
+      vectors.drive(weight);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "terms", terms);
     end loop;

@@ -46,32 +46,23 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors                                                       : vectors_t;
-    variable reset_now, step_now, clear_now, counts_now, opens_now, takes_now : std_logic;
-    variable counted, reset_before                                         : std_logic;
-    variable x_now                                                         : std_logic_vector(x'range);
-    variable eye_now                                                       : std_logic_vector(eye'range);
-    variable waits                                                         : natural;
+    variable vectors               : vectors_t;
+    variable reset_now             : std_logic;
+    variable counted, reset_before : std_logic;
+    variable waits                 : natural;
   begin
     vectors.open_file(g_folder & "/columns.txt");
     reset_before := '1';
     while vectors.next_vector loop
       vectors.read_flag(reset_now);
-      vectors.read_flag(step_now);
-      vectors.read_flag(clear_now);
-      vectors.read_flag(counts_now);
-      vectors.read_flag(opens_now);
-      vectors.read_flag(takes_now);
-      vectors.read_word(x_now);
-      vectors.read_word(eye_now);
+      vectors.drive(step);
+      vectors.drive(clear);
+      vectors.drive(counts);
+      vectors.drive(opens);
+      vectors.drive(takes);
+      vectors.drive(x);
+      vectors.drive(eye);
       reset  <= reset_now;
-      step   <= step_now;
-      clear  <= clear_now;
-      counts <= counts_now;
-      opens  <= opens_now;
-      takes  <= takes_now;
-      x      <= x_now;
-      eye    <= eye_now;
       waits := vectors.read_number;
       wait until rising_edge(clk);
       for i in 1 to waits loop

@@ -51,24 +51,18 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors                                           : vectors_t;
-    variable checked, load_now, step_now, product_now, lit_now : std_logic;
-    variable part_now                                          : std_logic_vector(part'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_" & to_string(g_powers)
       & "_" & to_string(g_address_bits) & "_" & to_string(g_data_bits) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_word(part_now);
-      vectors.read_flag(load_now);
-      vectors.read_flag(step_now);
-      vectors.read_flag(product_now);
-      vectors.read_flag(lit_now);
-      part        <= part_now;
-      span_load   <= load_now;
-      span_step   <= step_now;
-      sample_step <= product_now;
-      lit         <= lit_now;
+      vectors.drive(part);
+      vectors.drive(span_load);
+      vectors.drive(span_step);
+      vectors.drive(sample_step);
+      vectors.drive(lit);
       wait until rising_edge(clk);
       for channel in 0 to g_channels - 1 loop
         vectors.check_word_if(checked, "product of channel " & to_string(channel),

@@ -31,27 +31,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable axis_sum_now : std_logic_vector(axis_sum'range);
-    variable outer_now : std_logic_vector(outer'range);
-    variable slope_now : std_logic_vector(slope'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= c_spot_cone_latency then
-      vectors.fail("the latency is another than the hardware's, " & to_string(c_spot_cone_latency));
-    end if;
+    vectors.expect_latency(c_spot_cone_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(axis_sum_now);
-      vectors.read_word(outer_now);
-      vectors.read_word(slope_now);
-      enable     <= enable_now;
-      axis_sum   <= axis_sum_now;
-      outer      <= outer_now;
-      slope      <= slope_now;
+      vectors.drive(enable);
+      vectors.drive(axis_sum);
+      vectors.drive(outer);
+      vectors.drive(slope);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "factor", factor);
     end loop;

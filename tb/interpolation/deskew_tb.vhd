@@ -27,15 +27,13 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors    : vectors_t;
-    variable checked    : std_logic;
-    variable skewed_now : std_logic_vector(g_bits - 1 downto 0);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_parts) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_word(skewed_now);
-      skewed <= skewed_now;
+      vectors.drive(skewed);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "word", word);
     end loop;

@@ -40,23 +40,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors                                : vectors_t;
-    variable checked, load_now, step_now, carry_now : std_logic;
-    variable start_now, increment_now               : std_logic_vector(start'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(load_now);
-      vectors.read_word(start_now);
-      vectors.read_flag(step_now);
-      vectors.read_word(increment_now);
-      vectors.read_flag(carry_now);
-      load      <= load_now;
-      start     <= start_now;
-      step      <= step_now;
-      increment <= increment_now;
-      carry_in  <= carry_now;
+      vectors.drive(load);
+      vectors.drive(start);
+      vectors.drive(step);
+      vectors.drive(increment);
+      vectors.drive(carry_in);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "value", value);
       vectors.check_flag_if(checked, "carry_out", carry_out);

@@ -29,19 +29,15 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors               : vectors_t;
-    variable checked, select_b_now : std_logic;
-    variable a_now, b_now          : std_logic_vector(g_bits - 1 downto 0);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_parts) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(select_b_now);
-      vectors.read_word(a_now);
-      vectors.read_word(b_now);
-      select_b <= select_b_now;
-      a        <= a_now;
-      b        <= b_now;
+      vectors.drive(select_b);
+      vectors.drive(a);
+      vectors.drive(b);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "value", value);
     end loop;

@@ -26,14 +26,13 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, strobe_now : std_logic;
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/1_" & to_string(g_parts) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(strobe_now);
-      strobe <= strobe_now;
+      vectors.drive(strobe);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "strobes", strobes);
     end loop;

@@ -47,21 +47,16 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors       : vectors_t;
-    variable checked, flag : std_logic;
-    variable init_now      : std_logic_vector(init'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_file);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(flag);
-      load <= flag;
-      vectors.read_word(init_now);
-      init <= init_now;
-      vectors.read_flag(flag);
-      section_change <= flag;
-      vectors.read_flag(flag);
-      step <= flag;
+      vectors.drive(load);
+      vectors.drive(init);
+      vectors.drive(section_change);
+      vectors.drive(step);
       wait until rising_edge(clk);
       vectors.check_flag_if(checked, "empty", empty);
       vectors.check_word_if(checked, "start", std_logic_vector(start));

@@ -46,30 +46,20 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors                    : vectors_t;
-    variable checked, flag              : std_logic;
-    variable x_now, quotient            : span_x_t;
-    variable remainder, divisor, error  : error_t;
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/edges.txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(flag);
-      load <= flag;
-      vectors.read_word(x_now);
-      vectors.read_word(quotient);
-      vectors.read_word(remainder);
-      vectors.read_word(divisor);
-      vectors.read_word(error);
-      load_x         <= x_now;
-      load_quotient  <= quotient;
-      load_remainder <= remainder;
-      load_divisor   <= divisor;
-      load_error     <= error;
-      vectors.read_flag(flag);
-      load_carry <= flag;
-      vectors.read_flag(flag);
-      step <= flag;
+      vectors.drive(load);
+      vectors.drive(load_x);
+      vectors.drive(load_quotient);
+      vectors.drive(load_remainder);
+      vectors.drive(load_divisor);
+      vectors.drive(load_error);
+      vectors.drive(load_carry);
+      vectors.drive(step);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "x", x);
       vectors.check_flag_if(checked, "carry", carry);

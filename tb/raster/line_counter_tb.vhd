@@ -52,21 +52,15 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors  : vectors_t;
-    variable flag     : std_logic;
-    variable init_now : std_logic_vector(init'range);
+    variable vectors : vectors_t;
   begin
     vectors.open_file(g_file);
     wait until rising_edge(clk);
     while vectors.next_vector loop
-      vectors.read_flag(flag);
-      reset <= flag;
-      vectors.read_flag(flag);
-      init_valid <= flag;
-      vectors.read_word(init_now);
-      init <= init_now;
-      vectors.read_flag(flag);
-      advance <= flag;
+      vectors.drive(reset);
+      vectors.drive(init_valid);
+      vectors.drive(init);
+      vectors.drive(advance);
       wait until rising_edge(clk);
       vectors.check_flag("init_ready", init_ready);
       vectors.check_flag("step", step);

@@ -46,41 +46,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors  : vectors_t;
-    variable flag     : std_logic;
-    variable triangle : triangle_t;
-    variable y        : std_logic_vector(pixel_y_t'range);
-    variable x        : std_logic_vector(span_x_t'range);
+    variable vectors : vectors_t;
   begin
     vectors.open_file(g_folder & "/lines.txt");
     wait until rising_edge(clk);
     while vectors.next_vector loop
-      vectors.read_flag(flag);
-      reset <= flag;
-      vectors.read_flag(flag);
-      enable <= flag;
-      vectors.read_flag(flag);
-      in_valid <= flag;
-      vectors.read_word(triangle);
-      in_line.triangle <= triangle;
-      vectors.read_word(y);
-      in_line.y <= unsigned(y);
-      vectors.read_word(x);
-      in_line.start <= signed(x);
-      vectors.read_word(x);
-      in_line.stop <= signed(x);
-      vectors.read_word(x);
-      in_line.remaining <= unsigned(x);
-      vectors.read_flag(flag);
-      in_line.empty <= flag;
-      vectors.read_flag(flag);
-      in_line.backward <= flag;
-      vectors.read_flag(flag);
-      in_line.carry <= flag;
-      vectors.read_flag(flag);
-      line_ready <= flag;
-      vectors.read_flag(flag);
-      span_last_next <= flag;
+      vectors.drive(reset);
+      vectors.drive(enable);
+      vectors.drive(in_valid);
+      vectors.drive(in_line);
+      vectors.drive(line_ready);
+      vectors.drive(span_last_next);
       wait until rising_edge(clk);
       vectors.check_flag("advance", advance);
       vectors.check_flag("step", step);

@@ -45,21 +45,16 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors       : vectors_t;
-    variable checked, flag : std_logic;
-    variable word          : edge_x_t;
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/edges.txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(flag);
-      load <= flag;
-      vectors.read_word(word);
-      load_x <= word;
-      vectors.read_word(word);
-      load_slope <= word;
-      vectors.read_flag(flag);
-      step <= flag;
+      vectors.drive(load);
+      vectors.drive(load_x);
+      vectors.drive(load_slope);
+      vectors.drive(step);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "x", x);
       if checked = '1' then

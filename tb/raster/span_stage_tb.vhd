@@ -42,37 +42,15 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors      : vectors_t;
-    variable flag         : std_logic;
-    variable triangle_now : triangle_t;
-    variable y_now        : std_logic_vector(pixel_y_t'range);
-    variable x_now        : std_logic_vector(span_x_t'range);
+    variable vectors : vectors_t;
   begin
     vectors.open_file(g_folder & "/spans.txt");
     wait until rising_edge(clk);
     while vectors.next_vector loop
-      vectors.read_flag(flag);
-      reset <= flag;
-      vectors.read_flag(flag);
-      enable <= flag;
-      vectors.read_flag(flag);
-      load <= flag;
-      vectors.read_word(triangle_now);
-      line.triangle <= triangle_now;
-      vectors.read_word(y_now);
-      line.y <= unsigned(y_now);
-      vectors.read_word(x_now);
-      line.start <= signed(x_now);
-      vectors.read_word(x_now);
-      line.stop <= signed(x_now);
-      vectors.read_word(x_now);
-      line.remaining <= unsigned(x_now);
-      vectors.read_flag(flag);
-      line.empty <= flag;
-      vectors.read_flag(flag);
-      line.backward <= flag;
-      vectors.read_flag(flag);
-      line.carry <= flag;
+      vectors.drive(reset);
+      vectors.drive(enable);
+      vectors.drive(load);
+      vectors.drive(line);
       wait until rising_edge(clk);
       vectors.check_flag("last_next", last_next);
       vectors.check_flag("valid", valid);

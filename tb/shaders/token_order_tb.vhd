@@ -61,19 +61,17 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors  : vectors_t;
-    variable is_load  : std_logic;
-    variable word_now : std_logic_vector(word'range);
-    variable random   : unsigned(31 downto 0) := to_unsigned(token_bits(c_config), 32);
-    variable count    : natural := 0;
+    variable vectors : vectors_t;
+    variable is_load : std_logic;
+    variable random  : unsigned(31 downto 0) := to_unsigned(token_bits(c_config), 32);
+    variable count   : natural := 0;
   begin
     vectors.open_file(g_file & ".txt");
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(is_load);
-      vectors.read_word(word_now);
-      word         <= word_now;
+      vectors.drive(word);
       load_valid   <= is_load;
       object_valid <= not is_load;
       token_ready  <= '0';

@@ -29,24 +29,18 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable word_now : std_logic_vector(word'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_depth) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= g_depth then
-      vectors.fail("the latency is another than the hardware's, " & to_string(g_depth));
-    end if;
+    vectors.expect_latency(g_depth);
     -- Release the reset: the buffer's index counts from here.
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(word_now);
-      enable     <= enable_now;
-      word       <= word_now;
+      vectors.drive(enable);
+      vectors.drive(word);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "delayed", delayed);
     end loop;

@@ -27,17 +27,14 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, load_now   : std_logic;
-    variable start_now           : std_logic_vector(start'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(load_now);
-      vectors.read_word(start_now);
-      load  <= load_now;
-      start <= start_now;
+      vectors.drive(load);
+      vectors.drive(start);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "value", value);
     end loop;

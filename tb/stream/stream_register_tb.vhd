@@ -42,21 +42,16 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors                                    : vectors_t;
-    variable checked, reset_now, valid_now, ready_now   : std_logic;
-    variable data_now                                   : std_logic_vector(in_data'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & ".txt");
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(reset_now);
-      vectors.read_flag(valid_now);
-      vectors.read_word(data_now);
-      vectors.read_flag(ready_now);
-      reset     <= reset_now;
-      in_valid  <= valid_now;
-      in_data   <= data_now;
-      out_ready <= ready_now;
+      vectors.drive(reset);
+      vectors.drive(in_valid);
+      vectors.drive(in_data);
+      vectors.drive(out_ready);
       wait until rising_edge(clk);
       vectors.check_flag_if(checked, "in_ready", in_ready);
       vectors.check_flag_if(checked, "out_valid", out_valid);

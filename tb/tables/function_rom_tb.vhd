@@ -30,21 +30,15 @@ begin
   clk <= not clk after c_half_period when not finished;
 
   run : process is
-    variable vectors             : vectors_t;
-    variable checked, enable_now : std_logic;
-    variable address_now : std_logic_vector(address'range);
+    variable vectors : vectors_t;
+    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_which) & ".txt");
-    vectors.expect_vector("the latency");
-    if vectors.read_number /= 1 then
-      vectors.fail("the latency is another than the hardware's, " & to_string(1));
-    end if;
+    vectors.expect_latency(1);
     while vectors.next_vector loop
       vectors.read_flag(checked);
-      vectors.read_flag(enable_now);
-      vectors.read_word(address_now);
-      enable     <= enable_now;
-      address    <= address_now;
+      vectors.drive(enable);
+      vectors.drive(address);
       wait until rising_edge(clk);
       vectors.check_word_if(checked, "sample", sample);
     end loop;
