@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The ambient processor's steps, one after the other: k_a I_a, and the unit vectors N and V that all
---             processors after it need.
+-- Purpose     The steps of the ambient processor, in order: k_a I_a, and the unit vectors N and V that all processors
+--             after it need.
 --
 --               clock                  1 .. unit_vector_latency
 --               N                      unit_vector             | with normalize; else N in fewer bits
 --               V = -(view ray)        unit_vector
 --               k_a I_a                wait                    reflected_term, in the last clock
 --
---             A vector that config does not call for has no unit_vector; without both the term takes a clock.
--- Contract    light stands still while a token is in the stages. normalize belongs to the token that leaves.
+--             unit_vector exists only for the vectors that config needs. Without any the term takes one clock.
+-- Contract    light must not change while a token is in the stages. normalize belongs to the token that leaves.
 -- Formats     token, light: token_pkg; delayed: the token that leaves; terms: reflected_term; normal, view: direction,
 --             three components, x lowest
 -- Latency     times of terms_pkg: term

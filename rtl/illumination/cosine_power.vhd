@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     (N.A)**x: the cosine of the angle between two directions, 0 where it is negative, raised to the highlight's
---             exponent; of a diffuse term the cosine itself.
+-- Purpose     (N.A)**x: the cosine of the angle between two directions, 0 if it is negative, to the power of the
+--             highlight's exponent. Of a diffuse term, the cosine itself.
 --
 --               clock 1  N.A                                   dot_product
---                        held from 0 to 1
+--                        clamped to 0 to 1
 --               then     cosine**exponent                      power, power_latency of shading_pkg
 --                        or the cosine, rounded half up        1 clock
 --
 -- Formats     normal, direction: direction, three components, x lowest; exponent: exponent (not used without
 --             g_highlight); result: weight
--- Latency     cosine_power_latency of terms_pkg, clocks with enable: 2 without g_highlight, else 3 in preset published
---             and 7 in preset exact
+-- Latency     cosine_power_latency of terms_pkg, clocks with enable: 2 without g_highlight, otherwise 3 in preset
+--             published and 7 in preset exact
 -- Throughput  1 per clock
 -- Error       that of power; without g_highlight half a step of weight
 -- Source      processors paper, equation 5 and figure 1: (N.A)**x

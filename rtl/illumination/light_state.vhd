@@ -1,17 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     What a processor keeps from token to token: its light, whether that is defined, and the shadow volumes
---             around each column. Both forms of a processor have one.
---               define            the light's registers take the token's words; the light is defined
---               redefine          the same, where it is defined
+-- Purpose     The state of a processor: its light, whether the light is defined, and the shadow volumes around each
+--             column. Both forms of a processor contain one light_state. A token changes the state by its command:
+--               define            the light's registers load the token's words; the light is defined
+--               redefine          the same, if the light is defined
 --               delete            the light is no longer defined
 --               shadow            the volumes of the token's column: one more, or one less (shadow_counter)
 --               new_frame         no volumes around any column
---             The first four are for the light whose number the token has.
+--             The first four apply only if the token has the number of this light.
 -- Contract    At a rising edge with take the token is taken; take must be '0' while ready is '0'. object and changes
---             are of the token that is offered. lit belongs to the object taken last, until the next is taken; without
---             g_config.shadows, and of the ambient processor, it is '1'. After reset the light is not defined. fault:
---             shadow_counter.
+--             belong to the token that is offered. lit belongs to the last object taken, until the next one is taken.
+--             It is '1' without g_config.shadows and in the ambient processor. After reset the light is not defined.
+--             fault: shadow_counter.
 -- Formats     token, light: token_pkg
 -- Latency     1 clock from take to light, defined and lit
 -- Throughput  1 token per clock

@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The diffuse or the specular term of one light, a unit for every step of the paper's datapath:
+-- Purpose     The diffuse or the specular term of one light, with one unit per step of the paper's datapath:
 --
 --               token --> light_vector --> half_vector --> cosine_power --> light_weight --> reflected_term --> terms
 --                P            L               H             (N.A)**x         cone of a spot    k I weight
@@ -8,9 +8,10 @@
 --                             +---- A = L (diffuse) ----------+                   |
 --                             +---------------------------------------------------+
 --
---             Each step takes the result of the step before it as it comes; delay lines bring what else it takes (V, N,
---             exponent, k) from the token. Clocks after the token's, from times of terms_pkg, for a light that can be
---             what the column says (directional: a constant L, no step; diffuse: no H):
+--             Each step takes the result of the step before it immediately. Delay lines bring its other inputs (V, N,
+--             exponent, k) from the token. Clocks from the token at the input to each result, from times of terms_pkg.
+--             The column is the kind of light that the processor can draw. A directional light has a constant L, which
+--             takes no clock; a diffuse term has no H:
 --
 --               published   directional        positional         spot
 --                           diffuse specular   diffuse specular   diffuse specular
@@ -29,7 +30,7 @@
 --               terms       3       17         13      27         17      28
 --
 --             Preset exact has no highlight below the light's horizon: `above` is '1' where N.L > 0.
--- Contract    light stands still while a token is in the stages
+-- Contract    light must not change while a token is in the stages
 -- Formats     token, light: token_pkg; terms: reflected_term
 -- Latency     times of terms_pkg: term
 -- Throughput  1 token per clock
@@ -58,7 +59,7 @@ entity light_term is
     light  : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token  : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
     terms  : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
-    above  : out std_logic -- with terms: the light is above the horizon, or the preset does not ask
+    above  : out std_logic -- with terms: the light is above the horizon; always '1' in preset published
   );
 end entity;
 

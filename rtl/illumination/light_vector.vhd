@@ -3,17 +3,17 @@
 -- Purpose     L, the unit vector from a point of a surface to the light. Of a positional light it is
 --             (P_p - P) / |P_p - P|; of a directional light it is the direction in the light's registers.
 --
---               place * distance      place of the light, on the scale of the point (preset exact)
---                 - point             way to the light           | summed
+--               place * distance      position of the light, on the scale of the point (preset exact)
+--                 - point             vector to the light        | 1, exact 2
 --                 / length            unit_vector                | unit_vector_latency
 --
--- Contract    positional, place and shift stand still while a point is in the stages
+-- Contract    positional, place and shift must not change while a point is in the stages
 -- Formats     place: light_place, a vector or a direction; shift: light_shift; point: vector, distance: vector (not
 --             used by preset published); to_light: direction. A vector is three components, x lowest.
--- Latency     light_vector_latency of terms_pkg, clocks with enable: 0 without g_positional, else 6 in preset
---             published and 10 in preset exact
+-- Latency     light_vector_latency of terms_pkg, clocks with enable: 0 without g_positional, otherwise 6 in
+--             preset published and 10 in preset exact
 -- Throughput  1 vector per clock
--- Error       that of unit_vector, and half a step of offset in each component of the way
+-- Error       that of unit_vector, and half a step of offset in each component of the vector to the light
 -- Source      processors paper, equation 3 and figure 2
 -- Golden twin model/golden/light_vector.hpp
 

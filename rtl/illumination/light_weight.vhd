@@ -1,15 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     What a light's intensity is multiplied with at a point: (N.A)**x, and of a spot times the share of its
---             cone.
+-- Purpose     The weight of a light at a point: (N.A)**x; for a spot, times the share of its cone.
 --
 --               L . axis              dot_product                | 1
 --               share of the cone     spot_cone                  | 4
 --                 * (N.A)**x          product, cut               | 1
 --
---             g_lead says how many clocks after to_light its cosine comes: the one of the two that is first waits for
---             the other.
--- Contract    spot, axis, outer and slope stand still while a point is in the stages
+--             g_lead is the number of clocks from to_light to its cosine. The earlier one of cosine and share is delayed
+--             to the other.
+-- Contract    spot, axis, outer and slope must not change while a point is in the stages
 -- Formats     to_light, axis: direction, three components, x lowest; outer: direction; slope: spot_slope; cosine,
 --             weight: weight
 -- Latency     from cosine light_weight_latency of terms_pkg, clocks with enable: 0 without g_spot
@@ -50,7 +49,7 @@ architecture rtl of light_weight is
 
   constant c_direction : positive := formats(g_exact).direction.bits;
   constant c_share     : positive := c_dot_product_latency + c_spot_cone_latency;
-  constant c_both      : positive := larger(c_share, g_lead); -- clocks from to_light until both are there
+  constant c_both      : positive := larger(c_share, g_lead); -- clocks from to_light until both are valid
 
   subtype weight_t is std_logic_vector(weight'range);
 

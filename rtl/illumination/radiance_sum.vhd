@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     I_out = I_in + the term, a channel each, held at the largest value; I_in alone without add.
+-- Purpose     I_out = I_in + term for each channel, clamped to the largest value. Without add, I_out = I_in.
 -- Formats     radiance, result: radiance, terms: product_bits of terms_pkg, a word per channel, the first lowest
 -- Latency     1 clock with enable
 -- Throughput  1 colour per clock

@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     k I (N.A)**x: the light that a surface reflects, a product per channel.
+-- Purpose     k I (N.A)**x: the light that a surface reflects, one product per channel.
 --
 --               clock 1  k * I                    vector_multiply
---                        rounded half up, held below 2**reflected
---               clock 2  (k I) * weight           vector_multiply, with g_weighted alone
+--                        rounded half up, clamped below 2**reflected
+--               clock 2  (k I) * weight           vector_multiply, only with g_weighted
 --
 --             Without g_weighted the weight is 1: the ambient term, where x is 0.
--- Contract    intensities stands still while a point is in the stages
+-- Contract    intensities must not change while a point is in the stages
 -- Formats     coefficients: coefficient, intensities: light_intensity, a word per channel, the first lowest; weight:
 --             weight, a clock after its coefficients; terms: product_bits of terms_pkg per channel, with the fraction
 --             bits of reflected and weight

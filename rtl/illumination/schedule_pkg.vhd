@@ -1,9 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- The folded shading processor's microprogram: in which clock each shared unit works for which step. Clocks for a light
--- that can be what the column says; N, L are the first vector to become a unit vector, the view vector, H the second.
+-- The folded shading processor's microprogram: the clock in which each shared unit does each step. The columns are a
+-- positional light's: the diffuse processor of preset published, the specular one of preset exact. The first normalized
+-- vector is L, the second one is H. In the ambient processor the first one is N, the second one the view vector.
 --
---                   published       exact, positional specular
+--                   published       exact
 --   P_p / w                  -       1               shared_multiplier
 --   P_p - P                  1       2               shared_adder
 --   shift                    2       3               shared_normalizer
@@ -17,7 +18,7 @@
 --   k I * weight                                     shared_multiplier
 --   sum                                              token_register
 --
--- In every clock without another use, the multiplier makes k I.
+-- In all other clocks the multiplier computes k I.
 
 library ieee;
 use ieee.std_logic_1164.all;
@@ -28,8 +29,8 @@ use work.terms_pkg.all;
 
 package schedule_pkg is
 
-  -- The clock after the one that takes a token is 1. Where two lists have a step, the first vector is N or L, the second
-  -- the view vector or H. A step that this processor does not have is 0.
+  -- Clock 1 is the clock after the one in which the token is taken. Steps _1 belong to the first vector (N or L), steps
+  -- _2 to the second one (view vector or H). A step that this processor does not have is 0.
   type schedule_t is record
     sum_1    : natural; -- the adder gives a vector to the block shift
     shift_1  : natural;
@@ -43,10 +44,10 @@ package schedule_pkg is
     root_2   : natural;
     scale_2  : natural;
     round_2  : natural;
-    horizon  : natural; -- N.L of a highlight is there
+    horizon  : natural; -- N.L of a highlight is valid
     cosine   : natural; -- the dot product takes N and A
-    angle    : natural; -- (N.A) is there
-    weigh_in : natural; -- (N.A)**x is there; of a spot's light it takes the cone's factor before it
+    angle    : natural; -- N.A is valid
+    weigh_in : natural; -- (N.A)**x is valid; for a spot, after the cone's factor
     axis     : natural; -- the dot product takes L and the cone's axis
     cone     : natural;
     factor   : natural;
@@ -54,7 +55,7 @@ package schedule_pkg is
     narrowed : natural;
     weigh    : natural; -- the vector product takes k I and weight
     add      : natural;
-    leave    : natural; -- the token waits for who takes it
+    leave    : natural; -- the token is offered at the output
   end record;
 
   function schedule (c : config_t; kind, light : natural) return schedule_t;

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One term of the illumination model, folded: I_out = I_in + k I (N.A)**x, with one unit of each kind, which
---             the steps use one after the other. The ambient processor makes N and the view vector unit vectors for all
+-- Purpose     One term of the illumination model, folded: I_out = I_in + k I (N.A)**x, with one unit of each kind. The
+--             steps use the units one after the other. The ambient processor normalizes N and the view vector for all
 --             others.
 --
 --               in_token --+-- light_state          commands, the light, shadow volumes
@@ -13,21 +13,22 @@
 --                  +---------------------------------------------------------------------------------+  k I weight
 --
 -- Contract    A token moves where valid and ready are both '1' at a rising edge; out_token does not change while it
---             waits. Every token comes out, in order. define, redefine and delete of g_light act on the tokens behind
---             them; after reset the light is not valid. Objects come out with N, view vector and I renewed, or with I
---             as it was: where the light is not valid, or shadow volumes are around the point. in_ready is '0' for a
---             while after reset and after new_frame where shadows are counted (shadow_counter). fault stays '1' from
---             the clock after the token that left in it: a count of shadow volumes that left its format.
+--             waits. Every token comes out, in order. define, redefine and delete of g_light act on the tokens after
+--             them; after reset the light is not defined. An object leaves with a new I, from the
+--             ambient processor also with new N and view vector. I is unchanged if the light is not defined or does not
+--             reach the point (shadow volumes). With shadows, in_ready is '0' after reset and after new_frame until
+--             shadow_counter is ready. fault: a count of shadow volumes left its format; it stays '1', at the latest
+--             from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between
 --             the units: terms_pkg
--- Latency     a clock less than the throughput's
--- Throughput  A token in so many clocks, the one that takes it and the one that hands it on included (published, exact):
+-- Latency     one clock less than the clocks of the throughput
+-- Throughput  1 token per so many clocks, from taking it to handing it on, both included (published, exact):
 --             load, delete, shadow polygon, object that is not lit 2, 2; ambient 4, 4; with N normalized 6, 9; with the
 --             view vector too -, 15 (without N 10); directional diffuse 6, 6, specular 7, 20; positional diffuse 12, 16, specular 13,
---             30; spot diffuse 18, 22, specular 24, 32. None of them waits but for a unit: the paper's counts leave no
---             slack.
--- Source      processors paper, figures 1 and 2 and table 4, whose clocks those of preset published are. Ours: spots,
---             perspective, the view vector.
+--             30; spot diffuse 18, 22, specular 24, 32. A step waits only for a unit in use:
+--             the paper's counts leave no slack.
+-- Source      processors paper, figures 1 and 2 and table 4: preset published has its clocks. Ours: spots, perspective,
+--             the view vector.
 -- Golden twin model/golden/shading_processor.hpp
 
 library ieee;

@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The folded processor's program counter: the clock in which the token is worked on. A token starts at its
---             first step and takes a step per clock; steps that it does not need are skipped. It waits at the last one
---             until it leaves.
--- Contract    take, with object, normalize and defined, at the clock that takes a token while cycle is 0; in the clock
---             after it `lit`. normalize_token is the held token's, above: the dot product now there is positive.
---             cycle is 0 where there is no token, and schedule's `leave` while it waits.
+-- Purpose     The folded processor's program counter. It counts the clocks of the token: `cycle` is the current step of
+--             schedule_pkg. A token starts at its first step and does one step per clock; steps that it does not need
+--             are skipped. It waits at the last step until it leaves.
+-- Contract    take, with object, normalize and defined, is '1' in the clock in which a token is taken, while cycle is 0;
+--             `lit` is read one clock later. normalize_token belongs to the token in the processor. above: the dot
+--             product of this clock is positive. cycle is 0 without a token, and schedule's `leave` while it waits.
 -- Formats     cycle: schedule_pkg
 -- Latency     1 clock from take to the first step
--- Throughput  schedule's `leave` at most, and 1 clock
+-- Throughput  1 token per `leave` of schedule, plus 1 clock, or faster
 -- Source      processors paper, table 4
 -- Golden twin none; model/plan/processor_clocks.hpp has the clocks
 

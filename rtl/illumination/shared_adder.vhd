@@ -1,16 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The folded processor's vector adder, and the registers of the vectors L and H. By the clock it adds
---               sum_1         the way to the light, P_p - P
---               sum_2         L + V; in preset published the way to the light + E, as printed
---             and takes L, and H, when they are rounded (round_1, round_2). Of a directional light L, and in preset
---             published H, is a constant of its registers.
--- Formats     products: shared_multiplier, in sum_1 the light's place on the point's scale (preset exact); sum:
+-- Purpose     The folded processor's vector adder, and the registers of the vectors L and H. In these clocks of
+--             schedule_pkg it adds
+--               sum_1         the vector to the light, P_p - P
+--               sum_2         L + V; in preset published the vector to the light + E, as printed
+--             and loads L and H in round_1 and round_2. Of a directional light L, and in preset published H, is a
+--             constant in the light's registers.
+-- Formats     products: shared_multiplier, in sum_1 the light's position on the point's scale (preset exact); sum:
 --             normalized_bits of schedule_pkg per component; unit, to_light, half: direction. A vector is three
 --             components, x lowest.
 -- Latency     1 clock
 -- Throughput  1 sum per clock
--- Error       half a step of offset in each component of the way
+-- Error       half a step of offset in each component of the vector to the light
 -- Source      processors paper, figure 2: the vector adders
 -- Golden twin model/golden/light_vector.hpp (light_offset), model/golden/half_vector.hpp
 

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The folded processor's one dot product and its operands. By the clock it makes
---               square        the shifted vector times itself
+-- Purpose     The folded processor's only dot product and its operands. In these clocks of schedule_pkg it computes
+--               square_1, _2  the shifted vector times itself
 --               axis          L times the axis of a spot's cone
---               horizon       N times L, of a highlight in preset exact, a clock before schedule's `horizon`
---               else          N times A: L, or H of a highlight
---             The ambient processor takes squares alone.
+--               horizon - 1   N times L, for a highlight in preset exact
+--               others        N times A: L, or H of a highlight
+--             The ambient processor computes only squares.
 -- Formats     directions: direction, three components, x lowest; dot: dot_product
 -- Latency     1 clock
 -- Throughput  1 product per clock

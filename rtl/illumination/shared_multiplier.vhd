@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The folded processor's one vector product and its operands. By the clock it makes
---               scale         the shifted vector times 1/sqrt of its square
---               until sum_1   the light's place times the point's distance (preset exact)
+-- Purpose     The folded processor's only vector product and its operands. In these clocks of schedule_pkg it computes
+--               scale_1, _2   the shifted vector times 1/sqrt of its square
+--               until sum_1   the light's position times the point's distance (preset exact)
 --               narrow        weight times a spot's factor, in the first component
---               weigh         k I, which it has made last, times weight
---               else          k I
+--               weigh         its last product k I, times weight
+--               others        k I
 -- Formats     factors: factor_a_bits and factor_b_bits of schedule_pkg; products: shared_product_bits, three components or
 --             channels, the first lowest; others: formats_pkg
 -- Latency     1 clock

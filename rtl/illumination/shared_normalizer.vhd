@@ -1,13 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     What normalization needs besides products: the block shift, 1/sqrt of the shifted vector's square, and the
---             scaled vector rounded to a direction. The square comes from shared_dot_product, the scaled vector from
---             shared_multiplier.
--- Contract    vector is there in schedule's shift_1 and shift_2; shifted does not change until the next of them
+-- Purpose     The steps of a normalization that are not products: the block shift (shift left until the largest
+--             component fills the word), 1/sqrt of the shifted vector's square, and rounding of the scaled vector to a
+--             direction. The square comes from shared_dot_product, the scaled vector from shared_multiplier.
+-- Contract    vector is valid in shift_1 and shift_2 of schedule_pkg; shifted does not change until the next of them
 -- Formats     vector: normalized_bits of schedule_pkg per component; dot: dot_product; products: shared_multiplier;
 --             shifted, unit: direction; root: reciprocal_root. A vector is three components, x lowest.
 -- Latency     vector to shifted 1 clock, dot to root reciprocal_root_latency, products to unit 0
--- Throughput  1 vector in schedule's clocks
+-- Throughput  that of schedule_pkg
 -- Error       that of unit_vector
 -- Source      processors paper, figure 2: 1/sqrt by a table; ours: the block shift
 -- Golden twin model/golden/unit_vector.hpp (normalized)

@@ -1,15 +1,15 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     What the folded processor multiplies k I with: (N.A)**x from the dot product, and of a spot times the
---             factor of its cone. shared_multiplier makes that product of weight and factor.
---               angle         the dot product is N.A: a diffuse weight is its cosine, rounded; a highlight goes
---                             through the power until weigh_in
---               cone          the dot product is L and the cone's axis; the factor is there in factor
+-- Purpose     The weight of k I in the folded processor: (N.A)**x from the dot product; for a spot, times the factor of
+--             its cone. shared_multiplier computes the product of weight and factor. Clocks of schedule_pkg:
+--               angle         the dot product is N.A: a diffuse weight is this cosine, rounded; a highlight's weight
+--                             leaves the power in weigh_in
+--               cone          the dot product is that of L and the cone's axis; the factor is valid in clock `factor`
 --               narrowed      the product becomes the weight
 -- Formats     dot: dot_product; exponent: exponent; outer: direction; slope: spot_slope; products: shared_multiplier;
 --             weight, factor: weight
--- Latency     schedule's clocks
--- Throughput  1 weight in schedule's clocks
+-- Latency     that of schedule_pkg
+-- Throughput  that of schedule_pkg
 -- Error       that of power and spot_cone, and (-1, 0] steps of weight of a spot
 -- Source      processors paper, figures 1 and 2: the power by a table; ours: spots
 -- Golden twin model/golden/cosine_power.hpp, model/golden/light_weight.hpp

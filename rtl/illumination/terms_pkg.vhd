@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- What the two forms of a shading processor make of their units' results on the way from one to the next.
+-- Functions that connect the units of both forms of a shading processor, and the clocks of the unrolled form.
 -- Golden twin model/golden/shading_processor.hpp
 
 library ieee;
@@ -13,20 +13,20 @@ use work.vector_pkg.all;
 
 package terms_pkg is
 
-  -- What a processor has of units; follows from what it is for.
+  -- The units of a processor, derived from its kind and its light.
   type shape_t is record
-    positional : boolean; -- its light can be one
-    spots      : boolean; -- or a spot
-    far        : boolean; -- places are multiplied with the point's distance
-    first      : boolean; -- N, or L, can be normalized
-    second     : boolean; -- so can the view vector, or H
+    positional : boolean; -- the light can be positional
+    spots      : boolean; -- the light can be a spot
+    far        : boolean; -- the light's position is multiplied by the point's distance
+    first      : boolean; -- normalizes N, or L
+    second     : boolean; -- normalizes the view vector, or H
   end record;
 
   function shape (c : config_t; kind, light : natural) return shape_t;
 
   function larger (a, b : natural) return natural;
 
-  -- Bits of what half_vector adds to the direction to the eye, and of the sum.
+  -- Bits of the vector that half_vector adds to the direction to the eye, and of the sum.
   function half_light_bits (exact : boolean) return positive;
 
   function half_sum_bits (exact : boolean) return positive;
@@ -45,12 +45,12 @@ package terms_pkg is
 
   function light_weight_latency (spot : boolean; lead : natural) return natural;
 
-  -- Of the unrolled form: how many clocks after the token was taken a result is there.
+  -- Unrolled form: clocks from the clock in which the token is taken to the clock in which a result is valid.
   type times_t is record
     to_light : natural; -- L
-    cosine   : natural; -- A, and with it all that cosine_power takes
+    cosine   : natural; -- A, and all other inputs of cosine_power
     raised   : natural; -- (N.A)**x
-    weight   : natural; -- what k I is multiplied with
+    weight   : natural; -- the factor of k I
     term     : natural; -- k I (N.A)**x
     leave    : natural; -- the token with the sum
   end record;
@@ -60,16 +60,16 @@ package terms_pkg is
   -- A component of N that is not to be normalized, as a direction.
   function plain_direction (exact : boolean; word : signed) return std_logic_vector;
 
-  -- A component of a unit vector: what vector_shift gave times what reciprocal_root gave.
+  -- A component of a unit vector: the result of vector_shift times the result of reciprocal_root.
   function unit_direction (exact : boolean; word : signed) return std_logic_vector;
 
-  -- A component of a light's place that says its direction.
+  -- A component of a directional light's direction, which is in its field `place`.
   function light_direction (exact : boolean; place : std_logic_vector) return std_logic_vector;
 
-  -- A component from a surface's point to a light; exact: of place the product with the point's distance.
+  -- A component of the vector from a surface point to a light; exact: `place` is already times the point's distance.
   function offset (exact : boolean; place, point : signed; shift : std_logic_vector) return std_logic_vector;
 
-  -- Of a diffuse term.
+  -- The weight of a diffuse term: its cosine, rounded.
   function cosine_weight (exact : boolean; cosine : unsigned) return std_logic_vector;
 
   -- A weight times a spot's factor.
@@ -91,7 +91,7 @@ package terms_pkg is
   function brightened (exact : boolean; radiances, terms : std_logic_vector; channels : positive)
     return std_logic_vector;
 
-  -- What is reflected times a weight of 1.
+  -- The reflected light times a weight of 1.
   function unweighted (exact : boolean; word : std_logic_vector) return std_logic_vector;
 
 end package;

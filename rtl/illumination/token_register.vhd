@@ -1,12 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The token of the folded processor, and what it changes of it: the ambient processor N and the view vector,
---             each when its unit vector is there, and every processor the colour, in schedule's add.
--- Contract    At a rising edge with take the register takes in_token, of an object to be shaded by the ambient processor
---             with an N that is a direction already where it is not to be normalized
+-- Purpose     The token of the folded processor, and the fields that it changes. The ambient processor replaces N and the
+--             view vector when their unit vectors are valid. Every processor replaces the colour, in clock `add` of
+--             schedule_pkg.
+-- Contract    At a rising edge with take the register loads in_token. In the ambient processor, an N that is not to be
+--             normalized is converted to a direction at that edge.
 -- Formats     tokens: token_pkg; unit: direction; products: shared_multiplier, in add k I or k I times the weight
 -- Latency     1 clock
--- Throughput  1 token in schedule's clocks
+-- Throughput  that of schedule_pkg
 -- Error       that of radiance_sum
 -- Source      processors paper, figures 1 and 2: the registers, and the vector addition of the colours
 -- Golden twin model/golden/radiance_sum.hpp, model/golden/ambient_term.hpp (ready_vectors)

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One term of the illumination model, unrolled: I_out = I_in + k I (N.A)**x with a unit for every step, so that
---             a token is taken and one leaves per clock. The same results as shading_processor, bit for bit.
+-- Purpose     One term of the illumination model, unrolled: I_out = I_in + k I (N.A)**x with one unit per step. It takes
+--             one token per clock. The results equal those of shading_processor bit for bit.
 --
 --               in_token --+-- light_state      commands, the light, shadow volumes
 --                          |
@@ -11,11 +11,11 @@
 --                          +-- delay_line       the token             v
 --                                                 +------------- radiance_sum -- out_token
 --
---             A token is in stage 1 in the clock after it was taken, its term is there in stage c_at.term, the sum in
---             stage c_at.leave = c_at.term + 1.
--- Contract    that of shading_processor, but for the clocks: all stages stand still together while out_token waits; and
---             a token that changes the light, defines it or deletes it, is taken when no token is before it in the
---             stages. fault stays '1' from, at the latest, the clock after the token that left in it.
+--             A token is in stage s s clocks after the clock in which it is taken. Its term is valid in stage c_at.term,
+--             its sum in stage c_at.leave = c_at.term + 1.
+-- Contract    as shading_processor, with other clocks. All stages stall together while out_token waits. A token that
+--             defines, changes or deletes the light is taken only when the stages are empty. fault stays '1', at
+--             the latest from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between the steps: terms_pkg
 -- Latency     times of terms_pkg: leave (published, exact): ambient 2, 2; with N normalized or the view vector 6, 9;
 --             directional diffuse 4, 4, specular 5, 18; positional diffuse 10, 14, specular 11, 28; spot diffuse 14, 18,

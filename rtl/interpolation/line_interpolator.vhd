@@ -1,10 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The register and the adder that every interpolation here is made of: takes a start value, then adds an
---             increment a step.
+-- Purpose     A register with an adder: takes a start value, then adds an increment per step. The slices of the spherical
+--             shader step their angles with it; part_interpolator is the same with a carry.
 -- Formats     g_bits of two's complement throughout; sums wrap, modulo 2**g_bits
 -- Latency     1 clock from load or step to value
--- Throughput  1 step a clock
+-- Throughput  1 step per clock
 -- Error       none of its own; k steps carry k times the increment's rounding
 -- Source      spherical paper, figure 12 (line interpolator); quadratic paper, figure 6 (each of its registers)
 -- Golden twin model/golden/line_interpolator.hpp

@@ -9,7 +9,7 @@
 -- Throughput  1 fragment per clock
 -- Error       the colour is rounded once
 -- Source      ours
--- Golden twin model/golden/saturate.hpp
+-- Golden twin model/golden/fragment_output.hpp
 
 library ieee;
 use ieee.std_logic_1164.all;
