@@ -351,11 +351,15 @@ TEST(TimingTrace, MeasuresTheTimeFromAnInputsChangeToItsOwn) {
       "$timescale 1 fs $end\n$scope module interpolator_timing_tb $end\n$var reg 1 ! step $end\n$var reg 12 "
       "# "
       "angle[11:0] $end\n$scope module inner $end\n$var reg 1 % step $end\n$upscope $end\n$upscope "
-      "$end\n#0\n0!\nb"
+      "$end\n$enddefinitions $end\n#0\n0!\nb"
       "XXXXXXXXXXXX #\n"
       "#60000000\n1!\n1%\n#65000000\nb000000001111 "
       "#\n#90000000\n0!\n#120000000\n1!\n#125000000\nb000000010000 #\n#130000000\n";
-  const auto trace = timing_trace(c_vcd);
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path file = folder->path() / "trace.vcd";
+  ASSERT_TRUE(write_file(file, c_vcd));
+  const auto trace = timing_trace(file);
   ASSERT_TRUE(trace) << trace.error().message;
   ASSERT_EQ(trace->steps.size(), 1u);
   EXPECT_EQ(trace->steps[0].from, 60.0);
@@ -366,7 +370,8 @@ TEST(TimingTrace, MeasuresTheTimeFromAnInputsChangeToItsOwn) {
   EXPECT_EQ(trace->work[1].until - trace->work[1].from, 5.0);
   EXPECT_EQ(trace->work[1].pixel, 1);
   EXPECT_EQ(trace->values.back().text, "010");
-  EXPECT_FALSE(timing_trace("$scope module other $end\n"));
+  ASSERT_TRUE(write_file(file, "$scope module other $end\n$enddefinitions $end\n#0\n"));
+  EXPECT_FALSE(timing_trace(file));
 }
 
 TEST(Plot, ADataBlockIsGnuplots) {

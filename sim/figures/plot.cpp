@@ -7,8 +7,8 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "sim/pages/gnuplot.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -72,21 +72,11 @@ std::string data_block(const std::string& name, std::span<const std::vector<doub
 }
 
 void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing) {
-  const std::filesystem::path script = context.out / (name + ".gnuplot"),
-                              raw = context.out / (name + ".raw.svg"), file = context.out / (name + ".svg");
-  must(write_file(
-      script, fmt::format("set terminal svg size {},{} dynamic enhanced font 'sans-serif,13' background "
-                          "'#ffffff'\nset output '{}'\n{}{}",
-                          plot.size.width, plot.size.height, raw.filename().string(), c_style, plot.script)));
-  const ProcessEnd end = must(run_process({.arguments = {"gnuplot", script.filename().string()},
-                                           .working_folder = context.out,
-                                           .environment = {{"LC_ALL", "C.UTF-8"}}},
-                                          c_install_gnuplot));
-  if (!end.succeeded() || !end.output.empty())
-    throw Failure{tool_failed(fmt::format("{}: gnuplot: {}: {}", script.string(), end.how(), end.output))};
-  must(write_file(file, described(must(read_file(raw)), plot)));
-  std::error_code ignored;
-  std::filesystem::remove(raw, ignored);
+  const std::string script = fmt::format(
+      "set terminal svg size {},{} dynamic enhanced font 'sans-serif,13' background '#ffffff'\n{}{}",
+      plot.size.width, plot.size.height, c_style, plot.script);
+  const std::string svg = must(run_gnuplot(script, context.out, name));
+  must(write_file(context.out / (name + ".svg"), described(svg, plot)));
   drawing.pictures.push_back({name + ".svg", plot.title});
 }
 

@@ -29,6 +29,4 @@ void draw_plot(const Context& context, const std::string& name, const Plot& plot
 /// The version of gnuplot that drew an SVG. Different versions write different bytes.
 std::string drawn_by(std::string_view svg);
 
-inline constexpr const char* c_install_gnuplot = "apt-get install gnuplot-nox";
-
 }  // namespace halfway::figures

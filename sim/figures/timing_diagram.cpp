@@ -13,6 +13,7 @@
 
 #include "sim/figures/plot.hpp"
 #include "sim/figures/testbench.hpp"
+#include "sim/ghdl/vcd.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::figures {
@@ -140,41 +141,27 @@ class TraceBuilder {
   int pixels_ = 0;
 };
 
-std::vector<std::string> words_of(std::string_view line) {
-  std::vector<std::string> words;
-  for (std::size_t begin; (begin = line.find_first_not_of(" \t\r")) != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
-    words.emplace_back(line.substr(begin, end - begin));
-    line.remove_prefix(end);
-  }
-  return words;
-}
-
 }  // namespace
 
-Result<TimingTrace> timing_trace(std::string_view vcd) {
+Result<TimingTrace> timing_trace(const std::filesystem::path& vcd) {
   constexpr double c_femtoseconds = 1e6;  // per nanosecond
+  auto reader = VcdReader::open(vcd);
+  if (!reader) return reader.error();
   TraceBuilder builder;
-  std::string scope;
-  while (!vcd.empty()) {
-    const std::size_t end = std::min(vcd.find('\n'), vcd.size());
-    const std::vector<std::string> word = words_of(vcd.substr(0, end));
-    vcd.remove_prefix(std::min(end + 1, vcd.size()));
-    if (word.empty()) continue;
-    const std::string& first = word[0];
-    if (first == "$scope" && word.size() > 2) {
-      scope += '/' + word[2];
-    } else if (first == "$upscope") {
-      scope.resize(std::min(scope.rfind('/'), scope.size()));
-    } else if (first == "$var" && word.size() > 4 && scope == '/' + std::string(c_top)) {
-      builder.name(word[3], word[4].substr(0, word[4].find('[')), word[2] == "1");
-    } else if (first[0] == '#') {
-      builder.at(std::strtod(first.c_str() + 1, nullptr) / c_femtoseconds);
-    } else if (first[0] == 'b' && word.size() > 1) {
-      builder.change(word[1], hexadecimal(std::string_view(first).substr(1)));
-    } else if (first[0] == '0' || first[0] == '1') {
-      builder.change(first.substr(1), first.substr(0, 1));
-    }
+  const std::string scope = std::string(c_top) + '/';
+  for (const auto& [path, signal] : reader->signals())
+    if (path.starts_with(scope) && path.find('/', scope.size()) == std::string::npos)
+      builder.name(signal.code, path.substr(scope.size()), signal.is_scalar);
+  for (;;) {
+    const auto change = reader->next();
+    if (!change) return change.error();
+    builder.at(static_cast<double>(reader->time()) / c_femtoseconds);
+    if (!*change) break;
+    const auto& [code, value] = **change;
+    if (value.size() > 1)
+      builder.change(code, hexadecimal(value));
+    else if (value == "0" || value == "1")
+      builder.change(code, value);
   }
   TimingTrace trace = builder.finish();
   if (trace.steps.empty() || trace.values.empty())
@@ -195,7 +182,7 @@ TimingTrace simulated(const Context& context) {
       context, c_top, std::move(tables),
       {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"},
       {"-gg_lines=1", "--vcd=" + vcd.string()});
-  return must(timing_trace(must(read_file(vcd))));
+  return must(timing_trace(vcd));
 }
 
 template <class Rows, class Line>

@@ -3,8 +3,8 @@
 // their timing model in GHDL (tb/timing).
 #pragma once
 
+#include <filesystem>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -48,7 +48,7 @@ struct TimingTrace {
 };
 
 /// Read a VCD file of the first line of interpolator_timing_tb, as written by GHDL; its times are in fs.
-Result<TimingTrace> timing_trace(std::string_view vcd);
+Result<TimingTrace> timing_trace(const std::filesystem::path& vcd);
 
 void draw_figure_17(const Context& context, Drawing& out);
 

@@ -2,11 +2,10 @@
 #include "sim/ghdl/vcd.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
+#include <cstdlib>
 #include <sstream>
-
-#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {
@@ -20,66 +19,80 @@ std::vector<std::string> words_of(std::string_view line) {
 
 }  // namespace
 
-Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::string& clock,
-                                  const std::vector<std::string>& paths, std::size_t most_edges) {
-  auto reader = LineReader::open(file);
-  if (!reader) return reader.error();
+Result<VcdReader> VcdReader::open(const std::filesystem::path& file) {
+  auto lines = LineReader::open(file);
+  if (!lines) return lines.error();
+  VcdReader reader(std::move(*lines));
   std::vector<std::string> scopes;
-  std::map<std::string, std::string> code_of;  // by path
-  std::map<std::string, std::string> now;      // by code
-  SampledSignals sampled;
-  std::string clock_code;
-  bool rising = false;  // the clock rises at the current time; later changes are after the edge
-  const auto sample = [&] {
-    for (const std::string& path : paths) sampled.values[path].push_back(now[code_of[path]]);
-    ++sampled.edges;
-  };
-  std::map<std::string, std::string> moved;
-  const auto close_time = [&] {
-    if (rising && sampled.edges < most_edges) sample();
-    for (auto& [code, value] : moved) now[code] = value;
-    moved.clear();
-    rising = false;
-  };
   for (std::string_view line;;) {
-    const auto next = reader->next(line);
-    if (next == LineReader::Next::failed) return reader->error();
-    if (next == LineReader::Next::end_of_file) break;
-    if (line.empty()) continue;
-    if (line.front() == '$') {
-      const auto words = words_of(line);
-      if (words[0] == "$scope" && words.size() > 2) {
-        scopes.push_back(words[2]);
-      } else if (words[0] == "$upscope" && !scopes.empty()) {
-        scopes.pop_back();
-      } else if (words[0] == "$var" && words.size() > 4) {
-        const std::string path =
-            fmt::format("{}/{}", fmt::join(scopes, "/"), words[4].substr(0, words[4].find('[')));
-        code_of.emplace(path, words[3]);
-      } else if (words[0] == "$enddefinitions") {
-        for (const std::string& path : paths)
-          if (!code_of.contains(path))
-            return reader->at(fmt::format("the trace has no signal {}; was it renamed?", path));
-        const auto code = code_of.find(clock);
-        if (code == code_of.end())
-          return reader->at(fmt::format("the trace has no clock {}; was it renamed?", clock));
-        clock_code = code->second;
-      }
-    } else if (clock_code.empty()) {
-      continue;  // of the header
-    } else if (line.front() == '#') {
-      close_time();
-      if (sampled.edges >= most_edges) break;
-    } else if (line.front() == 'b') {
-      const auto words = words_of(line);
-      if (words.size() == 2) moved[words[1]] = words[0].substr(1);
-    } else {
-      const std::string code(line.substr(1));
-      moved[code] = std::string(1, line.front());
-      if (code == clock_code && line.front() == '1' && now[code] == "0") rising = true;
+    const auto next = reader.lines_.next(line);
+    if (next == LineReader::Next::failed) return reader.lines_.error();
+    if (next == LineReader::Next::end_of_file) return reader.at("the trace has no $enddefinitions");
+    const auto words = words_of(line);
+    if (words.empty()) continue;
+    if (words[0] == "$enddefinitions") return reader;
+    if (words[0] == "$scope" && words.size() > 2) {
+      scopes.push_back(words[2]);
+    } else if (words[0] == "$upscope" && !scopes.empty()) {
+      scopes.pop_back();
+    } else if (words[0] == "$var" && words.size() > 4) {
+      const std::string name = words[4].substr(0, words[4].find('['));
+      reader.signals_.emplace(fmt::format("{}/{}", fmt::join(scopes, "/"), name),
+                              VcdSignal{words[3], words[2] == "1"});
     }
   }
-  close_time();
+}
+
+Result<std::optional<VcdChange>> VcdReader::next() {
+  for (std::string_view line;;) {
+    const auto next = lines_.next(line);
+    if (next == LineReader::Next::failed) return lines_.error();
+    if (next == LineReader::Next::end_of_file) return std::optional<VcdChange>();
+    if (line.empty() || line.front() == '$') continue;
+    const std::string rest(line.substr(1));
+    if (line.front() == '#') {
+      time_ = std::strtoull(rest.c_str(), nullptr, 10);
+    } else if (line.front() == 'b') {
+      if (const auto words = words_of(rest); words.size() == 2)
+        return std::optional(VcdChange{words[1], words[0]});
+    } else {
+      return std::optional(VcdChange{rest, std::string(1, line.front())});
+    }
+  }
+}
+
+Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::string& clock,
+                                  const std::vector<std::string>& paths, std::size_t most_edges) {
+  auto reader = VcdReader::open(file);
+  if (!reader) return reader.error();
+  for (const std::string& path : paths)
+    if (!reader->signals().contains(path))
+      return reader->at(fmt::format("the trace has no signal {}; was it renamed?", path));
+  const auto clock_signal = reader->signals().find(clock);
+  if (clock_signal == reader->signals().end())
+    return reader->at(fmt::format("the trace has no clock {}; was it renamed?", clock));
+  const std::string& clock_code = clock_signal->second.code;
+
+  SampledSignals sampled;
+  std::map<std::string, std::string> before, now;  // by code
+  std::uint64_t time = 0;
+  // Sample at the end of a time in which the clock rose, with the values before that time.
+  const auto close_time = [&] {
+    if (now[clock_code] == "1" && before[clock_code] == "0" && sampled.edges < most_edges) {
+      for (const std::string& path : paths)
+        sampled.values[path].push_back(before[reader->signals().at(path).code]);
+      ++sampled.edges;
+    }
+    before = now;
+  };
+  while (sampled.edges < most_edges) {
+    auto change = reader->next();
+    if (!change) return change.error();
+    if (!*change || reader->time() != time) close_time();
+    if (!*change) break;
+    time = reader->time();
+    now[(*change)->code] = std::move((*change)->value);
+  }
   return sampled;
 }
 

@@ -10,8 +10,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/pages/gnuplot.hpp"
 
 namespace halfway::report {
 namespace {
@@ -30,18 +29,6 @@ std::string quoted(const std::string& text) {
     safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return safe + '"';
-}
-
-Result<std::string> run_gnuplot(const std::string& script, const std::filesystem::path& scratch) {
-  const std::filesystem::path file = scratch / "plot.gnuplot", picture = scratch / "plot.svg";
-  if (Status written = write_file(file, script); !written) return written.error();
-  const auto end = run_process({.arguments = {"gnuplot", file.filename().string()},
-                                .working_folder = scratch,
-                                .environment = {{"LC_ALL", "C.UTF-8"}}},
-                               "apt-get install gnuplot-nox");
-  if (!end) return end.error();
-  if (!end->succeeded()) return tool_failed("gnuplot: " + end->how() + "\n" + end->output);
-  return read_file(picture);
 }
 
 std::string tick_label(double tick) {
@@ -117,7 +104,7 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
   std::string script = fmt::format(
       "set encoding utf8\n"
       "set terminal svg size {} dynamic noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
-      "set output \"plot.svg\"\n"
+      ""
       "set xlabel {}\nset ylabel {}\n"
       "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\n{}\n",
@@ -155,7 +142,7 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
           "END\nplot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2 notitle, $points using "
           "1:2:3:4 with points pointtype variable pointsize 0.8 linecolor rgb variable notitle" +
           legend + "\n",
-      scratch);
+      scratch, "plot");
   if (!svg) return svg.error();
 
   pugi::xml_document document;
@@ -221,7 +208,7 @@ Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t fi
   const std::string script = fmt::format(
       "set encoding utf8\n"
       "set terminal svg size {},{} dynamic noenhanced font \"sans-serif,13\" background \"#ffffff\"\n"
-      "set output \"plot.svg\"\n"
+      ""
       "set lmargin at screen {}\nset rmargin at screen 0.995\nset tmargin at screen 0.99\n"
       "set bmargin at screen {}\n"
       "set xrange [0:{}]\nset yrange [0.4:{}]\nunset key\nunset ytics\nset border 1\n"
@@ -242,7 +229,7 @@ Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t fi
                          "border linecolor rgb \"#0072b2\" fillcolor rgb \"#0072b2\", $wires using 1:2 with "
                          "lines linewidth 1.6 linecolor rgb \"#2a9d5c\", "
                          "$texts using 1:2:3 with labels font \",11\"\n",
-                     scratch);
+                     scratch, "plot");
 }
 
 }  // namespace halfway::report
