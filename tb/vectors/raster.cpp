@@ -292,7 +292,7 @@ Status write_edge_walker(const std::filesystem::path& folder) {
   std::vector<EdgeStart> edges;
   bool waits = false;  // a load waits for its step
   for (int i = 0; i < 6000; ++i) {
-    if (edges.empty()) {
+    while (edges.empty()) {
       for (const Walk& walk : random_walks(random))
         for (const EdgeSection* section : {&walk.start, &walk.upper, &walk.lower}) {
           edges.push_back(edge_start(*section));
