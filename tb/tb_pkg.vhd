@@ -56,6 +56,9 @@ package tb_pkg is
   -- True with probability 1 / 2**exponent.
   function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean;
 
+  -- Waits for a random number of clocks, also none. A clock is the last with probability 1 / 2**exponent.
+  procedure pause (signal clk : in std_logic; random : inout unsigned(31 downto 0); exponent : in natural range 0 to 8);
+
 end package;
 
 package body tb_pkg is
@@ -290,5 +293,14 @@ package body tb_pkg is
   begin
     return to_integer(random) mod 2 ** exponent = 0;
   end function;
+
+  procedure pause (signal clk : in std_logic; random : inout unsigned(31 downto 0); exponent : in natural range 0 to 8) is
+  begin
+    loop
+      random := next_random(random);
+      exit when chance(random(31 downto 24), exponent);
+      wait until rising_edge(clk);
+    end loop;
+  end procedure;
 
 end package body;

@@ -70,11 +70,7 @@ begin
     while vectors.next_vector loop
       vectors.read_word(token_now);
       if (count / c_pace) mod 2 = 1 then
-        loop
-          random := next_random(random);
-          exit when chance(random(31 downto 24), 2);
-          wait until rising_edge(clk);
-        end loop;
+        pause(clk, random, 2);
       end if;
       token   <= token_now;
       offered <= '1';

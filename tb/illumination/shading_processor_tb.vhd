@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, every processor of five pipelines against the golden model (processors_checker).
+-- Both presets, every processor of six pipelines against the golden model (processors_checker).
 entity shading_processor_tb is
   generic (
     g_folder : string := "shading_processor"

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, every processor of five pipelines against the golden model (processors_checker). Also checks the
+-- Both presets, every processor of six pipelines against the golden model (processors_checker). Also checks the
 -- latency in clocks from an accepted token to the same token at the output, as the entity's header promises.
 library ieee;
 use ieee.std_logic_1164.all;

@@ -73,8 +73,11 @@ Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::p
   if (!sources) return sources.error();
   const auto testbench = testbench_of(fault.test, source);
   if (!testbench) return testbench.error();
-  for (const std::string& name : {std::string("tb/tb_pkg.vhd"), std::string("tb/shaders/shader_checker.vhd"),
-                                  std::string("tb/illumination/processor_checker.vhd"), *testbench}) {
+  for (const std::string& name :
+       {std::string("tb/tb_pkg.vhd"), std::string("tb/processor_list_pkg.vhd"),
+        std::string("tb/stream/stream_source.vhd"), std::string("tb/stream/stream_sink.vhd"),
+        std::string("tb/shaders/shader_checker.vhd"), std::string("tb/illumination/processor_checker.vhd"),
+        *testbench}) {
     const auto one = read_vhdl_source(source, name);
     if (!one) return one.error();
     sources->push_back(*one);

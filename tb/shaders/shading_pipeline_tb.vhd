@@ -6,66 +6,48 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
+use work.processor_list_pkg.all;
 use work.tb_pkg.all;
 
 entity shading_pipeline_run is
   generic (
-    g_unrolled    : boolean;
-    g_exact       : boolean;
-    g_channels    : positive;
-    g_directional : natural;
-    g_positional  : natural;
-    g_spots       : natural;
-    g_diffuse     : boolean;
-    g_specular    : boolean;
-    g_normalize   : boolean;
-    g_shadows     : boolean;
-    g_folder      : string
+    g_unrolled : boolean;
+    g_config   : config_t;
+    g_folder   : string
   );
   port (
-    finished : out boolean := false
+    finished : buffer boolean := false
   );
 end entity;
 
 architecture sim of shading_pipeline_run is
-  constant c_bits : positive := token_bits(config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
-    g_specular, g_normalize, g_shadows));
+  constant c_file : string := g_folder & "/" & config_name(g_config) & ".txt";
   -- Number of tokens, or objects, between changes of the pace.
   constant c_pace : positive := 60;
 
-  function digit (flag : boolean) return string is
-  begin
-    return to_string(boolean'pos(flag));
-  end function;
-
-  constant c_file : string := g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels)
-    & to_string(g_directional) & to_string(g_positional) & to_string(g_spots) & digit(g_diffuse) & digit(g_specular)
-    & digit(g_normalize) & digit(g_shadows) & ".txt";
-
   signal clk       : std_logic := '0';
-  signal reset     : std_logic := '1';
-  signal in_valid  : std_logic := '0';
+  signal reset     : std_logic;
+  signal in_valid  : std_logic;
   signal in_ready  : std_logic;
-  signal in_token  : std_logic_vector(c_bits - 1 downto 0) := (others => '0');
+  signal in_token  : std_logic_vector(token_bits(g_config) - 1 downto 0);
   signal out_valid : std_logic;
-  signal out_ready : std_logic := '0';
-  signal out_token : std_logic_vector(c_bits - 1 downto 0);
+  signal out_ready : std_logic;
+  signal out_token : std_logic_vector(in_token'range);
   signal busy      : std_logic;
   signal fault     : std_logic;
-  signal fed       : boolean := false;
-  signal ended     : boolean := false;
+  signal fed       : boolean;
 begin
   dut : entity work.shading_pipeline
     generic map (
-      g_exact       => g_exact,
-      g_channels    => g_channels,
-      g_directional => g_directional,
-      g_positional  => g_positional,
-      g_spots       => g_spots,
-      g_diffuse     => g_diffuse,
-      g_specular    => g_specular,
-      g_normalize   => g_normalize,
-      g_shadows     => g_shadows,
+      g_exact       => g_config.exact,
+      g_channels    => g_config.channels,
+      g_directional => g_config.directional,
+      g_positional  => g_config.positional,
+      g_spots       => g_config.spots,
+      g_diffuse     => g_config.diffuse,
+      g_specular    => g_config.specular,
+      g_normalize   => g_config.normalize,
+      g_shadows     => g_config.shadows,
       g_unrolled    => g_unrolled)
     port map (
       clk       => clk,
@@ -79,72 +61,37 @@ begin
       busy      => busy,
       fault     => fault);
 
-  clk <= not clk after c_half_period when not ended;
+  clk <= not clk after c_half_period when not finished;
 
-  source : process is
-    variable vectors : vectors_t;
-    variable word    : std_logic_vector(in_token'range);
-    variable random  : unsigned(31 downto 0) := to_unsigned(c_bits, 32);
-    variable count   : natural               := 0;
-  begin
-    vectors.open_file(c_file);
-    for i in 1 to 3 loop
-      wait until rising_edge(clk);
-    end loop;
-    reset <= '0';
-    while vectors.next_vector loop
-      vectors.read_word(word);
-      if (count / c_pace) mod 2 = 1 then
-        loop
-          random := next_random(random);
-          exit when chance(random(31 downto 24), 2);
-          wait until rising_edge(clk);
-        end loop;
-      end if;
-      in_token <= word;
-      in_valid <= '1';
-      wait until rising_edge(clk) and in_ready = '1';
-      in_valid <= '0';
-      count := count + 1;
-    end loop;
-    fed <= true;
-    wait;
-  end process;
+  source : entity work.stream_source
+    generic map (g_file => c_file, g_pace => c_pace, g_pause => 2)
+    port map (clk => clk, reset => reset, valid => in_valid, ready => in_ready, word => in_token, fed => fed);
 
-  sink : process is
+  sink : entity work.stream_sink
+    generic map (g_name => c_file, g_pace => 2 * c_pace, g_pause => 3)
+    port map (clk => clk, reset => reset, valid => out_valid, ready => out_ready, word => out_token);
+
+  check : process is
     variable vectors : vectors_t;
     variable word    : std_logic_vector(in_token'range);
     variable comes   : std_logic;
     variable faulty  : std_logic;
-    variable random  : unsigned(31 downto 0) := to_unsigned(3 * c_bits, 32);
-    variable count   : natural               := 0;
   begin
     vectors.open_file(c_file);
     while vectors.next_vector loop
       vectors.read_word(word);
       vectors.read_flag(comes);
       if comes = '1' then
-        if (count / c_pace) mod 3 = 1 then
-          loop
-            random := next_random(random);
-            exit when chance(random(31 downto 24), 3);
-            wait until rising_edge(clk);
-          end loop;
-        end if;
-        out_ready <= '1';
-        wait until rising_edge(clk) and out_valid = '1' and reset = '0';
-        out_ready <= '0';
+        wait until rising_edge(clk) and out_valid = '1' and out_ready = '1' and reset = '0';
         if busy /= '1' then
           vectors.fail("an object leaves, but busy is " & to_string(busy));
         end if;
         vectors.check_word("object", out_token);
-        count := count + 1;
       else
         vectors.read_word(word);
       end if;
       vectors.read_flag(faulty);
     end loop;
-    out_ready <= '1';
     if not fed then
       wait until fed;
     end if;
@@ -158,7 +105,6 @@ begin
     if fault /= faulty then
       vectors.fail("fault is " & to_string(fault) & " in the end, expected " & to_string(faulty));
     end if;
-    ended    <= true;
     finished <= true;
     wait;
   end process;
@@ -173,40 +119,41 @@ begin
   end process;
 end architecture;
 
+use work.processor_list_pkg.all;
+use work.processors_pkg.all;
+
 entity shading_pipeline_tb is
   generic (
     g_folder : string := "shading_pipeline"
   );
 end entity;
 
+-- The configurations are those of write_pipelines in tb/vectors/processors.cpp: all effects, the paper's version I,
+-- highlights alone, the ambient term alone.
 architecture sim of shading_pipeline_tb is
-  signal finished : boolean_vector(0 to 15);
+  function configs (exact : boolean) return configs_t is
+  begin
+    return (config(exact, 3, 1, 1, 1, true, true, true, true), config(exact, 3, 2, 0, 0, true, true, false, false),
+      config(exact, 1, 0, 1, 1, false, true, true, false), config(exact, 3, 0, 0, 0, false, false, true, false));
+  end function;
+
+  constant c_configs : configs_t := configs(true) & configs(false);
+
+  signal folded, unrolled : boolean_vector(c_configs'range);
 begin
-  forms : for form in 0 to 1 generate
-    presets : for preset in 0 to 1 generate
-      constant c_first : natural := 8 * form + 4 * preset;
-      begin
-        all_effects : entity work.shading_pipeline_run
-          generic map (form = 1, preset = 0, 3, 1, 1, 1, true, true, true, true, g_folder)
-          port map (finished => finished(c_first));
+  pipelines : for i in c_configs'range generate
+    folded_run : entity work.shading_pipeline_run
+      generic map (false, c_configs(i), g_folder)
+      port map (folded(i));
 
-        version_1 : entity work.shading_pipeline_run
-          generic map (form = 1, preset = 0, 3, 2, 0, 0, true, true, false, false, g_folder)
-          port map (finished => finished(c_first + 1));
-
-        specular_alone : entity work.shading_pipeline_run
-          generic map (form = 1, preset = 0, 1, 0, 1, 1, false, true, true, false, g_folder)
-          port map (finished => finished(c_first + 2));
-
-        ambient_alone : entity work.shading_pipeline_run
-          generic map (form = 1, preset = 0, 3, 0, 0, 0, false, false, true, false, g_folder)
-          port map (finished => finished(c_first + 3));
-    end generate;
+    unrolled_run : entity work.shading_pipeline_run
+      generic map (true, c_configs(i), g_folder)
+      port map (unrolled(i));
   end generate;
 
   done : process is
   begin
-    wait until and finished;
+    wait until (and folded) and (and unrolled);
     report "shading_pipeline_tb: passed" severity note;
     wait;
   end process;

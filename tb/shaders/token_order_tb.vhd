@@ -5,28 +5,21 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
+use work.processor_list_pkg.all;
 use work.tb_pkg.all;
 
 entity token_order_run is
   generic (
-    g_exact       : boolean;
-    g_channels    : positive;
-    g_directional : natural;
-    g_positional  : natural;
-    g_spots       : natural;
-    g_specular    : boolean;
-    g_normalize   : boolean;
-    g_shadows     : boolean;
-    g_file        : string -- file name, or its start
+    g_config : config_t;
+    g_folder : string
   );
   port (
-    finished : out boolean := false
+    finished : buffer boolean := false
   );
 end entity;
 
 architecture sim of token_order_run is
-  constant c_config : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, true, g_specular,
-    g_normalize, g_shadows);
+  constant c_file : string := g_folder & "/" & config_name(g_config) & ".txt";
   -- Number of words between changes of the pace.
   constant c_pace : positive := 60;
 
@@ -36,20 +29,20 @@ architecture sim of token_order_run is
   signal load_ready   : std_logic;
   signal object_valid : std_logic := '0';
   signal object_ready : std_logic;
-  signal word         : std_logic_vector(token_bits(c_config) - 1 downto 0) := (others => '0');
+  signal word         : std_logic_vector(token_bits(g_config) - 1 downto 0) := (others => '0');
   signal token_valid  : std_logic;
   signal token_ready  : std_logic := '0';
   signal token        : std_logic_vector(word'range);
   signal frame_start  : std_logic;
 begin
   dut : entity work.token_order
-    generic map (g_config => c_config)
+    generic map (g_config => g_config)
     port map (
       clk          => clk,
       reset        => reset,
       load_valid   => load_valid,
       load_ready   => load_ready,
-      load         => word(load_bits(c_config) - 1 downto 0),
+      load         => word(load_bits(g_config) - 1 downto 0),
       object_valid => object_valid,
       object_ready => object_ready,
       object       => word,
@@ -63,10 +56,10 @@ begin
   run : process is
     variable vectors : vectors_t;
     variable is_load : std_logic;
-    variable random  : unsigned(31 downto 0) := to_unsigned(token_bits(c_config), 32);
+    variable random  : unsigned(31 downto 0) := to_unsigned(token_bits(g_config), 32);
     variable count   : natural := 0;
   begin
-    vectors.open_file(g_file & ".txt");
+    vectors.open_file(c_file);
     wait until rising_edge(clk);
     reset <= '0';
     while vectors.next_vector loop
@@ -106,31 +99,22 @@ begin
   end process;
 end architecture;
 
+use work.processor_list_pkg.all;
+
 entity token_order_tb is
   generic (
     g_folder : string := "token_order"
   );
 end entity;
 
--- The configurations are those of write_parts in tb/vectors/processors_shader.cpp.
 architecture sim of token_order_tb is
-  signal finished : boolean_vector(0 to 3);
+  signal finished : boolean_vector(c_shaders'range);
 begin
-  directional : entity work.token_order_run
-    generic map (true, 3, 1, 0, 0, true, true, false, g_folder & "/directional")
-    port map (finished(0));
-
-  grey : entity work.token_order_run
-    generic map (true, 1, 2, 0, 0, false, false, false, g_folder & "/grey")
-    port map (finished(1));
-
-  shadows : entity work.token_order_run
-    generic map (true, 3, 1, 1, 0, true, true, true, g_folder & "/shadows")
-    port map (finished(2));
-
-  published : entity work.token_order_run
-    generic map (false, 3, 1, 1, 1, true, true, false, g_folder & "/published")
-    port map (finished(3));
+  shaders : for i in c_shaders'range generate
+    run : entity work.token_order_run
+      generic map (c_shaders(i), g_folder)
+      port map (finished(i));
+  end generate;
 
   done : process is
   begin

@@ -33,6 +33,13 @@ inline Flat flat(const golden::Axes& v, int bits) {
   return all;
 }
 
+inline Flat flat(const std::vector<std::uint32_t>& words, int bits) {
+  Flat all;
+  all.words = words;
+  all.bits = bits;
+  return all;
+}
+
 /// First line: latency. Then one line per clock: checked, enable, inputs; the result, before the edge.
 class Pipeline {
  public:

@@ -10,6 +10,7 @@
 
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
+#include "vectors/processor_list.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
 
@@ -127,14 +128,14 @@ class Host {
 
   // Files of the testbenches of the shader's parts.
   Status write_rasterizer(const std::filesystem::path& folder) const {
-    if (auto s = triangles_.write(folder / fmt::format("{}_init.txt", p_.name)); !s) return s;
-    return tokens_.write(folder / fmt::format("{}_tokens.txt", p_.name));
+    if (auto s = triangles_.write(folder / (name_of<Preset>(p_.config) + "_init.txt")); !s) return s;
+    return tokens_.write(folder / (name_of<Preset>(p_.config) + "_tokens.txt"));
   }
   Status write_order(const std::filesystem::path& folder) const {
-    return ordered_.write(folder / fmt::format("{}.txt", p_.name));
+    return ordered_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
   }
   Status write_output(const std::filesystem::path& folder) const {
-    return shaded_.write(folder / fmt::format("{}.txt", p_.name));
+    return shaded_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
   }
   Status write(const std::filesystem::path& folder, const char* set) {
     const std::string stem = fmt::format("{}_{}", p_.name, set);
@@ -334,6 +335,7 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
 }
 
 // The parts of the shader with all words of tokens and with shadows, in both presets.
+// tb/processor_list_pkg.vhd has the same list.
 template <class Write>
 Status write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
