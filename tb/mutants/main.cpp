@@ -237,7 +237,7 @@ class Run {
     for (const auto& [name, result] : netlists_) {
       found += result.count(End::found);
       for (const Outcome& outcome : result.outcomes)
-        if (outcome.end == End::survived && reasons->of(outcome.fault.place).empty())
+        if (options_.quick && outcome.end == End::survived && reasons->of(outcome.fault.place).empty())
           wrong.push_back(
               fmt::format("{}: fault {} ({}) survives; improve the vectors or give the reason in "
                           "tb/mutants/survivors.toml",
