@@ -331,7 +331,7 @@ Result<Packing> read_packing(std::string_view said) {
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
   const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  return ContentHash().add("netlist 2").add("flow 2").add(design.entity).add(nameless(*text)).hex();
+  return ContentHash().add("netlist 3").add("flow 2").add(design.entity).add(nameless(*text)).hex();
 }
 
 std::string flow_hash() {
