@@ -29,6 +29,7 @@ takes_fuzz := SECONDS TARGET JOBS
 takes_kills := JOBS
 takes_mutate := DESIGN FULL JOBS
 takes_prove := PROOF JOBS
+takes_evidence := JOBS
 takes_stability := JOBS
 takes_search := TRIANGLES SEED JOBS
 takes_bounds := JOBS
@@ -121,7 +122,7 @@ synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,-
   --page docs/results/synthesis.md . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test testbench lint sanitize fuzz kills mutate prove stability search bounds synth bench build program generator mcode configure \
+  check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth bench build program generator mcode configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -228,9 +229,13 @@ mutate: configure ## insert small faults into the hardware, which the tests must
 	@build/tb/halfway_mutants --step "$$(case "$$FULL$$DESIGN" in ('' | 0) echo 10 ;; (*) echo 1 ;; esac)" --jobs "$(jobs)" \
 	  $$([ -n "$$DESIGN" ] || echo --page docs/results/mutants.md) . build/tb/vectors build/tb/mutants $${DESIGN:+"$$DESIGN"}
 
-prove: configure ## prove properties of the RTL; each proof must also refute faults (PROOF: only some, without a page)
+prove: configure ## prove properties of the RTL; each proof must also refute faults (PROOF: only some)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
-	@build/tb/halfway_proofs $$([ -n "$$PROOF" ] || echo --page docs/results/proofs.md) . build/proofs $${PROOF:+"$$PROOF"}
+	@build/tb/halfway_proofs --evidence all . build/proofs $${PROOF:+"$$PROOF"}
+
+evidence: configure ## measure the stale rows of the pages of evidence again: proofs (two hours at most; may be interrupted)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
+	@build/tb/halfway_proofs --evidence stale . build/proofs
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
 stability: configure ## test hard cases in specification, golden model and RTL
@@ -281,7 +286,7 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
-with_tools := bench bounds check-report diagrams figures format check-format fuzz gallery lint mutate prove report sanitize \
+with_tools := bench bounds check-report diagrams evidence figures format check-format fuzz gallery lint mutate prove report sanitize \
   savings slurm-test study synth test
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_proofs: proves the properties of the RTL. Each fault of a proof goes into a copy of the RTL, and
-// the proof must refute it.
+// the proof must refute it. Each proof has a row of evidence.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdio>
 #include <mutex>
@@ -12,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "page/page.hpp"
+#include "evidence/evidence.hpp"
+#include "evidence/inputs.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
-#include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
@@ -30,7 +29,7 @@ constexpr unsigned c_threads = 2;
 struct Options {
   bool faults = true;
   bool quick = false;
-  std::filesystem::path page{};
+  evidence::Mode mode = evidence::Mode::none;
   Folders folders{};
   std::string name{};
 };
@@ -45,14 +44,15 @@ void keep_few(std::vector<Fault>& faults) {
   faults.resize(c_quick_faults);
 }
 
-Result<std::vector<Proof>> select_proofs(const Options& options) {
-  auto proofs = read_proofs(options.folders.source);
-  if (!proofs) return proofs;
-  std::erase_if(*proofs, [&](const Proof& proof) {
-    return (options.quick && !proof.quick) || !contains(proof.unit, options.name);
-  });
-  if (proofs->empty()) return bad_input(fmt::format("{}: no proof has this in its name", options.name));
-  for (Proof& proof : *proofs) {
+bool is_selected(const Options& options, const Proof& proof) {
+  return (!options.quick || proof.quick) &&
+         (contains(proof.unit, options.name) || contains(proof.name, options.name));
+}
+
+Result<std::vector<Proof>> select_proofs(const Options& options, std::vector<Proof> proofs) {
+  std::erase_if(proofs, [&](const Proof& proof) { return !is_selected(options, proof); });
+  if (proofs.empty()) return bad_input(fmt::format("{}: no proof has this in its name", options.name));
+  for (Proof& proof : proofs) {
     if (!options.faults) proof.faults.clear();
     if (options.quick) keep_few(proof.faults);
   }
@@ -89,6 +89,7 @@ struct Outcome {
   bool holds = false;
   int refuted = 0;     // faults
   double seconds = 0;  // of the proof, without its faults
+  int remaining = 0;   // jobs
 };
 
 struct Outcomes {
@@ -121,9 +122,12 @@ void record(const Proof& proof, const Job& job, const Result<Answer>& answer, do
   std::fflush(stdout);
 }
 
-Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs) {
+// Calls `done` with the number of each proof after its last job.
+template <class Done>
+Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs, const Done& done) {
   const std::vector<Job> jobs = jobs_of(proofs);
   Outcomes outcomes{.proofs = std::vector<Outcome>(proofs.size())};
+  for (const Job& job : jobs) ++outcomes.proofs[job.proof].remaining;
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   work_on_threads(c_threads, [&] {
@@ -134,7 +138,9 @@ Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs) {
       const auto answer = prove(folders, proof, job.fault);
       const double seconds = seconds_since(began);
       const std::lock_guard lock(mutex);
+      fmt::print("[{}/{}] ", at + 1, jobs.size());
       record(proof, job, answer, seconds, outcomes);
+      if (--outcomes.proofs[job.proof].remaining == 0) done(job.proof, outcomes.proofs[job.proof]);
     }
   });
   return outcomes;
@@ -157,41 +163,76 @@ std::string_view name_on_page(Method method) {
   return "";
 }
 
-std::vector<std::string> row_of(const Proof& proof, const Outcome& outcome) {
-  return {proof.property,
-          fmt::format("`{}`", proof.entity),
-          std::string(name_on_page(proof.method)),
-          proof.clocks > 0 ? std::to_string(proof.clocks) : "all",
-          fmt::format("{:.1f}", outcome.seconds),
-          outcome.holds ? fmt::format("{} of {}", outcome.refuted, proof.faults.size()) : "not proved"};
+// The fields that the description gives.
+evidence::Today described(const Proof& proof) {
+  return {.name = proof.name,
+          .section = "Results",
+          .fields = {{"property", proof.property},
+                     {"entity", fmt::format("`{}`", proof.entity)},
+                     {"method", std::string(name_on_page(proof.method))},
+                     {"clocks", proof.clocks > 0 ? std::to_string(proof.clocks) : "all"}}};
 }
 
-std::string table_of(const std::vector<Proof>& proofs, const std::vector<Outcome>& outcomes) {
-  const std::vector<std::string> columns = {"property", "entity",  "method",
-                                            "clocks",   "seconds", "faults refuted"};
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < proofs.size(); ++i) rows.push_back(row_of(proofs[i], outcomes[i]));
-  return markdown_table(columns, rows);
+// The row of a proof that holds and refutes all its faults.
+evidence::Row row_of(const Proof& proof, const Outcome& outcome) {
+  evidence::Row row = described(proof);
+  row.fields.emplace_back("seconds", fmt::format("{:.1f}", outcome.seconds));
+  row.fields.emplace_back("faults refuted", fmt::format("{} of {}", outcome.refuted, proof.faults.size()));
+  return row;
+}
+
+// Today's row of every proof, with the hashes of the selected ones.
+Result<evidence::Evidence> open_evidence(const Options& options, const std::vector<Proof>& proofs) {
+  std::vector<evidence::Today> today;
+  for (const Proof& proof : proofs) today.push_back(described(proof));
+  if (options.mode != evidence::Mode::none) {
+    const auto versions = evidence::versions(c_tools);
+    if (!versions) return versions.error();
+    const Status hashed = for_each_on_threads(c_threads, proofs.size(), [&](std::size_t i) -> Status {
+      if (!is_selected(options, proofs[i])) return Ok{};
+      auto hash = proof_hash(options.folders, proofs[i], *versions);
+      if (!hash) return hash.error();
+      today[i].hash = std::move(*hash);
+      return Ok{};
+    });
+    if (!hashed) return hashed.error();
+  }
+  return evidence::Evidence::open(
+      {.root = options.folders.source, .rows = "tb/proofs/evidence.txt", .page = "docs/results/proofs.md"},
+      std::move(today));
 }
 
 // ---- The program
 
 Result<ExitCode> prove_all(const Options& options) {
-  const auto proofs = select_proofs(options);
+  const auto all = read_proofs(options.folders.source);
+  if (!all) return all.error();
+  auto proofs = select_proofs(options, *all);
   if (!proofs) return proofs.error();
   if (auto checked = check_faults(options, *proofs); !checked) return checked.error();
   if (auto found = find_tools(); !found) return found.error();
-  const Outcomes outcomes = run_jobs(options.folders, *proofs);
-  const std::string table = table_of(*proofs, outcomes.proofs);
-  fmt::print("\n{}\n{} of {} not proved, {} faults not refuted, {} could not be run\n", table,
-             outcomes.not_proved, proofs->size(), outcomes.not_refuted, outcomes.broken);
+  const auto evidence = open_evidence(options, *all);
+  if (!evidence) return evidence.error();
+  if (options.mode == evidence::Mode::check) return report(*evidence);
+  if (options.mode == evidence::Mode::stale)
+    std::erase_if(*proofs, [&](const Proof& proof) { return !evidence->is_stale(proof.name); });
+  Status stored = Ok{};
+  const Outcomes outcomes = run_jobs(options.folders, *proofs, [&](std::size_t i, const Outcome& outcome) {
+    if (options.mode == evidence::Mode::none) return;
+    const Proof& proof = (*proofs)[i];
+    evidence::Row row = row_of(proof, outcome);
+    row.hash = std::ranges::find(evidence->today(), proof.name, &evidence::Today::name)->hash;
+    const bool is_evidence =
+        outcome.holds && static_cast<std::size_t>(outcome.refuted) == proof.faults.size();
+    if (Status done = is_evidence ? evidence->put(row) : evidence->remove(row.name); !done) stored = done;
+  });
+  fmt::print("\n{} of {} not proved, {} faults not refuted, {} could not be run\n", outcomes.not_proved,
+             proofs->size(), outcomes.not_refuted, outcomes.broken);
+  if (!stored) return stored.error();
+  if (options.mode != evidence::Mode::none)
+    if (const Status finished = evidence->finish(); !finished) return finished.error();
   if (outcomes.not_proved + outcomes.not_refuted > 0) return ExitCode::differs;
-  if (outcomes.broken > 0) return ExitCode::tool_failed;
-  if (!options.page.empty())
-    if (auto written = page::write_sections(options.page, std::array{page::Section{"Results", table}});
-        !written)
-      return written.error();
-  return ExitCode::equal;
+  return outcomes.broken > 0 ? ExitCode::tool_failed : ExitCode::equal;
 }
 
 }  // namespace
@@ -207,13 +248,10 @@ int main(int argc, char** argv) {
                    fmt::format("only proofs that take a few seconds, each with {} faults at most",
                                proofs::c_quick_faults));
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
-  CLI::Option* page =
-      app.add_option("--page", options.page, "page whose table is replaced; needs all proofs and faults");
+  evidence::add_option(app, options.mode)->excludes(quick, no_faults);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();
-  CLI::Option* name = app.add_option("NAME", options.name,
-                                     "only proofs with this in their names, such as raster/edge_walker");
-  page->excludes(quick, no_faults, name);
+  app.add_option("NAME", options.name, "only proofs with this in their names, such as raster/edge_walker");
   int exit_code = 0;
   app.callback([&] {
     options.folders.source = std::filesystem::absolute(options.folders.source);

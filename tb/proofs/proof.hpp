@@ -35,6 +35,7 @@ struct Format {
 };
 
 struct Proof {
+  std::string name{};      ///< of its description without `.toml`, and its number if there are several
   std::string entity;      ///< in rtl/, with its folder and without `.vhd`
   std::string unit;        ///< in tb/proofs/: the PSL unit, or Gappa's text
   std::string property{};  ///< one sentence, for the page

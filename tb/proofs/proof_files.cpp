@@ -198,7 +198,9 @@ class ProofFile {
 
   Proof read_proof(const toml::table& table) {
     check_keys(table, with_shared_keys({"property"}));
-    Proof proof{.entity = entity_, .unit = unit_};
+    Proof proof;
+    proof.entity = entity_;
+    proof.unit = unit_;
     if (Where node = required(table, "property")) proof.property = text(node, "property");
     if (Where node = required(table, "method")) proof.method = read_method(node);
     if (Where node = required(table, "quick")) proof.quick = flag(node, "quick");
@@ -360,6 +362,10 @@ Result<std::vector<Proof>> read_proofs(const std::filesystem::path& source) {
     if (file.extension() != ".toml") continue;
     auto read = ProofFile(source, file).read();
     if (!read) return read.error();
+    for (std::size_t i = 0; i < read->size(); ++i) {
+      const std::string name = std::filesystem::path(file).replace_extension();
+      (*read)[i].name = read->size() == 1 ? name : fmt::format("{} {}", name, i + 1);
+    }
     std::ranges::move(*read, std::back_inserter(proofs));
   }
   if (const auto checked = check_units(*files, proofs); !checked) return checked.error();
