@@ -6,9 +6,9 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
-use work.processor_list_pkg.all;
 use work.terms_pkg.all;
 use work.tb_pkg.all;
+use work.tb_processors_pkg.all;
 
 entity processor_checker is
   generic (
@@ -164,7 +164,7 @@ begin
   end generate;
 end architecture;
 
-use work.processor_list_pkg.all;
+use work.tb_processors_pkg.all;
 
 -- All processors of the list.
 entity processors_checker is

@@ -74,7 +74,7 @@ Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::p
   const auto testbench = testbench_of(fault.test, source);
   if (!testbench) return testbench.error();
   for (const std::string& name :
-       {std::string("tb/tb_pkg.vhd"), std::string("tb/processor_list_pkg.vhd"),
+       {std::string("tb/tb_pkg.vhd"), std::string("tb/tb_processors_pkg.vhd"),
         std::string("tb/stream/stream_source.vhd"), std::string("tb/stream/stream_sink.vhd"),
         std::string("tb/shaders/shader_checker.vhd"), std::string("tb/illumination/processor_checker.vhd"),
         *testbench}) {

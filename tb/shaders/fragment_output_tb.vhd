@@ -5,8 +5,8 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
-use work.processor_list_pkg.all;
 use work.tb_pkg.all;
+use work.tb_processors_pkg.all;
 
 entity fragment_output_run is
   generic (
@@ -111,7 +111,7 @@ begin
   end process;
 end architecture;
 
-use work.processor_list_pkg.all;
+use work.tb_processors_pkg.all;
 
 entity fragment_output_tb is
   generic (

@@ -6,8 +6,8 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
-use work.processor_list_pkg.all;
 use work.tb_pkg.all;
+use work.tb_processors_pkg.all;
 
 entity shading_pipeline_run is
   generic (
@@ -119,8 +119,8 @@ begin
   end process;
 end architecture;
 
-use work.processor_list_pkg.all;
 use work.processors_pkg.all;
+use work.tb_processors_pkg.all;
 
 entity shading_pipeline_tb is
   generic (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shading processors that the testbenches run, and the names of their files. tb/processor_list_pkg.vhd
+// The shading processors that the testbenches run, and the names of their files. tb/tb_processors_pkg.vhd
 // has the same list.
 #pragma once
 

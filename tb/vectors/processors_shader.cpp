@@ -335,7 +335,7 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
 }
 
 // The parts of the shader with all words of tokens and with shadows, in both presets.
-// tb/processor_list_pkg.vhd has the same list.
+// tb/tb_processors_pkg.vhd has the same list.
 template <class Write>
 Status write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {

@@ -6,7 +6,7 @@ use ieee.std_logic_1164.all;
 use work.processors_pkg.all;
 use work.tb_pkg.all;
 
-package processor_list_pkg is
+package tb_processors_pkg is
 
   type configs_t is array (natural range <>) of config_t;
 
@@ -28,6 +28,9 @@ package processor_list_pkg is
   -- positional light, and three with single effects.
   constant c_processors : processors_t;
 
+  -- The three words of a vector as words of `bits` bits. The bits above a word are 'X'.
+  function spaced (words : std_logic_vector; bits : positive) return std_logic_vector;
+
   -- For the parts of processors_shader: a directional light, grey without highlights, shadows, preset published.
   constant c_shaders : configs_t(0 to 3) := (
     config(true, 3, 1, 0, 0, true, true, true, false), config(true, 1, 2, 0, 0, true, false, false, false),
@@ -35,7 +38,7 @@ package processor_list_pkg is
 
 end package;
 
-package body processor_list_pkg is
+package body tb_processors_pkg is
 
   function digit (flag : boolean) return string is
   begin
@@ -51,6 +54,18 @@ package body processor_list_pkg is
   function processor_name (p : processor_t) return string is
   begin
     return config_name(p.config) & "_" & to_string(p.kind) & to_string(p.light);
+  end function;
+
+  function spaced (words : std_logic_vector; bits : positive) return std_logic_vector is
+    constant c_bits : positive := words'length / c_axes;
+    alias flat      : std_logic_vector(words'length - 1 downto 0) is words;
+
+    variable result : std_logic_vector(c_axes * bits - 1 downto 0) := (others => 'X');
+  begin
+    for i in 0 to c_axes - 1 loop
+      result(i * bits + c_bits - 1 downto i * bits) := flat((i + 1) * c_bits - 1 downto i * c_bits);
+    end loop;
+    return result;
   end function;
 
   function processors_of (c : config_t) return processors_t is
