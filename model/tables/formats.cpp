@@ -329,41 +329,46 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
 // then for each line and light a diffuse and a specular part. Angles are in units of half a bell: the bell
 // reaches zero at 1.
 std::vector<Layout> spherical_layouts(bool exact) {
-  std::vector<Field> specular = {{"angle", "angle", "angle at the first pixel of the line"},
-                                 {"slope", "angle", "its step per pixel"}};
-  if (exact) specular.push_back({"power", "power", "which power of the cosine: its table"});
+  std::vector<Field> specular = {{"angle", "angle", "phi at the first pixel of the line"},
+                                 {"slope", "angle", "change of phi per pixel"}};
+  if (exact) specular.push_back({"power", "power", "log2 of the cosine's power: which table is read"});
   return {
-      {"ambient", {}, {{"ambient", "factor", "ambient light of the triangle, in colour steps"}}},
+      {"ambient", {}, {{"ambient", "factor", "ambient light of the triangle, in colour steps, plus 0.5"}}},
       {"diffuse",
-       {{"angle", "angle", "angle at the first pixel of the line"}, {"slope", "angle", "its step per pixel"}},
-       {{"factor", "factor", "light times coefficient, in colour steps"}}},
-      {"specular", specular, {{"factor", "factor", "light times coefficient, in colour steps"}}},
+       {{"angle", "angle", "phi at the first pixel of the line"},
+        {"slope", "angle", "change of phi per pixel"}},
+       {{"factor", "factor", "255 I k_d A s 2^D / (2^D - 1), in colour steps"}}},
+      {"specular", specular, {{"factor", "factor", "255 I k_s A^n g s 2^D / (2^D - 1), in colour steps"}}},
   };
 }
 
 // Fields of the shading processors, except those of the walk. processors_pkg defines the blocks' positions.
 std::vector<Layout> processors_layouts(bool exact) {
-  std::vector<Field> axis = {{"place", "light_place", "direction to the light, or its place"},
-                             {"axis", "direction", "axis of the cone"}};
-  if (!exact) axis.push_back({"half", "direction", "half vector of a constant eye"});
-  std::vector<Field> light = {{"positional", "flag", "1: the light has a place"},
-                              {"spot", "flag", "1: it has a cone"}};
-  if (exact) light.push_back({"shift", "light_shift", "places that P - P_light is shifted by"});
-  light.insert(light.end(), {{"outer", "direction", "cosine of the cone's outer edge"},
-                             {"slope", "spot_slope", "1 / width of the cone's soft edge, in cosines"},
-                             {"around_eye", "shadow_count", "shadow volumes around the eye"}});
+  std::vector<Field> axis = {{"place", "light_place", "position of the light, or unit vector to it"},
+                             {"axis", "direction", "unit vector along the cone's axis, away from the light"}};
+  if (!exact)
+    axis.push_back({"half", "direction", "directional: H of a constant eye; positional: vector to the eye"});
+  std::vector<Field> light = {{"positional", "flag", "1: `place` is a position; 0: `place` is a direction"},
+                              {"spot", "flag", "1: the light has a cone"}};
+  if (exact)
+    light.push_back({"shift", "light_shift", "number of bits by which the surface point is shifted right"});
+  light.insert(light.end(),
+               {{"outer", "direction", "cosine of the cone's outer half angle"},
+                {"slope", "spot_slope", "1 / (cosine of inner - cosine of outer half angle)"},
+                {"around_eye", "shadow_count", "number of shadow volumes that contain the eye"}});
   return {
       {"request",
-       {{"command", "command", "draw, depth, shadow, new_frame, define, redefine or delete"},
-        {"light", "light", "number of the light; 0: ambient"},
+       {{"command", "command", "number of the command"},
+        {"light", "light", "number of the light from 1; 0: the ambient light, or no light"},
         {"opens", "flag", "shadow polygon: 1 opens a volume, 0 closes it"},
         {"normalize", "flag", "1: the ambient processor normalizes N"}},
        {}},
       {"plane",
-       {{"value", "plane_sum", "value at the first pixel"},
-        {"dx", "plane_sum", "step per pixel"},
-        {"de0", "plane_sum", "step per line where the start edge does not carry"},
-        {"de1", "plane_sum", "step per line where it carries"}},
+       {{"value", "plane_sum",
+         exact ? "value at the first pixel, plus 2^-29" : "value at the first pixel, plus 2^-15"},
+        {"dx", "plane_sum", "change of the value per pixel along the span"},
+        {"de0", "plane_sum", "change of the value per line without carry"},
+        {"de1", "plane_sum", "change of the value per line with carry"}},
        {}},
       {"pixel",
        {{"command", "command"},
@@ -376,7 +381,9 @@ std::vector<Layout> processors_layouts(bool exact) {
         {"z", "depth"}},
        {}},
       {"light_axes", light, axis},
-      {"light_colour", {}, {{"intensity", "light_intensity", "intensity of the light"}}},
+      {"light_colour",
+       {},
+       {{"intensity", "light_intensity", "intensity of the light, in colour steps: 255 is white"}}},
   };
 }
 
@@ -391,40 +398,44 @@ std::vector<Layout> exact_layouts() {
        {{"triangle", "triangle", "number of the triangle in the scene; copied to its fragments"},
         {"y", "pixel_y", "first line"},
         {"upper_lines", "lines", "lines in the upper section of the stop edge, at least 1"},
-        {"lower_lines", "lines", "lines in its lower section; 0: there is none"},
+        {"lower_lines", "lines", "lines in its lower section; 0: no lower section"},
         {"backward", "flag", "1: spans run to smaller x"},
         {"start_x", "span_x", "first pixel of the first line"},
         {"start_quotient", "span_x", "whole pixels per line of the start edge, rounded down"},
-        {"start_remainder", "edge_error", "rest of that division, in 1/start_divisor pixel"},
+        {"start_remainder", "edge_error", "remainder of that division, in 1/start_divisor pixel"},
         {"start_divisor", "edge_error", "height of the start edge, in 1/16 pixel"},
-        {"start_error", "edge_error", "sum of remainders after the first step"},
-        {"start_carry", "flag", "1: the first step moves one pixel further"},
-        {"upper_x", "span_x", "pixel after the last one of the first line"},
+        {"start_error", "edge_error",
+         "distance from the edge to its pixel after the first step, in 1/start_divisor pixel"},
+        {"start_carry", "flag", "1: the first step moves one pixel further than the quotient"},
+        {"upper_x", "span_x", "pixel after the last one of the first line, in the direction of the span"},
         {"upper_quotient", "span_x", "whole pixels per line of the stop edge, upper section, rounded down"},
-        {"upper_remainder", "edge_error", "rest of that division, in 1/upper_divisor pixel"},
+        {"upper_remainder", "edge_error", "remainder of that division, in 1/upper_divisor pixel"},
         {"upper_divisor", "edge_error", "height of that section, in 1/16 pixel"},
-        {"upper_error", "edge_error", "sum of remainders after the first step"},
-        {"upper_carry", "flag", "1: the first step moves one pixel further"},
-        {"lower_x", "span_x", "pixel after the last one of the lower section's first line"},
+        {"upper_error", "edge_error",
+         "distance from the edge to its pixel after the first step, in 1/upper_divisor pixel"},
+        {"upper_carry", "flag", "1: the first step moves one pixel further than the quotient"},
+        {"lower_x", "span_x",
+         "pixel after the last one of the lower section's first line, in the direction of the span"},
         {"lower_quotient", "span_x", "whole pixels per line of the stop edge, lower section, rounded down"},
-        {"lower_remainder", "edge_error", "rest of that division, in 1/lower_divisor pixel"},
+        {"lower_remainder", "edge_error", "remainder of that division, in 1/lower_divisor pixel"},
         {"lower_divisor", "edge_error", "height of that section, in 1/16 pixel"},
-        {"lower_error", "edge_error", "sum of remainders after the first step"},
-        {"lower_carry", "flag", "1: the first step moves one pixel further"},
-        {"z", "depth_sum", "depth at the first pixel"},
-        {"z_dx", "depth_sum", "its step per pixel"},
-        {"z_de0", "depth_sum", "its step per line where the start edge moves by start_quotient"},
-        {"z_de1", "depth_sum", "its step per line where the start edge carries one pixel more"}},
-       {{"value", "intensity", "value at the first pixel"},
-        {"dx", "intensity", "first step along a span"},
-        {"de0", "intensity", "first step to the next line"},
-        {"de1", "intensity", "the same where the start edge carries"},
-        {"dxx", "intensity", "what a step along a span adds to dx"},
-        {"dxe0", "intensity", "what a line adds to dx"},
-        {"dxe1", "intensity", "the same where the edge carries"},
-        {"de0e0", "intensity", "what a line adds to de0"},
-        {"de0e1", "intensity", "what a line adds to de1, and a carrying line to de0"},
-        {"de1e1", "intensity", "what a carrying line adds to de1"}}},
+        {"lower_error", "edge_error",
+         "distance from the edge to its pixel after the first step, in 1/lower_divisor pixel"},
+        {"lower_carry", "flag", "1: the first step moves one pixel further than the quotient"},
+        {"z", "depth_sum", "depth at the first pixel, plus 0.5"},
+        {"z_dx", "depth_sum", "change of depth per pixel along the span"},
+        {"z_de0", "depth_sum", "change of depth per line without carry"},
+        {"z_de1", "depth_sum", "change of depth per line with carry"}},
+       {{"value", "intensity", "value at the first pixel, in colour steps, plus 0.5"},
+        {"dx", "intensity", "first change of the value along the span"},
+        {"de0", "intensity", "first change of the value to the next line, without carry"},
+        {"de1", "intensity", "first change of the value to the next line, with carry"},
+        {"dxx", "intensity", "change of dx per pixel along the span"},
+        {"dxe0", "intensity", "change of dx per line without carry"},
+        {"dxe1", "intensity", "change of dx per line with carry"},
+        {"de0e0", "intensity", "change of de0 per line without carry"},
+        {"de0e1", "intensity", "change of de0 per line with carry, and of de1 per line without carry"},
+        {"de1e1", "intensity", "change of de1 per line with carry"}}},
   };
 }
 
@@ -433,20 +444,20 @@ std::vector<Layout> published_layouts() {
       {"init",
        {{"triangle", "triangle", "number of the triangle in the scene; copied to its fragments"},
         {"y", "pixel_y", "first line"},
-        {"upper_lines", "lines", "lines of the triangle"},
-        {"start_x", "edge_x", "x of the start edge on the first line"},
+        {"upper_lines", "lines", "lines of this half of the triangle, the first and the last one included"},
+        {"start_x", "edge_x", "x of the start edge on the first line (the first pixel), plus 0.5"},
         {"start_slope", "edge_x", "pixels per line of the start edge"},
-        {"upper_x", "edge_x", "x of the stop edge on the first line"},
+        {"upper_x", "edge_x", "x of the stop edge on the first line (the last pixel), plus 0.5"},
         {"upper_slope", "edge_x", "pixels per line of the stop edge"},
-        {"z", "depth_sum", "depth at the first pixel"},
-        {"z_dx", "depth_sum", "its step per pixel"},
-        {"z_de0", "depth_sum", "its step per line"}},
-       {{"value", "intensity", "value at the first pixel"},
-        {"dx", "intensity", "first step along a span"},
-        {"de0", "intensity", "first step to the next line"},
-        {"dxx", "intensity", "what a step along a span adds to dx"},
-        {"dxe0", "intensity", "what a line adds to dx"},
-        {"de0e0", "intensity", "what a line adds to de0"}}},
+        {"z", "depth_sum", "depth on the start edge, first line, plus 0.5"},
+        {"z_dx", "depth_sum", "change of depth per pixel along the span"},
+        {"z_de0", "depth_sum", "change of depth per line"}},
+       {{"value", "intensity", "value on the start edge, first line, in colour steps, plus 0.5"},
+        {"dx", "intensity", "first change of the value along the span"},
+        {"de0", "intensity", "first change of the value to the next line"},
+        {"dxx", "intensity", "change of dx per pixel along the span"},
+        {"dxe0", "intensity", "change of dx per line"},
+        {"de0e0", "intensity", "change of de0 per line"}}},
   };
 }
 

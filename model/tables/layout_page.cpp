@@ -17,33 +17,73 @@ struct Section {
 constexpr Section c_sections[] = {
     {"init", "Header and channels of a triangle",
      "The vector of the quadratic shader: one header, then one block per channel (1 or 3). The other shaders "
-     "start their vectors with the same header. `carry`: the start edge moves one pixel more than its "
-     "quotient on this line. e0 and e1 are the steps of the start edge without and with carry, x a step "
-     "along the span; `de0e1` is the mixed second difference along e0 and e1, and so on.",
-     "`model/setup/walk.cpp` (edges) and `quadratic_fit.cpp` (depth, channels)"},
+     "start their vectors with the same header. In preset `exact` a triangle is one vector, or several if an "
+     "edge leaves the frame. In preset `published` it is one or two vectors: each half has a horizontal "
+     "side.\n\n"
+     "`exact`: from a line to the next one the start edge moves by e0 = (q, 1), with q = `start_quotient`, "
+     "or, with *carry*, by e1 = (q + 1, 1). The edge carries if its error is less than the remainder. x is a "
+     "step along the span: +1, or -1 with `backward`. The names of the differences give their steps: `de0e1` "
+     "is the mixed second difference along e0 and e1. `published`: the start edge moves by its real slope.",
+     "`model/setup/walk.cpp` (edges of `exact`), `half_triangle.cpp` (header of `published`), "
+     "`quadratic_fit.cpp` and `quadratic_setup.cpp` (depth, channels)"},
     {"ambient", "Ambient light of the spherical shader", "Follows the header, one block per channel.",
      "`model/setup/spherical_setup.cpp`"},
     {"diffuse", "Diffuse part of a line record (spherical shader)",
-     "A line record holds for each light its diffuse part, then its specular part. It follows the triangle's "
-     "vector, one record per line. Angles are in half bells: at 1 the highlight or the cosine is zero.",
+     "One line record per line follows the triangle's vector. It holds for each light its diffuse part, then "
+     "its specular part; light 1 is lowest. On the line, N·L = A cos phi. I is the intensity of the light (1 "
+     "is white) and k_d the material's coefficient times its colour, both in this channel. s is the share of "
+     "a spot's cone (1 for other lights), and D the number of data bits of the table. The unit of phi is a "
+     "quarter turn (half a bell) in preset `exact`, where the cosine is zero at 1, and a half turn in preset "
+     "`published`.",
      "`model/setup/spherical_setup.cpp`, `arc.cpp`"},
     {"specular", "Specular part of a line record (spherical shader)",
-     "One factor per highlight channel: 1 if all highlights are white, otherwise 3.",
+     "One block per highlight channel: 1 if all highlights are white or grey, otherwise 3. On the line, N·H "
+     "(of Phong materials R·V) = A cos phi. n is the material's exponent. The bell with scale a and gain g "
+     "approximates cosⁿ (`model/shading/bell.hpp`; g is 1 in preset `published`). The words hold a phi in "
+     "half bells: the highlight is zero at 1.",
      "`model/setup/spherical_setup.cpp`, `arc.cpp`"},
     {"request", "Request of the shading processors",
-     "Every vector of the shading processors starts with a request. A triangle (draw, depth) continues with "
-     "the header of preset `exact`, its planes and its material; a light (define, redefine) with its axes "
-     "and "
-     "colour.",
+     "Every vector of the shading processors starts with a request. Its command gives what follows:\n\n"
+     "| command | number | after the request |\n"
+     "| --- | --- | --- |\n"
+     "| draw | 0 | header of preset `exact` (of both presets), planes, material |\n"
+     "| depth | 1 | header of preset `exact`; only with `g_shadows` |\n"
+     "| new_frame | 3 | nothing |\n"
+     "| define | 4 | axes and colour of the light; for light 0 (ambient) only the colour is read |\n"
+     "| redefine | 5 | as define; only if the light is defined |\n"
+     "| delete | 6 | nothing |\n"
+     "| shadow | 7 | header of preset `exact`; only with `g_shadows` |\n\n"
+     "A frame starts with new_frame and a define for the ambient light and for each light. Lights are "
+     "numbered from 1: directional, positional, spots. `processors_pkg` computes the positions of the blocks "
+     "from the generics (`walk_low`, `plane_low`, `init_material_low`, `light_axes_low`, "
+     "`light_colour_low`).",
      "`model/setup/processors_setup.cpp`"},
     {"plane", "Plane of the shading processors",
-     "A value that is linear on the screen: N x, y, z; then the surface point or the view ray x, y, z; then "
-     "1/w. Which of them are present depends on the lights (`processors_pkg`).",
+     "A value that is linear on the screen. One block each for N x, y, z; then for P x, y, z; then for 1/w. "
+     "Preset `exact`: N/w, P/w (the view ray) and 1/w; preset `published`: N and P. P is present with "
+     "positional lights or spots, in preset `exact` also with highlights. 1/w is present only in preset "
+     "`exact` with positional lights or spots. All are in view space and scaled by powers of two to "
+     "components below 1.",
      "`model/setup/processors_setup.cpp`"},
-    {"light_axes", "Light of the shading processors", "One header, then one block per axis x, y, z.",
+    {"light_axes", "Light of the shading processors",
+     "One header, then one block per axis x, y, z, in view space. A position has the scale of P; in preset "
+     "`exact` it is divided by 2^`shift`, too, and the hardware shifts the surface point by as many bits.",
      "`model/setup/processors_setup.cpp`, `shadow_volume.cpp` (around_eye)"},
     {"light_colour", "Colour of a light", "Follows the axes, one block per channel.",
      "`model/setup/processors_setup.cpp`"},
+};
+
+/// A word of the material of the shading processors; processors_pkg has its positions.
+struct MaterialWord {
+  std::string_view name, count, format, condition, meaning;
+};
+
+constexpr MaterialWord c_material[] = {
+    {"exponent", "1", "exponent", "`g_specular`", "exponent n of the highlight"},
+    {"ambient", "one per channel", "coefficient", "always", "k_a: ambient coefficient times colour"},
+    {"diffuse", "one per channel", "coefficient", "`g_diffuse`", "k_d: diffuse coefficient times colour"},
+    {"specular", "one per channel", "coefficient", "`g_specular`",
+     "k_s: specular coefficient times the highlight's colour"},
 };
 
 const Format& format_of(const PresetFormats& preset, std::string_view name) {
@@ -68,6 +108,45 @@ void add_fields(std::string& page, const PresetFormats& preset, const std::vecto
   }
 }
 
+/// The total number of bits, if the section shows more than one block.
+void add_bits(std::string& page, const PresetFormats& preset, const Section& section, const Layout& layout) {
+  const auto bits_of = [&](const std::vector<Field>& fields) {
+    int bits = 0;
+    for (const Field& field : fields) bits += format_of(preset, field.format).bits();
+    return bits;
+  };
+  if (layout.header.empty() || layout.channel.empty()) return;
+  const int header = bits_of(layout.header), block = bits_of(layout.channel);
+  auto to = std::back_inserter(page);
+  if (section.layout == "light_axes")
+    fmt::format_to(to, "\nHeader: {} bits; an axis: {}; together {}.\n", header, block, header + 3 * block);
+  else
+    fmt::format_to(to, "\nHeader: {} bits; a channel: {}; with one channel {}, with three {}.\n", header,
+                   block, header + block, header + 3 * block);
+}
+
+void add_material(std::string& page, const std::vector<PresetFormats>& presets) {
+  auto to = std::back_inserter(page);
+  page +=
+      "\n## Material of the shading processors\n\n"
+      "Follows the planes of a draw. The words are listed from bit 0 up; a word that the generics do not "
+      "need "
+      "takes no bits. Channels are in the order red, green, blue.\n\n"
+      "Computed by `model/setup/processors_setup.cpp`.\n";
+  for (const PresetFormats& preset : presets) {
+    fmt::format_to(to,
+                   "\nPreset `{}`:\n\n| word | number | bits each | format | present with | meaning |\n"
+                   "| --- | --- | --- | --- | --- | --- |\n",
+                   preset.name);
+    for (const MaterialWord& word : c_material) {
+      const Format& format = format_of(preset, word.format);
+      fmt::format_to(to, "| `{}` | {} | {} | {}{}.{} | {} | {} |\n", word.name, word.count, format.bits(),
+                     format.is_signed ? 's' : 'u', format.integer_bits, format.fraction_bits, word.condition,
+                     word.meaning);
+    }
+  }
+}
+
 }  // namespace
 
 std::string layout_page(const std::vector<PresetFormats>& presets) {
@@ -75,12 +154,17 @@ std::string layout_page(const std::vector<PresetFormats>& presets) {
       "<!-- SPDX-License-Identifier: Apache-2.0 -->\n"
       "<!-- Made by `make tables` from model/tables; edit that. -->\n"
       "# Init vectors\n\n"
-      "What the host sends to the hardware, field by field. Bit 0 comes first. In a block the bits count "
-      "from "
-      "the start of the block. A format `sI.F` or `uI.F` is signed or unsigned with I integer bits (without "
-      "the sign) and F fraction bits. In the RTL the same slices are constants of `formats_pkg`: "
+      "What the host sends to the hardware, field by field. Fields are listed from bit 0 up. In a block the "
+      "bits count from the start of the block. A format `sI.F` or `uI.F` is signed or unsigned with I "
+      "integer "
+      "bits (without the sign) and F fraction bits: its value is the word divided by 2^F. Colours are in "
+      "colour steps (1/255 of white), depths in steps of the 24-bit depth, positions on the screen in "
+      "pixels. In the RTL the same bit ranges are constants of `formats_pkg`: "
       "`init_header(g_exact).start_x` and the like; in C++ they are "
-      "`golden::Exact::init_header_at::start_x`.\n";
+      "`golden::Exact::init_header_at::start_x`.\n\n"
+      "**Added halves.** The hardware drops fractions instead of rounding. The host therefore adds half a "
+      "step of the result to the words whose row says *plus*: 0.5 colour steps, depth steps or pixels; 2^-29 "
+      "or 2^-15 for planes, half a step of the interpolated word.\n";
   auto to = std::back_inserter(page);
   for (const Section& section : c_sections) {
     fmt::format_to(to, "\n## {}\n\n{}\n\nComputed by {}.\n", section.title, section.text, section.source);
@@ -92,7 +176,9 @@ std::string layout_page(const std::vector<PresetFormats>& presets) {
           preset.name);
       add_fields(page, preset, layout.header, "header");
       add_fields(page, preset, layout.channel, section.layout == "light_axes" ? "axis" : "channel");
+      add_bits(page, preset, section, layout);
     }
+    if (section.layout == "plane") add_material(page, presets);
   }
   return page;
 }

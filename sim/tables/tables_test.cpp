@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of the command `halfway tables`: files written, messages, and changes found.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +8,7 @@
 #include <optional>
 #include <regex>
 
+#include "golden/processors_layout.hpp"
 #include "sim/cli/command_test.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
@@ -35,7 +37,8 @@ class TablesCommand : public CommandTest {
 
 constexpr const char* c_files[] = {"rtl/tables/formats_pkg.vhd",  "model/golden/formats.hpp",
                                    "rtl/tables/cosine_pkg.vhd",   "model/golden/cosine_tables.hpp",
-                                   "rtl/tables/function_pkg.vhd", "model/golden/function_tables.hpp"};
+                                   "rtl/tables/function_pkg.vhd", "model/golden/function_tables.hpp",
+                                   "docs/rtl/init-vectors.md"};
 
 TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
   const Outcome lacking = run({"--check"});
@@ -53,6 +56,19 @@ TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
     ASSERT_TRUE(committed) << file;
     EXPECT_TRUE(text_of(file) == *committed) << file << ": run `make tables`";
   }
+}
+
+// The page of the init vectors has the numbers of the host's commands.
+TEST_F(TablesCommand, WritesTheNumbersOfCommands) {
+  using golden::Command;
+  ASSERT_EQ(run({}).exit_code, 0);
+  const std::string page = text_of("docs/rtl/init-vectors.md");
+  for (const auto& [name, command] :
+       {std::pair{"draw", Command::draw}, std::pair{"depth", Command::depth},
+        std::pair{"new_frame", Command::new_frame}, std::pair{"define", Command::define},
+        std::pair{"redefine", Command::redefine}, std::pair{"delete", Command::remove},
+        std::pair{"shadow", Command::shadow}})
+    EXPECT_THAT(page, HasSubstr(fmt::format("\n| {} | {} |", name, static_cast<unsigned>(command))));
 }
 
 TEST_F(TablesCommand, PrintsTheCostOfEachTable) {
