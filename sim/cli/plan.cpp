@@ -22,7 +22,9 @@
 #include "sim/ghdl/hardware_units.hpp"
 #include "sim/program/printable.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/file.hpp"
 #include "sim/system/threads.hpp"
+#include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -33,6 +35,7 @@ struct PlanCommand {
   bool measure = false;
   std::vector<std::string> simulators;
   std::optional<std::uint64_t> objects, rate;
+  std::string netlist;  // file to write; empty: none
 };
 
 constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;
@@ -114,12 +117,19 @@ void print_counts(const std::string& name, std::uint64_t called_for, std::uint64
 }
 
 void print_units(const PlanUnits& units) {
-  print_row("units", "as called for", "all effects", "saved");
+  print_row("units", "as needed", "all effects", "saved");
   for (const auto& [unit, count] : units.everything) {
     const auto it = units.called_for.find(unit);
     print_counts("  " + unit, it == units.called_for.end() ? 0 : static_cast<std::uint64_t>(it->second),
                  static_cast<std::uint64_t>(count));
   }
+}
+
+// As options of GHDL, without the hyphen.
+std::string generics_text(const HardwareKey& key) {
+  std::string text;
+  for (const auto& [name, value] : key.generics()) text += fmt::format(" {}={}", name, value);
+  return text;
 }
 
 // Counts the cells of all keys in parallel: each takes seconds, or minutes for many lights.
@@ -166,7 +176,7 @@ bool hides_more(const Plan& plan) {
 void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationCost& called_for,
                     const SimulationCost& everything, bool same) {
   fmt::print("\n");
-  print_row("measured", "as called for", "all effects", "saved");
+  print_row("measured", "as needed", "all effects", "saved");
   const Cells few = cells.at(plan.called_for.name()), all = cells.at(plan.everything.name());
   print_counts("LUTs of 4 inputs (Yosys, flattened)", few.luts, all.luts);
   if (all.multipliers != 0) {
@@ -292,9 +302,17 @@ int run(const Folders& folders, const PlanCommand& command) {
     }
   }
 
-  fmt::print("scene {}, shader {}, preset {}\n  as called for  {}\n  all effects    {}\n\n",
-             printable(scene->name), to_string(plan.key.shader), to_string(plan.key.preset),
-             plan.called_for.name(), plan.everything.name());
+  if (!command.netlist.empty()) {
+    const auto netlist = netlist_of(plan.key, simulator_folders);
+    if (!netlist) return report(netlist.error());
+    if (const Status written = write_file(command.netlist, *netlist); !written)
+      return report(written.error());
+  }
+
+  fmt::print(
+      "scene {}, shader {}, preset {}\n  as needed      {}\n  all effects    {}\n  generics      {}\n\n",
+      printable(scene->name), to_string(plan.key.shader), to_string(plan.key.preset), plan.called_for.name(),
+      plan.everything.name(), generics_text(plan.key));
   print_effects(plan, units, cells);
   fmt::print("\n");
   if (units)
@@ -323,6 +341,8 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--objects", command->objects,
                   "objects per pixel, for the number of processors (processors paper, table 5)");
   sub->add_option("--rate", command->rate, "frames per second, for the same table (default: 30)");
+  sub->add_option("--netlist", command->netlist,
+                  "file to write: the planned hardware as Verilog, GHDL's netlist with its faults repaired");
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 

@@ -35,7 +35,7 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
   const Outcome matte = run({"plan", "matte", "--shader", "spherical"});
   EXPECT_EQ(matte.exit_code, 0) << matte.output;
   EXPECT_THAT(matte.output,
-              AllOf(HasSubstr("as called for  spherical_shader-exact-c1-l1-d-rom9x8\n"),
+              AllOf(HasSubstr("as needed      spherical_shader-exact-c1-l1-d-rom9x8\n"),
                     HasSubstr("all effects    spherical_shader-exact-c3-l1-d-s3-cos1.2.4.8.16-rom9x8\n"),
                     ContainsRegex("\nspecular +no +hardware +every k_s is 0\n +left out: .*1 specular_slice"),
                     ContainsRegex("\nhighlight colour +no +hardware +there is no highlight\n"),
@@ -52,6 +52,20 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
               AllOf(HasSubstr("all effects    spherical_shader-exact-c3-l4-d-s3-cos1.2.4.8.16-rom9x8\n"),
                     ContainsRegex("\nspecular +no +hardware +every k_s is 0; one slice per light\n"
                                   " +there all the same: .*4 specular_slice")));
+}
+
+// The printed generics select the netlist that --netlist writes.
+TEST_F(PlanCommand, WritesTheRepairedNetlist) {
+  const Outcome outcome = run({"plan", "matte", "--netlist", "matte.v"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("\n  generics       g_exact=true g_channels=1\n"));
+  const auto netlist = read_file(folder_->path() / "matte.v");
+  ASSERT_TRUE(netlist) << netlist.error().message;
+  const auto has = [&](std::string_view text) { return netlist->find(text) != std::string::npos; };
+  // One channel of preset exact: 880 bits.
+  EXPECT_TRUE(has("module quadratic_shader\n") && has("input  [879:0] init_data"));
+  // GHDL's faults are repaired.
+  EXPECT_FALSE(has("\"") || has("'bZ"));
 }
 
 TEST_F(PlanCommand, Table5OfTheLights) {

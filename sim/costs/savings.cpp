@@ -157,7 +157,7 @@ Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv) {
 
 Result<std::string> with_savings(const std::string& readme, std::span<const Savings> savings) {
   std::string table =
-      "| scene | shader | LUTs of 4 inputs, as called for | with all effects | saved | flip-flops saved |\n"
+      "| scene | shader | LUTs of 4 inputs, as needed | with all effects | saved | flip-flops saved |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
   std::string processors =
       "| scene, preset | LUTs of 4 inputs | multipliers | flip-flops | bits of memory | cycles |\n"

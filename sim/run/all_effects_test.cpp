@@ -156,7 +156,7 @@ void expect_equal(const std::vector<Fragment>& called_for, const std::vector<Fra
   for (std::size_t i = 0; i < called_for.size(); ++i) {
     const Fragment &a = called_for[i], &b = everything[i];
     ASSERT_EQ(a, b) << fmt::format(
-        "fragment {}, triangle {}, line {}, pixel {}: as called for {} {} {} z {}, "
+        "fragment {}, triangle {}, line {}, pixel {}: as needed {} {} {} z {}, "
         "with all effects {} {} {} z {}",
         i, a.triangle, a.y, a.x, a.red, a.green, a.blue, a.z, b.red, b.green, b.blue, b.z);
   }
@@ -194,7 +194,7 @@ TEST_P(EachShader, DrawTheSameForEverySubset) {
     ASSERT_NO_FATAL_FAILURE(
         expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.everything).golden));
   }
-  fmt::print("{} scenes, {} kinds of hardware called for\n", every_subset().size(), keys.size());
+  fmt::print("{} scenes, {} kinds of hardware needed\n", every_subset().size(), keys.size());
   // Lights: 0 to 6. For each number above 0: diffuse, specular by colours, both; one and three channels.
   EXPECT_EQ(keys.size(), GetParam().shader == Shader::quadratic ? 2U : 2 + 6 * (2 + 2 * (1 + 2)));
 }
@@ -249,7 +249,7 @@ TEST(AllEffects, ProcessorsDrawTheSameFrameForEverySubset) {
       ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
                                            nearest(draw(scene, plan.everything).golden)));
     }
-    fmt::print("{} scenes, {} kinds of hardware called for\n", subsets.size(), keys.size());
+    fmt::print("{} scenes, {} kinds of hardware needed\n", subsets.size(), keys.size());
     // One and three channels. For each of 26 sets of lights: diffuse, specular, both; with and without
     // shadows; in preset exact also with and without normalization of N.
     EXPECT_EQ(keys.size(), 2U * (1 + 26 * 3 * 2 * (preset == Preset::exact ? 2 : 1)));
@@ -309,7 +309,7 @@ TEST_P(EachShader, DrawTheSameInTheRtl) {
     ASSERT_NO_FATAL_FAILURE(expect_equal(few.rtl, all.rtl));
     EXPECT_EQ(few.rtl, few.golden);
     EXPECT_EQ(all.rtl, all.golden);
-    fmt::print("{}: {} cycles as called for ({}), {} with all effects ({})\n", subset.name(), few.cycles,
+    fmt::print("{}: {} cycles as needed ({}), {} with all effects ({})\n", subset.name(), few.cycles,
                plan.called_for.name(), all.cycles, plan.everything.name());
     // Without line records no clock is spent on them. The other effects do not change the clocks of the walk.
     EXPECT_LE(few.cycles, all.cycles);
