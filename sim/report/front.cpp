@@ -127,18 +127,20 @@ Result<std::string> readme_front(const Table& front) {
     const PlotPoint& here = plot.points[at];
     const auto same = [&](const PlotPoint& p) { return p.x == here.x && p.y == here.y; };
     const auto others = std::span(plot.points).first(at);
-    if (std::ranges::find_if(others, same) == others.end() &&
-        std::ranges::count_if(plot.points,
-                              [&](const PlotPoint& p) { return same(p) && p.series != here.series; }) > 0)
+    if (std::ranges::find_if(others, same) == others.end() && std::ranges::count_if(plot.points, same) > 1)
       hidden.push_back(all(same));
   }
+  const std::size_t any = plot.points.front().number;
   return fmt::format(
-      "![Rms error against cells, one point for each of {} designs](docs/results/gallery/front.svg)\n\n"
-      "*{} designs that draw the same picture. No other design beats those on the dashed line in both cells "
-      "and rms error\n(in colour steps, 1/255 of white):\n{}.{}\n`make gallery` measures "
-      "[the table](docs/results/gallery/front.csv) and draws the plot.*\n",
-      plot.points.size(), plot.points.size(), fmt::join(joined, ";\n"),
-      hidden.empty() ? "" : fmt::format("\nDesigns with equal figures: {}.", fmt::join(hidden, "; ")));
+      "![Rms error against cells, one point for each of {0} designs](docs/results/gallery/front.svg)\n\n"
+      "*{0} designs draw one sphere at {1}x{2}, exponent {3}. A design is on the dashed line if no other\n"
+      "design has both fewer cells and a smaller rms error (in colour steps, 1/255 of white):\n{4}.{5}\n"
+      "4x4: address bits × data bits of the cosine tables. adaptive: quadratic, with triangles split until "
+      "the error is\nbelow the threshold; quadratic: never split. processors-2: with normalization of N.\n"
+      "`make gallery` measures [the table](docs/results/gallery/front.csv) and draws the plot.*\n",
+      plot.points.size(), front.text(any, "width"), front.text(any, "height"), front.text(any, "exponent"),
+      fmt::join(joined, ";\n"),
+      hidden.empty() ? "" : fmt::format("\nEqual in both figures: {}.", fmt::join(hidden, "; ")));
 }
 
 Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,

@@ -75,12 +75,11 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   ASSERT_TRUE(words) << words.error().message;
   EXPECT_THAT(*words, AllOf(HasSubstr("each of 3 designs"),
                             HasSubstr("1/255 of white):\nq (100 cells, 8);\ns (200 cells, 2)."),
-                            Not(HasSubstr("dear")), Not(HasSubstr("equal figures"))));
+                            Not(HasSubstr("dear")), Not(HasSubstr("Equal in both figures"))));
   std::string equal = c_study;
   equal += "twin,adaptive,exact,7,20,q,100,10,8,h\n";
-  EXPECT_THAT(
-      *readme_front(front_of(read(equal))),
-      AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("Designs with equal figures: q and twin.")));
+  EXPECT_THAT(*readme_front(front_of(read(equal))),
+              AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("Equal in both figures: q and twin.")));
   // If one count is missing, the axis shows clocks instead of cells.
   std::string uncounted = c_study;
   uncounted.replace(uncounted.find(",300,"), 5, ",,");
