@@ -12,7 +12,7 @@
 -- Latency     0
 -- Throughput  1 token per clock
 -- Source      processors paper, section 3.2: the commands of the pixel mode
--- Golden twin model/golden/processors_shader.hpp
+-- Golden twin model/golden/token_order.hpp
 
 library ieee;
 use ieee.std_logic_1164.all;

@@ -15,7 +15,7 @@
 --             least 2 clocks, and a line without a pixel takes 1 clock if no span is drawn meanwhile
 -- Error       see plane_sum in formats_pkg
 -- Source      processors paper, section 2: the object processors interpolate N and P linearly
--- Golden twin model/golden/triangle_walker.hpp, model/golden/plane_interpolator.hpp
+-- Golden twin model/golden/token_rasterizer.hpp
 
 library ieee;
 use ieee.std_logic_1164.all;
