@@ -157,32 +157,29 @@ Growth::Growth(Measurements& measurements, unsigned jobs) : measurements_(measur
     series_.push_back(std::move(series));
   };
   for (const Shader shader : {Shader::quadratic, Shader::spherical})
-    by_triangles({fmt::format("Triangles, {} shader", to_string(shader)), "triangles",
-                  "More and more spheres of 990 triangles in a frame of 1000×1000, beside and behind one "
-                  "another: each "
-                  "triangle has as many pixels.",
-                  Fitted::all},
-                 "triangles", shader, many_spheres);
+    by_triangles(
+        {fmt::format("Triangles, {} shader", to_string(shader)), "triangles",
+         "More and more spheres of 990 triangles in a frame of 1000×1000. The pixels per triangle do "
+         "not change.",
+         Fitted::all},
+        "triangles", shader, many_spheres);
   by_triangles({"Finer triangles, quadratic shader", "triangles",
-                "One sphere in a frame of 1000×1000, cut finer and finer. Its pixels are the constant part. "
-                "The line is "
-                "no line: a triangle that covers no\npixel gets no init vector and costs less, and from 10⁵ "
-                "on most are "
-                "such.",
+                "One sphere in a frame of 1000×1000, of smaller and smaller triangles. Its pixels are the "
+                "constant part. No line\nfits: a triangle that covers no pixel gets no init vector and "
+                "costs less, and from 10⁵ triangles on most cover none.",
                 Fitted::nothing},
                "finer_triangles", Shader::quadratic, sphere_scene);
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
-    Series series{fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
-                  shader == Shader::quadratic
-                      ? "A sphere of 990 triangles, of which every one in sight covers pixels in the "
-                        "smallest frame, too. The "
-                        "line is that of the drawing."
-                      : "The same sphere. The line is that of the drawing; setup depends on lines, which "
-                        "grow with the root of "
-                        "the pixels: a record each, for\nwhich it looks at every pixel of short ones. A line "
-                        "costs the drawing "
-                        "as much as some pixels, too: it tells where lines are short.",
-                  Fitted::drawing};
+    Series series{
+        fmt::format("Pixels, {} shader", to_string(shader)), "pixels",
+        shader == Shader::quadratic
+            ? "A sphere of 990 triangles. Each visible triangle covers pixels, also in the smallest "
+              "frame. The line fits the drawing only."
+            : "The same sphere. The line fits the drawing only. Set-up depends on lines, whose number "
+              "grows with the root of the pixels: it makes\none record per line, and checks every "
+              "pixel of short lines. The drawing of a line costs as much as some pixels, which shows "
+              "if lines are short.",
+        Fitted::drawing};
     const Scene sphere = sphere_scene(1'000);
     for (const std::uint32_t side : {100U, 316U, 1000U, 2000U, 4000U})
       series.points.push_back({fmt::format("pixels/{}/{}", to_string(shader), side * side),
@@ -198,10 +195,12 @@ Growth::Growth(Measurements& measurements, unsigned jobs) : measurements_(measur
   for (const Shader shader : {Shader::spherical, Shader::processors}) {
     const bool lanes = shader == Shader::spherical;
     const FrameSize size = lanes ? FrameSize{800, 600} : FrameSize{320, 240};
-    Series series{fmt::format("Lights, {}", lanes ? "spherical shader" : "shading processors"), "lights",
-                  fmt::format("`spheres` at {}×{} under equal directional lights, hardware for as many.",
-                              size.width, size.height),
-                  Fitted::all, lanes ? EngineKind::lanes : EngineKind::verilator};
+    Series series{
+        fmt::format("Lights, {}", lanes ? "spherical shader" : "shading processors"), "lights",
+        fmt::format(
+            "`spheres` at {}×{} under equal directional lights, with hardware for this number of lights.",
+            size.width, size.height),
+        Fitted::all, lanes ? EngineKind::lanes : EngineKind::verilator};
     for (const unsigned lights : {1U, 2U, 4U, 8U, 16U})
       series.points.push_back({fmt::format("lights/{}/{}", to_string(shader), lights),
                                static_cast<double>(lights), size,
