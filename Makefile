@@ -119,7 +119,7 @@ sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
-  --page docs/results/synthesis.md . build/cache $${DESIGN:+"$$DESIGN"}
+  --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
   check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth bench build program generator mcode configure \
@@ -227,23 +227,27 @@ mutate: configure ## insert small faults into the hardware, which the tests must
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
 	@build/tb/halfway_vectors all build/tb/vectors
 	@build/tb/halfway_mutants --step "$$(case "$$FULL$$DESIGN" in ('' | 0) echo 10 ;; (*) echo 1 ;; esac)" --jobs "$(jobs)" \
-	  $$([ -n "$$DESIGN" ] || echo --page docs/results/mutants.md) . build/tb/vectors build/tb/mutants $${DESIGN:+"$$DESIGN"}
+	  --evidence all . build/tb/vectors build/tb/mutants $${DESIGN:+"$$DESIGN"}
 
 prove: configure ## prove properties of the RTL; each proof must also refute faults (PROOF: only some)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
 	@build/tb/halfway_proofs --evidence all . build/proofs $${PROOF:+"$$PROOF"}
 
-evidence: configure ## measure the stale rows of the pages of evidence again: proofs (two hours at most; may be interrupted)
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
+evidence: configure ## measure the stale rows of the pages of evidence again: bounds, hard cases, proofs, mutants, cells (two hours at most; may be interrupted)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds halfway_stability halfway_proofs halfway_mutants \
+	  halfway_vectors halfway_synth
+	@build/tb/halfway_bounds --gtest_brief=1 --evidence=stale
+	@$(call sweep,stale)
 	@build/tb/halfway_proofs --evidence stale . build/proofs
+	@build/tb/halfway_vectors all build/tb/vectors
+	@build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants
+	@build/tb/halfway_synth --evidence stale --jobs "$(jobs)" --pin --readme docs/performance.md . build/cache
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
+sweep = printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 --evidence=$(1) --part={}/
 stability: configure ## test hard cases in specification, golden model and RTL
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability halfway_page
-	@rm -rf build/stability
-	@printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 \
-	  '--gtest_filter={}/HardCases.Full/*' --gtest_output=xml:build/stability/{}.xml
-	@build/tb/halfway_page docs/results/hard_cases.md $(families:%=build/stability/%.xml)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability
+	@$(call sweep,all)
 
 search: configure ## test random triangles in golden model and RTL; reduce and store a failing input (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
@@ -251,9 +255,9 @@ search: configure ## test random triangles in golden model and RTL; reduce and s
 	  --page=docs/results/hard_cases.md --keep=tb/stability/regressions .
 
 bounds: configure ## check every error bound of formats and tables: derivation, proof, largest error found
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds halfway_page
-	@build/tb/halfway_bounds --gtest_brief=1 '--gtest_filter=*.Full/*:Checks.*' --gtest_output=xml:build/bounds.xml
-	@build/tb/halfway_page docs/results/bounds.md build/bounds.xml
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
+	@build/tb/halfway_bounds --gtest_brief=1 '--gtest_filter=Checks.*'
+	@build/tb/halfway_bounds --gtest_brief=1 --evidence=all
 
 synth: configure ## compare cells on two FPGAs and the clock on one with the stored figures (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames

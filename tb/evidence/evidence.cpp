@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t c_longest_line = 1U << 20;  // whole tables
 constexpr std::string_view c_equals = " = ";
-constexpr std::string_view c_section = "section", c_hash = "hash", c_inputs = "inputs";
+constexpr std::string_view c_section = "section", c_hash = "hash", c_details = "details";
 
 std::string escaped(std::string_view text) {
   std::string result;
@@ -45,6 +45,11 @@ std::string unescaped(std::string_view text) {
 const Row* find(std::span<const Row> rows, std::string_view name) {
   const auto row = std::ranges::find(rows, name, &Row::name);
   return row == rows.end() ? nullptr : &*row;
+}
+
+std::string value_of(const Row& row, std::string_view column) {
+  const auto field = std::ranges::find(row.fields, column, &Fields::value_type::first);
+  return field == row.fields.end() ? std::string() : field->second;
 }
 
 // The described fields replace those of the same name.
@@ -100,8 +105,8 @@ Result<std::vector<Row>> read_rows(const std::filesystem::path& file) {
       row.section = std::move(value);
     else if (key == c_hash)
       row.hash = std::move(value);
-    else if (key == c_inputs)
-      row.inputs = std::move(value);
+    else if (key == c_details)
+      row.details = std::move(value);
     else
       row.fields.emplace_back(key, std::move(value));
   }
@@ -114,7 +119,7 @@ std::string text_of(std::span<const Row> rows) {
   for (const Row& row : rows) {
     text += fmt::format("\n[{}]\n{} = {}\n{} = {}\n", row.name, c_section, escaped(row.section), c_hash,
                         row.hash);
-    if (!row.inputs.empty()) text += fmt::format("{} = {}\n", c_inputs, escaped(row.inputs));
+    if (!row.details.empty()) text += fmt::format("{} = {}\n", c_details, escaped(row.details));
     for (const auto& [key, value] : row.fields) text += fmt::format("{} = {}\n", key, escaped(value));
   }
   return text;
@@ -132,8 +137,8 @@ std::vector<page::Section> sections_of(std::span<const Row> rows) {
     for (const Row& row : rows) {
       if (row.section != first.section) continue;
       cells.emplace_back();
-      for (const auto& [key, value] : row.fields) cells.back().push_back(value);
-      if (is_whole) text += row.fields.front().second;
+      for (const std::string& column : columns) cells.back().push_back(value_of(row, column));
+      if (is_whole) text += cells.back().front();
     }
     sections.push_back({first.section, is_whole ? text : markdown_table(columns, cells)});
   }
@@ -147,6 +152,12 @@ Result<Evidence> Evidence::open(Place place, std::vector<Today> today) {
     if (find(today, row.name) != &row)
       return bad_input(fmt::format("{}: two rows of this name: {}", place.rows, row.name));
   return Evidence(std::move(place), std::move(today), std::move(*rows));
+}
+
+const std::string& Evidence::hash_of(std::string_view name) const {
+  static const std::string c_none;
+  const Today* row = find(today_, name);
+  return row == nullptr ? c_none : row->hash;
 }
 
 bool Evidence::is_stale(std::string_view name) const {
@@ -181,7 +192,7 @@ std::vector<std::string> Evidence::faults() const {
   const auto page = read_file(place_.root / place_.page);
   if (!page)
     faults.push_back(page.error().message);
-  else if (page::with_sections(*page, sections_of(rows_)) != *page)
+  else if (page::with_sections(*page, place_.sections(rows_)) != *page)
     faults.push_back(
         fmt::format("{}: is not written from {}; make evidence writes it", place_.page, place_.rows));
   return faults;
@@ -200,7 +211,7 @@ Status Evidence::change(const Change& change) const {
   };
   std::ranges::stable_sort(*rows, {}, position);
   if (Status written = write_file(file, text_of(*rows)); !written) return written;
-  return page::write_sections(place_.root / place_.page, sections_of(*rows));
+  return page::write_sections(place_.root / place_.page, place_.sections(*rows));
 }
 
 Status Evidence::put(Row row) const {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,13 +25,13 @@ struct Row {
   std::string name;       ///< unique in its file
   std::string section{};  ///< heading on the page
   std::string hash{};
-  std::string inputs{};  ///< inputs that only the measurement reveals; not on the page
+  std::string details{};  ///< of the measurement, in no column of the page
   Fields fields{};
   std::size_t line = 0;  ///< line number in the file
 };
 
 /// The rows of a file, in order; none if there is no file. A row starts with `[name]`; a line `key = value`
-/// follows for the section, the hash, the inputs unless empty, and each field. `\n` is a line feed in a
+/// follows for the section, the hash, the details unless empty, and each field. `\n` is a line feed in a
 /// value.
 Result<std::vector<Row>> read_rows(const std::filesystem::path& file);
 std::string text_of(std::span<const Row> rows);
@@ -47,6 +48,7 @@ struct Place {
   std::filesystem::path root;
   std::string rows;
   std::string page;
+  std::function<std::vector<page::Section>(std::span<const Row>)> sections = sections_of;
 };
 
 class Evidence {
@@ -55,6 +57,8 @@ class Evidence {
   static Result<Evidence> open(Place place, std::vector<Today> today);
 
   const std::vector<Today>& today() const { return today_; }
+  /// Today's hash of the row.
+  const std::string& hash_of(std::string_view name) const;
   /// The row has no measurement, or one of something else.
   bool is_stale(std::string_view name) const;
   /// One line for each stale row, for each row that today has not, and for a page that is not written from

@@ -54,7 +54,7 @@ TEST_F(Rows, ComeBackAsTheyWereWritten) {
       {.name = "a b/c",
        .section = "one",
        .hash = "12",
-       .inputs = "x\\n y",
+       .details = "x\\n y",
        .fields = {{"a, b", "1 = 2"}, {"c", ""}}},
       {.name = "d", .section = "two", .hash = "", .fields = {{"table", "| a |\n| \\n |\n"}}}};
   ASSERT_TRUE(write_file(root() / "rows.txt", text_of(rows)));
@@ -62,7 +62,7 @@ TEST_F(Rows, ComeBackAsTheyWereWritten) {
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(text_of(*back), text_of(rows));
   ASSERT_EQ(back->size(), 2U);
-  EXPECT_EQ((*back)[0].inputs, rows[0].inputs);
+  EXPECT_EQ((*back)[0].details, rows[0].details);
   EXPECT_EQ((*back)[0].fields, rows[0].fields);
   EXPECT_EQ((*back)[1].fields, rows[1].fields);
 }
@@ -126,6 +126,12 @@ TEST(BareCpp, HasNoCommentsAndNoWhiteSpace) {
   EXPECT_EQ(bare_cpp("s = R\"x(a // \" b)x\" ; // c"), "s=R\"x(a // \" b)x\";");
   EXPECT_NE(bare_cpp("a / b"), bare_cpp("a + b"));
   EXPECT_EQ(bare_cpp("a /* open"), "a");
+}
+
+TEST(BareVhdl, HasNoCommentsAndOneSpace) {
+  EXPECT_EQ(bare_vhdl("A  <= b; -- c\n\n  d <= \"-- E\";\n"), "a <= b; d <= \"-- E\"; ");
+  EXPECT_EQ(bare_vhdl("x; -- \"\ny;"), bare_vhdl("x;\n  y;"));
+  EXPECT_NE(bare_vhdl("a <= b;"), bare_vhdl("a <= c;"));
 }
 
 TEST_F(Rows, HashesOfFoldersIgnoreCommentsAndTests) {

@@ -37,6 +37,18 @@ Result<std::vector<Survivor>> read_survivors(const std::filesystem::path& file) 
   return survivors;
 }
 
+Result<std::vector<Without>> read_without(const std::filesystem::path& file) {
+  const auto all = parse(file);
+  if (!all) return all.error();
+  std::vector<Without> without;
+  for (const toml::node& node : *(*all)["without"].as_array()) {
+    const toml::table& table = *node.as_table();
+    const auto text = [&](const char* name) { return table[name].value_or(std::string()); };
+    without.push_back({text("name"), text("within"), text("reason")});
+  }
+  return without;
+}
+
 Result<std::vector<Design>> read_designs(const std::filesystem::path& file) {
   std::vector<Design> designs;
   const auto all = parse(file);

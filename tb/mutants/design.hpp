@@ -37,6 +37,12 @@ struct Design {
 
 Result<std::vector<Design>> read_designs(const std::filesystem::path& file);
 
+/// An entity without a netlist of its own in designs.toml.
+struct Without {
+  std::string entity, within, reason;  ///< one of the last two is empty
+};
+Result<std::vector<Without>> read_without(const std::filesystem::path& file);
+
 /// Why no vector finds the faults of a VHDL line.
 struct Survivor {
   std::string file, text, reason;  ///< `text` is part of the line

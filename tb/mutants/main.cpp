@@ -9,14 +9,14 @@
 #include <cstdio>
 #include <map>
 #include <mutex>
-#include <sstream>
+#include <optional>
+#include <set>
 
 #include "mutants/design.hpp"
 #include "mutants/netlist_faults.hpp"
 #include "mutants/replay.hpp"
+#include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
-#include "page/page.hpp"
-#include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/threads.hpp"
@@ -28,11 +28,12 @@ using Clock = std::chrono::steady_clock;
 
 // Limit of one proof. The quick form has a longer one, so that a busy machine does not change its result.
 constexpr std::chrono::seconds c_proof_time{2}, c_quick_proof_time{60};
+constexpr unsigned c_fewest = 10;     // faults that a row is of, if the netlist has so many
 constexpr unsigned c_quick_step = 8;  // the quick form replays every eighth fault
-constexpr std::size_t c_shown = 3;    // survivors of a VHDL line that the page names
 
 struct Options {
-  std::filesystem::path source, vectors, scratch, page;
+  std::filesystem::path source, vectors, scratch;
+  evidence::Mode mode = evidence::Mode::none;
   std::string part;  ///< only netlists and testbenches whose name contains it
   unsigned jobs = 1, seed = 1;
   unsigned step = 1;      ///< replay one of so many faults of each netlist
@@ -51,6 +52,7 @@ struct Outcome {
 
 struct NetlistResult {
   std::vector<Outcome> outcomes;
+  unsigned step = 1;  ///< one of so many faults was replayed
   double seconds = 0;
   std::size_t count(End end) const {
     return static_cast<std::size_t>(
@@ -83,12 +85,17 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
   if (const auto difference = replay(design, *vectors, *model, 0))
     return Error{ExitCode::differs, fmt::format("{}: without a fault: {}", design.name, *difference)};
   NetlistResult result;
+  result.step = options.step;
+  // A row is of some faults at least.
+  if (options.mode != evidence::Mode::none)
+    result.step =
+        std::min(options.step, std::max(1U, static_cast<unsigned>(netlist->faults.size() / c_fewest)));
   std::vector<std::uint32_t> survivors;
   for (std::uint32_t number = 1; number <= netlist->faults.size(); ++number) {
     const Fault& fault = netlist->faults[number - 1];
     // Skip faults of clocks: a replay has no time between edges, in which an inverted clock would be visible.
     if (fault.port == "CLK" || (options.one != 0 && number != options.one)) continue;
-    if (number % options.step != 0) continue;
+    if (number % result.step != 0) continue;
     const auto difference = replay(design, *vectors, *model, number);
     result.outcomes.push_back(
         {fault, number, difference ? End::found : End::survived, difference.value_or(std::string())});
@@ -108,46 +115,52 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
   return result;
 }
 
-/// The reasons for survivors, by file and text of the VHDL line: survivors.toml.
-class Reasons {
- public:
-  static Result<Reasons> read(const std::filesystem::path& source) {
-    const auto listed = read_survivors(source / "tb/mutants/survivors.toml");
-    if (!listed) return listed.error();
-    return Reasons(source, *listed);
-  }
-  /// The reason for survivors of the line `place` ("file:line"); empty if there is none.
-  std::string of(const std::string& place) {
-    const std::string text = text_of(place);
-    for (const Survivor& survivor : listed_)
-      if (place.starts_with(survivor.file + ":") && text.find(survivor.text) != std::string::npos)
-        return survivor.reason;
-    return {};
-  }
+// The fields that the description gives.
+evidence::Today described(const Design& design) {
+  return {.name = design.name,
+          .section = std::string(c_netlist_section),
+          .fields = {{"netlist", "`" + design.name + "`"}}};
+}
+std::string row_name(const std::string& test) {
+  return "sources of " + test;
+}
+evidence::Today described(const std::string& test, std::size_t faults) {
+  return {.name = row_name(test),
+          .section = std::string(c_source_section),
+          .fields = {{"testbench", "`" + test + "_tb`"}, {"faults", std::to_string(faults)}}};
+}
 
- private:
-  Reasons(std::filesystem::path source, std::vector<Survivor> listed)
-      : source_(std::move(source)), listed_(std::move(listed)) {}
-  std::string text_of(const std::string& place) {
-    const auto colon = place.find(':');
-    if (colon == std::string::npos) return {};
-    const auto text = read_file(source_ / "rtl" / place.substr(0, colon));
-    if (!text) return {};
-    std::istringstream lines(*text);
-    std::string line;
-    for (int number = std::stoi(place.substr(colon + 1)); number > 0 && std::getline(lines, line); --number)
-      continue;
-    return line;
-  }
-  std::filesystem::path source_;
-  std::vector<Survivor> listed_;
-};
+evidence::Row row_of(const Design& design, const NetlistResult& result, const Reasons& reasons) {
+  evidence::Row row = described(design);
+  const auto count = [&](End end) { return std::to_string(result.count(end)); };
+  const evidence::Fields fields = {
+      {"replayed", result.step == 1 ? "all" : fmt::format("1 of {}", result.step)},
+      {"faults", std::to_string(result.outcomes.size())},
+      {"found", count(End::found)},
+      {"equivalent", count(End::equivalent)},
+      {"survived", count(End::survived)},
+      {"seconds", fmt::format("{:.0f}", result.seconds)}};
+  row.fields.insert(row.fields.end(), fields.begin(), fields.end());
+  std::map<std::string, NetlistResult> kinds;
+  for (const Outcome& outcome : result.outcomes) kinds[outcome.fault.kind].outcomes.push_back(outcome);
+  for (const auto& [kind, part] : kinds)
+    row.details +=
+        fmt::format("{}\t{}\t{}\t{}\t{}\t{}\n", c_kind, kind, part.outcomes.size(), part.count(End::found),
+                    part.count(End::equivalent), part.count(End::survived));
+  for (const Outcome& outcome : result.outcomes)
+    if (outcome.end == End::survived)
+      row.details +=
+          fmt::format("{}\t{}\t{}\n", c_survivor, reasons.line_at(outcome.fault.place), to_string(outcome));
+  return row;
+}
 
 class Run {
  public:
   explicit Run(const Options& options) : options_(options) {}
 
   ExitCode all() {
+    if (const Status done = open(); !done) return fail(done.error());
+    if (options_.mode == evidence::Mode::check) return report(*evidence_);
     if (options_.netlists)
       if (const Status done = run_netlists(); !done) return fail(done.error());
     if (options_.sources)
@@ -161,24 +174,94 @@ class Run {
     return error.code;
   }
 
-  Status run_netlists() {
+  /// Reads descriptions and rows. Hashes what the selected rows depend on.
+  Status open() {
+    auto reasons = Reasons::read(options_.source);
+    if (!reasons) return reasons.error();
+    reasons_ = *reasons;
     const auto tool = GhdlTool::find();
     if (!tool) return tool.error();
     const auto sources = read_rtl_sources(options_.source);
     if (!sources) return sources.error();
-    const auto library = GhdlLibrary::for_synthesis(*tool, *sources, options_.scratch);
+    auto library = GhdlLibrary::for_synthesis(*tool, *sources, options_.scratch);
     if (!library) return library.error();
+    library_ = *library;
     auto designs = read_designs(options_.source / "tb/mutants/designs.toml");
     if (!designs) return designs.error();
-    std::erase_if(*designs, [&](const Design& d) {
-      return d.name.find(options_.part) == std::string::npos || (options_.quick && !d.quick);
-    });
-    return for_each_on_threads(options_.jobs, designs->size(), [&](std::size_t i) -> Status {
-      auto result = run_netlist(options_, (*designs)[i], *library);
+    auto faults = read_source_faults(options_.source / "tb/mutants/source_faults.toml");
+    if (!faults) return faults.error();
+    if (const Status opened = open_evidence(*designs, *faults); !opened) return opened;
+    const auto is_left_out = [&](const std::string& name, const std::string& row, bool quick) {
+      return !is_selected(name) || (options_.quick && !quick) ||
+             (options_.mode == evidence::Mode::stale && !evidence_->is_stale(row));
+    };
+    std::erase_if(*designs, [&](const Design& d) { return is_left_out(d.name, d.name, d.quick); });
+    std::erase_if(*faults,
+                  [&](const SourceFault& f) { return is_left_out(f.test, row_name(f.test), f.quick); });
+    designs_ = std::move(*designs);
+    faults_ = std::move(*faults);
+    return Ok{};
+  }
+
+  bool is_selected(const std::string& name) const { return name.find(options_.part) != std::string::npos; }
+
+  Status open_evidence(const std::vector<Design>& designs, const std::vector<SourceFault>& faults) {
+    std::vector<evidence::Today> today;
+    for (const Design& design : designs) today.push_back(described(design));
+    std::map<std::string, std::size_t> tests;
+    for (const SourceFault& fault : faults) ++tests[fault.test];
+    for (const auto& [test, count] : tests) today.push_back(described(test, count));
+    if (options_.mode != evidence::Mode::none) {
+      const auto programs = programs_hash(options_.source);
+      if (!programs) return programs.error();
+      const RowFolders folders{options_.source, options_.vectors};
+      const auto hash_of = [&](std::size_t i) -> Result<std::string> {
+        if (i < designs.size())
+          return is_selected(designs[i].name) ? design_hash(designs[i], *library_, folders, *programs)
+                                              : Result<std::string>(std::string());
+        const std::string& test =
+            std::next(tests.begin(), static_cast<std::ptrdiff_t>(i - designs.size()))->first;
+        return is_selected(test) ? testbench_hash(test, faults, folders, *programs)
+                                 : Result<std::string>(std::string());
+      };
+      const Status hashed = for_each_on_threads(options_.jobs, today.size(), [&](std::size_t i) -> Status {
+        auto hash = hash_of(i);
+        if (!hash) return hash.error();
+        today[i].hash = std::move(*hash);
+        return Ok{};
+      });
+      if (!hashed) return hashed;
+    }
+    auto evidence = evidence::Evidence::open(
+        {.root = options_.source,
+         .rows = "tb/mutants/evidence.txt",
+         .page = "docs/results/mutants.md",
+         .sections =
+             [this](std::span<const evidence::Row> rows) { return mutant_sections(rows, *reasons_); }},
+        std::move(today));
+    if (!evidence) return evidence.error();
+    evidence_ = std::move(*evidence);
+    return Ok{};
+  }
+
+  /// Stores a measured row with today's hash.
+  Status store(evidence::Row row) const {
+    if (options_.mode == evidence::Mode::none) return Ok{};
+    row.hash = evidence_->hash_of(row.name);
+    return evidence_->put(row);
+  }
+
+  Status run_netlists() {
+    std::size_t done = 0;
+    return for_each_on_threads(options_.jobs, designs_.size(), [&](std::size_t i) -> Status {
+      const Design& design = designs_[i];
+      auto result = run_netlist(options_, design, *library_);
       if (!result) return result.error();
       const std::scoped_lock lock(mutex_);
-      print((*designs)[i].name, *result);
-      netlists_[(*designs)[i].name] = std::move(*result);
+      fmt::print("[{}/{}] ", ++done, designs_.size());
+      print(design.name, *result);
+      if (const Status stored = store(row_of(design, *result, *reasons_)); !stored) return stored;
+      netlists_[design.name] = std::move(*result);
       return Ok{};
     });
   }
@@ -195,18 +278,20 @@ class Run {
   }
 
   Status run_sources() {
-    auto faults = read_source_faults(options_.source / "tb/mutants/source_faults.toml");
-    if (!faults) return faults.error();
-    std::erase_if(*faults, [&](const SourceFault& f) {
-      return f.test.find(options_.part) == std::string::npos || (options_.quick && !f.quick);
-    });
     // Without a fault each testbench must pass.
     std::map<std::string, SourceFault> tests;
-    for (const SourceFault& fault : *faults) tests[fault.test].test = fault.test;
+    std::map<std::string, std::size_t> remaining;
+    for (const SourceFault& fault : faults_) {
+      tests[fault.test].test = fault.test;
+      ++remaining[fault.test];
+    }
+    std::map<std::string, std::size_t> count_of = remaining;
+    std::set<std::string> missed;
     std::vector<SourceFault> all;
     for (const auto& [name, test] : tests) all.push_back(test);
     const std::size_t count = all.size();
-    all.insert(all.end(), faults->begin(), faults->end());
+    all.insert(all.end(), faults_.begin(), faults_.end());
+    for (auto& [test, jobs] : remaining) ++jobs;
     return for_each_on_threads(options_.jobs, all.size(), [&](std::size_t i) -> Status {
       const auto start = Clock::now();
       const auto end = run_testbench(all[i], options_.source, options_.vectors, options_.scratch);
@@ -220,24 +305,33 @@ class Run {
       fmt::print("{}, {:.1f} s\n", what, seconds_since(start));
       std::fflush(stdout);
       const bool right = *end == (i < count ? TestEnd::passes : TestEnd::fails);
-      if (!right) missed_.push_back(what);
-      if (i < count) return Ok{};
-      ++sources_;
-      sources_found_ += right;
-      return Ok{};
+      const std::string& test = all[i].test;
+      if (!right) {
+        missed_.push_back(what);
+        missed.insert(test);
+      }
+      if (i >= count) {
+        ++sources_;
+        sources_found_ += right;
+      }
+      if (--remaining[test] > 0) return Ok{};
+      evidence::Row row = described(test, count_of[test]);
+      row.fields.emplace_back("found", row.fields.back().second);
+      if (missed.contains(test))
+        return options_.mode == evidence::Mode::none ? Ok{} : evidence_->remove(row.name);
+      return store(std::move(row));
     });
   }
 
-  /// Prints all faults, writes the page if requested, and returns the exit code.
+  /// Prints all faults, writes the page if rows were stored, and returns the exit code.
   ExitCode judge() {
-    auto reasons = Reasons::read(options_.source);
-    if (!reasons) return fail(reasons.error());
     std::vector<std::string> wrong = missed_;
     std::size_t found = 0;
     for (const auto& [name, result] : netlists_) {
       found += result.count(End::found);
       for (const Outcome& outcome : result.outcomes)
-        if (options_.quick && outcome.end == End::survived && reasons->of(outcome.fault.place).empty())
+        if (options_.quick && outcome.end == End::survived &&
+            reasons_->of(reasons_->line_at(outcome.fault.place)).empty())
           wrong.push_back(
               fmt::format("{}: fault {} ({}) survives; improve the vectors or give the reason in "
                           "tb/mutants/survivors.toml",
@@ -247,70 +341,17 @@ class Run {
       wrong.emplace_back("no fault of any netlist is found");
     if (options_.sources) fmt::print("sources: {} faults, {} found\n", sources_, sources_found_);
     for (const std::string& what : wrong) fmt::print("{}\n", what);
-    if (!options_.page.empty())
-      if (const Status written = write_page(*reasons); !written) return fail(written.error());
+    if (options_.mode != evidence::Mode::none)
+      if (const Status written = evidence_->finish(); !written) return fail(written.error());
     return wrong.empty() ? ExitCode::equal : ExitCode::differs;
   }
 
-  /// One sentence for the page.
-  std::string what_was_run() const {
-    return fmt::format(
-        "This run replayed {} of each netlist (seed {}){}.\n",
-        options_.step == 1 ? "all faults" : fmt::format("a sample, every {}th fault,", options_.step),
-        options_.seed, options_.prove ? "" : " and did not try to prove that survivors are equivalent");
-  }
-
-  Status write_page(Reasons& reasons) const {
-    using Row = std::vector<std::string>;
-    NetlistResult all;
-    std::vector<Row> rows, kind_rows, survivor_rows;
-    std::map<std::string, NetlistResult> kinds;
-    std::map<std::pair<std::string, std::string>, std::vector<std::string>> survivors;
-    const auto row_of = [](const std::string& name, const NetlistResult& r) {
-      return Row{name, std::to_string(r.outcomes.size()), std::to_string(r.count(End::found)),
-                 std::to_string(r.count(End::equivalent)), std::to_string(r.count(End::survived))};
-    };
-    for (const auto& [name, result] : netlists_) {
-      rows.push_back(row_of("`" + name + "`", result));
-      rows.back().push_back(fmt::format("{:.0f}", result.seconds));
-      all.seconds += result.seconds;
-      for (const Outcome& outcome : result.outcomes) {
-        all.outcomes.push_back(outcome);
-        kinds[outcome.fault.kind].outcomes.push_back(outcome);
-        if (outcome.end == End::survived)
-          survivors[{outcome.fault.place, name}].push_back(to_string(outcome));
-      }
-    }
-    rows.push_back(row_of("**all**", all));
-    rows.back().push_back(fmt::format("{:.0f}", all.seconds));
-    for (const auto& [kind, result] : kinds) kind_rows.push_back(row_of(kind, result));
-    for (const auto& [at, texts] : survivors) {
-      std::string shown;
-      for (std::size_t i = 0; i < std::min(texts.size(), c_shown); ++i)
-        shown += (i == 0 ? "" : "; ") + texts[i];
-      if (texts.size() > c_shown) shown += fmt::format("; {} more", texts.size() - c_shown);
-      survivor_rows.push_back({at.first.empty() ? "not known" : "`" + at.first + "`", "`" + at.second + "`",
-                               std::to_string(texts.size()), "`" + shown + "`", reasons.of(at.first)});
-    }
-    const std::size_t possible = all.outcomes.size() - all.count(End::equivalent);
-    const Row columns{"netlist", "faults", "found", "equivalent", "survived", "seconds"};
-    const Row kind_columns{"kind", "faults", "found", "equivalent", "survived"};
-    const Row survivor_columns{"VHDL line", "netlist", "faults", "number, kind, port, wire", "reason"};
-    const std::vector<page::Section> sections{
-        {"Netlist faults", fmt::format("{}\n{}\nOf the {} faults that are not proved equivalent, the vectors "
-                                       "find {:.1f} %. Seconds are "
-                                       "those of a run with {} jobs.\n\n{}",
-                                       what_was_run(), markdown_table(columns, rows), possible,
-                                       100.0 * static_cast<double>(all.count(End::found)) /
-                                           static_cast<double>(std::max<std::size_t>(possible, 1)),
-                                       options_.jobs, markdown_table(kind_columns, kind_rows))},
-        {"Source faults", fmt::format("Of {} faults in sources and vector files, the testbenches find {}.\n",
-                                      sources_, sources_found_)},
-        {"Survivors", markdown_table(survivor_columns, survivor_rows)}};
-    return page::write_sections(options_.page, sections);
-  }
-
   const Options& options_;
+  std::optional<Reasons> reasons_;
+  std::optional<GhdlLibrary> library_;
+  std::optional<evidence::Evidence> evidence_;
+  std::vector<Design> designs_;
+  std::vector<SourceFault> faults_;
   std::mutex mutex_;
   std::map<std::string, NetlistResult> netlists_;
   std::size_t sources_ = 0, sources_found_ = 0;
@@ -325,7 +366,7 @@ int main(int argc, char** argv) {
   mutants::Options options;
   CLI::App app{"Puts faults into the hardware, which the tests must find", "halfway_mutants"};
   CLI::Option* quick = app.add_flag("--quick", options.quick, "a sample: a few small netlists and sources");
-  app.add_option("--seed", options.seed, "selects other faults")->capture_default_str();
+  CLI::Option* seed = app.add_option("--seed", options.seed, "selects other faults")->capture_default_str();
   CLI::Option* step = app.add_option("--step", options.step, "only every so many faults of a netlist")
                           ->check(CLI::PositiveNumber)
                           ->excludes(quick);
@@ -333,17 +374,16 @@ int main(int argc, char** argv) {
   CLI::Option* one = app.add_option("--one", options.one, "only the fault of this number, with what finds it")
                          ->check(CLI::PositiveNumber)
                          ->excludes(quick, step);
-  app.add_flag("--no-proofs{false}", options.prove, "do not try to prove survivors equivalent");
-  CLI::Option* no_sources = app.add_flag("--no-sources{false}", options.sources, "netlists alone");
-  CLI::Option* no_netlists =
-      app.add_flag("--no-netlists{false}", options.netlists, "source faults alone")->excludes(one);
+  CLI::Option* no_proofs =
+      app.add_flag("--no-proofs{false}", options.prove, "do not try to prove survivors equivalent");
+  app.add_flag("--no-sources{false}", options.sources, "netlists alone");
+  app.add_flag("--no-netlists{false}", options.netlists, "source faults alone")->excludes(one);
   app.add_option("SOURCE", options.source, "the project's root")->required();
   app.add_option("VECTORS", options.vectors, "what halfway_vectors wrote")->required();
   app.add_option("SCRATCH", options.scratch, "folder for netlists and what is built from them")->required();
-  CLI::Option* part =
-      app.add_option("PART", options.part, "only netlists and testbenches whose names hold it");
-  app.add_option("--page", options.page, "file whose tables are written")
-      ->excludes(quick, one, part, no_sources, no_netlists);
+  app.add_option("PART", options.part, "only netlists and testbenches whose names hold it");
+  // A row is of the usual seed, with proofs.
+  evidence::add_option(app, options.mode)->excludes(quick, one, seed, no_proofs);
   int exit_code = 0;
   app.callback([&] {
     for (auto* folder : {&options.source, &options.vectors, &options.scratch})

@@ -2,10 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
 
 #include "mutants/design.hpp"
 #include "mutants/netlist_faults.hpp"
+#include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
 #include "sim/system/file.hpp"
 
@@ -66,6 +72,118 @@ TEST(Designs, NameEveryStreamOrColumns) {
     EXPECT_NE(design.rows.empty(), design.input.port.empty()) << design.name;
     EXPECT_FALSE(design.sets.empty()) << design.name;
   }
+}
+
+// The entities of the RTL, each with the entities that it contains.
+std::map<std::string, std::set<std::string>> entities_with_parts() {
+  const auto sources = read_rtl_sources(c_source);
+  EXPECT_TRUE(sources) << sources.error().message;
+  const std::regex entity(R"((?:^|\n)entity (\w+) is)"), part(R"(\bentity work\.(\w+))");
+  std::map<std::string, std::set<std::string>> entities;
+  for (const VhdlSource& source : *sources) {
+    std::smatch name;
+    if (!std::regex_search(source.content, name, entity)) continue;
+    std::set<std::string>& parts = entities[name[1]];
+    for (std::sregex_iterator at(source.content.begin(), source.content.end(), part), last; at != last; ++at)
+      parts.insert((*at)[1]);
+  }
+  return entities;
+}
+
+bool contains(const std::map<std::string, std::set<std::string>>& entities, const std::string& outer,
+              const std::string& inner) {
+  const auto parts = entities.find(outer);
+  return parts != entities.end() && std::ranges::any_of(parts->second, [&](const std::string& part) {
+           return part == inner || contains(entities, part, inner);
+         });
+}
+
+TEST(Designs, HaveEveryEntityOrTheReason) {
+  const auto file = c_source / "tb/mutants/designs.toml";
+  const auto designs = read_designs(file);
+  const auto without = read_without(file);
+  ASSERT_TRUE(designs) << designs.error().message;
+  ASSERT_TRUE(without) << without.error().message;
+  const auto entities = entities_with_parts();
+  EXPECT_GT(entities.size(), 50U);
+  std::set<std::string> listed, named;
+  for (const Design& design : *designs) named.insert(design.entity);
+  listed = named;
+  for (const Without& one : *without) {
+    EXPECT_TRUE(listed.insert(one.entity).second) << one.entity << " is listed twice";
+    EXPECT_NE(one.within.empty(), one.reason.empty()) << one.entity;
+    if (one.within.empty()) continue;
+    EXPECT_TRUE(named.contains(one.within)) << one.within << " has no netlist";
+    EXPECT_TRUE(contains(entities, one.within, one.entity)) << one.entity << " is not in " << one.within;
+  }
+  for (const auto& [entity, parts] : entities)
+    EXPECT_TRUE(listed.contains(entity)) << entity << ": add a netlist, or [[without]] a reason";
+  for (const std::string& name : listed) EXPECT_TRUE(entities.contains(name)) << name << " is not in rtl/";
+}
+
+// The page of two rows of netlists and one of a testbench.
+TEST(Rows, BecomeThePage) {
+  const auto netlist = [](const std::string& name, const std::string& details) {
+    return evidence::Row{.name = name,
+                         .section = std::string(c_netlist_section),
+                         .details = details,
+                         .fields = {{"netlist", name},
+                                    {"replayed", "all"},
+                                    {"faults", "10"},
+                                    {"found", "7"},
+                                    {"equivalent", "2"},
+                                    {"survived", "1"},
+                                    {"seconds", "3"}}};
+  };
+  const std::vector<evidence::Row> rows = {
+      netlist(
+          "a",
+          "kind\tinv\t10\t7\t2\t1\nsurvivor\tstream/delay_line.vhd: if reset = '1' then\t4 inv Y n1[0]\n"),
+      netlist("b",
+              "kind\tinv\t4\t4\t0\t0\nkind\tconst0\t6\t3\t2\t1\nsurvivor\tx.vhd: y;\t5 const0 A n2[0]\n"),
+      {.name = "sources of c",
+       .section = std::string(c_source_section),
+       .fields = {{"testbench", "c_tb"}, {"faults", "2"}, {"found", "2"}}}};
+  const auto reasons = Reasons::read(c_source);
+  ASSERT_TRUE(reasons) << reasons.error().message;
+  const auto sections = mutant_sections(rows, *reasons);
+  ASSERT_EQ(sections.size(), 3U);
+  EXPECT_THAT(
+      sections[0].body,
+      testing::HasSubstr("Of the 16 faults that are not proved equivalent, the vectors find 87.5 %."));
+  EXPECT_THAT(sections[0].body, testing::HasSubstr("| **all** |  | 20 | 14 | 4 | 2 |  |"));
+  EXPECT_THAT(sections[0].body, testing::HasSubstr("| const0 | 6 | 3 | 2 | 1 |\n| inv | 14 | 11 | 2 | 1 |"));
+  EXPECT_THAT(sections[1].body, testing::HasSubstr("| c_tb | 2 | 2 |"));
+  EXPECT_THAT(sections[2].body, testing::HasSubstr("| `a` | 1 | `4 inv Y n1[0]` | a netlist's registers"));
+  EXPECT_THAT(sections[2].body, testing::HasSubstr("| `x.vhd: y;` | `b` | 1 | `5 const0 A n2[0]` |  |"));
+}
+
+// A row of source faults depends on what its testbench uses, and not on comments or other files.
+TEST(Rows, OfSourceFaultsDependOnWhatTheTestbenchUses) {
+  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const auto root = folder->path() / "root";
+  const auto hash = [&](const std::string& file, const std::string& text) {
+    const std::map<std::string, std::string> texts = {
+        {"rtl/files.f", "a.vhd\nb.vhd\nc.vhd\n"},
+        {"rtl/a.vhd", "entity a is\nend;\n"},
+        {"rtl/b.vhd", "entity b is\nend;\narchitecture x of b is\nbegin\n  p : entity work.a;\nend;\n"},
+        {"rtl/c.vhd", "entity c is\nend;\n"},
+        {"tb/b_tb.vhd",
+         "entity b_tb is\nend;\narchitecture x of b_tb is\nbegin\n  p : entity work.b;\nend;\n"},
+        {"vectors/b/x.txt", "1\n"}};
+    for (const auto& [name, content] : texts)
+      EXPECT_TRUE(make_folders((root / name).parent_path()) &&
+                  write_file(root / name, name == file ? text : content));
+    const auto result = testbench_hash("b", {}, {root, root / "vectors"}, "programs");
+    return result ? *result : result.error().message;
+  };
+  const std::string one = hash("", "");
+  EXPECT_EQ(one.size(), 32U) << one;
+  EXPECT_EQ(hash("rtl/a.vhd", "-- comment\nentity  a is\n\nend;\n"), one);
+  EXPECT_EQ(hash("rtl/c.vhd", "entity c is\n  port (x : in bit);\nend;\n"), one);
+  EXPECT_NE(hash("rtl/a.vhd", "entity a is\n  port (x : in bit);\nend;\n"), one);
+  EXPECT_NE(hash("vectors/b/x.txt", "2\n"), one);
 }
 
 TEST(Survivors, NameLinesOfTheSources) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pages of evidence: Markdown files whose sections are written from results.
+// Pages of evidence: Markdown files whose sections are written by programs.
 #pragma once
 
 #include <filesystem>
@@ -22,13 +22,7 @@ std::string with_sections(std::string_view text, std::span<const Section> sectio
 
 Status write_sections(const std::filesystem::path& page, std::span<const Section> sections);
 
-/// A test records this property for a whole table in Markdown.
+/// The column of a row that is a whole table in Markdown.
 inline constexpr std::string_view c_table = "table as Markdown";
-
-/// The sections of a result file in GoogleTest's XML. The test suite `edges/HardCases` becomes the section
-/// `edges`: a table with one row per test and one column per recorded property, or the tables that its tests
-/// record. A suite without recorded properties has no section. It is an error if a test failed, did not run,
-/// or does not record the same properties as the first test of its suite. `file` is used in error messages.
-Result<std::vector<Section>> read_results(std::string_view file, const std::string& xml);
 
 }  // namespace halfway::page

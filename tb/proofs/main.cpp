@@ -221,7 +221,7 @@ Result<ExitCode> prove_all(const Options& options) {
     if (options.mode == evidence::Mode::none) return;
     const Proof& proof = (*proofs)[i];
     evidence::Row row = row_of(proof, outcome);
-    row.hash = std::ranges::find(evidence->today(), proof.name, &evidence::Today::name)->hash;
+    row.hash = evidence->hash_of(proof.name);
     const bool is_evidence =
         outcome.holds && static_cast<std::size_t>(outcome.refuted) == proof.faults.size();
     if (Status done = is_evidence ? evidence->put(row) : evidence->remove(row.name); !done) stored = done;

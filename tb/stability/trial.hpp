@@ -127,6 +127,8 @@ class Trial {
   const std::string& failure() const { return failure_; }
   /// The error of a tool that is missing or broke.
   const Status& tools() const { return tools_; }
+  /// The hardware that drew: one line "entity generic=value ..." each, sorted.
+  std::string hardware() const;
   std::uint64_t golden_fragments() const { return golden_fragments_; }
   std::uint64_t rtl_fragments() const { return rtl_fragments_; }
 
@@ -144,6 +146,7 @@ class Trial {
   Worst ours_, published_;
   std::string failure_;
   Status tools_ = Ok{};
+  std::set<std::string> hardware_;
   std::uint64_t golden_fragments_ = 0, rtl_fragments_ = 0;
 };
 

@@ -16,7 +16,6 @@
 
 #include "sim/synth/pinned.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/threads.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -64,38 +63,6 @@ TEST(SynthDesigns, ArePinnedEachOnceAndNothingElseIs) {
   std::vector<std::string> pinned;
   for (const auto& [name, pin] : *pins) pinned.push_back(name);
   EXPECT_THAT(pinned, ::testing::ContainerEq(listed));
-}
-
-// A clock is valid for one netlist, and so for the RTL from which the netlist was placed. Runs GHDL only:
-// seconds, and almost no time if the netlists are in the cache.
-TEST(SynthDesigns, HaveTheNetlistsThatArePinned) {
-  const auto tool = GhdlTool::find();
-  ASSERT_TRUE(tool) << tool.error().message;
-  auto sources = read_rtl_sources(c_root);
-  ASSERT_TRUE(sources) << sources.error().message;
-  auto beside = read_vhdl_source(c_root, c_accumulator);
-  ASSERT_TRUE(beside) << beside.error().message;
-  sources->push_back(std::move(*beside));
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, HALFWAY_CACHE_DIR);
-  ASSERT_TRUE(library) << library.error().message;
-  const auto pins = read_pins(c_root / c_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  const auto designs = all_designs();
-  std::vector<std::string> others(designs.size());
-  const Status made = for_each_on_threads(2, designs.size(), [&](std::size_t i) -> Status {
-    const Design& design = designs[i].design;
-    const auto pin = pins->find(design.name);
-    if (pin == pins->end()) return Ok{};
-    const auto hash = netlist_hash(*library, design);
-    if (!hash) return hash.error();
-    if (*hash != pin->second.netlist)
-      others[i] =
-          fmt::format("{}:{}: {}: its netlist is not the one that is pinned; make synth PIN=1 pins anew\n",
-                      c_pins, pin->second.line, design.name);
-    return Ok{};
-  });
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(fmt::format("{}", fmt::join(others, "")), "");
 }
 
 // Within the permitted difference: the page may be from another run with other seeds.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_synth: synthesizes every design of the list by Yosys for two FPGA families, and places it by
 // nextpnr for an iCE40 HX8K. Writes one table, and compares the figures with those pinned in
-// tb/synth/pinned.txt.
+// tb/synth/pinned.txt. Each design has a row of evidence.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,12 +17,12 @@
 #include <vector>
 
 #include "designs.hpp"
+#include "evidence/evidence.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/program/program.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/machine.hpp"
 #include "sim/system/page_part.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/subprocess.hpp"
@@ -31,11 +31,8 @@
 namespace halfway::synth {
 namespace {
 
-constexpr std::string_view c_table = "## Figures\n";  // of the page; the text after it is rewritten
-constexpr std::string_view c_head =
-    "| design | LUTs | carries | flip-flops | RAMs | clock, MHz | seeds, MHz | ns a pixel | published, ns | "
-    "critical path | ECP5: LUTs | flip-flops | RAMs | multipliers |\n"
-    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+constexpr std::string_view c_section = "Figures";  // of the page
+constexpr const char* c_design_column = "design";
 
 constexpr const char* c_readme_part = "clocks";
 constexpr const char* c_endless = "nextpnr does not end";
@@ -43,7 +40,8 @@ constexpr const char* c_endless = "nextpnr does not end";
 struct Options {
   bool quick = false, cells = false, pin = false, check = false;
   unsigned seeds = c_seeds, jobs = 2;
-  std::filesystem::path page{}, readme{};
+  evidence::Mode mode = evidence::Mode::none;
+  std::filesystem::path page{"docs/results/synthesis.md"}, readme{};
   SimulatorFolders folders{};
   std::string part{};
 };
@@ -55,6 +53,7 @@ struct Figures {
   std::string netlist{};
   std::string no_room{};                ///< Synthesizer::no_room
   unsigned endless = 0;                 ///< placements that did not end
+  unsigned remaining = 0;               ///< placements to be made
   std::vector<Placement> placements{};  ///< sorted by clock, slowest first, once all have ended
   const Placement* median() const {
     return placements.empty() ? nullptr : &placements[placements.size() / 2];
@@ -66,10 +65,6 @@ struct Figures {
 std::string path_text(const CriticalPath& path) {
   return fmt::format("`{}` → `{}`: {} LUTs, {} carries, {:.1f} ns in cells, {:.1f} ns in wires", path.from,
                      path.to, path.luts, path.carries, path.logic, path.routing);
-}
-
-std::string row_begin(const std::string& name) {
-  return fmt::format("| `{}` |", name);
 }
 
 std::string not_placed(const Figures& f) {
@@ -86,32 +81,44 @@ std::string seeds_text(const Figures& f) {
                      f.endless > 0 ? fmt::format("; {}: {}", c_endless, f.endless) : std::string());
 }
 
-std::string row(const ListedDesign& listed, const Figures& f) {
-  std::string text = row_begin(listed.design.name);
-  if (f.ice40)
-    text += fmt::format(" {} | {} | {} | {} |", f.ice40->luts, f.ice40->carries, f.ice40->flip_flops,
-                        f.ice40->rams);
-  else
-    text += " – | – | – | – |";
+// Today's row without its measured fields.
+evidence::Today described(const ListedDesign& listed) {
+  return {.name = listed.design.name,
+          .section = std::string(c_section),
+          .fields = {{c_design_column, fmt::format("`{}`", listed.design.name)}}};
+}
+
+evidence::Row row(const ListedDesign& listed, const Figures& f) {
+  evidence::Row row = described(listed);
+  const auto add = [&](const char* column, const std::string& cell) {
+    row.fields.emplace_back(column, cell);
+  };
+  const auto count = [](bool exists, std::uint64_t cells) {
+    return exists ? std::to_string(cells) : std::string("–");
+  };
+  const Ice40Cells ice40 = f.ice40.value_or(Ice40Cells{});
+  add("LUTs", count(f.ice40.has_value(), ice40.luts));
+  add("carries", count(f.ice40.has_value(), ice40.carries));
+  add("flip-flops", count(f.ice40.has_value(), ice40.flip_flops));
+  add("RAMs", count(f.ice40.has_value(), ice40.rams));
   const auto published = published_ns(listed.design.name);
-  const std::string printed = published ? std::to_string(*published) : "–";
-  if (f.fits())
-    text += fmt::format(" {:.0f} | {} | {:.1f} | {} | {} |", f.mhz(), seeds_text(f), 1000 / f.mhz(), printed,
-                        path_text(f.median()->path));
-  else
-    text += fmt::format(" – | – | – | {} | {} |", printed, not_placed(f));
-  if (f.ecp5)
-    text += fmt::format(" {} | {} | {} | {} |\n", f.ecp5->luts, f.ecp5->flip_flops, f.ecp5->rams,
-                        f.ecp5->multipliers);
-  else
-    text += " – | – | – | – |\n";
-  return text;
+  add("clock, MHz", f.fits() ? fmt::format("{:.0f}", f.mhz()) : "–");
+  add("seeds, MHz", f.fits() ? seeds_text(f) : "–");
+  add("ns a pixel", f.fits() ? fmt::format("{:.1f}", 1000 / f.mhz()) : "–");
+  add("published, ns", published ? std::to_string(*published) : "–");
+  add("critical path", f.fits() ? path_text(f.median()->path) : not_placed(f));
+  const Ecp5Cells ecp5 = f.ecp5.value_or(Ecp5Cells{});
+  add("ECP5: LUTs", count(f.ecp5.has_value(), ecp5.luts));
+  add("ECP5: flip-flops", count(f.ecp5.has_value(), ecp5.flip_flops));
+  add("ECP5: RAMs", count(f.ecp5.has_value(), ecp5.rams));
+  add("ECP5: multipliers", count(f.ecp5.has_value(), ecp5.multipliers));
+  return row;
 }
 
 // Check before the long measurement that its results can be written.
 Status check_written(const Options& options) {
-  if (!options.page.empty())
-    if (const auto page = read_file(options.page); !page) return page.error();
+  if (options.mode != evidence::Mode::none)
+    if (const auto page = read_file(options.folders.source / options.page); !page) return page.error();
   if (options.readme.empty()) return Ok{};
   const auto readme = read_file(options.readme);
   if (!readme) return readme.error();
@@ -120,31 +127,19 @@ Status check_written(const Options& options) {
   return Ok{};
 }
 
-// Keep the rows of designs that were measured before, and drop those of designs that no longer exist.
-Status write_page(const std::filesystem::path& path, const std::map<std::string, std::string>& rows,
-                  const std::string& versions) {
-  auto text = read_file(path);
-  if (!text) return text.error();
-  const std::size_t figures = std::min(text->find(c_table), text->size());
-  std::string table(c_head);
-  for (const ListedDesign& listed : all_designs()) {
-    const std::string& name = listed.design.name;
-    const auto measured = rows.find(name);
-    const std::size_t before = text->find(row_begin(name), figures);
-    if (measured != rows.end())
-      table += measured->second;
-    else if (before != std::string::npos)
-      table += text->substr(before, text->find('\n', before) + 1 - before);
-  }
-  text->resize(figures);
-  return write_file(path, fmt::format("{}{}\nBy {}, on {}, {}.\n\n{}", *text, c_table, versions, machine(),
-                                      operating_system(), table));
+// The page's figures, with the tools and the machine of the last measurement.
+std::vector<page::Section> sections(std::span<const evidence::Row> rows, const std::string& versions) {
+  std::vector<page::Section> sections = evidence::sections_of(rows);
+  for (page::Section& section : sections) section.body = fmt::format("By {}.\n\n{}", versions, section.body);
+  return sections;
 }
 
 // With a part, the other pins are kept. Without one, or without a file, all are written again.
 Result<Pins> pins_before(const Options& options) {
   const auto path = options.folders.source / c_pins;
-  if (options.pin && (options.part.empty() || !std::filesystem::exists(path))) return Pins{};
+  if (options.pin &&
+      ((options.part.empty() && options.mode != evidence::Mode::stale) || !std::filesystem::exists(path)))
+    return Pins{};
   return read_pins(path);
 }
 
@@ -169,6 +164,14 @@ class Run {
 
   /// Start large designs first, by their pinned size, so that the last job is not the longest one.
   ExitCode run() {
+    if (options_.mode != evidence::Mode::none) {
+      const auto known = open_evidence();
+      if (!known) return failed(known.error());
+      if (options_.mode == evidence::Mode::check) return check();
+      if (options_.mode == evidence::Mode::stale)
+        std::erase_if(designs_, [&](const ListedDesign& listed) { return !is_stale(listed); });
+      figures_.assign(designs_.size(), {});
+    }
     std::vector<std::size_t> order(designs_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(),
@@ -182,13 +185,15 @@ class Run {
     jobs.clear();
     if (!options_.cells)
       for (const std::size_t i : order)
-        for (unsigned seed = 1; figures_[i].ice40 && figures_[i].no_room.empty() && seed <= options_.seeds;
-             ++seed)
+        for (unsigned seed = 1;
+             figures_[i].ice40 && figures_[i].no_room.empty() && seed <= seeds_of(designs_[i]); ++seed) {
           jobs.push_back({i, Job::Kind::place, seed});
+          ++figures_[i].remaining;
+        }
+    // A design without placements is measured.
+    for (std::size_t i = 0; i < designs_.size(); ++i)
+      if (figures_[i].remaining == 0) finish(i);
     work(jobs, "clocks");
-    for (Figures& f : figures_)
-      std::sort(f.placements.begin(), f.placements.end(),
-                [](const Placement& a, const Placement& b) { return a.mhz < b.mhz; });
     return report();
   }
 
@@ -198,6 +203,82 @@ class Run {
     enum class Kind { ice40, ecp5, place } kind;
     unsigned seed = 0;
   };
+
+  // Today's rows, with the hashes of the selected designs.
+  Status open_evidence() {
+    std::vector<ListedDesign> all = all_designs();
+    std::vector<evidence::Today> today;
+    for (const ListedDesign& listed : all) today.push_back(described(listed));
+    std::vector<std::string> netlists(all.size());
+    const Status hashed = for_each_on_threads(options_.jobs, all.size(), [&](std::size_t i) -> Status {
+      const Design& design = all[i].design;
+      if (design.name.find(options_.part) == std::string::npos) return Ok{};
+      auto netlist = synthesizer_.netlist_hash(design);
+      if (!netlist) return netlist.error();
+      today[i].hash =
+          ContentHash().add("cells 1").add(*netlist).add(flow_hash()).add(synthesizer_.versions()).hex();
+      netlists[i] = std::move(*netlist);
+      return Ok{};
+    });
+    if (!hashed) return hashed;
+    for (std::size_t i = 0; i < all.size(); ++i) netlists_[all[i].design.name] = netlists[i];
+    auto opened = evidence::Evidence::open(
+        {.root = options_.folders.source,
+         .rows = "tb/synth/evidence.txt",
+         .page = options_.page.string(),
+         .sections = [versions = synthesizer_.versions()](
+                         std::span<const evidence::Row> rows) { return sections(rows, versions); }},
+        std::move(today));
+    if (!opened) return opened.error();
+    evidence_ = std::move(*opened);
+    return Ok{};
+  }
+
+  // The pin is of another netlist.
+  bool is_pin_stale(const ListedDesign& listed) const {
+    const auto pin = pins_.find(listed.design.name);
+    return listed.ice40 && (pin == pins_.end() || pin->second.netlist != netlists_.at(listed.design.name));
+  }
+  bool is_stale(const ListedDesign& listed) const {
+    return evidence_->is_stale(listed.design.name) || is_pin_stale(listed);
+  }
+
+  ExitCode check() const {
+    int stale = 0;
+    for (const ListedDesign& listed : designs_)
+      if (is_pin_stale(listed)) {
+        ++stale;
+        fmt::print(stderr, "{}: {}: is pinned for another netlist; make evidence pins it again\n", c_pins,
+                   listed.design.name);
+      }
+    const ExitCode rows = evidence::report(*evidence_);
+    return stale > 0 ? ExitCode::differs : rows;
+  }
+
+  // Evidence is renewed with the number of seeds that was pinned.
+  unsigned seeds_of(const ListedDesign& listed) const {
+    const auto pin = pins_.find(listed.design.name);
+    return options_.mode == evidence::Mode::stale && pin != pins_.end() ? pin->second.seeds : options_.seeds;
+  }
+
+  // Store a measured design: its row and, if requested, its pin.
+  void finish(std::size_t i) {
+    Figures& f = figures_[i];
+    std::ranges::sort(f.placements, {}, &Placement::mhz);
+    const bool is_measured = broken_designs_.count(i) == 0 && (f.ice40 || !designs_[i].ice40);
+    if (!is_measured || options_.mode == evidence::Mode::none) return;
+    evidence::Row measured = row(designs_[i], f);
+    measured.hash = evidence_->hash_of(measured.name);
+    Status stored = evidence_->put(measured);
+    if (stored && options_.pin) {
+      pin_design(i);
+      stored = write_pins(options_.folders.source / c_pins, pins_, synthesizer_.versions());
+    }
+    if (!stored) {
+      ++broken_;
+      cli::report(stored.error());
+    }
+  }
 
   // A new design counts as the largest.
   std::uint64_t pinned_luts(std::size_t design) const {
@@ -240,8 +321,11 @@ class Run {
         std::fflush(stdout);
       } else {
         ++broken_;
+        broken_designs_.insert(jobs[at].design);
         cli::report(said.error());
       }
+      if (jobs[at].kind == Job::Kind::place && --figures_[jobs[at].design].remaining == 0)
+        finish(jobs[at].design);
       show();
       return Ok{};
     }));
@@ -288,22 +372,30 @@ class Run {
   }
 
   ExitCode report() {
-    std::map<std::string, std::string> rows;
-    fmt::print("\n{}", c_head);
-    for (std::size_t i = 0; i < designs_.size(); ++i) {
-      rows[designs_[i].design.name] = row(designs_[i], figures_[i]);
-      fmt::print("{}", rows[designs_[i].design.name]);
-    }
-    fmt::print("\n");
+    std::vector<evidence::Row> rows;
+    for (std::size_t i = 0; i < designs_.size(); ++i) rows.push_back(row(designs_[i], figures_[i]));
+    for (const page::Section& section : evidence::sections_of(rows)) fmt::print("\n{}\n", section.body);
     if (broken_ > 0)
       return failed(tool_failed(fmt::format("{}: {} figures could not be had, and nothing is compared",
                                             options_.folders.source.string(), broken_)));
     const auto compared = options_.pin ? pin() : compare_all();
     if (!compared) return failed(compared.error());
-    if (!options_.page.empty())
-      if (const Status written = write_page(options_.page, rows, synthesizer_.versions()); !written)
-        return failed(written.error());
+    if (evidence_)
+      if (const Status written = evidence_->finish(); !written) return failed(written.error());
     return *compared;
+  }
+
+  void pin_design(std::size_t i) {
+    const Figures& f = figures_[i];
+    if (!f.ice40) return;
+    Pin& pin = pins_[designs_[i].design.name];
+    pin.cells = *f.ice40;
+    // If no placement has ended, keep the clock and its netlist.
+    if (f.fits() || f.endless == 0 || pin.mhz == 0) {
+      pin.mhz = f.mhz();
+      pin.netlist = f.netlist;
+      if (f.fits()) pin.seeds = static_cast<unsigned>(f.placements.size());
+    }
   }
 
   Result<ExitCode> pin() {
@@ -312,15 +404,8 @@ class Run {
       const Figures& f = figures_[i];
       if (!f.ice40) continue;
       ++pinned;
-      Pin& pin = pins_[designs_[i].design.name];
-      pin.cells = *f.ice40;
-      // If no placement has ended, keep the clock and its netlist.
-      if (f.fits() || f.endless == 0 || pin.mhz == 0) {
-        pin.mhz = f.mhz();
-        pin.netlist = f.netlist;
-        if (f.fits()) pin.seeds = static_cast<unsigned>(f.placements.size());
-        if (f.fits() && pin.seeds < c_seeds) ++hasty;
-      }
+      pin_design(i);
+      if (f.fits() && pins_[designs_[i].design.name].seeds < c_seeds) ++hasty;
     }
     std::set<std::string> listed;
     for (const ListedDesign& each : all_designs())
@@ -369,8 +454,11 @@ class Run {
   std::vector<ListedDesign> designs_;
   std::vector<Figures> figures_;
   Pins pins_;
+  std::optional<evidence::Evidence> evidence_;
+  std::map<std::string, std::string> netlists_;  // hashes, by design
   std::mutex mutex_;
   int broken_ = 0;
+  std::set<std::size_t> broken_designs_;
 };
 
 int main_of(const Options& options) {
@@ -411,10 +499,9 @@ int main(int argc, char** argv) {
   app.add_flag("--check", options.check, "measure nothing: only look whether what is asked for can be");
   app.add_option("--seeds", options.seeds, "of placement")->check(CLI::Range(1, 999))->capture_default_str();
   app.add_option("--jobs", options.jobs, "at a time")->check(CLI::Range(1, 999))->capture_default_str();
-  // The rows of the page would be incomplete.
-  app.add_option("--page", options.page, "file whose table is written anew")
-      ->excludes(quick)
-      ->excludes(cells);
+  // The rows would be incomplete.
+  evidence::add_option(app, options.mode)->excludes(quick)->excludes(cells);
+  app.add_option("--page", options.page, "page of the rows")->capture_default_str();
   app.add_option("--readme", options.readme, "file whose part 'clocks' is written by what is pinned")
       ->needs(pin);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();

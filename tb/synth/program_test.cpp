@@ -97,7 +97,7 @@ class SynthProgram : public StandInTools {
 };
 
 TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
-  const Outcome outcome = run({"--seeds", "3", "--page", page().string()});
+  const Outcome outcome = run({"--seeds", "3", "--evidence", "all", "--page", page().string()});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("accumulator_24, seed 2: nextpnr does not end"));
   EXPECT_THAT(outcome.output, HasSubstr("0 of 1 designs are not as pinned"));
@@ -105,6 +105,24 @@ TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
   ASSERT_TRUE(text);
   EXPECT_THAT(*text, HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 90 | 90 to 90 of 2; nextpnr does not "
                                "end: 1 | 11.1 | – | `"));
+}
+
+TEST_F(SynthProgram, MeasuresOnlyRowsThatAreStale) {
+  const std::vector<std::string> stale = {"--evidence", "stale", "--pin", "--page", page().string()};
+  const Outcome first = run(stale);
+  EXPECT_EQ(first.exit_status, 0) << first.errors;
+  EXPECT_THAT(first.output, HasSubstr("accumulator_24, seed 1: 90.0 MHz"));
+  const auto pins = read_pins(root() / c_pins);
+  ASSERT_TRUE(pins) << pins.error().message;
+  EXPECT_FALSE(pins->at("accumulator_24").netlist.empty());
+  const Outcome second = run(stale);
+  EXPECT_EQ(second.exit_status, 0) << second.errors;
+  EXPECT_THAT(second.output, Not(HasSubstr("seed")));
+  // A pin of another netlist is stale, too.
+  pin(90);
+  EXPECT_THAT(run({"--evidence", "check", "--page", page().string()}).errors,
+              HasSubstr("accumulator_24: is pinned for another netlist; make evidence"));
+  EXPECT_THAT(run(stale).output, HasSubstr("accumulator_24, seed 1: 90.0 MHz"));
 }
 
 TEST_F(SynthProgram, PinsOfHowManySeedsAClockIs) {
@@ -150,7 +168,7 @@ TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
   const fs::path missing = root() / "none.md";
   ASSERT_TRUE(write_file(root() / "readme.md", "no such part\n"));
   const std::string readme = (root() / "readme.md").string();
-  const std::vector<std::vector<std::string>> cases = {{"--page", missing.string()},
+  const std::vector<std::vector<std::string>> cases = {{"--evidence", "all", "--page", missing.string()},
                                                        {"--pin", "--readme", missing.string()},
                                                        {"--pin", "--readme", readme},
                                                        {"--seeds", "0"}};
@@ -166,7 +184,7 @@ TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
   const Outcome none = run({"--check"}, "no_such_design");
   EXPECT_EQ(none.exit_status, 2);
   EXPECT_THAT(none.errors, HasSubstr("no_such_design: no design has this in its name"));
-  const Outcome good = run({"--check", "--page", page().string()});
+  const Outcome good = run({"--check", "--evidence", "all", "--page", page().string()});
   EXPECT_EQ(good.exit_status, 0) << good.errors;
   EXPECT_EQ(good.output + good.errors, "");
   ASSERT_TRUE(write_file(root() / c_pins, "accumulator_24 1 2\n"));

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_stability: the hard cases. Each full sweep has a row of evidence, whose details are the hardware
+// that it draws with.
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "evidence/inputs.hpp"
+#include "evidence/test_rows.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/synth/nameless_netlist.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::stability {
+namespace {
+
+const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
+
+Result<std::string> common_hash() {
+  constexpr std::string_view c_tools[] = {"ghdl", "verilator"};
+  const auto versions = evidence::versions(c_tools);
+  if (!versions) return versions.error();
+  const auto sources = evidence::sources_hash(c_root, HALFWAY_FOLDERS);
+  if (!sources) return sources.error();
+  return ContentHash().add(*versions).add(*sources).hex();
+}
+
+// Netlists of the hardware that rows name: one line "entity generic=value ..." each.
+class Netlists {
+ public:
+  Result<std::string> hash(const std::string& lines) {
+    ContentHash hash;
+    std::istringstream stream(lines);
+    for (std::string line; std::getline(stream, line);) {
+      const auto one = hash_of(line);
+      if (!one) return one.error();
+      hash.add(*one);
+    }
+    return hash.hex();
+  }
+
+ private:
+  Result<std::string> hash_of(const std::string& line) {
+    if (const auto known = known_.find(line); known != known_.end()) return known->second;
+    if (!library_) {
+      const auto tool = GhdlTool::find();
+      if (!tool) return tool.error();
+      const auto sources = read_rtl_sources(c_root);
+      if (!sources) return sources.error();
+      const auto library = GhdlLibrary::for_synthesis(*tool, *sources, HALFWAY_CACHE_DIR);
+      if (!library) return library.error();
+      library_ = *library;
+    }
+    std::istringstream words(line);
+    std::string entity;
+    words >> entity;
+    std::vector<std::pair<std::string, std::string>> generics;
+    for (std::string word; words >> word;) {
+      const std::size_t equals = word.find('=');
+      generics.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    }
+    const auto netlist = library_->synthesize(entity, generics);
+    if (!netlist) return netlist.error();
+    return known_[line] = ContentHash().add(synth::nameless(*netlist)).hex();
+  }
+
+  std::optional<GhdlLibrary> library_;
+  std::map<std::string, std::string> known_;
+};
+
+}  // namespace
+}  // namespace halfway::stability
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  stability::Netlists netlists;
+  return evidence::run_tests(
+      argc, argv,
+      {.place = {.root = stability::c_root,
+                 .rows = "tb/stability/evidence.txt",
+                 .page = "docs/results/hard_cases.md"},
+       .common = stability::common_hash,
+       .of_details = [&](const std::string& details) { return netlists.hash(details); }});
+}
