@@ -2,7 +2,7 @@
 // Made by `make tables` from model/tables/formats.cpp; edit that.
 // Number formats and the layouts of the flat vectors, for both presets.
 // In bounds u is the format's unit, u_x that of format x. Frames have up to 4096 lines and pixels, so
-// lines = pixels = 4095; steps = 8190: a pixel a line along the edge, and then the span; k = lines + steps,
+// lines = pixels = 4095; steps = 8190: one pixel per line along the edge, then the span; k = lines + steps,
 // k_published = lines + pixels. There are up to 16 lights with 32 terms; m is an exponent, e Euler's number.
 #pragma once
 
@@ -45,17 +45,17 @@ struct Exact {
   //   at most 4096: frame
   static constexpr int c_span_x_bits = 14;
   static constexpr int c_span_x_fraction_bits = 0;
-  // u8.0: what the frame stores: the sum before it, rounded once and held
+  // u8.0: stored in the frame: the sum before it, rounded once and clamped
   //   at most 255: 2^8 - 1
   //   rounded: off by at most 0.5 colour steps: u / 2
   static constexpr int c_colour_bits = 8;
   static constexpr int c_colour_fraction_bits = 0;
-  // u24.0: what the z test compares: the sum before it, rounded once
+  // u24.0: compared by the depth test: the sum before it, rounded once
   //   at most 16777215: 2^24 - 1
   //   rounded: off by at most 0.5 depth steps: u / 2
   static constexpr int c_depth_bits = 24;
   static constexpr int c_depth_fraction_bits = 0;
-  // s24.15: first differences, each rounded to half a unit
+  // s24.15: first differences, each word off by at most half a unit
   //   off by at most 0.19 depth steps: (1 + k) * u / 2
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
@@ -67,16 +67,16 @@ struct Exact {
   //   at most 16: lights
   static constexpr int c_light_bits = 5;
   static constexpr int c_light_fraction_bits = 0;
-  // s9.0: shadow volumes opened less those closed, up to 511 either way, and held past that
+  // s9.0: shadow volumes opened minus those closed, clamped to -512 to 511
   //   at most 512: 2^9
   static constexpr int c_shadow_count_bits = 10;
   static constexpr int c_shadow_count_fraction_bits = 0;
-  // u18.6: one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18, so that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the slope's relative error
+  // u18.6: 1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone of a tenth of a degree reaches its full light. The share is t^2 (3 - 2t), where t is the slope times the distance of the cosine from the edge. Its error is 6 t^2 (1 - t), at most 8/9, times the relative error of the slope
   //   off by at most 2^-7: u / 2
   //   share: off by at most 0.014 of the spot's light: 8 / 9 * u / 2 / (1 / 2)
   static constexpr int c_spot_slope_bits = 24;
   static constexpr int c_spot_slope_fraction_bits = 6;
-  // u18.0: up to the edge's height in subpixels, 16 a pixel from -2048 to 6143, doubled at no level of subdivision
+  // u18.0: up to the edge's height in subpixels: 16 per pixel from -2048 to 6143; subdivision does not double it
   //   at most 131056: (6143 + 2048) * 16
   static constexpr int c_edge_error_bits = 18;
   static constexpr int c_edge_error_fraction_bits = 0;
@@ -84,12 +84,12 @@ struct Exact {
   //   at most 4096: frame
   static constexpr int c_edge_x_bits = 14;
   static constexpr int c_edge_x_fraction_bits = 0;
-  // s11.28: second differences, each word rounded to half a unit; the samples are, too, and what the quadratic takes of them adds up to 5/3 at most. Samples up to 1023 stay within +-2046
+  // s11.28: second differences; each word is off by at most half a unit. So is each sample; the weights of the six samples add up to at most 5/3. With samples up to 1023 the quadratic stays within +-2046
   //   off by at most 0.15 colour steps: (1 + k + k * (k - 1) / 2) * u / 2
   //   samples: off by at most 3.2e-09 colour steps: 5 / 3 * u / 2
   static constexpr int c_intensity_bits = 40;
   static constexpr int c_intensity_fraction_bits = 28;
-  // s10.22: half bells; start and slope each rounded to half a unit: a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
+  // s10.22: half bells; start and slope are each off by at most half a unit, together a quarter of a 2^-9 cell; exponents up to 10^6 stay within +-1024
   //   off by at most 2^-11 half bells: (1 + pixels) * u / 2
   static constexpr int c_angle_bits = 33;
   static constexpr int c_angle_fraction_bits = 22;
@@ -97,51 +97,51 @@ struct Exact {
   //   at most 4
   static constexpr int c_power_bits = 3;
   static constexpr int c_power_fraction_bits = 0;
-  // s1.42: first differences, each rounded to half a unit
+  // s1.42: first differences, each word off by at most half a unit
   //   off by at most 0.4 steps of vector: (1 + k) * u / 2 / u_vector
   static constexpr int c_plane_sum_bits = 44;
   static constexpr int c_plane_sum_fraction_bits = 42;
-  // s1.28: interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1; plane_sum rounded
+  // s1.28: interpolated N/w, view ray and 1/w, scaled so that the largest component is 1/2 to 1; plane_sum rounded
   //   off by at most 2^-29: u / 2
   static constexpr int c_vector_bits = 30;
   static constexpr int c_vector_fraction_bits = 28;
-  // s1.22: components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where they are made; their length has the error of root, half that of a square of 1/4 or more, and of three components rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a unit, 3.1 halves across it at most, and of rounding, 1.8
+  // s1.22: components of unit vectors, rounded; an exponent m multiplies the error of a cosine by m. The error of the length: that of root, half that of a square of at least 1/4, and three rounded components. The error of the angle: a vector of at least 1/2 whose components are cut by half a unit (at most 3.1 halves across it), and rounding (1.8)
   //   component: off by at most 2^-23: u / 2
   //   length: off by at most 1.42e-06: 1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2
   //   angle: off by at most 5.9e-07 radians: 4.9 * u / 2
   static constexpr int c_direction_bits = 24;
   static constexpr int c_direction_fraction_bits = 22;
-  // s2.28: from a surface point to a light, before it is normalized: the light's place rounded, the point's cut
+  // s2.28: from a surface point to a light, before it is normalized: the light's position is rounded, the point's is cut
   //   off by at most 5.59e-09: (1 / 2 + 1) * u
   static constexpr int c_offset_bits = 31;
   static constexpr int c_offset_fraction_bits = 28;
-  // s1.26: a light's direction, or its place with 2^light_shift taken off
+  // s1.26: a light's direction, or its position divided by 2^light_shift
   //   off by at most 2^-27: u / 2
   static constexpr int c_light_place_bits = 28;
   static constexpr int c_light_place_fraction_bits = 26;
-  // u5.0: how much farther a light may be than the nearest surface: 2^31
+  // u5.0: a light may be 2^31 times as far as the nearest surface
   //   at most 31
   static constexpr int c_light_shift_bits = 5;
   static constexpr int c_light_shift_fraction_bits = 0;
-  // u2.28: of a vector's length, 1/4 to 3; cut
+  // u2.28: square of a vector's length, 1/4 to 3; cut
   //   off by at most 2^-28: u
   static constexpr int c_square_bits = 30;
   static constexpr int c_square_fraction_bits = 28;
-  // u0.12: table of 1/sqrt(x), 512 entries: half a step, and half a cell of 2^-8 where it falls by 1/2 to 1
+  // u0.12: table of 1/sqrt(x), 512 entries: half a step, and half a cell of 2^-8 times the slope, 1/2 to 1
   //   off by at most 0.0011: u / 2 + 2^-8 / 2 / 2
   //   relative: off by at most 0.00115 of it: sqrt(2) * u / 2 + 2^-8 / 2 / 2
   static constexpr int c_root_entry_bits = 12;
   static constexpr int c_root_entry_fraction_bits = 12;
-  // u1.23: after a Newton step from an entry r off, which is 3/2 r^2 short; raised by 17/2 units, cut by half of one and by one, sqrt(2) of it at x = 2 where r is largest
+  // u1.23: after a Newton step from an entry with relative error r: too small by 3/2 r^2; raised by 17/2 units, cut by half a unit and by one unit (sqrt(2) of the result at x = 2, where r is largest)
   //   off by at most 1.2e-06 of it: 3 / 2 * 0.00115^2 - (17 - 1) / 2 * u + sqrt(2) * u
   static constexpr int c_root_bits = 24;
   static constexpr int c_root_fraction_bits = 23;
-  // u13.8: up to 8191; x^n falls by x^n ln(1/x) dn, dn/(e n) at most
+  // u13.8: up to 8191; an error dn changes x^n by x^n ln(1/x) dn, at most dn/(e n)
   //   off by at most 2^-9: u / 2
   //   highlight: off by at most 0.0008 of a highlight's peak: u / 2 / e
   static constexpr int c_exponent_bits = 21;
   static constexpr int c_exponent_fraction_bits = 8;
-  // u1.16: a power of a cosine, or of a spot's edge, for slopes up to 2^12: t is cut by a unit and by 2^-28 of the slope, and the share rises by 3/2 of t at most; a diffuse term's cosine is rounded
+  // u1.16: a power of a cosine, or the share of a spot for slopes up to 2^12: t is cut by a unit and by 2^-28 of the slope, and the share changes by at most 3/2 of t; a diffuse term's cosine is rounded
   //   power: off by at most 0.00101: 2^-15 + m * 2^-23
   //   spot: off by at most 5.34e-05: 3 / 2 * (u + 2^12 * 2^-28) + u / 2
   //   diffuse: off by at most 2^-17: u / 2
@@ -155,15 +155,15 @@ struct Exact {
   //   off by at most 2^-5 colour steps: u / 2
   static constexpr int c_light_intensity_bits = 18;
   static constexpr int c_light_intensity_fraction_bits = 4;
-  // u14.8: k I in colour steps, rounded; held at 64 times white
+  // u14.8: k I in colour steps, rounded; clamped at 64 times white
   //   off by at most 2^-9 colour steps: u / 2
   static constexpr int c_reflected_bits = 22;
   static constexpr int c_reflected_fraction_bits = 8;
-  // u10.12: sum of the terms in colour steps, each but the ambient one cut; held at four times white
+  // u10.12: sum of the terms in colour steps, each cut except the ambient one; clamped at four times white
   //   off by at most 2^-7 colour steps: terms * u
   static constexpr int c_radiance_bits = 22;
   static constexpr int c_radiance_fraction_bits = 12;
-  // u16.8: colour steps; the largest times the least entry of up to 8 bits is white, so what is brighter needs no more
+  // u16.8: colour steps; the largest factor times the smallest entry of 8 bits is white, so a larger factor would change nothing
   //   off by at most 2^-9 colour steps: u / 2
   static constexpr int c_factor_bits = 24;
   static constexpr int c_factor_fraction_bits = 8;
@@ -423,17 +423,17 @@ struct Published {
   //   at most 4096: frame
   static constexpr int c_span_x_bits = 14;
   static constexpr int c_span_x_fraction_bits = 0;
-  // u8.0: what the frame stores: the sum before it, rounded once and held
+  // u8.0: stored in the frame: the sum before it, rounded once and clamped
   //   at most 255: 2^8 - 1
   //   rounded: off by at most 0.5 colour steps: u / 2
   static constexpr int c_colour_bits = 8;
   static constexpr int c_colour_fraction_bits = 0;
-  // u24.0: what the z test compares: the sum before it, rounded once
+  // u24.0: compared by the depth test: the sum before it, rounded once
   //   at most 16777215: 2^24 - 1
   //   rounded: off by at most 0.5 depth steps: u / 2
   static constexpr int c_depth_bits = 24;
   static constexpr int c_depth_fraction_bits = 0;
-  // s24.15: first differences, each rounded to half a unit
+  // s24.15: first differences, each word off by at most half a unit
   //   off by at most 0.19 depth steps: (1 + k) * u / 2
   static constexpr int c_depth_sum_bits = 40;
   static constexpr int c_depth_sum_fraction_bits = 15;
@@ -445,11 +445,11 @@ struct Published {
   //   at most 16: lights
   static constexpr int c_light_bits = 5;
   static constexpr int c_light_fraction_bits = 0;
-  // s9.0: shadow volumes opened less those closed, up to 511 either way, and held past that
+  // s9.0: shadow volumes opened minus those closed, clamped to -512 to 511
   //   at most 512: 2^9
   static constexpr int c_shadow_count_bits = 10;
   static constexpr int c_shadow_count_fraction_bits = 0;
-  // u18.6: one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18, so that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the slope's relative error
+  // u18.6: 1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone of a tenth of a degree reaches its full light. The share is t^2 (3 - 2t), where t is the slope times the distance of the cosine from the edge. Its error is 6 t^2 (1 - t), at most 8/9, times the relative error of the slope
   //   off by at most 2^-7: u / 2
   //   share: off by at most 0.014 of the spot's light: 8 / 9 * u / 2 / (1 / 2)
   static constexpr int c_spot_slope_bits = 24;
@@ -458,24 +458,24 @@ struct Published {
   //   at most 0
   static constexpr int c_edge_error_bits = 0;
   static constexpr int c_edge_error_fraction_bits = 0;
-  // s13.18: 32 bits, as the quadratic paper's other registers; start and slope each rounded to half a unit
+  // s13.18: 32 bits, as the quadratic paper's other registers; start and slope each off by at most half a unit
   //   off by at most 2^-7 pixels: (1 + lines) * u / 2
   static constexpr int c_edge_x_bits = 32;
   static constexpr int c_edge_x_fraction_bits = 18;
-  // s11.20: 32 bits, 20 of them fraction: the quadratic paper's figure 7; second differences, each word rounded to half a unit: 4 colour steps after 4095 steps in all; where an edge leaves whole pixels comes on top
+  // s11.20: 32 bits with 20 fraction bits: the quadratic paper's figure 7; second differences, each word off by at most half a unit: 4 colour steps after 4095 steps. The error of edges between pixels is additional
   //   off by at most 16 colour steps: (1 + k_published + k_published * (k_published - 1) / 2) * u / 2
   //   samples: off by at most 8e-07 colour steps: 5 / 3 * u / 2
   static constexpr int c_intensity_bits = 32;
   static constexpr int c_intensity_fraction_bits = 20;
-  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends. Start and slope each rounded to half a unit: 8 addresses after 1023 steps
+  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps
   //   off by at most 1 half bells: (1 + pixels) * u / 2
   static constexpr int c_angle_bits = 12;
   static constexpr int c_angle_fraction_bits = 11;
-  // u0.0: cosine squared alone
+  // u0.0: only cosine squared
   //   at most 0
   static constexpr int c_power_bits = 0;
   static constexpr int c_power_fraction_bits = 0;
-  // s1.26: first differences, each rounded to half a unit
+  // s1.26: first differences, each word off by at most half a unit
   //   off by at most 1.5 steps of vector: (1 + k) * u / 2 / u_vector
   static constexpr int c_plane_sum_bits = 28;
   static constexpr int c_plane_sum_fraction_bits = 26;
@@ -483,13 +483,13 @@ struct Published {
   //   off by at most 2^-15: u / 2
   static constexpr int c_vector_bits = 16;
   static constexpr int c_vector_fraction_bits = 14;
-  // s1.14: 16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors of 17 bits at most are cut, by a quarter of a unit
+  // s1.14: 16 bits, so that an N that is not normalized is not changed; otherwise as in preset exact, but vectors of at most 17 bits are cut, by a quarter of a unit
   //   component: off by at most 2^-15: u / 2
   //   length: off by at most 0.0094: 0.0092 + 2 * u_square + sqrt(3) * u / 2
   //   angle: off by at most 0.000102 radians: 3.3 * u / 2 * (1 + 0.0094)
   static constexpr int c_direction_bits = 16;
   static constexpr int c_direction_fraction_bits = 14;
-  // s2.14: from a surface point to a light, before it is normalized; with the eye's vector, held below 2, the sum of three words
+  // s2.14: from a surface point to a light, before it is normalized; with the vector to the eye, a sum of three words below 2
   //   at most 4: (2 - u) + 1 + 1
   static constexpr int c_offset_bits = 17;
   static constexpr int c_offset_fraction_bits = 14;
@@ -497,15 +497,15 @@ struct Published {
   //   off by at most 2^-15: u / 2
   static constexpr int c_light_place_bits = 16;
   static constexpr int c_light_place_fraction_bits = 14;
-  // u0.0: places share one scale
+  // u0.0: all positions have one scale
   //   at most 0
   static constexpr int c_light_shift_bits = 0;
   static constexpr int c_light_shift_fraction_bits = 0;
-  // u2.14: of a vector's length, 1/4 to 3; cut
+  // u2.14: square of a vector's length, 1/4 to 3; cut
   //   off by at most 2^-14: u
   static constexpr int c_square_bits = 16;
   static constexpr int c_square_fraction_bits = 14;
-  // u0.9: table of 1/sqrt(x), 64 entries: half a step, and half a cell of 2^-5 where it falls by 1/2 to 1
+  // u0.9: table of 1/sqrt(x), 64 entries: half a step, and half a cell of 2^-5 times the slope, 1/2 to 1
   //   off by at most 0.0088: u / 2 + 2^-5 / 2 / 2
   //   relative: off by at most 0.0092 of it: sqrt(2) * u / 2 + 2^-5 / 2 / 2
   static constexpr int c_root_entry_bits = 9;
@@ -519,7 +519,7 @@ struct Published {
   //   highlight: off by at most 0.184 of a highlight's peak: u / 2 / e
   static constexpr int c_exponent_bits = 10;
   static constexpr int c_exponent_fraction_bits = 0;
-  // u1.8: a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its rounding are 0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the product's cut come on top. A diffuse term's cosine is rounded
+  // u1.8: a power of a cosine, or the share of a spot: next to 1 the middle of a cell of the logarithm and its rounding are off by 0.0062, so that an m-th power falls by e^(-m / 232); 2^-x, rounding and the cut of the product are additional. A diffuse term's cosine is rounded
   //   power: off by at most 1: 1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10
   //   spot: off by at most 2^-7: 3 / 2 * u + u / 2
   //   diffuse: off by at most 2^-9: u / 2
@@ -537,7 +537,7 @@ struct Published {
   //   off by at most 0.5 colour steps: u / 2
   static constexpr int c_reflected_bits = 8;
   static constexpr int c_reflected_fraction_bits = 0;
-  // u8.0: an integer: each term but the ambient one is cut; held at white
+  // u8.0: an integer: each term except the ambient one is cut; clamped at white
   //   off by at most 32 colour steps: terms * u
   static constexpr int c_radiance_bits = 8;
   static constexpr int c_radiance_fraction_bits = 0;

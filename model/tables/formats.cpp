@@ -36,19 +36,19 @@ std::vector<Format> common_formats() {
        false,
        8,
        0,
-       "what the frame stores: the sum before it, rounded once and held",
+       "stored in the frame: the sum before it, rounded once and clamped",
        {at_most(255, "2^8 - 1"), off_by(0.5, "colour steps", "u / 2", "rounded")}},
       {"depth",
        false,
        24,
        0,
-       "what the z test compares: the sum before it, rounded once",
+       "compared by the depth test: the sum before it, rounded once",
        {at_most(0x1p24 - 1, "2^24 - 1"), off_by(0.5, "depth steps", "u / 2", "rounded")}},
       {"depth_sum",
        true,
        24,
        15,
-       "first differences, each rounded to half a unit",
+       "first differences, each word off by at most half a unit",
        {off_by(0.19, "depth steps", "(1 + k) * u / 2")}},
       {"command", false, 3, 0, "of a vector or token of the shading processors", {at_most(7, "7")}},
       {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light", {at_most(16, "lights")}},
@@ -56,17 +56,16 @@ std::vector<Format> common_formats() {
        true,
        9,
        0,
-       "shadow volumes opened less those closed, up to 511 either way, and held past that",
+       "shadow volumes opened minus those closed, clamped to -512 to 511",
        {at_most(512, "2^9")}},
       {"spot_slope",
        false,
        18,
        6,
-       "one over the width of a spot's soft edge, in cosines, 1/2 at least; a harder edge has one of 2^18, "
-       "so "
-       "that a cone of a tenth of a degree still comes to its full light. The share is t^2 (3 - 2t), t the "
-       "slope times what the cosine is above the edge: it moves by 6 t^2 (1 - t), 8/9 at most, times the "
-       "slope's relative error",
+       "1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone "
+       "of a tenth of a degree reaches its full light. The share is t^2 (3 - 2t), where t is the slope times "
+       "the distance of the cosine from the edge. Its error is 6 t^2 (1 - t), at most 8/9, times the "
+       "relative error of the slope",
        {off_by(0x1p-7, "", "u / 2"),
         off_by(0.014, "of the spot's light", "8 / 9 * u / 2 / (1 / 2)", "share")}},
   };
@@ -90,49 +89,47 @@ std::vector<Format> exact_formats() {
        false,
        18,
        0,
-       "up to the edge's height in subpixels, 16 a pixel from -2048 to 6143, doubled at no level of "
-       "subdivision",
+       "up to the edge's height in subpixels: 16 per pixel from -2048 to 6143; subdivision does not double "
+       "it",
        {at_most(131056, "(6143 + 2048) * 16")}},
       {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder", {at_most(4096, "frame")}},
       {"intensity",
        true,
        11,
        28,
-       "second differences, each word rounded to half a unit; the samples are, too, and what the quadratic "
-       "takes of them adds up to 5/3 at most. Samples up to 1023 stay within +-2046",
+       "second differences; each word is off by at most half a unit. So is each sample; the weights of the "
+       "six samples add up to at most 5/3. With samples up to 1023 the quadratic stays within +-2046",
        {off_by(0.15, "colour steps", "(1 + k + k * (k - 1) / 2) * u / 2"),
         off_by(3.2e-9, "colour steps", "5 / 3 * u / 2", "samples")}},
       {"angle",
        true,
        10,
        22,
-       "half bells; start and slope each rounded to half a unit: a quarter of a 2^-9 cell; exponents up to "
-       "10^6 stay within +-1024",
+       "half bells; start and slope are each off by at most half a unit, together a quarter of a 2^-9 cell; "
+       "exponents up to 10^6 stay within +-1024",
        {off_by(0x1p-11, "half bells", "(1 + pixels) * u / 2")}},
       {"power", false, 3, 0, "which table: cosine to the power 2^word", {at_most(4, "4")}},
       {"plane_sum",
        true,
        1,
        42,
-       "first differences, each rounded to half a unit",
+       "first differences, each word off by at most half a unit",
        {off_by(0.4, "steps of vector", "(1 + k) * u / 2 / u_vector")}},
       {"vector",
        true,
        1,
        28,
-       "interpolated N/w, view ray and 1/w, the largest scaled to 1/2 to 1; plane_sum rounded",
+       "interpolated N/w, view ray and 1/w, scaled so that the largest component is 1/2 to 1; plane_sum "
+       "rounded",
        {off_by(0x1p-29, "", "u / 2")}},
       {"direction",
        true,
        1,
        22,
-       "components of unit vectors; an exponent m multiplies the error of a cosine by m. Rounded where they "
-       "are "
-       "made; their length has the error of root, half that of a square of 1/4 or more, and of three "
-       "components "
-       "rounded; the angle has that of a vector of 1/2 or more whose components are cut by half a unit, 3.1 "
-       "halves "
-       "across it at most, and of rounding, 1.8",
+       "components of unit vectors, rounded; an exponent m multiplies the error of a cosine by m. The error "
+       "of the length: that of root, half that of a square of at least 1/4, and three rounded components. "
+       "The error of the angle: a vector of at least 1/2 whose components are cut by half a unit (at most "
+       "3.1 halves across it), and rounding (1.8)",
        {off_by(0x1p-23, "", "u / 2", "component"),
         off_by(1.42e-6, "", "1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2", "length"),
         off_by(5.9e-7, "radians", "4.9 * u / 2", "angle")}},
@@ -140,49 +137,48 @@ std::vector<Format> exact_formats() {
        true,
        2,
        28,
-       "from a surface point to a light, before it is normalized: the light's place rounded, the point's cut",
+       "from a surface point to a light, before it is normalized: the light's position is rounded, the "
+       "point's is cut",
        {off_by(0x1.8p-28, "", "(1 / 2 + 1) * u")}},
       {"light_place",
        true,
        1,
        26,
-       "a light's direction, or its place with 2^light_shift taken off",
+       "a light's direction, or its position divided by 2^light_shift",
        {off_by(0x1p-27, "", "u / 2")}},
       {"light_shift",
        false,
        5,
        0,
-       "how much farther a light may be than the nearest surface: 2^31",
+       "a light may be 2^31 times as far as the nearest surface",
        {at_most(31, "31")}},
-      {"square", false, 2, 28, "of a vector's length, 1/4 to 3; cut", {off_by(0x1p-28, "", "u")}},
+      {"square", false, 2, 28, "square of a vector's length, 1/4 to 3; cut", {off_by(0x1p-28, "", "u")}},
       {"root_entry",
        false,
        0,
        12,
-       "table of 1/sqrt(x), 512 entries: half a step, and half a cell of 2^-8 where it falls by 1/2 to 1",
+       "table of 1/sqrt(x), 512 entries: half a step, and half a cell of 2^-8 times the slope, 1/2 to 1",
        {off_by(0.0011, "", "u / 2 + 2^-8 / 2 / 2"),
         off_by(0.00115, "of it", "sqrt(2) * u / 2 + 2^-8 / 2 / 2", "relative")}},
       {"root",
        false,
        1,
        23,
-       "after a Newton step from an entry r off, which is 3/2 r^2 short; raised by 17/2 units, cut by half "
-       "of "
-       "one and by one, sqrt(2) of it at x = 2 where r is largest",
+       "after a Newton step from an entry with relative error r: too small by 3/2 r^2; raised by 17/2 units, "
+       "cut by half a unit and by one unit (sqrt(2) of the result at x = 2, where r is largest)",
        {off_by(1.2e-6, "of it", "3 / 2 * 0.00115^2 - (17 - 1) / 2 * u + sqrt(2) * u")}},
       {"exponent",
        false,
        13,
        8,
-       "up to 8191; x^n falls by x^n ln(1/x) dn, dn/(e n) at most",
+       "up to 8191; an error dn changes x^n by x^n ln(1/x) dn, at most dn/(e n)",
        {off_by(0x1p-9, "", "u / 2"), off_by(0.0008, "of a highlight's peak", "u / 2 / e", "highlight")}},
       {"weight",
        false,
        1,
        16,
-       "a power of a cosine, or of a spot's edge, for slopes up to 2^12: t is cut by a unit and by 2^-28 of "
-       "the "
-       "slope, and the share rises by 3/2 of t at most; a diffuse term's cosine is rounded",
+       "a power of a cosine, or the share of a spot for slopes up to 2^12: t is cut by a unit and by 2^-28 "
+       "of the slope, and the share changes by at most 3/2 of t; a diffuse term's cosine is rounded",
        {off_by(0.00101, "", "2^-15 + m * 2^-23", "power"),
         off_by(0x1.cp-15, "", "3 / 2 * (u + 2^12 * 2^-28) + u / 2", "spot"),
         off_by(0x1p-17, "", "u / 2", "diffuse")}},
@@ -197,21 +193,20 @@ std::vector<Format> exact_formats() {
        false,
        14,
        8,
-       "k I in colour steps, rounded; held at 64 times white",
+       "k I in colour steps, rounded; clamped at 64 times white",
        {off_by(0x1p-9, "colour steps", "u / 2")}},
       {"radiance",
        false,
        10,
        12,
-       "sum of the terms in colour steps, each but the ambient one cut; held at four times white",
+       "sum of the terms in colour steps, each cut except the ambient one; clamped at four times white",
        {off_by(0x1p-7, "colour steps", "terms * u")}},
       {"factor",
        false,
        16,
        8,
-       "colour steps; the largest times the least entry of up to 8 bits is white, so what is brighter needs "
-       "no "
-       "more",
+       "colour steps; the largest factor times the smallest entry of 8 bits is white, so a larger factor "
+       "would change nothing",
        {off_by(0x1p-9, "colour steps", "u / 2")}},
   };
 }
@@ -223,15 +218,15 @@ std::vector<Format> published_formats() {
        true,
        13,
        18,
-       "32 bits, as the quadratic paper's other registers; start and slope each rounded to half a unit",
+       "32 bits, as the quadratic paper's other registers; start and slope each off by at most half a unit",
        {off_by(0x1p-7, "pixels", "(1 + lines) * u / 2")}},
       {"intensity",
        true,
        11,
        20,
-       "32 bits, 20 of them fraction: the quadratic paper's figure 7; second differences, each word rounded "
-       "to "
-       "half a unit: 4 colour steps after 4095 steps in all; where an edge leaves whole pixels comes on top",
+       "32 bits with 20 fraction bits: the quadratic paper's figure 7; second differences, each word off by "
+       "at most half a unit: 4 colour steps after 4095 steps. The error of edges between pixels is "
+       "additional",
        {off_by(16, "colour steps", "(1 + k_published + k_published * (k_published - 1) / 2) * u / 2"),
         off_by(8e-7, "colour steps", "5 / 3 * u / 2", "samples")}},
       {"angle",
@@ -239,14 +234,14 @@ std::vector<Format> published_formats() {
        0,
        11,
        "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the "
-       "bell's ends. Start and slope each rounded to half a unit: 8 addresses after 1023 steps",
+       "bell's ends. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps",
        {off_by(1, "half bells", "(1 + pixels) * u / 2")}},
-      {"power", false, 0, 0, "cosine squared alone", {at_most(0, "0")}},
+      {"power", false, 0, 0, "only cosine squared", {at_most(0, "0")}},
       {"plane_sum",
        true,
        1,
        26,
-       "first differences, each rounded to half a unit",
+       "first differences, each word off by at most half a unit",
        {off_by(1.5, "steps of vector", "(1 + k) * u / 2 / u_vector")}},
       {"vector",
        true,
@@ -258,9 +253,8 @@ std::vector<Format> published_formats() {
        true,
        1,
        14,
-       "16 bits, so that an N that is not normalized passes as it is; else as in preset exact, but vectors "
-       "of 17 bits "
-       "at most are cut, by a quarter of a unit",
+       "16 bits, so that an N that is not normalized is not changed; otherwise as in preset exact, but "
+       "vectors of at most 17 bits are cut, by a quarter of a unit",
        {off_by(0x1p-15, "", "u / 2", "component"),
         off_by(0.0094, "", "0.0092 + 2 * u_square + sqrt(3) * u / 2", "length"),
         off_by(1.02e-4, "radians", "3.3 * u / 2 * (1 + 0.0094)", "angle")}},
@@ -268,18 +262,17 @@ std::vector<Format> published_formats() {
        true,
        2,
        14,
-       "from a surface point to a light, before it is normalized; with the eye's vector, held below 2, the "
-       "sum of "
-       "three words",
+       "from a surface point to a light, before it is normalized; with the vector to the eye, a sum of three "
+       "words below 2",
        {at_most(4, "(2 - u) + 1 + 1")}},
       {"light_place", true, 1, 14, "as vector", {off_by(0x1p-15, "", "u / 2")}},
-      {"light_shift", false, 0, 0, "places share one scale", {at_most(0, "0")}},
-      {"square", false, 2, 14, "of a vector's length, 1/4 to 3; cut", {off_by(0x1p-14, "", "u")}},
+      {"light_shift", false, 0, 0, "all positions have one scale", {at_most(0, "0")}},
+      {"square", false, 2, 14, "square of a vector's length, 1/4 to 3; cut", {off_by(0x1p-14, "", "u")}},
       {"root_entry",
        false,
        0,
        9,
-       "table of 1/sqrt(x), 64 entries: half a step, and half a cell of 2^-5 where it falls by 1/2 to 1",
+       "table of 1/sqrt(x), 64 entries: half a step, and half a cell of 2^-5 times the slope, 1/2 to 1",
        {off_by(0.0088, "", "u / 2 + 2^-5 / 2 / 2"),
         off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2", "relative")}},
       {"root", false, 0, 9, "the table's entry", {off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2")}},
@@ -293,11 +286,9 @@ std::vector<Format> published_formats() {
        false,
        1,
        8,
-       "a power of a cosine, or of a spot's edge: next to 1 the middle of a cell of the logarithm and its "
-       "rounding are "
-       "0.0062 off, so that an m-th power falls by e^(-m / 232); 2^-x, the rounding and the product's cut "
-       "come on top. "
-       "A diffuse term's cosine is rounded",
+       "a power of a cosine, or the share of a spot: next to 1 the middle of a cell of the logarithm and its "
+       "rounding are off by 0.0062, so that an m-th power falls by e^(-m / 232); 2^-x, rounding and the cut "
+       "of the product are additional. A diffuse term's cosine is rounded",
        {off_by(1, "", "1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10", "power"),
         off_by(0x1p-7, "", "3 / 2 * u + u / 2", "spot"), off_by(0x1p-9, "", "u / 2", "diffuse")}},
       {"coefficient", false, 1, 7, "an integer, in 1/128", {off_by(0x1p-8, "", "u / 2")}},
@@ -307,7 +298,7 @@ std::vector<Format> published_formats() {
        false,
        8,
        0,
-       "an integer: each term but the ambient one is cut; held at white",
+       "an integer: each term except the ambient one is cut; clamped at white",
        {off_by(32, "colour steps", "terms * u")}},
       {"factor", false, 10, 8, "colour steps up to 1023", {off_by(0x1p-9, "colour steps", "u / 2")}},
   };
@@ -515,7 +506,7 @@ std::string commented(const Format& format, std::string_view indent) {
 // Comment lines that define the names in the formulas.
 constexpr std::string_view c_names_in_bounds[] = {
     "In bounds u is the format's unit, u_x that of format x. Frames have up to 4096 lines and pixels, so",
-    "lines = pixels = 4095; steps = 8190: a pixel a line along the edge, and then the span; k = lines + "
+    "lines = pixels = 4095; steps = 8190: one pixel per line along the edge, then the span; k = lines + "
     "steps,",
     "k_published = lines + pixels. There are up to 16 lights with 32 terms; m is an exponent, e Euler's "
     "number.",

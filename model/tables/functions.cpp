@@ -126,9 +126,10 @@ double derived(const FunctionTable& table) {
 std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
   std::string out = fmt::format(
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
-      "-- Functions over cells, correctly rounded. With slope bits a value is the function at its cell's "
-      "beginning, and one\n"
-      "-- stands behind the last cell; without, at its cell's middle.\n\n"
+      "-- Functions over cells, correctly rounded. With slope bits a value is the function at the start of "
+      "its "
+      "cell, and\n"
+      "-- one more value follows the last cell; without, it is the function at the middle of the cell.\n\n"
       "package function_pkg is\n\n",
       c_notice);
   auto to = std::back_inserter(out);
@@ -178,9 +179,10 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
 std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
   std::string out = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}\n"
-      "// Functions over cells, correctly rounded. With slope bits a value is the function at its cell's "
-      "beginning, and\n"
-      "// one stands behind the last cell; without, at its cell's middle.\n"
+      "// Functions over cells, correctly rounded. With slope bits a value is the function at the start of "
+      "its "
+      "cell, and\n"
+      "// one more value follows the last cell; without, it is the function at the middle of the cell.\n"
       "#pragma once\n\n#include <array>\n#include <cstdint>\n#include <span>\n\n"
       "namespace halfway::golden {{\n\n"
       "enum class Function {{ ",

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Made by `make tables` from model/tables/functions.cpp; edit that.
--- Functions over cells, correctly rounded. With slope bits a value is the function at its cell's beginning, and one
--- stands behind the last cell; without, at its cell's middle.
+-- Functions over cells, correctly rounded. With slope bits a value is the function at the start of its cell, and
+-- one more value follows the last cell; without, it is the function at the middle of the cell.
 
 package function_pkg is
 
