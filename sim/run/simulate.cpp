@@ -463,7 +463,7 @@ std::string to_line(const SceneSummary& s) {
     fmt::format_to(to, " | {}: ", run.simulator);
     if (run.cycles)
       fmt::format_to(
-          to, "{} cycles{}, {:.3f} a fragment, ", *run.cycles,
+          to, "{} cycles{}, {:.3f} per fragment, ", *run.cycles,
           run.parts > 1 ? fmt::format(" in {} parts", run.parts) : "",
           run.fragments == 0 ? 0.0 : static_cast<double>(*run.cycles) / static_cast<double>(run.fragments));
     if (run.fragments == 0 && run.equal())

@@ -121,7 +121,8 @@ Result<std::string> readme_clocks(const Pins& pins) {
   const auto placed = [&](const char* name) -> Result<Pin> {
     const auto found = pins.find(name);
     if (found == pins.end() || found->second.mhz == 0)
-      return bad_input(fmt::format("{}: {}: not pinned with a clock, which README tells", c_pins, name));
+      return bad_input(
+          fmt::format("{}: {}: not pinned with a clock; docs/performance.md shows it", c_pins, name));
     return found->second;
   };
   constexpr const char* c_shaders[] = {"quadratic_shader_grey_published", "quadratic_shader_grey_exact",
@@ -129,7 +130,7 @@ Result<std::string> readme_clocks(const Pins& pins) {
                                        "spherical_shader_published",      "spherical_shader_grey_exact",
                                        "spherical_shader_exact"};
   std::string text =
-      "| design | LUTs | flip-flops | RAMs | clock, MHz | ns a pixel | published, ns |\n"
+      "| design | LUTs | flip-flops | RAMs | clock, MHz | ns per pixel | paper, ns |\n"
       "| --- | --- | --- | --- | --- | --- | --- |\n";
   unsigned fewest = ~0U, most = 0;
   const auto count_seeds = [&](const Pin& pin) {
@@ -155,9 +156,9 @@ Result<std::string> readme_clocks(const Pins& pins) {
   const std::string seeds = fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
   return text +
          fmt::format(
-             "\nA clock is the median of {} seeds. A lone sum of 24 bits comes to {:.0f} MHz, of 40 to "
-             "{:.0f}. One folded shading processor of preset\n`published` comes to {:.1f} MHz "
-             "(diffuse) and {:.1f} (specular), {:.1f} ns a clock, where the paper has {}.\n",
+             "\nA clock is the median of {} seeds. A single 24-bit adder reaches {:.0f} MHz, a 40-bit adder "
+             "{:.0f} MHz. One folded shading processor of\npreset `published` reaches {:.1f} MHz "
+             "(diffuse) and {:.1f} MHz (specular): {:.1f} ns per clock. The paper has {} ns.\n",
              seeds, sum_24->mhz, sum_40->mhz, diffuse->mhz, specular->mhz,
              1000 / std::min(diffuse->mhz, specular->mhz), published_ns(c_diffuse).value());
 }

@@ -104,8 +104,8 @@ evidence::Row row(const ListedDesign& listed, const Figures& f) {
   const auto published = published_ns(listed.design.name);
   add("clock, MHz", f.fits() ? fmt::format("{:.0f}", f.mhz()) : "–");
   add("seeds, MHz", f.fits() ? seeds_text(f) : "–");
-  add("ns a pixel", f.fits() ? fmt::format("{:.1f}", 1000 / f.mhz()) : "–");
-  add("published, ns", published ? std::to_string(*published) : "–");
+  add("ns per pixel", f.fits() ? fmt::format("{:.1f}", 1000 / f.mhz()) : "–");
+  add("paper, ns", published ? std::to_string(*published) : "–");
   add("critical path", f.fits() ? path_text(f.median()->path) : not_placed(f));
   const Ecp5Cells ecp5 = f.ecp5.value_or(Ecp5Cells{});
   add("ECP5: LUTs", count(f.ecp5.has_value(), ecp5.luts));
