@@ -27,14 +27,14 @@ class PixelWalk : public CommandTest {};
 
 TEST_F(PixelWalk, EqualsTheOutputOfWhy) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-  const std::string mark = "\n```\n$ halfway why ";
+  const std::string mark = "\n```\n$ build/halfway why ";
   for (const char* name : {"quadratic", "spherical", "processors"}) {
     SCOPED_TRACE(name);
     const auto page = read_file(source / "docs/rtl" / (std::string(name) + ".md"));
     ASSERT_TRUE(page);
     const std::size_t at = page->find(mark);
     ASSERT_NE(at, std::string::npos);
-    const std::size_t begin = at + std::string("\n```\n$ halfway ").size();
+    const std::size_t begin = at + std::string("\n```\n$ build/halfway ").size();
     std::istringstream block(page->substr(begin, page->find("\n```", begin) - begin));
     std::string line;
     std::getline(block, line);
