@@ -34,7 +34,7 @@ entity half_vector is
     clk        : in  std_logic;
     reset      : in  std_logic;
     enable     : in  std_logic;
-    positional : in  std_logic; -- preset published: the light has a place; else to_eye is H
+    positional : in  std_logic; -- preset published: the light has a position; otherwise to_eye is H
     to_light   : in  std_logic_vector(c_axes * half_light_bits(g_exact) - 1 downto 0);
     to_eye     : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
     half       : out std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0)

@@ -75,7 +75,7 @@ architecture rtl of light_term is
   subtype weight_t is std_logic_vector(c_formats.weight.bits - 1 downto 0);
   subtype exponent_t is std_logic_vector(c_formats.exponent.bits - 1 downto 0);
 
-  signal positional   : std_logic;    -- the light has a place
+  signal positional   : std_logic;    -- the light has a position
   signal spot         : std_logic;    -- and a cone
   signal to_light     : directions_t; -- L
   signal direction    : directions_t; -- A: L, or H of a highlight

@@ -29,13 +29,13 @@ use work.token_pkg.all;
 entity light_vector is
   generic (
     g_exact      : boolean := true;
-    g_positional : boolean := true -- the light can have a place
+    g_positional : boolean := true -- the light can have a position
   );
   port (
     clk        : in  std_logic;
     reset      : in  std_logic;
     enable     : in  std_logic;
-    positional : in  std_logic; -- the light has one
+    positional : in  std_logic; -- the light has a position
     place      : in  std_logic_vector(c_axes * formats(g_exact).light_place.bits - 1 downto 0);
     shift      : in  std_logic_vector(shift_bits(g_exact) - 1 downto 0);
     point      : in  std_logic_vector(c_axes * formats(g_exact).vector.bits - 1 downto 0);

@@ -94,7 +94,7 @@ architecture rtl of shading_processor is
   signal light      : std_logic_vector(light_bits(c_config) - 1 downto 0);
   signal defined    : std_logic; -- the light
   signal lit        : std_logic;
-  signal positional : std_logic; -- the light has a place
+  signal positional : std_logic; -- the light has a position
   signal spot       : std_logic; -- and a cone
 
   -- Between the shared units.
