@@ -172,14 +172,16 @@ Result<TimingTrace> timing_trace(const std::filesystem::path& vcd) {
 namespace {
 
 TimingTrace simulated(const Context& context) {
-  std::vector<VhdlSource> tables = must(read_rtl_sources(context.folders.source));
-  std::erase_if(tables, [](const VhdlSource& source) {
-    return source.name.find("tables/") == std::string::npos || !source.name.ends_with("_pkg.vhd");
+  std::vector<VhdlSource> packages = must(read_rtl_sources(context.folders.source));
+  std::erase_if(packages, [](const VhdlSource& source) {
+    const bool of_tables =
+        source.name.find("tables/") != std::string::npos && source.name.ends_with("_pkg.vhd");
+    return !of_tables && !source.name.ends_with("raster/line_pkg.vhd");
   });
   const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
   const std::filesystem::path vcd = std::filesystem::absolute(scratch.path()) / "trace.vcd";
   run_testbench(
-      context, c_top, std::move(tables),
+      context, c_top, std::move(packages),
       {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"},
       {"-gg_lines=1", "--vcd=" + vcd.string()});
   return must(timing_trace(vcd));
