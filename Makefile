@@ -236,12 +236,12 @@ prove: configure ## prove properties of the RTL; each proof must also refute fau
 evidence: configure ## measure the stale rows of the pages of evidence again: bounds, hard cases, proofs, mutants, cells (two hours at most; may be interrupted)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds halfway_stability halfway_proofs halfway_mutants \
 	  halfway_vectors halfway_synth
-	@build/tb/halfway_bounds --gtest_brief=1 --evidence=stale
-	@$(call sweep,stale)
-	@build/tb/halfway_proofs --evidence stale . build/proofs
 	@build/tb/halfway_vectors all build/tb/vectors
-	@build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants
-	@build/tb/halfway_synth --evidence stale --jobs "$(jobs)" --pin --readme docs/performance.md . build/cache
+	@end=0; build/tb/halfway_bounds --gtest_brief=1 --evidence=stale || end=$$?; \
+	$(call sweep,stale) || end=$$?; \
+	build/tb/halfway_proofs --evidence stale . build/proofs || end=$$?; \
+	build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants || end=$$?; \
+	build/tb/halfway_synth --evidence stale --jobs "$(jobs)" --pin --readme docs/performance.md . build/cache || end=$$?; exit "$$end"
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
 sweep = printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 --evidence=$(1) --part={}/

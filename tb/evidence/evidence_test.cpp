@@ -128,12 +128,6 @@ TEST(BareCpp, HasNoCommentsAndNoWhiteSpace) {
   EXPECT_EQ(bare_cpp("a /* open"), "a");
 }
 
-TEST(BareVhdl, HasNoCommentsAndOneSpace) {
-  EXPECT_EQ(bare_vhdl("A  <= b; -- c\n\n  d <= \"-- E\";\n"), "a <= b; d <= \"-- E\"; ");
-  EXPECT_EQ(bare_vhdl("x; -- \"\ny;"), bare_vhdl("x;\n  y;"));
-  EXPECT_NE(bare_vhdl("a <= b;"), bare_vhdl("a <= c;"));
-}
-
 TEST_F(Rows, HashesOfFoldersIgnoreCommentsAndTests) {
   const auto hash = [&](std::string_view source, std::string_view test) {
     EXPECT_TRUE(make_folders(root() / "x"));

@@ -69,25 +69,6 @@ std::string bare_cpp(std::string_view text) {
   return bare;
 }
 
-std::string bare_vhdl(std::string_view text) {
-  std::string bare;
-  bool in_string = false;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const char c = text[at];
-    if (c == '"') in_string = !in_string;
-    if (in_string) {
-      bare += c;
-    } else if (text.substr(at).starts_with("--")) {
-      at = std::min(text.find('\n', at), text.size()) - 1;
-    } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
-      bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    } else if (!bare.empty() && bare.back() != ' ') {
-      bare += ' ';
-    }
-  }
-  return bare;
-}
-
 Result<std::string> sources_hash(const std::filesystem::path& root, std::string_view folders) {
   ContentHash hash;
   std::size_t count = 0;

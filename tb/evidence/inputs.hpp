@@ -15,9 +15,6 @@ namespace halfway::evidence {
 /// C++ without comments and without white space outside of literals.
 std::string bare_cpp(std::string_view text);
 
-/// VHDL without comments, in lower case, with one space for white space.
-std::string bare_vhdl(std::string_view text);
-
 /// Hash of the C++ files of these folders, without tests, each as bare_cpp. `folders` are relative to `root`
 /// and separated by colons.
 Result<std::string> sources_hash(const std::filesystem::path& root, std::string_view folders);

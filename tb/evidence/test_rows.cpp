@@ -11,11 +11,13 @@
 
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway::evidence {
 namespace {
 
 constexpr std::string_view c_full = "Full/";
+constexpr unsigned c_threads = 2;
 
 // The name of the test's row; empty if it has none.
 std::string row_name(const testing::TestInfo& test) {
@@ -99,14 +101,16 @@ Result<ExitCode> run_rows(const TestRows& rows, Mode mode, const std::string& pa
   const auto tests = tests_with_rows();
   const auto is_selected = [&](const std::string& name) { return name.find(part) != std::string::npos; };
   std::vector<Today> today;
-  for (const auto& [name, test] : tests) {
-    today.push_back({.name = name, .section = section_of(name)});
-    const auto row = std::ranges::find(*before, name, &Row::name);
-    if (mode == Mode::all || row == before->end() || !is_selected(name)) continue;
+  for (const auto& [name, test] : tests) today.push_back({.name = name, .section = section_of(name)});
+  const Status hashed = for_each_on_threads(c_threads, today.size(), [&](std::size_t i) -> Status {
+    const auto row = std::ranges::find(*before, today[i].name, &Row::name);
+    if (mode == Mode::all || row == before->end() || !is_selected(row->name)) return Ok{};
     auto hash = hash_of(rows, *common, row->details);
     if (!hash) return hash.error();
-    today.back().hash = std::move(*hash);
-  }
+    today[i].hash = std::move(*hash);
+    return Ok{};
+  });
+  if (!hashed) return hashed.error();
   const auto evidence = Evidence::open(rows.place, std::move(today));
   if (!evidence) return evidence.error();
   if (mode == Mode::check) return report(*evidence);

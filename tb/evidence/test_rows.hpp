@@ -18,7 +18,7 @@ struct TestRows {
   Place place;
   /// Hash of everything that all tests depend on.
   std::function<Result<std::string>()> common;
-  /// Hash of what the details of a row name.
+  /// Hash of what the details of a row name. Called by several threads.
   std::function<Result<std::string>(const std::string& details)> of_details;
 };
 

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "evidence/inputs.hpp"
+#include "sim/ghdl/rtl_hash.hpp"
 #include "sim/pages/template.hpp"
 #include "sim/synth/nameless_netlist.hpp"
 #include "sim/system/file.hpp"
@@ -49,7 +50,7 @@ void add_used(const std::string& text, const std::map<std::string, const VhdlSou
   for (std::sregex_iterator at(text.begin(), text.end(), use), last; at != last; ++at) {
     const auto unit = units.find((*at)[1]);
     if (unit != units.end() && added.insert(unit->second->name).second)
-      add_used(evidence::bare_vhdl(unit->second->content), units, added, hash);
+      add_used(bare_vhdl(unit->second->content), units, added, hash);
   }
 }
 
@@ -130,7 +131,7 @@ Result<std::string> testbench_hash(const std::string& test, std::span<const Sour
   ContentHash hash;
   hash.add("sources 1").add(programs);
   std::set<std::string> added{testbench->second->name};
-  add_used(evidence::bare_vhdl(testbench->second->content), units, added, hash);
+  add_used(bare_vhdl(testbench->second->content), units, added, hash);
   for (const SourceFault& fault : faults)
     if (fault.test == test)
       hash.add(fault.file)

@@ -2,6 +2,7 @@
 // halfway_stability: the hard cases. Each full sweep has a row of evidence, whose details are the hardware
 // that it draws with.
 #include <map>
+#include <mutex>
 #include <optional>
 #include <sstream>
 
@@ -25,7 +26,7 @@ Result<std::string> common_hash() {
   return ContentHash().add(*versions).add(*sources).hex();
 }
 
-// Netlists of the hardware that rows name: one line "entity generic=value ..." each.
+// Netlists of the hardware that rows name: one line "entity generic=value ..." each. For several threads.
 class Netlists {
  public:
   Result<std::string> hash(const std::string& lines) {
@@ -41,15 +42,10 @@ class Netlists {
 
  private:
   Result<std::string> hash_of(const std::string& line) {
-    if (const auto known = known_.find(line); known != known_.end()) return known->second;
-    if (!library_) {
-      const auto tool = GhdlTool::find();
-      if (!tool) return tool.error();
-      const auto sources = read_rtl_sources(c_root);
-      if (!sources) return sources.error();
-      const auto library = GhdlLibrary::for_synthesis(*tool, *sources, HALFWAY_CACHE_DIR);
-      if (!library) return library.error();
-      library_ = *library;
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto known = known_.find(line); known != known_.end()) return known->second;
+      if (const Status opened = open(); !opened) return opened.error();
     }
     std::istringstream words(line);
     std::string entity;
@@ -61,8 +57,23 @@ class Netlists {
     }
     const auto netlist = library_->synthesize(entity, generics);
     if (!netlist) return netlist.error();
+    const std::lock_guard lock(mutex_);
     return known_[line] = ContentHash().add(synth::nameless(*netlist)).hex();
   }
+
+  Status open() {
+    if (library_) return Ok{};
+    const auto tool = GhdlTool::find();
+    if (!tool) return tool.error();
+    const auto sources = read_rtl_sources(c_root);
+    if (!sources) return sources.error();
+    const auto library = GhdlLibrary::for_synthesis(*tool, *sources, HALFWAY_CACHE_DIR);
+    if (!library) return library.error();
+    library_ = *library;
+    return Ok{};
+  }
+
+  std::mutex mutex_;
 
   std::optional<GhdlLibrary> library_;
   std::map<std::string, std::string> known_;

@@ -12,6 +12,7 @@
 
 #include "sim/bench/program/bench.hpp"
 #include "sim/bench/ways.hpp"
+#include "sim/ghdl/rtl_hash.hpp"
 #include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
@@ -45,6 +46,7 @@ int run(const Options& options) {
   Json speed = {
       {"machine", machine()},
       {"load", {{"before", text(load()[0])}}},
+      {"rtl", must(rtl_hash(c_source))},
       {"tools",
        {{"ghdl", first_line({"ghdl", "--version"})},
         {"mcode", lacking(Way::ghdl_mcode, c_folders).empty() ? "mcode back ends" : "no mcode back end"},

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/ghdl/rtl_hash.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+TEST(BareVhdl, HasNoCommentsAndOneSpace) {
+  EXPECT_EQ(bare_vhdl("A  <= b; -- c\n\n  d <= \"-- E\";\n"), "a <= b; d <= \"-- E\"; ");
+  EXPECT_EQ(bare_vhdl("x; -- \"\ny;"), bare_vhdl("x;\n  y;"));
+  EXPECT_NE(bare_vhdl("a <= b;"), bare_vhdl("a <= c;"));
+}
+
+TEST(RtlHash, ChangesWithTheSourcesAndNotWithComments) {
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const auto hash = [&](std::string_view text) {
+    EXPECT_TRUE(write_file(folder->path() / "rtl/files.f", "a.vhd\n"));
+    EXPECT_TRUE(write_file(folder->path() / "rtl/a.vhd", text));
+    const auto result = rtl_hash(folder->path());
+    return result ? *result : result.error().message;
+  };
+  const std::string one = hash("a <= b;\n");
+  EXPECT_EQ(one.size(), 32U) << one;
+  EXPECT_EQ(hash("-- comment\na  <= b;\n"), one);
+  EXPECT_NE(hash("a <= c;\n"), one);
+}
+
+}  // namespace
+}  // namespace halfway
