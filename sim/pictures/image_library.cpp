@@ -19,8 +19,7 @@ Result<Loaded> load() {
   Loaded loaded{std::move(*library)};
   if (Status bound =
           loaded.library.bind(loaded.functions.encode_png, "halfway_encode_png", loaded.functions.decode_png,
-                              "halfway_decode_png", loaded.functions.seen_by_yee, "halfway_seen_by_yee",
-                              loaded.functions.versions, "halfway_image_versions");
+                              "halfway_decode_png", loaded.functions.versions, "halfway_image_versions");
       !bound)
     return bound.error();
   return loaded;

@@ -21,17 +21,12 @@ void halfway_encode_png(const std::string& path, const Frame& frame, bool quick,
                         Result<std::vector<unsigned char>>& bytes);
 /// See read_png in image.hpp.
 void halfway_decode_png(const std::string& path, Result<Frame>& frame);
-/// Number of pixels whose difference is visible between two images of brightness (0 to 1), on a display of
-/// the given luminance in cd/m2 and field of view in degrees; -1 if OpenImageIO cannot compute it.
-long halfway_seen_by_yee(const std::vector<float>& a, const std::vector<float>& b, FrameSize size,
-                         float luminance, float field);
 }
 
 struct ImageLibrary {
   decltype(&halfway_image_versions) versions = nullptr;
   decltype(&halfway_encode_png) encode_png = nullptr;
   decltype(&halfway_decode_png) decode_png = nullptr;
-  decltype(&halfway_seen_by_yee) seen_by_yee = nullptr;
 };
 
 /// Loaded by the first call and never unloaded, because it has threads.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Implementation of image_library.hpp. Only this file includes OpenImageIO.
 #include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -71,13 +69,6 @@ Result<Frame> decoded(const std::string& path) {
   }
 }
 
-OIIO::ImageBuf grey_image(const std::vector<float>& values, FrameSize size) {
-  OIIO::ImageBuf image(
-      OIIO::ImageSpec(static_cast<int>(size.width), static_cast<int>(size.height), 1, OIIO::TypeDesc::FLOAT));
-  image.set_pixels(OIIO::ROI::All(), OIIO::TypeDesc::FLOAT, values.data());
-  return image;
-}
-
 }  // namespace
 
 void halfway_encode_png(const std::string& path, const Frame& frame, bool quick,
@@ -92,13 +83,6 @@ void halfway_decode_png(const std::string& path, Result<Frame>& frame) {
 void halfway_image_versions(std::string& text) {
   const int version = OIIO::openimageio_version();
   text = fmt::format("OpenImageIO {}.{}.{}", version / 10000, version / 100 % 100, version % 100);
-}
-
-long halfway_seen_by_yee(const std::vector<float>& a, const std::vector<float>& b, FrameSize size,
-                         float luminance, float field) {
-  OIIO::ImageBufAlgo::CompareResults results;
-  return OIIO::ImageBufAlgo::compare_Yee(grey_image(a, size), grey_image(b, size), results, luminance, field,
-                                         {}, 1);
 }
 
 }  // namespace halfway

@@ -41,7 +41,7 @@ constexpr std::array c_axes = {
     Axes{"rms-time", c_time, c_rms},
     Axes{"largest-time", c_time, {"largest_error", "largest error, steps of 1/255"}},
     Axes{"highlight-time", c_time, {"highlight_rms", "rms error in highlights, steps of 1/255"}},
-    Axes{"perceived-time", c_time, {"perceived_pixels", "pixels seen to differ (Yee)"}},
+    Axes{"perceived-time", c_time, {"perceived_pixels", "pixels seen to differ (FLIP)"}},
     Axes{"mach-time", c_time, {"mach_rms", "rms of Mach bands, steps of 1/255 per pixel"}},
     Axes{"rms-clocks", c_clocks, c_rms},
     Axes{"rms-cells", {"cells", "cells: LUTs (multipliers among them), flip-flops, memory"}, c_rms},

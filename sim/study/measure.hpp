@@ -29,11 +29,10 @@ struct Drawing {
 };
 
 struct Measurement {
-  Frame frame;              ///< drawn by the RTL if the method is hardware
-  FrameDistance picture;    ///< compared with the reference, over the pixels that either covers
-  FrameDistance highlight;  ///< over the pixels of Reference::highlight
-  std::uint64_t perceived =
-      0;  ///< pixels with a visible difference (Yee, at 100 cd/m2 and 45 degrees of view)
+  Frame frame;                  ///< drawn by the RTL if the method is hardware
+  FrameDistance picture;        ///< compared with the reference, over the pixels that either covers
+  FrameDistance highlight;      ///< over the pixels of Reference::highlight
+  std::uint64_t perceived = 0;  ///< pixels with a visible difference (FLIP)
   MachBands mach_bands;
   std::uint64_t triangles = 0;  ///< of the scene
   std::uint64_t fragments = 0;  ///< 0 in software
