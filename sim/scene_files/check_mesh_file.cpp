@@ -64,14 +64,6 @@ class Lines {
       if (line_.size() > c_longest_line) throw OverlongLine{overlong()};
     }
   }
-  std::string_view rest() {
-    const std::size_t first = std::min(line_.find_first_not_of(c_blank, at_), line_.size());
-    const std::size_t last = line_.find_last_not_of(c_blank);
-    return last == std::string::npos || last < first
-               ? std::string_view()
-               : std::string_view(line_).substr(first, last + 1 - first);
-  }
-  std::uint64_t number() const { return first_number_; }
   std::ifstream& file() { return file_; }
   bool opened() const { return file_.is_open(); }
   Error error(std::string_view what) const {
@@ -143,139 +135,6 @@ Status too_many_triangles(const std::filesystem::path& path, std::uint64_t trian
   return bad_input(fmt::format("{}: {} triangles, but {} is the most; reduce the mesh", path.string(),
                                triangles, c_max_triangles));
 }
-
-// ---- OBJ
-
-class ObjCheck {
- public:
-  explicit ObjCheck(const std::filesystem::path& path) : path_(path), lines_(path) {}
-
-  Result<MeshFileSummary> run() {
-    if (!lines_.opened()) return bad_input(path_.string() + ": cannot be read");
-    std::uint64_t triangles = 0;
-    std::uint64_t polygons = 0;
-    while (lines_.next_joined()) {
-      const std::string_view keyword = lines_.word();
-      if (keyword == "v") {
-        ++positions_;
-        if (Status ok = check_numbers("vertex", positions_, 3); !ok) return ok.error();
-      } else if (keyword == "vn") {
-        ++normals_;
-        if (Status ok = check_numbers("normal", normals_, 3); !ok) return ok.error();
-      } else if (keyword == "vt") {
-        ++texels_;
-      } else if (keyword == "f") {
-        Result<std::uint64_t> corners = check_face();
-        if (!corners) return corners.error();
-        if (*corners < 3) continue;
-        triangles += *corners - 2;
-        ++polygons;
-      } else if (keyword == "usemtl") {
-        uses_material_ = true;
-      } else if (keyword == "mtllib") {
-        const std::filesystem::path library = path_.parent_path() / std::string(lines_.rest());
-        // Skip pipes and devices, which may never end; the reader skips them too.
-        std::error_code fault;
-        if (std::filesystem::is_regular_file(library, fault) && std::ifstream(library)) {
-          ++libraries_;
-        } else {
-          summary_.missing_libraries.push_back(library.string());
-        }
-      }
-    }
-    for (const Range& range : {Range{"vertex", greatest_position_, positions_},
-                               Range{"texture coordinate", greatest_texel_, texels_},
-                               Range{"normal", greatest_normal_, normals_}}) {
-      if (range.greatest.index > range.count) {
-        return bad_input(fmt::format("{}:{}: a face names {} {}, but the file has {}; correct the index",
-                                     path_.string(), range.greatest.line, range.what, range.greatest.index,
-                                     range.count));
-      }
-    }
-    if (Status ok = too_many_triangles(path_, triangles); !ok) return ok.error();
-    summary_.polygons = polygons;
-    summary_.has_materials = uses_material_ && libraries_ > 0;
-    return summary_;
-  }
-
- private:
-  struct Greatest {
-    std::uint64_t index = 0;
-    std::uint64_t line = 0;
-  };
-  struct Range {
-    std::string_view what;
-    Greatest greatest;
-    std::uint64_t count;
-  };
-
-  Status check_numbers(std::string_view what, std::uint64_t number, int needed) {
-    int count = 0;
-    for (std::string_view word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
-      const std::string fault = number_fault(word);
-      if (!fault.empty()) {
-        return lines_.error(fmt::format("{} {}: {}; correct the coordinate", what, number, fault));
-      }
-      // A fourth number divides the first three.
-      if (++count == 4 && needed == 3 && word.find_first_of("123456789") == std::string_view::npos) {
-        return lines_.error(fmt::format("{} {} has the weight zero; correct the coordinate", what, number));
-      }
-    }
-    if (count < needed) {
-      return lines_.error(
-          fmt::format("{} {} has {} coordinates; it must have {}", what, number, count, needed));
-    }
-    return Ok{};
-  }
-
-  Result<std::uint64_t> check_face() {
-    std::uint64_t corners = 0;
-    for (std::string_view word = lines_.word(); !word.empty() && word.front() != '#'; word = lines_.word()) {
-      ++corners;
-      const std::string_view whole = word;
-      for (const auto& [what, count, greatest] : {Field{"vertex", positions_, &greatest_position_},
-                                                  Field{"texture coordinate", texels_, &greatest_texel_},
-                                                  Field{"normal", normals_, &greatest_normal_}}) {
-        const std::size_t slash = std::min(word.find('/'), word.size());
-        const std::string_view part = word.substr(0, slash);
-        word.remove_prefix(std::min(slash + 1, word.size()));
-        if (part.empty()) {
-          if (greatest == &greatest_position_) {
-            return lines_.error(fmt::format("{} is not a corner of a face", quoted(whole)));
-          }
-          continue;
-        }
-        std::int64_t index = 0;
-        const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), index);
-        if (fault != std::errc() || end != part.data() + part.size()) {
-          return lines_.error(fmt::format("{} is not a corner of a face", quoted(whole)));
-        }
-        if (index == 0 || (index < 0 && static_cast<std::uint64_t>(-(index + 1)) >= count)) {
-          return lines_.error(fmt::format("a face names {} {}, but the file has {} so far; correct the index",
-                                          what, index, count));
-        }
-        if (index > 0 && static_cast<std::uint64_t>(index) > greatest->index) {
-          *greatest = {static_cast<std::uint64_t>(index), lines_.number()};
-        }
-      }
-    }
-    return corners;
-  }
-
-  struct Field {
-    std::string_view what;
-    std::uint64_t count;
-    Greatest* greatest;
-  };
-
-  std::filesystem::path path_;
-  Lines lines_;
-  MeshFileSummary summary_;
-  std::uint64_t positions_ = 0, normals_ = 0, texels_ = 0;
-  Greatest greatest_position_, greatest_normal_, greatest_texel_;
-  bool uses_material_ = false;
-  int libraries_ = 0;
-};
 
 // ---- STL
 
@@ -678,7 +537,6 @@ Result<MeshFileSummary> check_mesh_file(const std::filesystem::path& path) {
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   try {
-    if (ending == ".obj") return ObjCheck(path).run();
     if (ending == ".stl") return check_stl(path);
     if (ending == ".ply") return PlyCheck(path).run();
     return check_gltf(path);

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "common/result.hpp"
 
@@ -16,13 +14,10 @@ namespace halfway {
 struct MeshFileSummary {
   /// faces with three corners or more, if the format gives their number
   std::optional<std::uint64_t> polygons;
-  std::optional<std::uint64_t> vertices;       ///< if assimp must return the same number
-  std::vector<std::string> missing_libraries;  ///< OBJ: mtllib files that cannot be read
-  bool has_materials = false;                  ///< OBJ: the file uses materials and names a library
+  std::optional<std::uint64_t> vertices;  ///< if assimp must return the same number
 };
 
-/// Check a mesh file whose ending `is_mesh_file_name` accepts. OBJ, PLY and STL are read completely in
-/// constant memory, of glTF the JSON part.
+/// Check a PLY, STL or glTF file. PLY and STL are read completely in constant memory, of glTF the JSON part.
 Result<MeshFileSummary> check_mesh_file(const std::filesystem::path& path);
 
 }  // namespace halfway

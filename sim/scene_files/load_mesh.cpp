@@ -15,8 +15,10 @@
 #include <memory>
 #include <string_view>
 
+#include "mesh_files/obj.hpp"
 #include "sim/scene_files/check_mesh_file.hpp"
 #include "sim/scene_files/mesh_reply.hpp"
+#include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway {
@@ -25,6 +27,7 @@ namespace {
 
 constexpr std::array<std::string_view, 5> c_endings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
 constexpr std::uintmax_t c_max_file_bytes = std::uintmax_t{4} << 30;
+constexpr std::uintmax_t c_max_library_bytes = std::uintmax_t{64} << 20;
 
 Material get_material(ReplySource& source) {
   Material material;
@@ -52,10 +55,10 @@ Result<File> run_reader(const std::filesystem::path& path, const MeshFileSummary
   const auto told = [](const std::optional<std::uint64_t>& number) {
     return number ? std::to_string(*number) : std::string("-");
   };
-  const auto end = run_process({.arguments = {HALFWAY_MESH_READER, name, told(summary.polygons),
-                                              told(summary.vertices), summary.has_materials ? "1" : "0"},
-                                .standard_output = fmt::format("/proc/self/fd/{}", descriptor)},
-                               "make build");
+  const auto end =
+      run_process({.arguments = {HALFWAY_MESH_READER, name, told(summary.polygons), told(summary.vertices)},
+                   .standard_output = fmt::format("/proc/self/fd/{}", descriptor)},
+                  "make build");
   if (!end) return end.error();
   if (end->signal == SIGXCPU) {
     return bad_input(
@@ -109,6 +112,27 @@ void append_instance(ReplySource& source, Mesh& mesh) {
   }
 }
 
+/// Read a material library next to an OBJ file.
+MaterialLibrary read_library(const std::filesystem::path& folder, std::string_view name) {
+  const std::filesystem::path path = folder / name;
+  MaterialLibrary library{.path = path.string(), .text = {}};
+  // Skip pipes and devices, which may never end.
+  std::error_code fault;
+  if (!std::filesystem::is_regular_file(path, fault) ||
+      std::filesystem::file_size(path, fault) > c_max_library_bytes || fault)
+    return library;
+  Result<std::string> text = read_file(path);
+  if (text) library.text = std::move(*text);
+  return library;
+}
+
+Result<LoadedMesh> load_obj(const std::filesystem::path& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return text.error();
+  return read_obj(*text, path.string(),
+                  [&path](std::string_view name) { return read_library(path.parent_path(), name); });
+}
+
 }  // namespace
 
 bool is_mesh_file_name(const std::filesystem::path& path) {
@@ -140,6 +164,7 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
     return bad_input(name + ": not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read");
   }
   if (Status ok = check_readable(path); !ok) return ok.error();
+  if (lower_ending(path) == ".obj") return load_obj(path);
   Result<MeshFileSummary> summary = check_mesh_file(path);
   if (!summary) return summary.error();
   if (summary->polygons == 0u) return bad_input(name + ": the mesh has no faces; export it with faces");
@@ -153,10 +178,6 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   if (lower_ending(path) == ".stl") loaded.default_crease_degrees = c_stl_crease_degrees;
   for (auto left = source.get<std::uint32_t>(); left > 0 && !source.failed(); --left) {
     loaded.mesh.materials.push_back(get_material(source));
-  }
-  for (const std::string& library : summary->missing_libraries) {
-    loaded.notes.push_back(
-        fmt::format("{}: material library {} cannot be read; its materials are grey", name, library));
   }
   for (auto left = source.get<std::uint32_t>(); left > 0 && !source.failed(); --left) {
     loaded.notes.push_back(name + ": " + source.get_text());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_mesh_reader: runs assimp in a separate process with limits on memory and time. `load_mesh` starts
 // it.
-//   halfway_mesh_reader FILE POLYGONS VERTICES HAS_MATERIALS
+//   halfway_mesh_reader FILE POLYGONS VERTICES
 // The numbers are check_mesh_file's, '-' if the format does not give them. The reply (mesh_reply.hpp) is
 // written to standard output, a file. Exit 0: a mesh, or the reason for refusing it; any other exit is a
 // crash.
@@ -36,7 +36,7 @@
 namespace halfway {
 namespace {
 
-// Memory limit. assimp takes 240 MiB for a million triangles of OBJ.
+// Memory limit. assimp takes a few hundred MiB for a million triangles.
 constexpr rlim_t c_memory_bytes = rlim_t{8} << 30;
 
 class Refused {
@@ -48,12 +48,12 @@ class Refused {
   std::string reason_;
 };
 
-void keep_four_readers(Assimp::Importer& importer) {
+void keep_three_readers(Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string_view name = importer.GetImporterInfo(i)->mName;
     const std::string_view endings = importer.GetImporterInfo(i)->mFileExtensions;
     const bool is_gltf2 = name.starts_with("glTF2");
-    if (endings == "obj" || endings == "ply" || endings == "stl" || is_gltf2) continue;
+    if (endings == "ply" || endings == "stl" || is_gltf2) continue;
     const std::unique_ptr<Assimp::BaseImporter> unused(importer.GetImporter(i));
     importer.UnregisterLoader(unused.get());
   }
@@ -104,36 +104,22 @@ glm::dvec3 colour_of(const aiColor3D& colour) {
   return {static_cast<double>(colour.r), static_cast<double>(colour.g), static_cast<double>(colour.b)};
 }
 
-Material material_of(const aiMaterial& source, bool is_gltf, std::vector<std::string>& notes) {
+Material material_of(const aiMaterial& source, std::vector<std::string>& notes) {
   Material material;
   material.name = source.GetName().C_Str();
-  aiColor3D colour;
   float number = 0.0f;
   double exponent = material.exponent;
-  if (is_gltf) {
-    aiColor4D base;
-    if (source.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
-      material.colour = colour_of(aiColor3D(base.r, base.g, base.b));
-    }
-    double metal = 1.0;  // glTF's default
-    if (source.Get(AI_MATKEY_METALLIC_FACTOR, number) == aiReturn_SUCCESS)
-      metal = static_cast<double>(number);
-    material.specular_colour = glm::dvec3(1.0 - metal) + metal * material.colour;
-    if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, number) == aiReturn_SUCCESS) {
-      const double roughness = std::max(static_cast<double>(number), 0.05);
-      exponent = 2.0 / std::pow(roughness, 4.0) - 2.0;
-      material.specular *= std::max(1.0 - roughness, 0.0);  // a rough surface has a weak highlight
-    }
-  } else {
-    material.diffuse = 1.0;
-    material.specular = 0.0;
-    if (source.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == aiReturn_SUCCESS) material.colour = colour_of(colour);
-    if (source.Get(AI_MATKEY_COLOR_SPECULAR, colour) == aiReturn_SUCCESS && !colour.IsBlack()) {
-      material.specular_colour = colour_of(colour);
-      material.specular = 1.0;
-    }
-    if (material.colour == glm::dvec3(0.0)) material.diffuse = 0.0;
-    if (source.Get(AI_MATKEY_SHININESS, number) == aiReturn_SUCCESS) exponent = static_cast<double>(number);
+  aiColor4D base;
+  if (source.Get(AI_MATKEY_BASE_COLOR, base) == aiReturn_SUCCESS) {
+    material.colour = colour_of(aiColor3D(base.r, base.g, base.b));
+  }
+  double metal = 1.0;  // glTF's default
+  if (source.Get(AI_MATKEY_METALLIC_FACTOR, number) == aiReturn_SUCCESS) metal = static_cast<double>(number);
+  material.specular_colour = glm::dvec3(1.0 - metal) + metal * material.colour;
+  if (source.Get(AI_MATKEY_ROUGHNESS_FACTOR, number) == aiReturn_SUCCESS) {
+    const double roughness = std::max(static_cast<double>(number), 0.05);
+    exponent = 2.0 / std::pow(roughness, 4.0) - 2.0;
+    material.specular *= std::max(1.0 - roughness, 0.0);  // a rough surface has a weak highlight
   }
   for (const glm::dvec3& part : {material.colour, material.specular_colour}) {
     for (int channel = 0; channel < 3; ++channel) {
@@ -171,7 +157,7 @@ void put_material(ReplySink& sink, const Material& material) {
 void import_file(const std::filesystem::path& path, const MeshFileSummary& summary, ReplySink& sink) {
   Assimp::Importer importer;
   importer.SetIOHandler(new RegularFiles);  // owned by the importer
-  keep_four_readers(importer);
+  keep_three_readers(importer);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
   if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw Refused("the mesh has no faces");
@@ -224,8 +210,8 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
   if (polygons < triangles_expected) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
 
-  // assimp adds a material of its own to a file without materials; use the default material instead.
-  const bool has_materials = is_gltf || summary.has_materials;
+  // Of PLY and STL, assimp's material is its own; use the default material instead.
+  const bool has_materials = is_gltf;
   const std::vector<Instance> parts = instances(*scene);
   std::vector<std::uint32_t> new_index(scene->mNumMaterials, UINT32_MAX);
   std::vector<Material> materials;
@@ -233,7 +219,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
     const unsigned index = part.mesh->mMaterialIndex;
     if (!has_materials || index >= scene->mNumMaterials || new_index[index] != UINT32_MAX) continue;
     new_index[index] = static_cast<std::uint32_t>(materials.size());
-    materials.push_back(material_of(*scene->mMaterials[index], is_gltf, notes));
+    materials.push_back(material_of(*scene->mMaterials[index], notes));
   }
   sink.put(ReplyKind::mesh);
   sink.put(static_cast<std::uint32_t>(materials.size()));
@@ -290,16 +276,15 @@ std::optional<std::uint64_t> number_of(std::string_view text) {
 }
 
 int run(int argument_count, char** arguments) {
-  constexpr int c_arguments = 5;
+  constexpr int c_arguments = 4;
   if (argument_count != c_arguments) {
-    fmt::print(stderr, "halfway_mesh_reader: halfway runs it; usage: FILE POLYGONS VERTICES HAS_MATERIALS\n");
+    fmt::print(stderr, "halfway_mesh_reader: halfway runs it; usage: FILE POLYGONS VERTICES\n");
     return 2;
   }
   const std::filesystem::path path = arguments[1];
   MeshFileSummary summary;
   summary.polygons = number_of(arguments[2]);
   summary.vertices = number_of(arguments[3]);
-  summary.has_materials = std::string_view(arguments[4]) == "1";
 
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, c_reader_cpu_seconds);

@@ -5,7 +5,7 @@
 # types are checked. Then it checks that a file with each of these is refused.
 set -eu
 checkout=$1 scratch=$2
-folders='common frame golden golden_run plan reference scene setup shading'
+folders='common frame golden golden_run mesh_files plan reference scene setup shading'
 compiler=clang++
 
 fail() {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Result of reading a mesh file of any format.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/mesh.hpp"
+
+namespace halfway {
+
+/// Crease angle of a file without normals, unless the scene sets one. Every edge is smooth.
+inline constexpr double c_smooth_crease_degrees = 180.0;
+/// Default crease angle of STL, which has flat facets only and mostly describes machine parts.
+inline constexpr double c_stl_crease_degrees = 60.0;
+
+struct LoadedMesh {
+  Mesh mesh;  ///< equal positions are merged; normals are zero if the file has none
+  double default_crease_degrees = c_smooth_crease_degrees;
+  std::vector<std::string> notes;  ///< "file: what was left out or changed"
+};
+
+}  // namespace halfway

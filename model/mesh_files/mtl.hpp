@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Material libraries of OBJ files.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "common/result.hpp"
+#include "scene/scene.hpp"
+
+namespace halfway {
+
+struct MtlMaterial {
+  Material material;
+  double file_exponent = 0.0;  ///< Ns; below 1 the material's exponent is 1
+  bool has_textures = false;
+};
+using MtlMaterials = std::unordered_map<std::string, MtlMaterial>;
+
+/// A material without Kd, Ks and Ns: grey, without a highlight.
+Material plain_material(std::string_view name);
+
+/// Add the materials of a library. Repeated keys and definitions replace earlier ones. `file` is its name in
+/// messages.
+Status read_mtl(std::string_view text, std::string_view file, MtlMaterials& materials);
+
+}  // namespace halfway

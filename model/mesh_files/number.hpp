@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decimal numbers and words of mesh files.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace halfway {
+
+enum class NumberFault { none, not_a_number, not_finite, too_large };
+
+/// Read a whole word as a decimal number: an optional sign, digits with at most one point before, between or
+/// after them, and an optional exponent. The value is the nearest float, ties to even; too small numbers give
+/// zero. It does not depend on the locale.
+NumberFault read_number(std::string_view word, float& value);
+
+/// The fault as the end of a message: "'x' is not a number".
+std::string fault_text(NumberFault fault, std::string_view word);
+
+/// A word in quotes for a message, shortened and printable, because damaged files contain any bytes.
+std::string quoted(std::string_view word);
+
+}  // namespace halfway

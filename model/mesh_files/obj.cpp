@@ -1,0 +1,408 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files/obj.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <glm/vec3.hpp>
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+#include "mesh_files/mtl.hpp"
+#include "mesh_files/number.hpp"
+#include "mesh_files/text_lines.hpp"
+#include "mesh_files/triangulate.hpp"
+
+namespace halfway {
+
+namespace {
+
+/// A triangle uses three vertices at most.
+constexpr std::size_t c_max_vertices = 3 * std::size_t{c_max_triangles};
+constexpr std::uint32_t c_none = UINT32_MAX;
+
+constexpr std::string_view c_without_effect[] = {
+    "g", "o", "s", "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "vp"};
+constexpr std::string_view c_curves[] = {"cstype", "deg",   "bmat", "step", "curv", "curv2", "surf",
+                                         "parm",   "trim",  "hole", "scrv", "sp",   "end",   "con",
+                                         "ctech",  "stech", "bsp",  "bzp",  "cdc",  "cdp",   "res"};
+constexpr std::string_view c_textures[] = {"usemap", "maplib"};
+
+template <std::size_t N>
+bool contains(const std::string_view (&words)[N], std::string_view word) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+/// A name up to a comment.
+std::string_view before_comment(std::string_view name) {
+  constexpr std::string_view c_blank = " \t";
+  std::size_t end = 0;
+  while ((end = name.find('#', end)) != std::string_view::npos) {
+    if (end == 0 || c_blank.find(name[end - 1]) != std::string_view::npos) break;
+    ++end;
+  }
+  name = name.substr(0, end);
+  return name.substr(0, name.find_last_not_of(c_blank) + 1);
+}
+
+class ObjReader {
+ public:
+  ObjReader(std::string_view text, std::string_view file, const ReadLibrary& read_library)
+      : text_(text), file_(file), read_library_(read_library) {}
+
+  Result<LoadedMesh> read() {
+    if (Status ok = read_vertices(); !ok) return ok.error();
+    if (Status ok = read_faces(); !ok) return ok.error();
+    if (loaded_.mesh.triangles.empty()) {
+      const bool has_faces = faces_without_area_ > 0;
+      return bad_input(std::string(file_) + (has_faces ? ": no face of the mesh has any area"
+                                                       : ": the mesh has no faces; export it with faces"));
+    }
+    if (!has_materials_) {
+      loaded_.mesh.materials.emplace_back();
+      loaded_.mesh.materials.back().name = "default";
+    }
+    add_notes();
+    join_positions(loaded_.mesh);
+    return std::move(loaded_);
+  }
+
+ private:
+  struct Corner {
+    std::uint32_t position;
+    std::uint32_t normal;  ///< 0: none; the mesh's first normal is zero
+  };
+  /// A list that corners index.
+  struct Field {
+    std::string_view what;
+    std::uint64_t so_far = 0;  ///< its items before the current line
+    std::uint64_t all = 0;     ///< in the file
+  };
+
+  // ---- First pass: vertices and materials, because a face may name vertices of later lines.
+
+  Status read_vertices() {
+    loaded_.mesh.normals.emplace_back(0.0);
+    bool uses_material = false;
+    for (TextLines lines(text_, file_, {}); lines.next();) {
+      const std::string_view keyword = lines.word();
+      Status ok = Ok{};
+      if (keyword == "v") {
+        ok = read_position(lines);
+      } else if (keyword == "vn") {
+        ok = read_normal(lines);
+      } else if (keyword == "vt") {
+        ok = read_texel(lines);
+      } else if (keyword == "usemtl") {
+        uses_material = true;
+      } else if (keyword == "mtllib") {
+        ok = read_libraries(lines);
+      }
+      if (!ok) return ok;
+    }
+    has_materials_ = uses_material && libraries_ > 0;
+    new_index_.assign(positions_.size(), c_none);
+    return Ok{};
+  }
+
+  /// Read the numbers of a line. Returns their count.
+  Result<int> read_numbers(TextLines& lines, const Field& field, std::array<float, 6>& values) const {
+    int count = 0;
+    for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
+      float value = 0.0f;
+      if (const NumberFault fault = read_number(word, value); fault != NumberFault::none) {
+        return lines.error(
+            fmt::format("{} {}: {}; correct the coordinate", field.what, field.all, fault_text(fault, word)));
+      }
+      if (count < 6) values[static_cast<std::size_t>(count)] = value;
+      ++count;
+    }
+    return count;
+  }
+  static Error wrong_count(const TextLines& lines, const Field& field, int count, std::string_view allowed) {
+    return lines.error(
+        fmt::format("{} {} has {} numbers; it must have {}", field.what, field.all, count, allowed));
+  }
+
+  Status read_position(TextLines& lines) {
+    if (position_.all++ == c_max_vertices) return too_many(lines, position_);
+    std::array<float, 6> v{};
+    const Result<int> count = read_numbers(lines, position_, v);
+    if (!count) return count.error();
+    if (*count != 3 && *count != 4 && *count != 6) return wrong_count(lines, position_, *count, "3, 4 or 6");
+    if (*count == 4) {
+      if (v[3] == 0.0f) {
+        return lines.error(
+            fmt::format("vertex {} has the weight zero; correct the coordinate", position_.all));
+      }
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        v[axis] /= v[3];
+        if (!std::isfinite(v[axis])) {
+          return lines.error(fmt::format("vertex {} is too large; correct the coordinate", position_.all));
+        }
+      }
+    }
+    has_colours_ |= *count == 6;
+    positions_.emplace_back(v[0], v[1], v[2]);
+    return Ok{};
+  }
+
+  Status read_normal(TextLines& lines) {
+    if (normal_.all++ == c_max_vertices) return too_many(lines, normal_);
+    std::array<float, 6> v{};
+    const Result<int> count = read_numbers(lines, normal_, v);
+    if (!count) return count.error();
+    if (*count != 3) return wrong_count(lines, normal_, *count, "3");
+    loaded_.mesh.normals.emplace_back(v[0], v[1], v[2]);
+    return Ok{};
+  }
+
+  Status read_texel(TextLines& lines) {
+    ++texel_.all;
+    std::array<float, 6> v{};
+    const Result<int> count = read_numbers(lines, texel_, v);
+    if (!count) return count.error();
+    if (*count < 1 || *count > 3) return wrong_count(lines, texel_, *count, "1 to 3");
+    return Ok{};
+  }
+
+  static Error too_many(const TextLines& lines, const Field& field) {
+    return lines.error(
+        fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, c_max_vertices));
+  }
+
+  /// The line is one name with blanks, or several names.
+  Status read_libraries(TextLines& lines) {
+    const std::string_view names = lines.rest();
+    if (names.empty()) return lines.error("mtllib names no file");
+    MaterialLibrary whole = read_library_(names);
+    if (whole.text || names.find_first_of(" \t") == std::string_view::npos) return read_library(whole);
+    TextLines each(names, file_, {.continuation = false});
+    each.next();
+    for (std::string_view name = each.word(); !name.empty(); name = each.word()) {
+      if (Status ok = read_library(read_library_(name)); !ok) return ok;
+    }
+    return Ok{};
+  }
+
+  Status read_library(const MaterialLibrary& library) {
+    if (!library.text) {
+      missing_libraries_.insert(library.path);
+      return Ok{};
+    }
+    ++libraries_;
+    return read_mtl(*library.text, library.path, defined_);
+  }
+
+  // ---- Second pass: faces.
+
+  Status read_faces() {
+    for (TextLines lines(text_, file_, {}); lines.next();) {
+      const std::string_view keyword = lines.word();
+      Status ok = Ok{};
+      if (keyword == "v") {
+        ++position_.so_far;
+      } else if (keyword == "vt") {
+        ++texel_.so_far;
+      } else if (keyword == "vn") {
+        ++normal_.so_far;
+      } else if (keyword == "f") {
+        ok = read_face(lines);
+      } else if (keyword == "l" || keyword == "p") {
+        ok = read_corners(lines);
+        ++points_and_lines_;
+      } else if (keyword == "usemtl") {
+        material_name_ = lines.rest();
+        material_ = c_none;
+      } else if (contains(c_curves, keyword)) {
+        has_curves_ = true;
+      } else if (contains(c_textures, keyword)) {
+        has_textures_ = true;
+      } else if (!keyword.empty() && keyword != "mtllib" && !contains(c_without_effect, keyword)) {
+        ok = lines.error(quoted(keyword) + " is not a keyword of OBJ; correct or remove the line");
+      }
+      if (!ok) return ok;
+    }
+    return Ok{};
+  }
+
+  Status read_corners(TextLines& lines) {
+    corners_.clear();
+    for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
+      const Result<Corner> corner = read_corner(lines, word);
+      if (!corner) return corner.error();
+      corners_.push_back(*corner);
+    }
+    if (corners_.empty()) return lines.error("a face, line or point without a corner");
+    return Ok{};
+  }
+
+  /// Read vertex/texture/normal, of which all but the first may be missing.
+  Result<Corner> read_corner(const TextLines& lines, std::string_view word) const {
+    std::array<std::uint32_t, 3> indices{};  // from 1; 0: none
+    const Field* const fields[] = {&position_, &texel_, &normal_};
+    std::string_view left = word;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t slash = std::min(left.find('/'), left.size());
+      const std::string_view part = left.substr(0, slash);
+      const bool is_last = slash == left.size();
+      left.remove_prefix(is_last ? slash : slash + 1);
+      if ((part.empty() && i == 0) || (i == 2 && !is_last)) {
+        return lines.error(quoted(word) + " is not a corner of a face");
+      }
+      if (part.empty()) continue;
+      const Result<std::uint32_t> index = read_index(lines, *fields[i], part, word);
+      if (!index) return index.error();
+      indices[i] = *index;
+    }
+    return Corner{indices[0] - 1, indices[2]};
+  }
+
+  static Result<std::uint32_t> read_index(const TextLines& lines, const Field& field, std::string_view part,
+                                          std::string_view word) {
+    std::int64_t index = 0;
+    const auto [end, fault] = std::from_chars(part.data(), part.data() + part.size(), index);
+    if (fault == std::errc::invalid_argument || end != part.data() + part.size()) {
+      return lines.error(quoted(word) + " is not a corner of a face");
+    }
+    const bool is_relative = part.starts_with('-');
+    const std::uint64_t count = is_relative ? field.so_far : field.all;
+    const std::uint64_t distance =
+        is_relative ? 0 - static_cast<std::uint64_t>(index) : static_cast<std::uint64_t>(index);
+    if (fault != std::errc() || distance == 0 || distance > count) {
+      return lines.error(fmt::format("a face names {} {}, but the file has {}{}; correct the index",
+                                     field.what, part, count, is_relative ? " so far" : ""));
+    }
+    return static_cast<std::uint32_t>(is_relative ? count - distance + 1 : distance);
+  }
+
+  Status read_face(TextLines& lines) {
+    if (Status ok = read_corners(lines); !ok) return ok;
+    if (corners_.size() < 3) {
+      ++points_and_lines_;
+      return Ok{};
+    }
+    if (loaded_.mesh.triangles.size() + corners_.size() - 2 > c_max_triangles) {
+      return lines.error(fmt::format("more than {} triangles; reduce the mesh", c_max_triangles));
+    }
+    if (corners_.size() == 3) {
+      add_triangle({0, 1, 2});
+      return Ok{};
+    }
+
+    // Divide a polygon.
+    places_.clear();
+    for (const Corner& corner : corners_) places_.push_back(positions_[corner.position]);
+    divided_.clear();
+    switch (triangulator_.divide(places_, divided_)) {
+      case PolygonKind::divided:
+        break;
+      case PolygonKind::no_area:
+        ++faces_without_area_;
+        break;
+      case PolygonKind::crossing:
+        return lines.error("the outline of the face crosses itself; divide the face into triangles");
+      case PolygonKind::out_of_work:
+        return lines.error("the concave faces up to here have too many corners; divide them into triangles");
+    }
+    for (const Triangulator::Triangle& triangle : divided_) add_triangle(triangle);
+    return Ok{};
+  }
+
+  void add_triangle(const Triangulator::Triangle& triangle) {
+    if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
+    SceneTriangle added{.position = {}, .normal = {}, .material = material_};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Corner& corner = corners_[triangle[i]];
+      std::uint32_t& index = new_index_[corner.position];
+      if (index == c_none) {
+        index = static_cast<std::uint32_t>(loaded_.mesh.positions.size());
+        loaded_.mesh.positions.emplace_back(positions_[corner.position]);
+      }
+      added.position[i] = index;
+      added.normal[i] = corner.normal;
+    }
+    loaded_.mesh.triangles.push_back(added);
+  }
+
+  /// The index of the current material. A material gets its index when the first face uses it.
+  std::uint32_t find_material() {
+    auto defined = defined_.find(std::string(material_name_));
+    std::string_view name = material_name_;
+    if (defined == defined_.end()) {
+      name = before_comment(name);
+      defined = defined_.find(std::string(name));
+    }
+    const auto [index, is_new] =
+        indices_.try_emplace(std::string(name), static_cast<std::uint32_t>(loaded_.mesh.materials.size()));
+    if (!is_new) return index->second;
+    if (defined == defined_.end()) {
+      loaded_.mesh.materials.push_back(plain_material(name.empty() ? "default" : name));
+      note(name.empty() ? "faces before the first usemtl are grey"
+                        : fmt::format("material {} is not defined; it is grey", quoted(name)));
+      return index->second;
+    }
+    const MtlMaterial& found = defined->second;
+    loaded_.mesh.materials.push_back(found.material);
+    if (found.file_exponent < 1.0 && found.material.specular > 0.0) {
+      note(fmt::format("material '{}': exponent {} raised to 1", name, found.file_exponent));
+    }
+    if (found.has_textures) note(fmt::format("material '{}': textures are left out", name));
+    return index->second;
+  }
+
+  // ---- Notes
+
+  void note(std::string_view what) { notes_.insert(fmt::format("{}: {}", file_, what)); }
+
+  void add_notes() {
+    for (const std::string& library : missing_libraries_) {
+      loaded_.notes.push_back(
+          fmt::format("{}: material library {} cannot be read; its materials are grey", file_, library));
+    }
+    if (has_colours_) note("vertex colours are left out");
+    if (has_textures_) note("textures are left out");
+    if (has_curves_) note("curves and surfaces are left out");
+    if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
+    if (faces_without_area_ > 0) note(fmt::format("{} faces of no area left out", faces_without_area_));
+    loaded_.notes.insert(loaded_.notes.end(), notes_.begin(), notes_.end());
+  }
+
+  std::string_view text_;
+  std::string_view file_;
+  const ReadLibrary& read_library_;
+  LoadedMesh loaded_;
+
+  Field position_{.what = "vertex"}, texel_{.what = "texture coordinate"}, normal_{.what = "normal"};
+  std::vector<glm::vec3> positions_;
+  std::vector<std::uint32_t> new_index_;  ///< of each vertex in the mesh, or c_none before its first use
+
+  MtlMaterials defined_;
+  std::set<std::string> missing_libraries_;
+  int libraries_ = 0;
+  bool has_materials_ = false;
+  std::string_view material_name_;  ///< after the last usemtl
+  std::uint32_t material_ = c_none;
+  std::unordered_map<std::string, std::uint32_t> indices_;  ///< of materials in the mesh
+
+  std::vector<Corner> corners_;  ///< of the current face
+  std::vector<glm::vec3> places_;
+  std::vector<Triangulator::Triangle> divided_;
+  Triangulator triangulator_;
+
+  std::set<std::string> notes_;
+  std::uint64_t points_and_lines_ = 0, faces_without_area_ = 0;
+  bool has_colours_ = false, has_textures_ = false, has_curves_ = false;
+};
+
+}  // namespace
+
+Result<LoadedMesh> read_obj(std::string_view text, std::string_view file, const ReadLibrary& read_library) {
+  return ObjReader(text, file, read_library).read();
+}
+
+}  // namespace halfway

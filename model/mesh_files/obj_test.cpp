@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files/obj.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+using Libraries = std::map<std::string, std::string>;
+
+Result<LoadedMesh> read(const std::string& text, const Libraries& libraries = {}) {
+  return read_obj(text, "a.obj", [&libraries](std::string_view name) {
+    const auto found = libraries.find(std::string(name));
+    MaterialLibrary library{.path = "dir/" + std::string(name), .text = {}};
+    if (found != libraries.end()) library.text = found->second;
+    return library;
+  });
+}
+
+/// The triangles by their corners: "x,y,z x,y,z x,y,z; ...". A refusal as its message, with '!' in front.
+std::string triangles_of(const Result<LoadedMesh>& loaded) {
+  if (!loaded) return "! " + loaded.error().message;
+  std::string text;
+  const Mesh& mesh = loaded->mesh;
+  for (const SceneTriangle& triangle : mesh.triangles) {
+    if (!text.empty()) text += "; ";
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec3& p = mesh.positions.at(triangle.position[i]);
+      text += fmt::format("{}{},{},{}", i == 0 ? "" : " ", p.x, p.y, p.z);
+    }
+  }
+  return text;
+}
+
+std::string normals_of(const LoadedMesh& loaded) {
+  std::string text;
+  for (const SceneTriangle& triangle : loaded.mesh.triangles) {
+    for (const std::uint32_t normal : triangle.normal) {
+      const glm::dvec3& n = loaded.mesh.normals.at(normal);
+      text += fmt::format("{},{},{} ", n.x, n.y, n.z);
+    }
+  }
+  return text;
+}
+
+// ---- Spellings: each is read exactly, or refused with file and line
+
+struct Spelling {
+  const char* name;
+  std::string text;
+  std::string wanted;  ///< triangles_of
+};
+
+void PrintTo(const Spelling& spelling, std::ostream* out) {
+  *out << spelling.name;
+}
+
+class ObjSpelling : public ::testing::TestWithParam<Spelling> {};
+
+TEST_P(ObjSpelling, IsReadExactlyOrRefusedWithItsLine) {
+  EXPECT_EQ(triangles_of(read(GetParam().text)), GetParam().wanted);
+}
+
+const std::string c_three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
+const std::string c_square = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n";
+const std::string c_square_fan = "0,0,0 4,0,0 4,4,0; 0,0,0 4,4,0 0,4,0";
+
+const std::vector<Spelling> c_spellings = {
+    {"plain", c_three + "f 1 2 3\n", c_triangle},
+    {"no_last_line_end", c_three + "f 1 2 3", c_triangle},
+
+    // numbers
+    {"leading_dot", "v .5 1 0\nv -.5 +.25 .125\nv 0 1 0\nf 1 2 3\n", "0.5,1,0 -0.5,0.25,0.125 0,1,0"},
+    {"trailing_dot", "v 5. 1. 0.\nv -5. 0 0\nv 0 1 0\nf 1 2 3\n", "5,1,0 -5,0,0 0,1,0"},
+    {"signs", "v +1 -1 +0\nv -1 +2 -3\nv 0 1 0\nf 1 2 3\n", "1,-1,0 -1,2,-3 0,1,0"},
+    {"exponents", "v 1e1 2E+1 5e-1\nv -.5e1 5.e1 1e0\nv 0 1 0\nf 1 2 3\n", "10,20,0.5 -5,50,1 0,1,0"},
+    {"many_digits", "v 0.50000000000000000000000000000 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     "0.5,0,0 1,0,0 0,1,0"},
+    {"tiny_is_zero", "v 1e-999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "0,0,0 1,0,0 0,1,0"},
+    {"comma", "v 0,5 1 0\n", "! a.obj:1: vertex 1: '0,5' is not a number; correct the coordinate"},
+    {"two_dots", "v 0 0 0\nv 1.2.3 1 0\n",
+     "! a.obj:2: vertex 2: '1.2.3' is not a number; correct the coordinate"},
+    {"hexadecimal", "v 0x1 1 0\n", "! a.obj:1: vertex 1: '0x1' is not a number; correct the coordinate"},
+    {"half_exponent", "v 1e 1 0\n", "! a.obj:1: vertex 1: '1e' is not a number; correct the coordinate"},
+    {"nan", "v 0 0 nan\n", "! a.obj:1: vertex 1: 'nan' is not finite; correct the coordinate"},
+    {"infinity", "v 0 -inf 0\n", "! a.obj:1: vertex 1: '-inf' is not finite; correct the coordinate"},
+    {"too_large", "v 0 1e39 0\n", "! a.obj:1: vertex 1: '1e39' is too large; correct the coordinate"},
+    {"largest", "v 3.4e38 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+     fmt::format("{},0,0 1,0,0 0,1,0", static_cast<double>(3.4e38f))},
+    {"normal_of_words", "vn 0 0 up\n", "! a.obj:1: normal 1: 'up' is not a number; correct the coordinate"},
+    {"texture_of_words", "vt 0 0\nvt u v\n",
+     "! a.obj:2: texture coordinate 2: 'u' is not a number; correct the coordinate"},
+
+    // counts of numbers
+    {"weight", "v 2 4 8 2\nv 1 0 0 1\nv 0 .5 0 .5\nf 1 2 3\n", "1,2,4 1,0,0 0,1,0"},
+    {"weight_zero", "v 2 4 8 0.0\n", "! a.obj:1: vertex 1 has the weight zero; correct the coordinate"},
+    {"weight_too_small", "v 1 0 0\nv 1e30 0 0 1e-30\n",
+     "! a.obj:2: vertex 2 is too large; correct the coordinate"},
+    {"colours", "v 0 0 0 .5 .25 1\nv 1 0 0 1 1 1\nv 0 1 0 0 0 0\nf 1 2 3\n", c_triangle},
+    {"two_coordinates", "v 0 0 0\nv 1 0\n", "! a.obj:2: vertex 2 has 2 numbers; it must have 3, 4 or 6"},
+    {"five_numbers", "v 0 0 0 1 1\n", "! a.obj:1: vertex 1 has 5 numbers; it must have 3, 4 or 6"},
+    {"seven_numbers", "v 0 0 0 1 1 1 1\n", "! a.obj:1: vertex 1 has 7 numbers; it must have 3, 4 or 6"},
+    {"short_normal", "vn 0 1\n", "! a.obj:1: normal 1 has 2 numbers; it must have 3"},
+    {"long_normal", "vn 0 1 0 0\n", "! a.obj:1: normal 1 has 4 numbers; it must have 3"},
+    {"texture_of_dots", "vt .5 .5\nvt .5\nvt .5 .5 0.\n" + c_three + "f 1/1 2/2 3/3\n", c_triangle},
+    {"long_texture", "vt 0 0 0 0\n", "! a.obj:1: texture coordinate 1 has 4 numbers; it must have 1 to 3"},
+    {"empty_texture", "vt\n", "! a.obj:1: texture coordinate 1 has 0 numbers; it must have 1 to 3"},
+
+    // lines
+    {"crlf", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", c_triangle},
+    {"cr", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", c_triangle},
+    {"lines_of_cr", "v 0 0 0\rv 1 0 0\rv 0 one 0\r",
+     "! a.obj:3: vertex 3: 'one' is not a number; correct the coordinate"},
+    {"lines_of_crlf", "v 0 0 0\r\n\r\nv 1 one 0\r\n",
+     "! a.obj:3: vertex 2: 'one' is not a number; correct the coordinate"},
+    {"tabs", "v\t0\t0  0 \n \tv 1 0\t0\nv 0 1 0\n\tf\t1  2 3\t\n", c_triangle},
+    {"byte_order_mark", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", c_triangle},
+    {"comments", "# v 9 9 9\n#\n" + c_three + "f 1 2 3 # 4\n#f 1 2 2\n", c_triangle},
+    {"comment_after_numbers", "v 0 0 0 # origin\nv 1 0 0#\n",
+     "! a.obj:2: vertex 2: '0#' is not a number; correct the coordinate"},
+    {"comment_after_data", "v 0 0 0 #1\nv 1 0 0 # 5 6 7\nv 0 1 0\t#\nf 1 2 3\n", c_triangle},
+    {"continued", "v 0 0 \\\n0\nv 1 \\\r\n 0\\\n 0\nv 0 1 0\nf 1 \\\n2\\\n  3\n", c_triangle},
+    {"continued_keyword", c_three + "f\\\n 1 2 3\n", c_triangle},
+    {"continued_at_the_end", c_three + "f 1 2 3 \\", "! a.obj:4: '\\' is not a corner of a face"},
+    {"continued_fault", c_three + "f 1 2 \\\n9\n",
+     "! a.obj:4: a face names vertex 9, but the file has 3; correct the index"},
+    {"line_after_continued", "v 0 0 \\\n0\nv 1 one 0\n",
+     "! a.obj:3: vertex 2: 'one' is not a number; correct the coordinate"},
+    {"comment_is_not_continued", "# c:\\models\\\n" + c_three + "f 1 2 3 # c:\\\n", c_triangle},
+    {"backslash_and_blank", "v 0 0 0 \\ \nv 1 0 0\n",
+     "! a.obj:1: vertex 1: '\\' is not a number; correct the coordinate"},
+    {"zero_byte", c_three + std::string("f 1 2 3\n\0\n", 10),
+     "! a.obj:5: '?' is not a keyword of OBJ; correct or remove the line"},
+
+    // keywords
+    {"groups", "o a\ng b c\ns off\nmg 1 2\nlod 1\n" + c_three + "s 1\ng\nf 1 2 3\n", c_triangle},
+    {"unknown_keyword", c_three + "vv 1 2 3\n",
+     "! a.obj:4: 'vv' is not a keyword of OBJ; correct or remove the line"},
+    {"glued_keyword", "v0 0 0\n", "! a.obj:1: 'v0' is not a keyword of OBJ; correct or remove the line"},
+    {"capital", "V 0 0 0\n", "! a.obj:1: 'V' is not a keyword of OBJ; correct or remove the line"},
+    {"another_file", "call b.obj\n", "! a.obj:1: 'call' is not a keyword of OBJ; correct or remove the line"},
+    {"html", "<html>\n", "! a.obj:1: '<html>' is not a keyword of OBJ; correct or remove the line"},
+    {"no_faces", c_three, "! a.obj: the mesh has no faces; export it with faces"},
+    {"points_and_lines", c_three + "p 1\nl 1 2 3\nl 1/1 2/1\nvt 0\nf 1 2 3\n", c_triangle},
+    {"line_of_words", c_three + "l 1 two\n", "! a.obj:4: 'two' is not a corner of a face"},
+    {"line_out_of_range", c_three + "l 1 4\n",
+     "! a.obj:4: a face names vertex 4, but the file has 3; correct the index"},
+
+    // indices
+    {"negative", c_three + "f -3 -2 -1\n", c_triangle},
+    {"negative_counts_so_far", c_three + "f -3 -2 -1\nv 5 5 5\nf -4 -3 -1\n",
+     c_triangle + "; 0,0,0 1,0,0 5,5,5"},
+    {"negative_mixed", c_three + "f 1 -2 3\n", c_triangle},
+    {"negative_texture_and_normal", "vt 0\nvn 0 0 1\n" + c_three + "f -3/-1/-1 -2/-1/-1 -1/-1/-1\n",
+     c_triangle},
+    {"vertices_after_faces", "f 1 2 3\n" + c_three, c_triangle},
+    {"too_negative", c_three + "f 1 2 -4\n",
+     "! a.obj:4: a face names vertex -4, but the file has 3 so far; correct the index"},
+    {"negative_before_vertices", "f -1 -1 -1\n" + c_three,
+     "! a.obj:1: a face names vertex -1, but the file has 0 so far; correct the index"},
+    {"zero", c_three + "f 0 1 2\n",
+     "! a.obj:4: a face names vertex 0, but the file has 3; correct the index"},
+    {"beyond", c_three + "\n\nf 1 2 4\n",
+     "! a.obj:6: a face names vertex 4, but the file has 3; correct the index"},
+    {"beyond_32_bits", c_three + "f 1 2 4294967297\n",
+     "! a.obj:4: a face names vertex 4294967297, but the file has 3; correct the index"},
+    {"beyond_64_bits", c_three + "f 1 2 99999999999999999999\n",
+     "! a.obj:4: a face names vertex 99999999999999999999, but the file has 3; correct the index"},
+    {"below_64_bits", c_three + "f 1 2 -99999999999999999999\n",
+     "! a.obj:4: a face names vertex -99999999999999999999, but the file has 3 so far; correct the index"},
+    {"least_64_bits", c_three + "f 1 2 -9223372036854775808\n",
+     "! a.obj:4: a face names vertex -9223372036854775808, but the file has 3 so far; correct the index"},
+    {"texture_beyond", c_three + "vt 0\nf 1/1 2/2 3/1\n",
+     "! a.obj:5: a face names texture coordinate 2, but the file has 1; correct the index"},
+    {"normal_beyond", c_three + "f 1//1 2//1 3//1\n",
+     "! a.obj:4: a face names normal 1, but the file has 0; correct the index"},
+    {"all_three", "vt 0\nvn 0 0 1\n" + c_three + "f 1/1/1 2/1/1 3/1/1\n", c_triangle},
+    {"empty_parts", "vt 0\n" + c_three + "f 1/ 2// 3/1/\n", c_triangle},
+    {"four_parts", "vt 0\nvn 0 0 1\n" + c_three + "f 1/1/1/1 2 3\n",
+     "! a.obj:6: '1/1/1/1' is not a corner of a face"},
+    {"no_position", "vt 0\n" + c_three + "f /1 2 3\n", "! a.obj:5: '/1' is not a corner of a face"},
+    {"plus", c_three + "f +1 2 3\n", "! a.obj:4: '+1' is not a corner of a face"},
+    {"point", c_three + "f 1.0 2 3\n", "! a.obj:4: '1.0' is not a corner of a face"},
+    {"word", c_three + "f 1 2 x\n", "! a.obj:4: 'x' is not a corner of a face"},
+    {"blank_and_slash", "vn 0 0 1\n" + c_three + "f 1 //1 2 3\n",
+     "! a.obj:5: '//1' is not a corner of a face"},
+    {"no_corner", c_three + "f\n", "! a.obj:4: a face, line or point without a corner"},
+
+    // polygons
+    {"square", c_square + "f 1 2 3 4\n", c_square_fan},
+    {"clockwise_square", c_square + "f 4 3 2 1\n", "0,4,0 4,4,0 4,0,0; 0,4,0 4,0,0 0,0,0"},
+    {"repeated_corner", c_square + "f 1 2 2 3\n", "0,0,0 4,0,0 4,4,0"},
+    {"repeated_place", c_square + "v 4 0 0\nf 1 2 5 3\n", "0,0,0 4,0,0 4,4,0"},
+    {"notch_on_a_diagonal", c_square + "v 2 2 0\nf 1 2 3 5 4\n",
+     "4,0,0 4,4,0 2,2,0; 2,2,0 0,4,0 0,0,0; 2,2,0 0,0,0 4,0,0"},
+    {"corner_on_an_edge", c_square + "v 2 0 0\nf 1 5 2 4\n", "0,4,0 0,0,0 2,0,0; 0,4,0 2,0,0 4,0,0"},
+    {"bow_tie", c_square + "f 1 3 2 4\n",
+     "! a.obj:5: the outline of the face crosses itself; divide the face into triangles"},
+    {"polygon_on_a_line", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n",
+     "! a.obj: no face of the mesh has any area"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, ObjSpelling, ::testing::ValuesIn(c_spellings),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// ---- Normals, positions, notes
+
+TEST(Obj, ACornerWithoutANormalHasTheNormalZero) {
+  const auto loaded = read(c_three + "vn 0 0 2\nvn .5 -.5 1e0\nf 1//1 2 3//-1\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(normals_of(*loaded), "0,0,2 0,0,0 0.5,-0.5,1 ");
+}
+
+TEST(Obj, ThePartsOfAPolygonKeepTheirNormals) {
+  const auto loaded = read(c_square + "vn 1 0 0\nvn 2 0 0\nvn 3 0 0\nvn 4 0 0\nf 1//1 2//2 3//3 4//4\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(normals_of(*loaded), "1,0,0 2,0,0 3,0,0 1,0,0 3,0,0 4,0,0 ");
+}
+
+TEST(Obj, PositionsAreJoinedInTheOrderOfTheirUse) {
+  const auto loaded = read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv -0 0 -0\nv 0 1 0\nf 3 5 2\nf 4 3 5\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->mesh.positions.size(), 3u);
+  EXPECT_EQ(loaded->mesh.positions[0], glm::dvec3(1, 0, 0));
+  EXPECT_EQ(loaded->mesh.triangles[0].position, (std::array<std::uint32_t, 3>{0, 1, 2}));
+  EXPECT_EQ(loaded->mesh.triangles[1].position, (std::array<std::uint32_t, 3>{2, 0, 1}));
+}
+
+TEST(Obj, NotesSayWhatIsLeftOut) {
+  const auto loaded = read(
+      "usemap wood\nv 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nl 1 2\nf 1 2\ncstype bezier\ncurv 0 1 1 "
+      "2\nend\n"
+      "f 1 2 4 2\nf 1 2 3\n");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->notes, (std::vector<std::string>{
+                               "a.obj: 1 faces of no area left out", "a.obj: 3 points and lines left out",
+                               "a.obj: curves and surfaces are left out", "a.obj: textures are left out",
+                               "a.obj: vertex colours are left out"}));
+}
+
+TEST(Obj, MoreTrianglesThanTheLimitAreRefused) {
+  // Corners on a parabola: each face is a convex fan of 4094 triangles.
+  std::string text, face = "f";
+  for (int i = 1; i <= 4096; ++i) {
+    text += fmt::format("v {} {} 0\n", i, i * i);
+    face += " " + std::to_string(i);
+  }
+  for (int i = 0; i < 2443; ++i) text += face + "\n";
+  const auto loaded = read(text);
+  ASSERT_FALSE(loaded);
+  EXPECT_EQ(loaded.error().message, "a.obj:6539: more than 10000000 triangles; reduce the mesh");
+}
+
+// ---- Materials
+
+const std::string c_faces = c_three + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n";
+
+TEST(Obj, MaterialsAreThoseThatFacesUse) {
+  const auto loaded =
+      read("mtllib m.mtl\nusemtl unused\n" + c_faces,
+           {{"m.mtl",
+             "# comment\nnewmtl b\n  Kd .25 0.5 1. # blue\n\tKs 1 .5 0\r\nNs 3e1\nillum 2\nd .5\n"
+             "newmtl a\nKd 0 0 0\nKs 0 0 0\nNs 0.5\nnewmtl unused\nNs .1\nKs 1 1 1\nmap_Kd x.png\n"}});
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->mesh.materials.size(), 2u);
+  const Material &a = loaded->mesh.materials[0], &b = loaded->mesh.materials[1];
+  EXPECT_EQ(loaded->mesh.triangles[0].material, 0u);
+  EXPECT_EQ(loaded->mesh.triangles[1].material, 1u);
+  EXPECT_EQ(a.name, "a");
+  EXPECT_EQ(a.diffuse, 0.0);
+  EXPECT_EQ(a.specular, 0.0);
+  EXPECT_EQ(a.exponent, 1.0);
+  EXPECT_EQ(b.name, "b");
+  EXPECT_EQ(b.colour, glm::dvec3(0.25, 0.5, 1.0));
+  EXPECT_EQ(b.specular_colour, glm::dvec3(1.0, 0.5, 0.0));
+  EXPECT_EQ(b.diffuse, 1.0);
+  EXPECT_EQ(b.specular, 1.0);
+  EXPECT_EQ(b.exponent, 30.0);
+  EXPECT_TRUE(loaded->notes.empty());
+}
+
+TEST(Obj, MaterialsAreNoted) {
+  const auto loaded = read("mtllib m.mtl\nf 1 2 3\nusemtl nowhere\n" + c_faces,
+                           {{"m.mtl", "newmtl a\nKs 1 1 1\nNs 0\nbump -bm 1 b.png\n"}});
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->mesh.materials.size(), 3u);
+  EXPECT_EQ(loaded->mesh.materials[0].name, "default");
+  EXPECT_EQ(loaded->mesh.materials[0].colour, glm::dvec3(0.6f));
+  EXPECT_EQ(loaded->mesh.materials[2].name, "b");
+  EXPECT_EQ(loaded->notes, (std::vector<std::string>{"a.obj: faces before the first usemtl are grey",
+                                                     "a.obj: material 'a': exponent 0 raised to 1",
+                                                     "a.obj: material 'a': textures are left out",
+                                                     "a.obj: material 'b' is not defined; it is grey"}));
+}
+
+TEST(Obj, NamesMayHaveBlanksAndNumberSigns) {
+  const Libraries libraries{{"my materials.mtl", "newmtl red brick #1\nKd 1 0 0\nnewmtl b\nKd 0 0 1\n"},
+                            {"x.mtl", ""}};
+  const auto loaded =
+      read("mtllib my materials.mtl\n" + c_three + "usemtl red brick #1\nf 1 2 3\nusemtl b # blue\nf 1 3 2\n",
+           libraries);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->mesh.materials.size(), 2u);
+  EXPECT_EQ(loaded->mesh.materials[0].name, "red brick #1");
+  EXPECT_EQ(loaded->mesh.materials[1].name, "b");
+  EXPECT_TRUE(loaded->notes.empty());
+}
+
+TEST(Obj, ALineMayNameSeveralLibraries) {
+  const Libraries libraries{{"1.mtl", "newmtl a\nKd 1 0 0\n"}, {"2.mtl", "newmtl b\nKd 0 0 1\n"}};
+  const auto loaded = read("mtllib 1.mtl gone.mtl 2.mtl\n" + c_faces, libraries);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->mesh.materials.at(0).colour, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(loaded->mesh.materials.at(1).colour, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(loaded->notes,
+            (std::vector<std::string>{
+                "a.obj: material library dir/gone.mtl cannot be read; its materials are grey"}));
+}
+
+TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
+  for (const char* library : {"", "mtllib gone.mtl\n"}) {
+    const auto loaded = read(library + c_faces);
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    ASSERT_EQ(loaded->mesh.materials.size(), 1u);
+    EXPECT_EQ(loaded->mesh.materials[0].name, "default");
+    EXPECT_EQ(loaded->mesh.materials[0].colour, glm::dvec3(1.0));
+    EXPECT_EQ(loaded->mesh.triangles[1].material, 0u);
+  }
+}
+
+struct MtlFault {
+  const char* name;
+  const char* text;
+  const char* wanted;
+};
+void PrintTo(const MtlFault& fault, std::ostream* out) {
+  *out << fault.name;
+}
+
+class MtlFaults : public ::testing::TestWithParam<MtlFault> {};
+
+TEST_P(MtlFaults, NameTheLine) {
+  EXPECT_EQ(triangles_of(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", GetParam().text}})),
+            std::string("! dir/m.mtl:") + GetParam().wanted);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, MtlFaults,
+    ::testing::Values(
+        MtlFault{"word", "newmtl a\nKd red\n", "2: Kd: 'red' is not a number; correct the number"},
+        MtlFault{"nan", "newmtl a\nKd nan 0 0\n", "2: Kd: 'nan' is not finite; correct the number"},
+        MtlFault{"two", "newmtl a\nKs 1 1\n", "2: Ks has 2 numbers; it must have 3, or 1 for grey"},
+        MtlFault{"four", "newmtl a\nKd 1 1 1 1\n", "2: Kd has more than 3 numbers"},
+        MtlFault{"none", "newmtl a\n\nNs # 3\n", "3: Ns has no number"},
+        MtlFault{"negative", "newmtl a\nKd 1 -.5 1\n", "2: Kd is negative; correct the colour"},
+        MtlFault{"no_name", "newmtl \n", "1: newmtl has no name"},
+        MtlFault{"too_early", "Kd 1 1 1\n", "1: Kd before the first newmtl"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of a text file, line by line.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "common/result.hpp"
+
+namespace halfway {
+
+/// Lines end with LF, CR LF or CR. Words are separated by blanks. With `comments`, '#' at the start of a word
+/// begins a comment up to the end of the line. With `continuation`, a backslash at the end of a line, outside
+/// a comment, joins it with the next line. A byte order mark at the start is skipped.
+class TextLines {
+ public:
+  struct Syntax {
+    bool comments = true;
+    bool continuation = true;
+  };
+
+  TextLines(std::string_view text, std::string_view file, Syntax syntax);
+
+  /// Go to the next line. False at the end of the text.
+  bool next();
+  /// Return the next word of the line; empty at its end.
+  std::string_view word();
+  /// Return the rest of the line, without blanks at its ends. It may contain '#'. The line is not continued.
+  std::string_view rest();
+  /// The number of the line, from 1; of joined lines the first.
+  std::uint64_t line() const { return line_; }
+  /// Start of the next line: only for the end of a text header.
+  std::size_t next_line_start();
+  /// An error at the line: `file:line: what`.
+  Error error(std::string_view what) const;
+
+ private:
+  bool is_at_line_end() const { return at_ == text_.size() || text_[at_] == '\n' || text_[at_] == '\r'; }
+  bool is_continued(std::size_t at) const;
+  void skip_line_end();
+
+  std::string_view text_;
+  std::string_view file_;
+  Syntax syntax_;
+  std::size_t at_ = 0;
+  std::uint64_t ends_ = 0;  ///< line ends before at_
+  std::uint64_t line_ = 0;
+};
+
+}  // namespace halfway
