@@ -10,6 +10,8 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
+#include "common/to_integer.hpp"
+
 namespace halfway {
 namespace {
 
@@ -127,7 +129,7 @@ const std::array<Sensitivity, 3> c_sensitivities = {
 
 // Filter by the transform of the sensitivity, with a sum of 1.
 Plane seen_plane(const Plane& in, FrameSize size, const Sensitivity& sensitivity) {
-  const int radius = static_cast<int>(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * c_pixels_per_degree));
+  const int radius = to_integer<int>(std::ceil(3 * std::sqrt(0.04 / (2 * pi * pi)) * c_pixels_per_degree));
   Plane out(in.size());
   double whole = 0;
   for (const auto& [a, b] : sensitivity) {
@@ -160,7 +162,7 @@ Kernel balanced(Kernel kernel) {
 FeatureKernels feature_kernels() {
   constexpr double c_width = 0.082;  // of an edge, in degrees
   const double deviation = 0.5 * c_width * c_pixels_per_degree, variance = deviation * deviation;
-  const int radius = static_cast<int>(std::ceil(3 * deviation));
+  const int radius = to_integer<int>(std::ceil(3 * deviation));
   const auto gaussian = [variance](double x) { return std::exp(-x * x / (2 * variance)); };
   FeatureKernels kernels{
       sampled_kernel(radius, gaussian),
