@@ -3,18 +3,13 @@
 // evidence.
 #include "evidence/inputs.hpp"
 #include "evidence/test_rows.hpp"
-#include "sim/system/file.hpp"
 
 int main(int argc, char** argv) {
   using namespace halfway;
   const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-  const auto common = [&]() -> Result<std::string> {
+  const auto common = [&] {
     constexpr std::string_view c_tools[] = {"gappa", "sollya"};
-    const auto versions = evidence::versions(c_tools);
-    if (!versions) return versions.error();
-    const auto sources = evidence::sources_hash(root, HALFWAY_FOLDERS);
-    if (!sources) return sources.error();
-    return ContentHash().add(*versions).add(*sources).hex();
+    return evidence::program_hash(c_tools, root, HALFWAY_FOLDERS);
   };
   return evidence::run_tests(
       argc, argv,

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "evidence/evidence.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
 #include "sim/pages/template.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/folder_lock.hpp"
 
 namespace halfway::evidence {
 namespace {
@@ -60,23 +57,6 @@ void describe(Row& row, const Today& today) {
     if (field != row.fields.end()) field->second = value;
   }
 }
-
-// Admits one process at a time while it exists.
-class Lock {
- public:
-  explicit Lock(const std::filesystem::path& folder)
-      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-  ~Lock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-
- private:
-  int descriptor_;
-};
 
 }  // namespace
 
@@ -201,7 +181,8 @@ std::vector<std::string> Evidence::faults() const {
 template <class Change>
 Status Evidence::change(const Change& change) const {
   const std::filesystem::path file = place_.root / place_.rows;
-  const Lock lock(file.parent_path());
+  const auto lock = FolderLock::take(file.parent_path(), [] {});
+  if (!lock) return lock.error();
   auto rows = read_rows(file);
   if (!rows) return rows.error();
   change(*rows);
@@ -236,13 +217,18 @@ Status Evidence::finish() const {
   });
 }
 
+const std::map<std::string, Mode>& modes() {
+  static const std::map<std::string, Mode> c_modes = {
+      {"all", Mode::all}, {"stale", Mode::stale}, {"check", Mode::check}};
+  return c_modes;
+}
+
 CLI::Option* add_option(CLI::App& app, Mode& mode) {
   return app
       .add_option("--evidence", mode,
                   "all: store the rows of what is selected; stale: measure and store only stale rows; "
                   "check: only fail if a row is stale")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Mode>{{"all", Mode::all}, {"stale", Mode::stale}, {"check", Mode::check}}));
+      ->transform(CLI::CheckedTransformer(modes()));
 }
 
 ExitCode report(const Evidence& evidence) {

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -89,6 +90,9 @@ enum class Mode {
   stale,  ///< measure and store only stale rows
   check   ///< measure nothing: fail if a row is stale
 };
+
+/// The modes that an option may name.
+const std::map<std::string, Mode>& modes();
 
 /// Add the option --evidence all|stale|check.
 CLI::Option* add_option(CLI::App& app, Mode& mode);

@@ -106,4 +106,13 @@ Result<std::string> versions(std::span<const std::string_view> tools) {
   return all;
 }
 
+Result<std::string> program_hash(std::span<const std::string_view> tools, const std::filesystem::path& root,
+                                 std::string_view folders) {
+  const auto found = versions(tools);
+  if (!found) return found.error();
+  const auto sources = sources_hash(root, folders);
+  if (!sources) return sources.error();
+  return ContentHash().add(*found).add(*sources).hex();
+}
+
 }  // namespace halfway::evidence

@@ -22,4 +22,8 @@ Result<std::string> sources_hash(const std::filesystem::path& root, std::string_
 /// The first lines that the tools print for `--version`. An error names the package that is missing.
 Result<std::string> versions(std::span<const std::string_view> tools);
 
+/// Hash of a program: the versions of the tools that it runs, and its sources.
+Result<std::string> program_hash(std::span<const std::string_view> tools, const std::filesystem::path& root,
+                                 std::string_view folders);
+
 }  // namespace halfway::evidence

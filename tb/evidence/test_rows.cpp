@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <vector>
 
 #include "sim/program/program.hpp"
@@ -153,15 +152,13 @@ int run_tests(int argc, char** argv, const TestRows& rows) {
   testing::InitGoogleTest(&argc, argv);
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const std::string mode = take_option(arguments, "evidence"), part = take_option(arguments, "part");
-  const std::map<std::string, Mode> modes = {
-      {"", Mode::none}, {"all", Mode::all}, {"stale", Mode::stale}, {"check", Mode::check}};
-  if (!arguments.empty() || !modes.contains(mode))
+  if (!arguments.empty() || !(mode.empty() || modes().contains(mode)))
     return cli::report(
         bad_input(fmt::format("{}: unknown argument; give --evidence=all|stale|check, --part=TEXT "
                               "or options of GoogleTest",
                               arguments.empty() ? mode : arguments.front())));
-  if (modes.at(mode) == Mode::none) return RUN_ALL_TESTS();
-  const auto end = run_rows(rows, modes.at(mode), part);
+  if (mode.empty()) return RUN_ALL_TESTS();
+  const auto end = run_rows(rows, modes().at(mode), part);
   return end ? static_cast<int>(*end) : cli::report(end.error());
 }
 

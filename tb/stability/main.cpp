@@ -19,11 +19,7 @@ const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 
 Result<std::string> common_hash() {
   constexpr std::string_view c_tools[] = {"ghdl", "verilator"};
-  const auto versions = evidence::versions(c_tools);
-  if (!versions) return versions.error();
-  const auto sources = evidence::sources_hash(c_root, HALFWAY_FOLDERS);
-  if (!sources) return sources.error();
-  return ContentHash().add(*versions).add(*sources).hex();
+  return evidence::program_hash(c_tools, c_root, HALFWAY_FOLDERS);
 }
 
 // Netlists of the hardware that rows name: one line "entity generic=value ..." each. For several threads.
@@ -74,7 +70,6 @@ class Netlists {
   }
 
   std::mutex mutex_;
-
   std::optional<GhdlLibrary> library_;
   std::map<std::string, std::string> known_;
 };
