@@ -50,10 +50,10 @@ Call call_normalize(const Scene& scene, const SceneCalls& calls, Preset preset) 
 
 // Error if a highlight is not of Blinn's model.
 Status check_highlights(const Scene& scene) {
-  const std::vector<bool> worn = worn_materials(scene);
-  for (std::size_t i = 0; i < worn.size(); ++i) {
+  const std::vector<bool> used = used_materials(scene);
+  for (std::size_t i = 0; i < used.size(); ++i) {
     const Material& m = scene.materials[i];
-    if (!worn[i] || !has_specular(m) || m.brdf == Brdf::blinn) continue;
+    if (!used[i] || !has_specular(m) || m.brdf == Brdf::blinn) continue;
     const bool phong = m.brdf == Brdf::phong;
     return bad_input(fmt::format(
         "{}: material '{}' is {}, and the shading processors' highlights are blinn's, powers of N.H; make it "

@@ -46,10 +46,10 @@ Result<TableSize> table_size(const PlanRequest& request) {
 // The powers for the exponents in use. Error if a highlight is not a power of a cosine.
 Result<unsigned> powers_of(const Scene& scene, Preset preset) {
   unsigned powers = 0;
-  const std::vector<bool> worn = worn_materials(scene);
-  for (std::size_t i = 0; i < worn.size(); ++i) {
+  const std::vector<bool> used = used_materials(scene);
+  for (std::size_t i = 0; i < used.size(); ++i) {
     const Material& m = scene.materials[i];
-    if (!worn[i] || !has_specular(m)) continue;
+    if (!used[i] || !has_specular(m)) continue;
     if (m.brdf == Brdf::cook_torrance)
       return bad_input(fmt::format(
           "{}: material '{}' is cook_torrance, and the spherical shader's highlights are powers of a cosine; "

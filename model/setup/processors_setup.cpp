@@ -555,9 +555,9 @@ class ProcessorsSetup final : public Setup {
     };
     note_light("ambient light", scene_.ambient);
     for (const LightRef light : lights_) note_light(name_of(light), light_of(scene_, light).intensity);
-    const std::vector<bool> worn = worn_materials(scene_);
-    for (std::size_t i = 0; i < worn.size(); ++i)
-      if (worn[i]) note_material(scene_.materials[i]);
+    const std::vector<bool> used = used_materials(scene_);
+    for (std::size_t i = 0; i < used.size(); ++i)
+      if (used[i]) note_material(scene_.materials[i]);
     for (const LightRef light : lights_) {
       if (!has_place(light)) continue;
       const std::optional<int> shift = light_shift(place_view(light));

@@ -404,9 +404,9 @@ TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
         bool near_border = false, near_far_border = false;
         for (double dx : {-d, d})
           for (double dy : {-d, d}) {
-            const int beside = slice_at(cx + dx, cy + dy);
-            near_border |= beside != here;
-            near_far_border |= beside != here && std::max(beside, here) != 1;
+            const int neighbour = slice_at(cx + dx, cy + dy);
+            near_border |= neighbour != here;
+            near_far_border |= neighbour != here && std::max(neighbour, here) != 1;
           }
         const bool covered = here == 0 || here == 1;
         if (!near_far_border) {

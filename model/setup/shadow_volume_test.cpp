@@ -301,9 +301,9 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
            ++v)
         for (std::int64_t u = std::max<std::int64_t>(x - 1, 0);
              u < std::min<std::int64_t>(x + 2, frame.width); ++u) {
-          const auto beside = static_cast<std::size_t>(v * frame.width + u);
+          const auto neighbour = static_cast<std::size_t>(v * frame.width + u);
           // At the outline of a surface, another surface or the background starts.
-          at_edge |= seen[beside] == c_nothing || lit[beside] != lit[pixel];
+          at_edge |= seen[neighbour] == c_nothing || lit[neighbour] != lit[pixel];
         }
       if (!at_edge && !grazed[pixel]) ++sum.unexplained;
     }

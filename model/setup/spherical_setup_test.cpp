@@ -1002,7 +1002,7 @@ TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
       << notes(scene);
   EXPECT_EQ(notes(scene, Preset::published).find("fits"), std::string::npos);
   // A material not in use, or without a highlight.
-  scene.materials.push_back({.name = "not worn", .exponent = 1.3});
+  scene.materials.push_back({.name = "not used", .exponent = 1.3});
   scene.materials[0].specular = 0.0;
   EXPECT_EQ(notes(scene), "");
 

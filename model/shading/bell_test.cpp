@@ -200,10 +200,10 @@ TEST(FittedBell, IsExactAtTheTablesPowers) {
     EXPECT_EQ(bell.gain, 1.0) << "n = " << n;
     for (const double by : {1 - 1e-9, 1 + 1e-9}) {
       if (n * by < 1.0) continue;
-      const Bell beside = fitted_bell(n * by);
-      EXPECT_EQ(beside.power, n);
-      EXPECT_NEAR(beside.scale, 1.0, 1e-8) << "n = " << n;
-      EXPECT_NEAR(beside.gain, 1.0, 1e-8) << "n = " << n;
+      const Bell nearby = fitted_bell(n * by);
+      EXPECT_EQ(nearby.power, n);
+      EXPECT_NEAR(nearby.scale, 1.0, 1e-8) << "n = " << n;
+      EXPECT_NEAR(nearby.gain, 1.0, 1e-8) << "n = " << n;
     }
   }
 }
@@ -451,12 +451,13 @@ TEST(Bell, BelowTwoNoBellIsGood) {
 // error.
 TEST(Bell, ExactBellIsWithinFiveSteps) {
   constexpr double c_most = 5.0, c_not_least = 1e-5;
-  double beside = 0.0;
+  double other_errors = 0.0;
   for (const int power : c_powers) {
     const auto& [table, drift] = power_parts(power);
-    beside = std::max(beside, (1 + c_most / c_steps) * (table + drift) - c_steps * weighed(power));
+    other_errors =
+        std::max(other_errors, (1 + c_most / c_steps) * (table + drift) - c_steps * weighed(power));
   }
-  beside += Parts{}.factor + Parts{}.rounding + c_steps * c_not_least;
+  other_errors += Parts{}.factor + Parts{}.rounding + c_steps * c_not_least;
 
   double worst_exponent = 0.0, worst_integer = 0.0;
   Parts worst{}, worst_of_integers{};
@@ -477,10 +478,11 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
     double from = n, sum = least_sum(n);
     while (from < n + 1) {
       // Advance as far as the bound allows.
-      const double room = c_most - beside - sum, reach = from * room * std::numbers::e / c_steps;
+      const double room = c_most - other_errors - sum, reach = from * room * std::numbers::e / c_steps;
       ASSERT_GT(reach, 1e-6) << "between n = " << from << " and " << n + 1 << " the bound exceeds " << c_most;
       const double to = std::min<double>(n + 1, from + reach);
-      most_bound = std::max(most_bound, sum + beside + c_steps * (to - from) / (std::numbers::e * from));
+      most_bound =
+          std::max(most_bound, sum + other_errors + c_steps * (to - from) / (std::numbers::e * from));
       from = to;
       if (from < n + 1) sum = least_sum(from);
     }

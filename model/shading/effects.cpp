@@ -17,7 +17,7 @@ bool is_black(glm::dvec3 colour) {
 using Materials = std::vector<const Material*>;
 
 Materials materials_in_use(const Scene& scene) {
-  const std::vector<bool> in_use = worn_materials(scene);
+  const std::vector<bool> in_use = used_materials(scene);
   Materials materials;
   for (std::size_t i = 0; i < in_use.size(); ++i)
     if (in_use[i]) materials.push_back(&scene.materials[i]);
@@ -126,7 +126,7 @@ std::vector<LightRef> reflected_lights(const Scene& scene) {
   return reflects(materials_in_use(scene)) ? shining_lights(scene) : std::vector<LightRef>();
 }
 
-std::vector<bool> worn_materials(const Scene& scene) {
+std::vector<bool> used_materials(const Scene& scene) {
   std::vector<bool> in_use(scene.materials.size(), false);
   for (const SceneTriangle& t : scene.triangles) in_use[t.material] = true;
   return in_use;

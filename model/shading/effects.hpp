@@ -21,7 +21,7 @@ std::vector<LightRef> shining_lights(const Scene& scene);
 std::vector<LightRef> reflected_lights(const Scene& scene);
 
 /// For each material, true if a triangle uses it.
-std::vector<bool> worn_materials(const Scene& scene);
+std::vector<bool> used_materials(const Scene& scene);
 
 /// True if the material reflects light in this way.
 bool has_diffuse(const Material& material);

@@ -148,18 +148,18 @@ TEST(LightRay, CrossesOneOfManySlivers) {
     const Point apex{whole(), whole()};
     // Euclid's algorithm: a point next to the line through origin and apex, at the least distance that
     // integers allow.
-    Point beside{0, 1}, before{1, 0};
+    Point close{0, 1}, before{1, 0};
     for (std::int64_t a = apex.x, b = apex.y; b != 0;) {
       const std::int64_t quotient = a / b;
       a = std::exchange(b, a % b);
-      before = std::exchange(beside, {before.x - quotient * beside.x, before.y - quotient * beside.y});
+      before = std::exchange(close, {before.x - quotient * close.x, before.y - quotient * close.y});
     }
-    beside = {-before.y, before.x};  // apex.x before.x + apex.y before.y is the greatest common divisor
+    close = {-before.y, before.x};  // apex.x before.x + apex.y before.y is the greatest common divisor
     std::vector<Point> rim;
     for (int i = 0; i < 12; ++i) {
       const auto aside = static_cast<std::int64_t>(random.whole(0, 6)) - 3;
       const std::int64_t behind = 4 + random.whole(0, 1);
-      rim.push_back({aside * beside.x - behind * apex.x, aside * beside.y - behind * apex.y});
+      rim.push_back({aside * close.x - behind * apex.x, aside * close.y - behind * apex.y});
     }
     const auto from_apex = [&](Point p) { return Point{p.x - apex.x, p.y - apex.y}; };
     std::sort(rim.begin(), rim.end(),

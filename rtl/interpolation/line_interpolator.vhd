@@ -37,7 +37,7 @@ architecture rtl of line_interpolator is
 
 begin
 
-  -- One clocked process: with r_next beside it GHDL would form the sum at every delta in which an input moves, which
+  -- One clocked process: with r_next next to it, GHDL would form the sum at every delta in which an input moves, which
   -- costs a frame 1.6 times the instructions.
   registers : process (clk)
   begin

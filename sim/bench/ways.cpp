@@ -212,7 +212,7 @@ Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions) {
       picture.outline_off > c_mesa_most_off)
     return Error{
         ExitCode::differs,
-        fmt::format("Mesa draws another picture: {:.1f} dB and {}/255 beside the reference, {:.2g} of the "
+        fmt::format("Mesa draws another picture: {:.1f} dB and {}/255 against the reference, {:.2g} of the "
                     "pixels off on outlines",
                     picture.psnr_db, picture.max_lsb, picture.outline_off)};
   return picture;

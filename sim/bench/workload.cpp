@@ -228,16 +228,16 @@ Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize
     FrameCost cost;
     const Status drawn = draw_frame_here(make_scene, size, key, engine, pace, cost);
     if (!drawn) fmt::print(stderr, "{}\n", drawn.error().message);
-    const bool told = drawn && ::write(ends[1], &cost, sizeof cost) == sizeof cost;
-    ::_exit(told ? 0 : 1);
+    const bool sent = drawn && ::write(ends[1], &cost, sizeof cost) == sizeof cost;
+    ::_exit(sent ? 0 : 1);
   }
   ::close(ends[1]);
   FrameCost cost;
-  const bool told = ::read(ends[0], &cost, sizeof cost) == sizeof cost;
+  const bool received = ::read(ends[0], &cost, sizeof cost) == sizeof cost;
   ::close(ends[0]);
   int status = 0;
   ::waitpid(child, &status, 0);
-  if (!told || status != 0) return tool_failed(fmt::format("{}: a frame was not drawn", key.name()));
+  if (!received || status != 0) return tool_failed(fmt::format("{}: a frame was not drawn", key.name()));
   return cost;
 }
 
@@ -306,17 +306,17 @@ Fit fit(const std::vector<Terms>& rows, std::span<const double> t) {
         [&](const Terms& row, double seconds) { return row[k] / seconds * (row[k] / seconds); });
     const double length = product(k, k);
     if (!(length > 1e-12 * before)) return {};
-    for (std::size_t behind = k + 1; behind <= terms; ++behind) {
-      parts[k][behind] = product(k, behind) / length;
-      for (std::size_t i = 0; i < rows.size(); ++i) columns[behind][i] -= parts[k][behind] * columns[k][i];
+    for (std::size_t next = k + 1; next <= terms; ++next) {
+      parts[k][next] = product(k, next) / length;
+      for (std::size_t i = 0; i < rows.size(); ++i) columns[next][i] -= parts[k][next] * columns[k][i];
     }
   }
   Fit found;
   found.factors.resize(terms);
   for (std::size_t k = terms; k-- > 0;) {
     found.factors[k] = parts[k][terms];
-    for (std::size_t behind = k + 1; behind < terms; ++behind)
-      found.factors[k] -= parts[k][behind] * found.factors[behind];
+    for (std::size_t next = k + 1; next < terms; ++next)
+      found.factors[k] -= parts[k][next] * found.factors[next];
   }
   for (std::size_t i = 0; i < rows.size(); ++i)
     found.largest_deviation = std::max(found.largest_deviation, std::abs(t[i] / found.at(rows[i]) - 1.0));

@@ -458,7 +458,7 @@ TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
   const auto summary = read_file(folder / "summary.json");
   ASSERT_TRUE(summary);
   for (const auto& arguments : {sim, {"compare", "one", "--out", out()}}) {
-    auto lock = FolderLock::take(folder, [] { FAIL() << "nobody holds it"; });
+    auto lock = FolderLock::take(folder, [] { FAIL() << "it is not locked"; });
     ASSERT_TRUE(lock) << lock.error().message;
     std::optional<FolderLock> held(std::move(*lock));
     std::filesystem::remove(folder / "summary.json");

@@ -22,7 +22,7 @@ struct ReportCommand {
   std::string readme;  ///< with `front`: also write the part "front" of this page
 };
 
-Status tell_front(const Table& front, const std::string& readme) {
+Status write_front_part(const Table& front, const std::string& readme) {
   const auto words = report::readme_front(front);
   if (!words) return words.error();
   return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
@@ -38,8 +38,8 @@ int write_front(const ReportCommand& command) {
   if (*designs == 0)
     return report(bad_input(command.study + ": no design in it has both a cost and an error; make study"));
   if (!command.readme.empty())
-    if (Status told = tell_front(report::front_of(*study), command.readme); !told)
-      return report(told.error());
+    if (Status written = write_front_part(report::front_of(*study), command.readme); !written)
+      return report(written.error());
   fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
              *designs);
   return 0;

@@ -83,7 +83,7 @@ ROM
   reg one, two;
   reg [31:0] late0, late1, late2, late3, late4, late5, late6, late7, late8, late9, taken;
   reg [11:0] left, right;
-  reg stored, held, beside;
+  reg stored, held, paired;
   reg [11:0] counted, caught;
   reg [3:0] unset;
   // Registers as GHDL prints them: loaded in every clock, often with their own value.
@@ -137,12 +137,12 @@ ROM
   end
   always @(posedge clk)
     if (g) begin taken <= late7; end
-  // Masks of what is written beside them.
+  // Masks of what is written with them.
   always @(posedge clk) begin stored <= e ^ f; counted <= stored ? counted + 12'b1 : counted; end
   always @(posedge clk)
-    if (held) begin held <= e; beside <= h; caught <= g ? c : caught; end else begin held <= f; end
+    if (held) begin held <= e; paired <= h; caught <= g ? c : caught; end else begin held <= f; end
   assign response = {
-    774'b0, record, walked, deep, walked_carry, top, masked_top, 1'b0, unset, {2'b0, unset} + n, stored, held, beside, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
+    774'b0, record, walked, deep, walked_carry, top, masked_top, 1'b0, unset, {2'b0, unset} + n, stored, held, paired, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
     k == l, k < l, k >= l, $signed(k) < $signed(l), {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],

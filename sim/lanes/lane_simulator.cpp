@@ -105,7 +105,7 @@ class LaneSimulator::Passage {
   /// Adds enough parts for a run, unless too many fragments wait. Returns false if no part is left.
   bool add_parts();
   Status draw();
-  Status hand_on(const OnDrawn& on_drawn);
+  Status pass_on(const OnDrawn& on_drawn);
 
  private:
   std::size_t threads() const { return s_.threads.size(); }
@@ -207,7 +207,7 @@ Status LaneSimulator::Passage::draw() {
   }
 }
 
-Status LaneSimulator::Passage::hand_on(const OnDrawn& on_drawn) {
+Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
   std::size_t whole = 0;
   for (; whole < parts_.size() && parts_[whole].ended != 0; ++whole) {
     const HalfwayPart& part = parts_[whole];
@@ -295,7 +295,7 @@ Status LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::uint6
   Passage passage(s, init_words, most);
   while (passage.add_parts()) {
     if (Status drawn = passage.draw(); !drawn) return drawn;
-    if (Status taken = passage.hand_on(on_drawn); !taken) return taken;
+    if (Status taken = passage.pass_on(on_drawn); !taken) return taken;
   }
   s.drawing = false;
   return Ok{};

@@ -222,7 +222,9 @@ TEST(Flip, AShiftOfOnePixelIsSeenAtTheOutline) {
   ASSERT_TRUE(back);
   for (std::size_t x = 0; x < c_size.width; ++x) {
     EXPECT_EQ((*errors)[x], (*back)[x]);
-    if (x < 48 - 10 || x > 48 + 10) EXPECT_NEAR((*errors)[x], 0.0, 1e-6) << x;
+    if (x < 48 - 10 || x > 48 + 10) {
+      EXPECT_NEAR((*errors)[x], 0.0, 1e-6) << x;
+    }
   }
   EXPECT_GT((*errors)[48], 0.3);
 }

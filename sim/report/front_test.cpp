@@ -106,7 +106,7 @@ class GalleryFront : public FrontTest {
         for (study::DesignPoint& other : *space)
           if (other.picture() == point.picture()) points_.push_back(other);
   }
-  static constexpr const char* c_anew = "make gallery measures it anew";
+  static constexpr const char* c_again = "make gallery measures it again";
   Table front_;
   std::vector<study::DesignPoint> points_;
 };
@@ -121,32 +121,32 @@ TEST_F(GalleryFront, IsDrawnFromItsTable) {
     return text.substr(at, text.find('\n', at) - at);
   };
   if (gnuplot(*drawn) != gnuplot(*svg)) GTEST_SKIP() << "drawn by " << gnuplot(*drawn);
-  EXPECT_TRUE(*drawn == *svg) << c_anew;
+  EXPECT_TRUE(*drawn == *svg) << c_again;
 }
 
 TEST_F(GalleryFront, IsWhatReadmeSays) {
   const auto readme = read_file(c_source / "README.md");
   ASSERT_TRUE(readme) << readme.error().message;
-  const auto part = page_part(*readme, "front"), told = readme_front(front_);
+  const auto part = page_part(*readme, "front"), expected = readme_front(front_);
   ASSERT_TRUE(part) << part.error().message;
-  ASSERT_TRUE(told) << told.error().message;
-  EXPECT_EQ(*part, *told) << c_anew;
+  ASSERT_TRUE(expected) << expected.error().message;
+  EXPECT_EQ(*part, *expected) << c_again;
 }
 
 TEST_F(GalleryFront, IsOfTheCheckoutsDesigns) {
-  ASSERT_EQ(front_.rows.size(), points_.size()) << c_anew;
+  ASSERT_EQ(front_.rows.size(), points_.size()) << c_again;
   const std::string scene = c_source / "sim/studies/sphere.toml";
   const auto loaded = load_scene(scene, c_source / "sim/scenes");
   ASSERT_TRUE(loaded) << loaded.error().message;
   for (std::size_t row = 0; row < points_.size(); ++row) {
-    EXPECT_EQ(front_.text(row, "point"), points_[row].name()) << c_anew;
-    EXPECT_EQ(front_.text(row, "scene_hash"), study::scene_hash(*loaded)) << c_anew;
+    EXPECT_EQ(front_.text(row, "point"), points_[row].name()) << c_again;
+    EXPECT_EQ(front_.text(row, "scene_hash"), study::scene_hash(*loaded)) << c_again;
     if (!study::in_hardware(points_[row].method)) continue;
     const auto drawn = study::drawn_scene(scene, c_source / "sim/scenes", points_[row]);
     ASSERT_TRUE(drawn) << drawn.error().message;
     const auto hardware = study::hardware_of(points_[row], *drawn);
     ASSERT_TRUE(hardware) << hardware.error().message;
-    EXPECT_EQ(front_.text(row, "hardware"), hardware->key.name()) << c_anew;
+    EXPECT_EQ(front_.text(row, "hardware"), hardware->key.name()) << c_again;
   }
 }
 
@@ -163,15 +163,15 @@ TEST_F(GalleryFront, IsWhatTheHardwareDrawsNow) {
   const auto made = study::run_study(settings);
   ASSERT_TRUE(made) << made.error().message;
   const study::Measurement& m = made->records.at(0).measured;
-  EXPECT_EQ(front_.text(row, "cycles"), fmt::format("{}", m.cycles)) << c_anew;
-  EXPECT_EQ(front_.text(row, "rms"), fmt::format("{}", m.picture.rms)) << c_anew;
-  EXPECT_EQ(front_.text(row, "largest_error"), fmt::format("{}", m.picture.max_lsb)) << c_anew;
+  EXPECT_EQ(front_.text(row, "cycles"), fmt::format("{}", m.cycles)) << c_again;
+  EXPECT_EQ(front_.text(row, "rms"), fmt::format("{}", m.picture.rms)) << c_again;
+  EXPECT_EQ(front_.text(row, "largest_error"), fmt::format("{}", m.picture.max_lsb)) << c_again;
   if (find_program("yosys").empty()) return;
   const auto hardware = study::hardware_figures(settings.scene, made->records, settings.folders, {});
   ASSERT_TRUE(hardware) << hardware.error().message;
   const auto& cells = hardware->at(m.hardware).cells;
   ASSERT_TRUE(cells);
-  EXPECT_EQ(front_.text(row, "cells"), fmt::format("{:.0f}", study::cell_count(*cells))) << c_anew;
+  EXPECT_EQ(front_.text(row, "cells"), fmt::format("{:.0f}", study::cell_count(*cells))) << c_again;
 }
 
 }  // namespace

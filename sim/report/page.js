@@ -395,7 +395,7 @@ function makePoints() {
   async function open(number) {
     const point = data.points[number];
     document.getElementById("point-name").textContent = point.name;
-    document.getElementById("point-told").replaceChildren(...point.told.map(([what, value]) =>
+    document.getElementById("point-values").replaceChildren(...point.values.map(([what, value]) =>
       element("tr", {}, element("th", { scope: "row", textContent: what }), element("td", { textContent: value }))));
     holder.hidden = !point.image;
     if (!dialog.open) dialog.showModal();

@@ -123,7 +123,7 @@ class ReportPage : public CommandTest {
         canvas);
   }
   /// The values that the viewer shows for a layer at the chosen pixel.
-  std::vector<int> told(const std::string& viewer, const std::string& layer) {
+  std::vector<int> shown(const std::string& viewer, const std::string& layer) {
     return evaluate(fmt::format("[...document.querySelectorAll('{} [data-layer={}] td')].slice(1).map((c) => "
                                 "Number(c.textContent))",
                                 viewer, layer))
@@ -210,7 +210,7 @@ TEST_F(ReportPage, StartsWithAPixelOfABody) {
   ASSERT_TRUE(reference);
   // no body is at the centre
   ASSERT_EQ(pixel(*reference, 48, 36), pixel(*reference, 0, 0));
-  EXPECT_NE(told("#frame-viewer", "reference"), pixel(*reference, 0, 0));
+  EXPECT_NE(shown("#frame-viewer", "reference"), pixel(*reference, 0, 0));
 }
 
 TEST_F(ReportPage, EverythingHasAName) {
@@ -266,10 +266,10 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   // A click chooses a pixel; the arrow keys continue from it.
   const auto [again_x, again_y] = middle_of(canvas);
   click(again_x + (at_x - 0.5) * width, again_y + (at_y - 0.5) * width * 0.75);
-  EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x, y));
-  EXPECT_EQ(told("#frame-viewer", "diff"), pixel(*difference, x, y));
+  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(*reference, x, y));
+  EXPECT_EQ(shown("#frame-viewer", "diff"), pixel(*difference, x, y));
   browser_->press("ArrowLeft");
-  EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x - 1, y));
+  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(*reference, x - 1, y));
   // Zooming in keeps that pixel in place and writes its values into it.
   for (int i = 0; i < 6; ++i) browser_->press("+");
   const Json corner = evaluate(
@@ -340,7 +340,7 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   // A single finger chooses a pixel, as before.
   browser_->touch("touchStart", {{px + 20, py}});
   browser_->touch("touchEnd", {});
-  EXPECT_EQ(told("#frame-viewer", "reference"), pixel(*reference, x, y));
+  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(*reference, x, y));
   // Pinching together shows the whole picture, not less.
   two("touchStart", 0, 60);
   for (const double apart : {30.0, 10.0, 5.0}) two("touchMove", 0, apart);
@@ -366,7 +366,7 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
   click(x, y);
   ASSERT_TRUE(is_open());
   EXPECT_EQ(evaluate("document.getElementById('point-name').textContent"), name);
-  EXPECT_NE(evaluate("document.getElementById('point-told').textContent")
+  EXPECT_NE(evaluate("document.getElementById('point-values').textContent")
                 .get<std::string>()
                 .find("quadratic_shader"),
             std::string::npos);
@@ -383,7 +383,7 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
     if (record->find('"' + name + '"') == std::string::npos) continue;
     const auto frame = read_png(file.path());
     ASSERT_TRUE(frame);
-    EXPECT_EQ(told("#point-viewer", "frame"), pixel(*frame, 80, 60));
+    EXPECT_EQ(shown("#point-viewer", "frame"), pixel(*frame, 80, 60));
     ++equal;
   }
   EXPECT_EQ(equal, 1U);

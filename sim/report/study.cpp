@@ -109,7 +109,7 @@ std::string shown(double value) {
 }
 
 // Text of a cell for the page; empty if unknown.
-std::string told(const Table& table, std::size_t row, const char* column) {
+std::string text_of(const Table& table, std::size_t row, const char* column) {
   const std::string_view name = column;
   if (!in_hardware(table, row) && std::ranges::find(c_of_hardware, name) != c_of_hardware.end()) return "";
   const std::string& text = table.text(row, column);
@@ -216,10 +216,10 @@ Status add_study(Page& page) {
     const std::string of = series_of(*points, row);
     if (std::ranges::find(series, of) == series.end()) series.push_back(of);
     if (in_hardware(*points, row)) hardware_series.insert(of);
-    Json& point = all.emplace_back(Json{{"name", points->text(row, "point")}, {"told", Json::array()}});
+    Json& point = all.emplace_back(Json{{"name", points->text(row, "point")}, {"values", Json::array()}});
     for (const auto& [column, words] : c_told)
-      if (const std::string value = told(*points, row, column); !value.empty())
-        point["told"].push_back(Json::array({words, value}));
+      if (const std::string value = text_of(*points, row, column); !value.empty())
+        point["values"].push_back(Json::array({words, value}));
     const std::filesystem::path picture =
         page.settings.study / "points" / (points->text(row, "record") + ".png");
     if (std::filesystem::exists(picture)) {
@@ -298,7 +298,7 @@ Status add_study(Page& page) {
       others = true;
     Json cells = Json::array();
     for (const auto& [column, words] : c_columns) {
-      const std::string text = told(*points, row, column);
+      const std::string text = text_of(*points, row, column);
       cells.push_back(text.empty() ? "–" : text);
     }
     rows.push_back({{"number", row}, {"name", points->text(row, "point")}, {"cells", std::move(cells)}});

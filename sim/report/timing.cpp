@@ -158,12 +158,12 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
     return *std::ranges::find(lanes, name, &Lane::name);
   };
   std::string& words = diagram.words;
-  for (std::size_t edge = 0, told = 0; edge < last - first && told < 4; ++edge)
+  for (std::size_t edge = 0, named = 0; edge < last - first && named < 4; ++edge)
     if (lane_of("fragment_valid").values[edge] == "1") {
-      words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", told == 0 ? "" : "; ", edge,
+      words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", named == 0 ? "" : "; ", edge,
                            lane_of("fragment_x").values[edge], lane_of("fragment_y").values[edge],
                            lane_of("fragment_red").values[edge]);
-      ++told;
+      ++named;
     }
   return diagram;
 }

@@ -45,7 +45,7 @@ Status split(const std::filesystem::path& init_file, const std::string& key_name
   return Ok{};
 }
 
-Status hand_on(const std::filesystem::path& trace_file, const std::string& key_name,
+Status pass_on(const std::filesystem::path& trace_file, const std::string& key_name,
                const Engine::OnDrawn& on_drawn) {
   auto reader = TraceReader::open(trace_file, key_name);
   if (!reader) return reader.error();
@@ -120,7 +120,7 @@ Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& 
   });
   if (!all) return all.error();
   for (const std::filesystem::path& trace : traces)
-    if (Status status = hand_on(trace, key.name(), on_drawn); !status) return status.error();
+    if (Status status = pass_on(trace, key.name(), on_drawn); !status) return status.error();
   return cycles;
 }
 

@@ -167,11 +167,11 @@ class Simulation {
   void note_of_bells() {
     const HardwareKey& key = summary_.plan.key;
     const bool exact = key.preset == Preset::exact;
-    const std::vector<bool> worn = worn_materials(scene_);
+    const std::vector<bool> used = used_materials(scene_);
     double brightest = 0.0;
     for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
       const Material& m = scene_.materials[i];
-      if (!worn[i]) continue;
+      if (!used[i]) continue;
       for (const LightRef light : reflected_lights(scene_)) {
         const glm::dvec3 in = light_of(scene_, light).intensity;
         for (int c = 0; c < 3; ++c)

@@ -224,7 +224,7 @@ class Turn {
 };
 
 // For example "lanes", or "lanes, verilator in frames 3, 8".
-std::string who_drew(const ViewSummary& s) {
+std::string engine_words(const ViewSummary& s) {
   if (s.drawn_again.empty()) return to_string(s.engine);
   constexpr std::size_t c_named = 10;
   const auto named = std::span(s.drawn_again).first(std::min(c_named, s.drawn_again.size()));
@@ -322,7 +322,7 @@ std::string to_lines(const ViewSummary& s) {
       "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>4} frame{} of {} triangles, {} fragments | {}: {} | {:.2f} "
       "frames a second, {:.2f} s on {} thread{}\n",
       s.scene, to_string(s.plan.key.shader), to_string(s.plan.key.preset), s.size.width, s.size.height,
-      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, who_drew(s), compared, s.rate(),
+      s.frames, s.frames == 1 ? "" : "s", s.triangles, s.fragments, engine_words(s), compared, s.rate(),
       s.seconds, s.threads, s.threads == 1 ? "" : "s");
   if (s.frames == 0) return text;
   const auto ms = [&](double seconds) { return 1e3 * seconds / s.frames; };

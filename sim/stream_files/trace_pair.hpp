@@ -14,7 +14,7 @@ template <class OnGolden, class OnRtl>
 Status read_side_by_side(TraceReader& golden, TraceReader* rtl, OnGolden&& on_golden, OnRtl&& on_rtl) {
   constexpr std::size_t c_chunk = 1 << 16;  // fragments
   std::vector<Fragment> chunk;
-  const auto hand_on = [&](TraceReader& reader, bool& more, auto& sink) -> Status {
+  const auto pass_on = [&](TraceReader& reader, bool& more, auto& sink) -> Status {
     if (!more) return Ok{};
     chunk.clear();
     const auto count = reader.read(chunk, c_chunk);
@@ -24,9 +24,9 @@ Status read_side_by_side(TraceReader& golden, TraceReader* rtl, OnGolden&& on_go
     return Ok{};
   };
   for (bool more_golden = true, more_rtl = rtl != nullptr; more_golden || more_rtl;) {
-    if (Status status = hand_on(golden, more_golden, on_golden); !status) return status;
+    if (Status status = pass_on(golden, more_golden, on_golden); !status) return status;
     if (more_rtl)
-      if (Status status = hand_on(*rtl, more_rtl, on_rtl); !status) return status;
+      if (Status status = pass_on(*rtl, more_rtl, on_rtl); !status) return status;
   }
   return Ok{};
 }

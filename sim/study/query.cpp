@@ -142,23 +142,23 @@ struct Knob {
 
 // The parameters that distinguish designs. Parameters that do not apply to a design are omitted.
 std::vector<Knob> knobs_of(const DesignPoint& p) {
-  const auto told = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
+  const auto text_of = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
   std::vector<Knob> knobs = {{"method", to_string(p.method)}, {"preset", to_string(p.preset)}};
   switch (p.method) {
     case Method::quadratic:
     case Method::adaptive:
-      knobs.push_back({"fraction_bits", told(p.words.fraction_bits)});
+      knobs.push_back({"fraction_bits", text_of(p.words.fraction_bits)});
       break;
     case Method::spherical:
       knobs.push_back({"address_bits", p.tables ? std::to_string(p.tables->address_bits) : ""});
       knobs.push_back({"data_bits", p.tables ? std::to_string(p.tables->data_bits) : ""});
-      knobs.push_back({"angle_bits", told(p.words.angle_bits)});
+      knobs.push_back({"angle_bits", text_of(p.words.angle_bits)});
       break;
     case Method::processors_1:
     case Method::processors_2:
       knobs.push_back({"form", to_string(p.form)});
-      knobs.push_back({"seed_bits", told(p.words.seed_bits)});
-      knobs.push_back({"newton", told(p.words.newton)});
+      knobs.push_back({"seed_bits", text_of(p.words.seed_bits)});
+      knobs.push_back({"newton", text_of(p.words.newton)});
       break;
     case Method::phong:
     case Method::gouraud:

@@ -29,12 +29,12 @@ using Json = nlohmann::ordered_json;
 
 // JSON has no infinity: the PSNR of equal pictures is null, and so are values that were not counted.
 template <class Value>
-Json told(const Value& value) {
+Json json_of(const Value& value) {
   if constexpr (std::floating_point<Value>)
     if (!std::isfinite(value)) return nullptr;
   return value;
 }
-Json told(const std::optional<std::uint64_t>& value) {
+Json json_of(const std::optional<std::uint64_t>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 template <class Value>
@@ -50,7 +50,7 @@ void take(const Json& json, std::optional<std::uint64_t>& value) {
   if (!json.is_null()) value = json.get<std::uint64_t>();
 }
 
-Json told(const Provenance& p) {
+Json json_of(const Provenance& p) {
   return {{"scene", p.scene},
           {"scene_hash", p.scene_hash},
           {"program", p.program},
@@ -193,9 +193,10 @@ Result<std::string> Records::add_frame(const DesignPoint& point, const Frame& fr
 
 Status Records::add(const Record& record) const {
   Json figures;
-  for_each_figure(record.measured, [&](const char* name, const auto& value) { figures[name] = told(value); });
+  for_each_figure(record.measured,
+                  [&](const char* name, const auto& value) { figures[name] = json_of(value); });
   return write_file(file(record.point), sealed({{"point", record.point.name()},
-                                                {"provenance", told(provenance_)},
+                                                {"provenance", json_of(provenance_)},
                                                 {"figures", figures},
                                                 {"picture", record.picture}}));
 }

@@ -166,12 +166,12 @@ Status place(const StudySettings& settings, const Bench& bench, Study& study) {
   std::mutex mutex;
   return for_each_on_threads(settings.threads, count, [&](std::size_t at) -> Status {
     const std::size_t number = mine.begin + at;
-    const bool anew = !bench.placements()->is_done(number);
-    if (anew)
+    const bool is_new = !bench.placements()->is_done(number);
+    if (is_new)
       if (Status made = bench.placements()->make(number); !made)
         return Error{made.error().code, bench.placements()->name(number) + ": " + made.error().message};
     const std::scoped_lock lock(mutex);
-    study.placements += anew;
+    study.placements += is_new;
     settings.on_progress(fmt::format("{} of {} placements", ++done, count));
     return Ok{};
   });
@@ -270,16 +270,16 @@ Result<Study> run_study(const StudySettings& settings) {
   const auto each = [&](std::size_t at) -> Status {
     const Piece& piece = mine[at];
     auto found = bench->find(piece);
-    const bool anew = is_point(piece) ? !found || !*found : !bench->is_done(piece);
+    const bool is_new = is_point(piece) ? !found || !*found : !bench->is_done(piece);
     Made made;
     if (!found) made.notes.push_back(found.error().message);
-    if (!anew) made.record = std::move(*found);
-    const Status worked = anew ? bench->make(piece, made) : Ok{};
+    if (!is_new) made.record = std::move(*found);
+    const Status worked = is_new ? bench->make(piece, made) : Ok{};
     const std::scoped_lock lock(mutex);
     for (const std::string& note : made.notes) settings.on_note(note);
     if (!worked)
       return Error{worked.error().code, settings.points[piece.point].name() + ": " + worked.error().message};
-    study.measured += anew && is_point(piece);
+    study.measured += is_new && is_point(piece);
     study.drawn_tiles += made.tiles;
     records[at] = std::move(made.record);
     settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),

@@ -99,19 +99,19 @@ class Buffers {
   }
 
   void insert_clock(Net net) {
-    const Net behind = ++last_;
+    const Net buffered = ++last_;
     for (json& cell : cells_)
       for (auto& [pin, bits] : cell.at("connections").items())
         if (cell.at("port_directions").at(pin) == "input")
-          std::replace(bits.begin(), bits.end(), json(net), json(behind));
-    add("clk", net, behind);
+          std::replace(bits.begin(), bits.end(), json(net), json(buffered));
+    add("clk", net, buffered);
   }
 
   void insert_enable(const Enable& enable) {
-    const Net behind = ++last_;
+    const Net buffered = ++last_;
     for (json& cell : cells_)
-      if (is_register(cell) && net_at(cell, "E") == enable.net) cell["connections"]["E"] = {behind};
-    add(enable.name, enable.net, behind);
+      if (is_register(cell) && net_at(cell, "E") == enable.net) cell["connections"]["E"] = {buffered};
+    add(enable.name, enable.net, buffered);
   }
 
  private:

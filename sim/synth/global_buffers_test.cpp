@@ -182,7 +182,7 @@ TEST(SynthGlobalBuffers, HaveANewRuleNameForANewResult) {
     results.add(*text);
   }
   EXPECT_EQ(fmt::format("{}: {}", c_buffers_rule, results.hex()), "flow 2: a2b226e0f65aeedd6d833118f083aebd")
-      << "give it another name, c_buffers_rule, and then this hash; pin the clocks anew by make synth PIN=1";
+      << "give it another name, c_buffers_rule, and then this hash; pin the clocks again by make synth PIN=1";
 }
 
 TEST(SynthGlobalBuffers, ADesignWithoutClockIsRefused) {

@@ -16,7 +16,7 @@ namespace {
 TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
   auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
   ASSERT_TRUE(folder);
-  auto first = FolderLock::take(folder->path(), [] { FAIL() << "nobody holds it"; });
+  auto first = FolderLock::take(folder->path(), [] { FAIL() << "it is not locked"; });
   ASSERT_TRUE(first) << first.error().message;
   std::optional<FolderLock> held(std::move(*first));
   std::atomic<bool> waited = false, taken = false;

@@ -24,7 +24,7 @@ static_assert(std::atomic<int>::is_always_lock_free);
 void tell(int signal) {
   const int error = errno;
   const auto byte = static_cast<unsigned char>(signal);
-  [[maybe_unused]] const ssize_t told = ::write(writer, &byte, 1);
+  [[maybe_unused]] const ssize_t written = ::write(writer, &byte, 1);
   errno = error;
 }
 

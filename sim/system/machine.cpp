@@ -13,7 +13,7 @@ namespace halfway {
 namespace {
 
 // The text between `begin` and the next `end`, after the first `key` in the file.
-std::string told(const char* file, std::string_view key, std::string_view begin, char end) {
+std::string value_of(const char* file, std::string_view key, std::string_view begin, char end) {
   const auto text = read_file(file);
   const std::size_t at = text ? text->find(key) : std::string::npos;
   if (at == std::string::npos) return "unknown";
@@ -24,13 +24,13 @@ std::string told(const char* file, std::string_view key, std::string_view begin,
 }  // namespace
 
 std::string machine() {
-  const double kilobytes = std::strtod(told("/proc/meminfo", "MemTotal", ":", 'k').c_str(), nullptr);
+  const double kilobytes = std::strtod(value_of("/proc/meminfo", "MemTotal", ":", 'k').c_str(), nullptr);
   return fmt::format("{} cores of {}, {:.0f} GiB", std::thread::hardware_concurrency(),
-                     told("/proc/cpuinfo", "model name", ": ", '\n'), kilobytes / (1 << 20));
+                     value_of("/proc/cpuinfo", "model name", ": ", '\n'), kilobytes / (1 << 20));
 }
 
 std::string operating_system() {
-  return told("/etc/os-release", "PRETTY_NAME", "\"", '"');
+  return value_of("/etc/os-release", "PRETTY_NAME", "\"", '"');
 }
 
 }  // namespace halfway

@@ -100,7 +100,7 @@ struct Start {
     ::execve(s.program, s.arguments, s.variables);
   }
   const int error = errno;
-  [[maybe_unused]] const ssize_t told = ::write(s.failure, &error, sizeof error);
+  [[maybe_unused]] const ssize_t written = ::write(s.failure, &error, sizeof error);
   ::_exit(127);
 }
 

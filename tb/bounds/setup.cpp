@@ -75,15 +75,15 @@ struct Seen {
 
 // The lights and words that setup makes from a scene for the processors.
 template <class P>
-struct Told {
+struct SetupWords {
   std::vector<golden::ShadingLight> lights;  // 0: ambient
   golden::ProcessorsConfig config;
   std::vector<std::uint32_t> draw;
 };
 template <class P>
-Told<P> told(const Scene& scene) {
+SetupWords<P> setup_words(const Scene& scene) {
   constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
-  Told<P> out;
+  SetupWords<P> out;
   const auto plan = plan_scene(scene, {.shader = Shader::processors, .preset = c_preset});
   if (!plan) return out;
   out.config = processors_config(plan->key);
@@ -105,7 +105,7 @@ Finding over_scenes(const Context& context, const tables::Format& format, See&& 
   const Seen seen{finding, format.fraction_bits};
   for (int i = 0; i < (context.quick ? 40 : 2000); ++i) {
     const RandomScene random(static_cast<std::uint64_t>(i));
-    const Told<P> words = told<P>(random.scene);
+    const SetupWords<P> words = setup_words<P>(random.scene);
     if (words.lights.size() != 13) {
       finding.failure = "the scene's lights did not come out";
       return finding;
@@ -120,34 +120,37 @@ Finding over_scenes(const Context& context, const tables::Format& format, See&& 
 template <class P>
 Finding light_intensity(const Context& context, const tables::PresetFormats&, const tables::Format& format,
                         const tables::Bound&) {
-  return over_scenes<P>(context, format, [](const Seen& seen, const Scene& scene, const Told<P>& words) {
-    for (int c = 0; c < 3; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      seen.word(words.lights[0].intensity[channel], 255 * scene.ambient[c], "an ambient light");
-      for (std::size_t i = 0; i < 4; ++i)
-        seen.word(words.lights[1 + i].intensity[channel], 255 * scene.directional[i].intensity[c], "a light");
-    }
-  });
+  return over_scenes<P>(
+      context, format, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+        for (int c = 0; c < 3; ++c) {
+          const auto channel = static_cast<std::size_t>(c);
+          seen.word(words.lights[0].intensity[channel], 255 * scene.ambient[c], "an ambient light");
+          for (std::size_t i = 0; i < 4; ++i)
+            seen.word(words.lights[1 + i].intensity[channel], 255 * scene.directional[i].intensity[c],
+                      "a light");
+        }
+      });
 }
 
 template <class P>
 Finding light_place(const Context& context, const tables::PresetFormats&, const tables::Format& format,
                     const tables::Bound&) {
-  return over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const Told<P>& words) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const glm::dvec3 place = scene.positional[i].position_world - scene.camera.eye_world;
-      // Setup chooses the power of two by which the largest component has the most bits.
-      const golden::Axes& axes = words.lights[5 + i].place;
-      int largest = 0;
-      for (int axis = 1; axis < 3; ++axis)
-        if (std::fabs(place[axis]) > std::fabs(place[largest])) largest = axis;
-      const double word =
-          std::ldexp(static_cast<double>(axes[static_cast<std::size_t>(largest)]), -format.fraction_bits);
-      const double scale = std::exp2(std::round(std::log2(word / place[largest])));
-      for (int axis = 0; axis < 3; ++axis)
-        seen.word(axes[static_cast<std::size_t>(axis)], scale * place[axis], "a light's place");
-    }
-  });
+  return over_scenes<P>(
+      context, format, [&](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+        for (std::size_t i = 0; i < 4; ++i) {
+          const glm::dvec3 place = scene.positional[i].position_world - scene.camera.eye_world;
+          // Setup chooses the power of two by which the largest component has the most bits.
+          const golden::Axes& axes = words.lights[5 + i].place;
+          int largest = 0;
+          for (int axis = 1; axis < 3; ++axis)
+            if (std::fabs(place[axis]) > std::fabs(place[largest])) largest = axis;
+          const double word =
+              std::ldexp(static_cast<double>(axes[static_cast<std::size_t>(largest)]), -format.fraction_bits);
+          const double scale = std::exp2(std::round(std::log2(word / place[largest])));
+          for (int axis = 0; axis < 3; ++axis)
+            seen.word(axes[static_cast<std::size_t>(axis)], scale * place[axis], "a light's place");
+        }
+      });
 }
 
 template <class P>
@@ -155,7 +158,7 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
                    const tables::Bound& bound) {
   const bool share = bound.of == "share";
   Finding finding =
-      over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const Told<P>& words) {
+      over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
         for (std::size_t i = 0; i < 4; ++i) {
           const double slope = 1 / (scene.spots[i].cos_inner - scene.spots[i].cos_outer);
           if (!share) {
@@ -189,19 +192,20 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
 template <class P>
 Finding coefficient(const Context& context, const tables::PresetFormats&, const tables::Format& format,
                     const tables::Bound&) {
-  return over_scenes<P>(context, format, [](const Seen& seen, const Scene& scene, const Told<P>& words) {
-    const golden::ProcessorsLayout<P> layout(words.config);
-    const Material& m = scene.materials[0];
-    const auto word = [&](int low) {
-      return static_cast<std::int64_t>(golden::get_bits(words.draw, {"", 0, P::c_coefficient_bits, false, 0},
-                                                        layout.init_material_low() + low));
-    };
-    for (int c = 0; c < 3; ++c) {
-      seen.word(word(layout.ambient_low(c)), m.ambient * m.colour[c], "a k_a");
-      seen.word(word(layout.diffuse_low(c)), m.diffuse * m.colour[c], "a k_d");
-      seen.word(word(layout.specular_low(c)), m.specular * m.specular_colour[c], "a k_s");
-    }
-  });
+  return over_scenes<P>(
+      context, format, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+        const golden::ProcessorsLayout<P> layout(words.config);
+        const Material& m = scene.materials[0];
+        const auto word = [&](int low) {
+          return static_cast<std::int64_t>(golden::get_bits(
+              words.draw, {"", 0, P::c_coefficient_bits, false, 0}, layout.init_material_low() + low));
+        };
+        for (int c = 0; c < 3; ++c) {
+          seen.word(word(layout.ambient_low(c)), m.ambient * m.colour[c], "a k_a");
+          seen.word(word(layout.diffuse_low(c)), m.diffuse * m.colour[c], "a k_d");
+          seen.word(word(layout.specular_low(c)), m.specular * m.specular_colour[c], "a k_s");
+        }
+      });
 }
 
 template <class P>
@@ -220,13 +224,14 @@ Finding exponent(const Context& context, const tables::PresetFormats&, const tab
     }
     return finding;
   }
-  return over_scenes<P>(context, format, [](const Seen& seen, const Scene& scene, const Told<P>& words) {
-    const golden::ProcessorsLayout<P> layout(words.config);
-    const auto word =
-        static_cast<std::int64_t>(golden::get_bits(words.draw, {"", 0, P::c_exponent_bits, false, 0},
-                                                   layout.init_material_low() + layout.exponent_low()));
-    seen.word(word, scene.materials[0].exponent, "an exponent");
-  });
+  return over_scenes<P>(
+      context, format, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+        const golden::ProcessorsLayout<P> layout(words.config);
+        const auto word =
+            static_cast<std::int64_t>(golden::get_bits(words.draw, {"", 0, P::c_exponent_bits, false, 0},
+                                                       layout.init_material_low() + layout.exponent_low()));
+        seen.word(word, scene.materials[0].exponent, "an exponent");
+      });
 }
 
 // The value of a plane plus half a step of vector, cut to a vector, as in processors_shader.

@@ -50,7 +50,7 @@ expect_full() { # what allowed-pattern command...
   [ "$status" = 3 ] || fail "$what: exit code $status: $(tail -n 3 "$scratch/log")"
   grep -q '/.*No space left on device' "$scratch/log" || fail "$what: does not say what is full: $(tail -n 3 "$scratch/log")"
   left=$(find "$disk" ! -type d ! -name ballast ! -name .lock | grep -Ev "$allowed")
-  [ -z "$left" ] || fail "$what: left behind: $left"
+  [ -z "$left" ] || fail "$what: files left over: $left"
   echo "$what: $(grep 'No space left on device' "$scratch/log" | tail -n 1)"
 }
 

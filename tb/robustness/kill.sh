@@ -104,7 +104,7 @@ done
 "${run[@]}" >"$scratch/log" 2>&1 || fail "the last run: $(cat "$scratch/log")"
 cmp <(results "$scratch/calm/matte/quadratic") <(results "$folder") || fail "results differ from the undisturbed run's"
 left=$(find "$folder" -name '*part*' -o -name '.halfway-*')
-[ -z "$left" ] || fail "left behind: $left"
+[ -z "$left" ] || fail "files left over: $left"
 
 # ---- make tables, alternately with two sizes
 tree=$scratch/tree
@@ -129,5 +129,5 @@ done
 # Temporary files older than a minute count as abandoned.
 find "$tree" -name '*.part-*' -exec touch -d '2 minutes ago' {} +
 tables "$tree" "${sizes[@]}" >/dev/null && tables "$tree" >/dev/null || fail "the last tables"
-diff -r "$scratch/usual" "$tree" >/dev/null || fail "the tables differ from the undisturbed run's, or something is left behind"
+diff -r "$scratch/usual" "$tree" >/dev/null || fail "the tables differ from the undisturbed run's, or a file is left over"
 exit "$failed"

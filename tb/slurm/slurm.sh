@@ -196,13 +196,13 @@ said() { # name, what
 }
 
 go_on() { # name, how many, what, arguments of the study...
-  local name=$1 most=$2 what=$3 anew
+  local name=$1 most=$2 what=$3 added
   shift 3
   "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
     fail "$name, which goes on: exit code $?: $(cat "$scratch/$name.log")"
-  anew=$(said "$name" "$what")
-  [ "$anew" = $((most - before)) ] || fail "$name: $anew $what, with $before there"
-  note "$name: killed with $before records, $anew $what when it went on"
+  added=$(said "$name" "$what")
+  [ "$added" = $((most - before)) ] || fail "$name: $added $what, with $before there"
+  note "$name: killed with $before records, $added $what when it went on"
 }
 
 # ---- Points: hardware, and software frames that need a task one or two seconds each
@@ -231,7 +231,7 @@ printf x | dd of="$damaged" bs=1 seek=2000 conv=notrunc status=none
 "$halfway" "${on_slurm[@]}" --out "$scratch/resumed" >"$scratch/resumed.log" 2>&1 ||
   fail "a damaged frame: exit code $?: $(cat "$scratch/resumed.log")"
 grep -q "note: $damaged: damaged; the point is measured again" "$scratch/resumed.log" ||
-  fail "a task found a damaged frame, which was not told: $(cat "$scratch/resumed.log")"
+  fail "a task found a damaged frame, which was not reported: $(cat "$scratch/resumed.log")"
 same_table resumed local
 
 # ---- Placements: one seed per task, of which one was placed by an earlier part

@@ -48,9 +48,9 @@ void roots_of(Trial& trial) {
   // Ends of the cells, from 1/4 to 4, in each octave.
   for (int octave = -2; octave < 2; ++octave)
     for (std::int64_t cell = 0; cell <= 1 << bits; ++cell)
-      for (const std::int64_t beside : {-1, 0, 1})
-        try_at(octave < 0 ? ((c_one + (cell << (c_fraction - bits))) >> -octave) + beside
-                          : ((c_one + (cell << (c_fraction - bits))) << octave) + beside);
+      for (const std::int64_t offset : {-1, 0, 1})
+        try_at(octave < 0 ? ((c_one + (cell << (c_fraction - bits))) >> -octave) + offset
+                          : ((c_one + (cell << (c_fraction - bits))) << octave) + offset);
   trial.require(Root::reciprocal(0) < (1U << Root::c_bits), [] { return "1/sqrt(0) leaves its format"; });
 }
 void roots(Trial& trial) {
@@ -125,8 +125,8 @@ std::vector<Axes> hard_vectors(int random_ones) {
   constexpr std::int64_t c_least = -(std::int64_t{1} << (Bits - 1)), c_most = -c_least - 1;
   std::vector<std::int64_t> values = {0, 1, -1, c_least, c_most};
   for (int k = 1; k < Bits - 1; k += 5)
-    for (const std::int64_t beside : {-1, 0, 1})
-      for (const std::int64_t sign : {-1, 1}) values.push_back(sign * ((std::int64_t{1} << k) + beside));
+    for (const std::int64_t offset : {-1, 0, 1})
+      for (const std::int64_t sign : {-1, 1}) values.push_back(sign * ((std::int64_t{1} << k) + offset));
   std::vector<Axes> vectors = {{1, 0, 0},
                                {0, 0, 1},
                                {-1, -1, -1},
@@ -196,9 +196,9 @@ void powers_of(Trial& trial) {
       0, 1, 2, 3, Power::c_one / 2 - 1, Power::c_one / 2, Power::c_one / 2 + 1};
   const int cells = golden::function_table<P>(golden::Function::logarithm).address_bits;
   for (std::int64_t cell = 0; cell <= 1 << cells; ++cell)
-    for (const std::int64_t beside : {-1, 0, 1})
+    for (const std::int64_t offset : {-1, 0, 1})
       bases.push_back(std::min<std::int64_t>(
-          Power::c_one / 2 + (cell << (Power::c_base_fraction - 1 - cells)) + beside, Power::c_one));
+          Power::c_one / 2 + (cell << (Power::c_base_fraction - 1 - cells)) + offset, Power::c_one));
   for (int i = 0; i < 40; ++i) bases.push_back(Power::c_one - i);
   const auto held = [](std::int64_t m) {
     return std::min<std::int64_t>(m, (std::int64_t{1} << P::c_exponent_bits) - 1);
@@ -206,7 +206,7 @@ void powers_of(Trial& trial) {
   std::vector<std::int64_t> exponents = {0, 1};
   const std::int64_t one = std::int64_t{1} << P::c_exponent_fraction_bits;
   for (const std::int64_t m : {1, 2, 3, 5, 20, 63, 64, 65, 1000, 1023, 4096, 8191})
-    for (const std::int64_t beside : {-1, 0, 1}) exponents.push_back(held(m * one + beside));
+    for (const std::int64_t offset : {-1, 0, 1}) exponents.push_back(held(m * one + offset));
   exponents.push_back(held(std::numeric_limits<std::int32_t>::max()));
   for (const std::int64_t m : exponents)
     for (const std::int64_t base : bases) {
@@ -267,8 +267,8 @@ void cosines(Trial& trial) {
                                     -(std::int64_t{3} << (2 * c_fraction + 2))};
   for (const std::int64_t at :
        {std::int64_t{0}, c_half, c_one / 2, c_one - c_half, c_one, c_one + c_half, 3 * c_one})
-    for (const std::int64_t beside : {-1, 0, 1})
-      for (const std::int64_t sign : {-1, 1}) dots.push_back(sign * (at + beside));
+    for (const std::int64_t offset : {-1, 0, 1})
+      for (const std::int64_t sign : {-1, 1}) dots.push_back(sign * (at + offset));
   for (const std::int64_t dot : dots) {
     const long double exact = std::clamp(real(dot, 2 * c_fraction), 0.0L, 1.0L);
     const long double cosine = real(golden::cosine<Exact>(dot), c_fraction);
@@ -319,9 +319,9 @@ void products(Trial& trial) {
 void ties(Trial& trial) {
   for (int bits = 0; bits <= 40; ++bits)
     for (std::int64_t whole = -3; whole <= 3; ++whole)
-      for (const std::int64_t beside : {-1, 0, 1}) {
+      for (const std::int64_t offset : {-1, 0, 1}) {
         const std::int64_t value =
-            bits == 0 ? whole : whole * (std::int64_t{1} << bits) + (std::int64_t{1} << (bits - 1)) + beside;
+            bits == 0 ? whole : whole * (std::int64_t{1} << bits) + (std::int64_t{1} << (bits - 1)) + offset;
         const long double exact = std::floor(real(value, bits) + 0.5L);
         const auto where = [&] { return fmt::format("{} without {} bits", value, bits); };
         trial.check(static_cast<long double>(golden::round_half_up(value, bits)) == exact, where);
@@ -333,11 +333,11 @@ void saturation(Trial& trial) {
   const auto clamped_floor = [](long double v) { return std::clamp(std::floor(v), 0.0L, 255.0L); };
   using Sum = golden::Word<40>;
   for (const std::int64_t whole : {-512, -256, -1, 0, 1, 127, 255, 256, 257, 511, 1023, 2047})
-    for (const std::int64_t beside : {-1, 0, 1}) {
-      const std::int64_t value = whole * (std::int64_t{1} << 28) + beside;
+    for (const std::int64_t offset : {-1, 0, 1}) {
+      const std::int64_t value = whole * (std::int64_t{1} << 28) + offset;
       const auto word = Sum::from_bits(static_cast<std::uint64_t>(value));
       const long double wanted = clamped_floor(real(word.value(), 28));
-      const auto where = [&] { return fmt::format("{} and {} 2^-28", whole, beside); };
+      const auto where = [&] { return fmt::format("{} and {} 2^-28", whole, offset); };
       trial.ours(std::abs(golden::saturate<40, 28, 8>(word) - wanted), 0, where);
     }
   for (const std::uint64_t each : {0ULL, 1ULL, 255ULL << 16, (255ULL << 16) / 33, (1ULL << 40) - 1}) {
@@ -379,9 +379,8 @@ constexpr HardCase c_cases[] = {
     {"unit_vectors", "Vectors of one last place, and the least there are",
      "processors, section 4: N/abs(N) in fixed point", "a block shift before the square",
      "a unit vector within 2^-19", "length of the difference", PublishedForm::breaks, unit_vectors},
-    {"powers", "Powers of 0, of 1 and beside it, exponents to 8191",
-     "processors, section 4: the power by a table", "log2 and 2^-x interpolated", "within 2^-15 + m 2^-23",
-     "of the peak", PublishedForm::breaks, powers},
+    {"powers", "Powers of 0, near 0 and 1, exponents to 8191", "processors, section 4: the power by a table",
+     "log2 and 2^-x interpolated", "within 2^-15 + m 2^-23", "of the peak", PublishedForm::breaks, powers},
     {"cosines", "N.L and N.H out of [0, 1] by rounding",
      "processors, section 2: N.A of vectors that are not quite unit", "0 below 0, 1 above 1, rounded",
      "within half a last place", "2^-22", PublishedForm::breaks, cosines},

@@ -418,7 +418,7 @@ constexpr HardCase c_cases[] = {
      "no pixel's centre lies in it, and nothing is set up", c_once, "pixels", PublishedForm::breaks, no_area},
     {"neighbours", "Triangles around a corner", c_ends, "a centre on an edge belongs to one side",
      "each pixel once", "pixels", PublishedForm::breaks, neighbours},
-    {"t_junctions", "A split triangle beside a whole one, levels 1 to 5",
+    {"t_junctions", "A split triangle next to a whole one, levels 1 to 5",
      "quadratic, section 4: midpoints become pixels, and leave the edge",
      "a bit more for each level: midpoints stay on the edge", "each pixel once (published: no cracks)",
      "pixels", PublishedForm::breaks, t_junctions},

@@ -449,7 +449,7 @@ constexpr HardCase c_cases[] = {
     {"products_held", "k and I past their formats", "processors: intensities and coefficients are integers",
      "k up to 16, I and k I up to 64 times white; what is held is noted",
      "the illumination model of what is held", "colour steps", PublishedForm::breaks, products_held},
-    {"scales", "Scenes from 10^-30 to 10^30", "processors: a unit E beside P_p − P",
+    {"scales", "Scenes from 10^-30 to 10^30", "processors: a unit E added to P_p − P",
      "every scale is a power of two", "the illumination model within the units' errors", "colour steps",
      PublishedForm::breaks, scales},
     {"near_the_eye", "Surfaces and lights right before the eye",
@@ -460,7 +460,7 @@ constexpr HardCase c_cases[] = {
      "each carries its own N and material", "the illumination model within the units' errors", "colour steps",
      PublishedForm::breaks, objects_at_a_pixel},
     {"lights_between_frames", "Lights redefined and deleted between frames",
-     "processors, section 3: redefine, delete", "a register of validity beside each light's",
+     "processors, section 3: redefine, delete", "a register of validity for each light's",
      "each frame as it is alone", "frames that differ", PublishedForm::holds, lights_between_frames},
 };
 

@@ -441,8 +441,8 @@ constexpr HardCase c_cases[] = {
      "exact rationals, rounded once; sums wrap", "the plane at the pixel's centre, rounding and drift",
      "depth steps", PublishedForm::breaks, sliver_depths},
     {"depth_ends", "Depth at near and far plane",
-     "quadratic, section 5: pixels beside the triangle, whose depth wraps",
-     "no pixel beside it; depths a step clear of the ends",
+     "quadratic, section 5: pixels next to the triangle, whose depth wraps",
+     "no pixel outside it; depths one step from the ends",
      "the plane at the pixel's centre, rounding and drift", "depth steps", PublishedForm::breaks, depth_ends},
 };
 

@@ -291,7 +291,7 @@ int main(int argc, char** argv) {
         fmt::format("--{}", search->name()),
         [&options, name = search->name()](std::uint64_t count) { options.counts[name] = count; },
         "this search, with so many inputs; those not named are left out");
-  app.add_option("--page", options.page, "file in which the searches' sections are written anew");
+  app.add_option("--page", options.page, "file in which the searches' sections are written again");
   app.add_option("--keep", options.keep, "folder for inputs that fail");
   app.add_option("--replay", options.replay, "checks the inputs of this folder instead");
   app.add_option("SOURCE", options.source, "the project's root")->required();

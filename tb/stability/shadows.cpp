@@ -136,8 +136,8 @@ void off_the_edge(const std::vector<Seen>& seen, FrameSize frame, Sum& sum, Wron
         bool at_edge = false;
         for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, frame.height); ++v)
           for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, frame.width); ++u) {
-            const Seen& beside = seen[std::size_t{v} * frame.width + u];
-            at_edge = at_edge || beside.piece == nullptr || beside.wanted[light] != pixel.wanted[light];
+            const Seen& neighbour = seen[std::size_t{v} * frame.width + u];
+            at_edge = at_edge || neighbour.piece == nullptr || neighbour.wanted[light] != pixel.wanted[light];
           }
         ++sum.pixels;
         sum.at_edge += at_edge;

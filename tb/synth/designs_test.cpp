@@ -31,9 +31,9 @@ std::vector<std::string> names() {
 TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   auto sources = read_rtl_sources(c_root);
   ASSERT_TRUE(sources) << sources.error().message;
-  auto beside = read_vhdl_source(c_root, c_accumulator);
-  ASSERT_TRUE(beside) << beside.error().message;
-  sources->push_back(std::move(*beside));
+  auto accumulator = read_vhdl_source(c_root, c_accumulator);
+  ASSERT_TRUE(accumulator) << accumulator.error().message;
+  sources->push_back(std::move(*accumulator));
   const std::regex entity(R"((?:^|\n)entity (\w+) is)");
   std::set<std::string> there, listed;
   for (const VhdlSource& source : *sources)

@@ -341,9 +341,9 @@ class Run {
       if (!netlist) return netlist.error();
       std::string no_room;
       if (!options_.cells) {
-        const auto told = synthesizer_.no_room(design);
-        if (!told) return told.error();
-        no_room = *told;
+        const auto text = synthesizer_.no_room(design);
+        if (!text) return text.error();
+        no_room = *text;
       }
       const std::lock_guard lock(mutex_);
       f.ice40 = *cells;
@@ -414,8 +414,8 @@ class Run {
     const Status written = write_pins(options_.folders.source / c_pins, pins_, synthesizer_.versions());
     if (!written) return written.error();
     if (!options_.readme.empty())
-      if (const Status told = write_readme(options_.readme, options_.folders.source / c_pins); !told)
-        return told.error();
+      if (const Status written = write_readme(options_.readme, options_.folders.source / c_pins); !written)
+        return written.error();
     fmt::print("{} designs are pinned\n", pinned);
     if (hasty > 0)
       cli::say(fmt::format(
@@ -493,7 +493,7 @@ int main(int argc, char** argv) {
   auto* quick = app.add_flag("--quick", options.quick, "small designs, without ECP5");
   auto* cells = app.add_flag("--cells", options.cells, "no place and route");
   auto* pin =
-      app.add_flag("--pin", options.pin, "write the figures into the pinned file in place of comparing")
+      app.add_flag("--pin", options.pin, "write the figures into the pinned file instead of comparing")
           ->excludes(quick)
           ->excludes(cells);
   app.add_flag("--check", options.check, "measure nothing: only look whether what is asked for can be");

@@ -56,7 +56,7 @@ class RandomTriangles {
       return ScreenPoint{within(-w / 4 * unit - unit, (w + w / 4) * unit + unit),
                          within(-h / 4 * unit - unit, (h + h / 4) * unit + unit)};
     };
-    const auto beside = [&](ScreenPoint p, int by) {
+    const auto nearby = [&](ScreenPoint p, int by) {
       return ScreenPoint{p.x + within(-by, by), p.y + within(-by, by)};
     };
     Points p = {about_frame(), about_frame(), about_frame()};
@@ -64,10 +64,10 @@ class RandomTriangles {
       case TriangleKind::any:
         break;
       case TriangleKind::small:
-        p = {p[0], beside(p[0], 4 * unit), beside(p[0], 4 * unit)};
+        p = {p[0], nearby(p[0], 4 * unit), nearby(p[0], 4 * unit)};
         break;
       case TriangleKind::subpixel:
-        p = {p[0], beside(p[0], unit / 2), beside(p[0], unit / 2)};
+        p = {p[0], nearby(p[0], unit / 2), nearby(p[0], unit / 2)};
         break;
       case TriangleKind::one_line: {
         p = {anywhere(), anywhere(), anywhere()};
@@ -81,7 +81,7 @@ class RandomTriangles {
         const std::int64_t t = within(0, 64);
         const ScreenPoint on_edge = {static_cast<std::int32_t>(p[0].x + t * (p[1].x - p[0].x) / 64),
                                      static_cast<std::int32_t>(p[0].y + t * (p[1].y - p[0].y) / 64)};
-        p[2] = beside(on_edge, kind == TriangleKind::sliver ? 1 : 20);
+        p[2] = nearby(on_edge, kind == TriangleKind::sliver ? 1 : 20);
         break;
       }
       case TriangleKind::horizontal_edge:

@@ -66,7 +66,7 @@ void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
   // The speed of a core changes with time, so compare several threads with one thread of the same repetition.
   // The best time of one thread over all repetitions would be a moment in which all cores were fast.
   struct Ratios {
-    std::vector<double> speed, processor, yardstick, beside;
+    std::vector<double> speed, processor, yardstick, speed_over_yardstick;
   };
   std::vector<Ratios> all(most);
   const std::size_t pieces = c_frames * parts.size();
@@ -97,7 +97,7 @@ void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
       ratios.speed.push_back(speed);
       ratios.processor.push_back(took.processor / one.processor);
       ratios.yardstick.push_back(yardstick);
-      ratios.beside.push_back(speed / yardstick);
+      ratios.speed_over_yardstick.push_back(speed / yardstick);
     }
   }
   for (unsigned threads = 1; threads <= most; ++threads) {
@@ -105,7 +105,7 @@ void measure_cores(const char* shader, const InitBatches& s, Json& rows) {
     const double speed = median(of.speed);
     rows.push_back({shader, std::to_string(threads), fmt::format("{:.2f}", speed), percent(speed / threads),
                     fmt::format("{:.2f}", median(of.processor)), percent(median(of.yardstick) / threads),
-                    percent(median(of.beside))});
+                    percent(median(of.speed_over_yardstick))});
   }
 }
 
