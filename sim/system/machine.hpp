@@ -6,7 +6,7 @@
 
 namespace halfway {
 
-/// For example "4 cores of AMD EPYC, 15 GiB".
+/// For example "4 cores of AMD EPYC, AVX2, 15 GiB".
 std::string machine();
 
 /// For example "Debian GNU/Linux 12 (bookworm)".
