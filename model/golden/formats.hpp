@@ -467,7 +467,7 @@ struct Published {
   //   samples: off by at most 8e-07 colour steps: 5 / 3 * u / 2
   static constexpr int c_intensity_bits = 32;
   static constexpr int c_intensity_fraction_bits = 20;
-  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps
+  // s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator. That it wraps at the bell's ends is our reading. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps
   //   off by at most 1 half bells: (1 + pixels) * u / 2
   static constexpr int c_angle_bits = 12;
   static constexpr int c_angle_fraction_bits = 11;
@@ -479,7 +479,7 @@ struct Published {
   //   off by at most 1.5 steps of vector: (1 + k) * u / 2 / u_vector
   static constexpr int c_plane_sum_bits = 28;
   static constexpr int c_plane_sum_fraction_bits = 26;
-  // s1.14: 16 bits: the processors paper names no width; interpolated N and P, plane_sum rounded
+  // s1.14: 16 bits: the processors paper's text gives no width; interpolated N and P, plane_sum rounded
   //   off by at most 2^-15: u / 2
   static constexpr int c_vector_bits = 16;
   static constexpr int c_vector_fraction_bits = 14;

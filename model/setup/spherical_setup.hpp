@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Setup of the spherical shader: converts the scene's triangles to headers and line records. For each line
-// and light the cosine between two turning directions (spherical paper, equations 14 to 18) becomes an angle,
+// and light the cosine between two turning directions (spherical paper, equations 15 to 18) becomes an angle,
 // its step per pixel, and a factor.
 #pragma once
 

@@ -17,7 +17,8 @@ inline constexpr double c_largest_radiance = 1e12;
 
 // The terms as functions of plain numbers: cosines and sines of angles between unit vectors.
 
-/// base^exponent, 0 for base <= 0: (N.H)^n of Blinn, (R.V)^n of Phong (spherical, equations 4 and 5).
+/// base^exponent, 0 for base <= 0: (R.V)^n of Phong (spherical, equation 4), (N.H)^n of Blinn (spherical,
+/// equation 5).
 double highlight_power(double base, double exponent);
 
 /// Beckmann's density of microfacet normals at the angle between N and H (P of spherical, equation 7),

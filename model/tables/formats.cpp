@@ -233,8 +233,10 @@ std::vector<Format> published_formats() {
        true,
        0,
        11,
-       "12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the "
-       "bell's ends. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps",
+       "12 bits, the upper 6 of them the address: the spherical paper's line interpolator. That it wraps at "
+       "the "
+       "bell's ends is our reading. Start and slope are each off by at most half a unit: 8 addresses after "
+       "1023 steps",
        {off_by(1, "half bells", "(1 + pixels) * u / 2")}},
       {"power", false, 0, 0, "only cosine squared", {at_most(0, "0")}},
       {"plane_sum",
@@ -247,7 +249,7 @@ std::vector<Format> published_formats() {
        true,
        1,
        14,
-       "16 bits: the processors paper names no width; interpolated N and P, plane_sum rounded",
+       "16 bits: the processors paper's text gives no width; interpolated N and P, plane_sum rounded",
        {off_by(0x1p-15, "", "u / 2")}},
       {"direction",
        true,

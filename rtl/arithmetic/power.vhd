@@ -9,7 +9,7 @@
 -- Throughput  1 per clock
 -- Error       exact 2**-15 + exponent * 2**-23; published, in steps of 1/255: 2.0 at exponent 1, 9.8 at 10, 45 at 50,
 --             83 at 100, because a cell of the logarithm is 1/64 wide
--- Source      processors paper, section 3 (the power by a table). The logarithms are ours, because a table for all
+-- Source      processors paper, section 3.1 (the power by a table). The logarithms are ours, because a table for all
 --             exponents is too large
 -- Golden twin model/golden/power.hpp
 

@@ -8,7 +8,7 @@
 -- Throughput  1 per clock
 -- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.5, or
 --             2**-6.86, of 1
--- Source      processors paper, section 3 (1/sqrt by a table); the Newton step is ours
+-- Source      processors paper, section 3.3 and figure 2 (1/sqrt by a table); the Newton step is ours
 -- Golden twin model/golden/reciprocal_root.hpp
 
 library ieee;

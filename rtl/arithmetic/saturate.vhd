@@ -7,7 +7,8 @@
 -- Latency     0 (combinational)
 -- Throughput  1 result per clock
 -- Error       [0, 1) below the value inside the range
--- Source      quadratic paper, section 5 (the 0.5 in the start value)
+-- Source      quadratic paper, section 5 (0.5 is added, then the fraction is dropped); that the start value has the 0.5 is
+--             ours
 -- Golden twin model/golden/saturate.hpp
 
 library ieee;

@@ -8,7 +8,7 @@
 -- Latency     1 clock with enable (shading_pkg)
 -- Throughput  1 vector per clock
 -- Error       (-1, 0] of the result's last bit: lower bits are dropped
--- Source      ours: the processors paper names no word lengths
+-- Source      ours: the processors paper's text gives no word lengths
 -- Golden twin model/golden/vector_shift.hpp
 
 library ieee;

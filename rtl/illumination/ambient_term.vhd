@@ -14,7 +14,8 @@
 --             three components, x lowest
 -- Latency     times of terms_pkg: term
 -- Throughput  1 token per clock
--- Source      processors paper, equation 1, figure 2 and section 3.2: the first processor also normalizes N
+-- Source      processors paper, equation 1; table 4 (it also normalizes N); section 3.2 (the first processor computes the
+--             ambient light)
 -- Golden twin model/golden/ambient_term.hpp
 
 library ieee;

@@ -6,7 +6,7 @@
 -- Latency     1 clock from load to part 0 of value; value holds skewed words
 -- Throughput  1 load per clock
 -- Error       none
--- Source      none: the papers leave out what holds their parameters
+-- Source      parameter_register; the parts are ours
 -- Golden twin model/golden/parameter_register.hpp
 
 library ieee;

@@ -14,7 +14,8 @@
 -- Formats     formats_pkg: pixel (the token's header); the other bits are not read
 -- Latency     1 clock
 -- Throughput  1 token per clock, for any order of columns
--- Source      processors paper, section 3.3: shadow polygons count if they are nearer than the object
+-- Source      processors paper, section 2 (the z-buffer) and section 3.3 (shadow polygons open and close); that
+--             only those nearer than the object count is our reading
 -- Golden twin model/golden/object_stage.hpp
 
 library ieee;

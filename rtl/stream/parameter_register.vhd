@@ -5,7 +5,8 @@
 -- Latency     1 clock from load to value
 -- Throughput  1 load per clock
 -- Error       none
--- Source      ours: the papers do not show registers of parameters
+-- Source      processors paper, section 3.2 (the registers of the loading mode); spherical paper, section 4 (parameters
+--             are loaded for each line)
 -- Golden twin model/golden/parameter_register.hpp
 
 library ieee;

@@ -10,7 +10,7 @@
 -- Latency     2 clocks from in_valid to out_valid
 -- Throughput  1 word per clock, if each word comes at most 2**g_index_bits - 4 clocks after its claim
 -- Error       none: each word comes out once, unchanged, in order
--- Source      ours: in the papers the receiver never stalls
+-- Source      ours: the papers show no receiver that stalls
 -- Golden twin model/golden/stream_queue.hpp
 
 library ieee;

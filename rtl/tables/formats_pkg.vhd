@@ -226,7 +226,7 @@ package formats_pkg is
     --   off by at most 16 colour steps: (1 + k_published + k_published * (k_published - 1) / 2) * u / 2
     --   samples: off by at most 8e-07 colour steps: 5 / 3 * u / 2
     intensity => (32, 20),
-    -- s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator; wraps at the bell's ends. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps
+    -- s0.11: 12 bits, the upper 6 of them the address: the spherical paper's line interpolator. That it wraps at the bell's ends is our reading. Start and slope are each off by at most half a unit: 8 addresses after 1023 steps
     --   off by at most 1 half bells: (1 + pixels) * u / 2
     angle => (12, 11),
     -- u0.0: only cosine squared
@@ -235,7 +235,7 @@ package formats_pkg is
     -- s1.26: first differences, each word off by at most half a unit
     --   off by at most 1.5 steps of vector: (1 + k) * u / 2 / u_vector
     plane_sum => (28, 26),
-    -- s1.14: 16 bits: the processors paper names no width; interpolated N and P, plane_sum rounded
+    -- s1.14: 16 bits: the processors paper's text gives no width; interpolated N and P, plane_sum rounded
     --   off by at most 2^-15: u / 2
     vector => (16, 14),
     -- s1.14: 16 bits, so that an N that is not normalized is not changed; otherwise as in preset exact, but vectors of at most 17 bits are cut, by a quarter of a unit

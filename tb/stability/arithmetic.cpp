@@ -374,13 +374,14 @@ void shifts(Trial& trial) {
 }
 
 constexpr HardCase c_cases[] = {
-    {"roots", "1/sqrt at the borders of its cells", "processors, section 4: a table of 1/sqrt(x)",
+    {"roots", "1/sqrt at the borders of its cells", "processors, section 3.3: a table of 1/sqrt(x)",
      "512 entries and a Newton step", "within 2^-19", "relative error", PublishedForm::breaks, roots},
     {"unit_vectors", "Vectors of one last place, and the least there are",
-     "processors, section 4: N/abs(N) in fixed point", "a block shift before the square",
+     "processors, figure 2: N/abs(N) in fixed point", "a block shift before the square",
      "a unit vector within 2^-19", "length of the difference", PublishedForm::breaks, unit_vectors},
-    {"powers", "Powers of 0, near 0 and 1, exponents to 8191", "processors, section 4: the power by a table",
-     "log2 and 2^-x interpolated", "within 2^-15 + m 2^-23", "of the peak", PublishedForm::breaks, powers},
+    {"powers", "Powers of 0, of 1 and close to 1, exponents to 8191",
+     "processors, section 3.1: the power by a table", "log2 and 2^-x interpolated", "within 2^-15 + m 2^-23",
+     "of the peak", PublishedForm::breaks, powers},
     {"cosines", "N.L and N.H out of [0, 1] by rounding",
      "processors, section 2: N.A of vectors that are not quite unit", "0 below 0, 1 above 1, rounded",
      "within half a last place", "2^-22", PublishedForm::breaks, cosines},

@@ -398,7 +398,8 @@ void lights_between_frames(Trial& trial) {
 
 constexpr HardCase c_cases[] = {
     {"halfway_vectors", "A light's distance in the halfway vector",
-     "processors, table of terms: (E + P_p − P)/abs(E + P_p − P) adds a unit vector and one of the light's "
+     "processors, table 2 and equation 3: (E + P_p − P)/abs(E + P_p − P) adds a unit vector and one of the "
+     "light's "
      "distance",
      "L is made unit before V is added", "the illumination model within the units' errors", "colour steps",
      PublishedForm::breaks, halfway_vectors},
@@ -420,9 +421,9 @@ constexpr HardCase c_cases[] = {
     {"light_at_the_eye", "A light at the eye", "processors: a constant E",
      "V of each point, from the view ray", "the illumination model within the units' errors", "colour steps",
      PublishedForm::breaks, light_at_the_eye},
-    {"no_halfway", "L = −V: the halfway vector 0/0",
-     "processors and spherical, equation 1: (L + V)/abs(L + V)", "a zero vector stays one, without light",
-     "the illumination model within the units' errors", "colour steps", PublishedForm::breaks, no_halfway},
+    {"no_halfway", "L = −V: the halfway vector 0/0", "spherical, equation 6: (L + V)/abs(L + V)",
+     "a zero vector stays one, without light", "the illumination model within the units' errors",
+     "colour steps", PublishedForm::breaks, no_halfway},
     {"opposed_normals", "Normals opposed, or zero", "processors: N/abs(N), 0/0",
      "a zero vector stays one; a flat face's own normal",
      "the illumination model within the units' errors, which where N vanishes is any", "colour steps",
@@ -431,7 +432,7 @@ constexpr HardCase c_cases[] = {
      "processors: I_out = I_in + k I (N.H)^m, whatever N.L is", "no highlight where N.L <= 0",
      "the illumination model within the units' errors", "colour steps", PublishedForm::breaks,
      below_the_horizon},
-    {"exponents", "Exponents from 1 to 8191 and past them", "processors, section 4: the power by a table",
+    {"exponents", "Exponents from 1 to 8191 and past them", "processors, section 3.1: the power by a table",
      "log2 and 2^-x interpolated; held at 8192, and noted", "the illumination model within the units' errors",
      "colour steps", PublishedForm::breaks, exponents},
     {"narrow_spots", "Spots as narrow as 0.1 degrees",
@@ -444,8 +445,9 @@ constexpr HardCase c_cases[] = {
      "the illumination model within the units' errors: at the edge's own pixels any share of the light",
      "colour steps", PublishedForm::breaks, hard_spots},
     {"sums_past_white", "Sums past white over 33 processors",
-     "processors, section 2: I_out = I_in + k I (N.A)^x, integers", "22 bits of radiance, saturating",
-     "the illumination model, at most white", "colour steps", PublishedForm::breaks, sums_past_white},
+     "processors, equation 5 and section 3.1: I_out = I_in + k I (N.A)^x, integers",
+     "22 bits of radiance, saturating", "the illumination model, at most white", "colour steps",
+     PublishedForm::breaks, sums_past_white},
     {"products_held", "k and I past their formats", "processors: intensities and coefficients are integers",
      "k up to 16, I and k I up to 64 times white; what is held is noted",
      "the illumination model of what is held", "colour steps", PublishedForm::breaks, products_held},
@@ -456,11 +458,11 @@ constexpr HardCase c_cases[] = {
      "processors: N and P straight across the screen",
      "the near plane cuts; planes hold 2^13 times what is drawn",
      "the illumination model within the units' errors", "colour steps", PublishedForm::breaks, near_the_eye},
-    {"objects_at_a_pixel", "Many objects at one pixel", "processors, section 3: new object",
+    {"objects_at_a_pixel", "Many objects at one pixel", "processors, section 3.2: new object",
      "each carries its own N and material", "the illumination model within the units' errors", "colour steps",
      PublishedForm::breaks, objects_at_a_pixel},
     {"lights_between_frames", "Lights redefined and deleted between frames",
-     "processors, section 3: redefine, delete", "a register of validity for each light's",
+     "processors, section 3.2: redefine, delete", "a valid bit for each light",
      "each frame as it is alone", "frames that differ", PublishedForm::holds, lights_between_frames},
 };
 
