@@ -249,7 +249,7 @@ stability: configure ## test hard cases in specification, golden model and RTL
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability
 	@$(call sweep,all)
 
-search: configure ## test random triangles in golden model and RTL; reduce and store a failing input (TRIANGLES, SEED)
+search: configure ## test random triangles and scenes in the golden model, some of them in the RTL; reduce and store a failing input (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
 	  --page=docs/results/hard_cases.md --keep=tb/stability/regressions .
