@@ -15,7 +15,7 @@
 namespace halfway {
 
 /// Which part of the system computes an effect in a given shader.
-enum class DoneBy { hardware, host, nobody };
+enum class DoneBy { hardware, host, none };
 
 struct PlannedEffect {
   Effect effect;

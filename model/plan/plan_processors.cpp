@@ -138,7 +138,7 @@ class Planner {
         other.channels = key_.channels == 1 ? 3 : 1;
         return in_hardware(effect, "separate channels", key_.channels == 3, other);
       case Effect::subdivision: {
-        PlannedEffect out = planned(calls_, effect, DoneBy::nobody, "not needed");
+        PlannedEffect out = planned(calls_, effect, DoneBy::none, "not needed");
         out.called_for = false;
         out.why = "each pixel is shaded separately";
         return out;
@@ -147,7 +147,7 @@ class Planner {
         break;
     }
     if (exact) return planned(calls_, effect, DoneBy::host, "planes of values that are linear on the screen");
-    return planned(calls_, effect, DoneBy::nobody, "as published, N and P are linear on the screen");
+    return planned(calls_, effect, DoneBy::none, "as published, N and P are linear on the screen");
   }
 
  private:

@@ -33,7 +33,7 @@ PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKe
     case Effect::depth:
       return always_elaborated(calls, effect, "");
   }
-  return planned(calls, effect, DoneBy::nobody, "not by this shader");
+  return planned(calls, effect, DoneBy::none, "not by this shader");
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ class Planner {
       case Effect::shadow:
         break;
     }
-    return planned(calls_, effect, DoneBy::nobody,
+    return planned(calls_, effect, DoneBy::none,
                    effect == Effect::shadow ? "not by this shader" : "not by preset published");
   }
 

@@ -146,7 +146,7 @@ TEST(Plan, ShadowsAreNeededOnlyWithReflectedLight) {
     EXPECT_EQ(shadow(scene).why, "the scene has no shadows");
     scene.shadows = true;
     EXPECT_TRUE(shadow(scene).called_for);
-    EXPECT_EQ(shadow(scene).by, DoneBy::nobody);
+    EXPECT_EQ(shadow(scene).by, DoneBy::none);
     scene.directional.clear();
     EXPECT_FALSE(shadow(scene).called_for);
     EXPECT_EQ(shadow(scene).why, "no light shines");

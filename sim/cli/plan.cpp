@@ -93,7 +93,7 @@ void print_effects(const Plan& plan, const std::optional<PlanUnits>& units, cons
   for (std::size_t i = 0; i < plan.effects.size(); ++i) {
     const PlannedEffect& e = plan.effects[i];
     const char* by = e.by == DoneBy::hardware ? "hardware" : e.by == DoneBy::host ? "host" : "-";
-    const bool done = e.called_for || e.elaborated || e.by == DoneBy::nobody;
+    const bool done = e.called_for || e.elaborated || e.by == DoneBy::none;
     fmt::print("{:<23} {:<4} {:<9} {}{}{}\n", to_string(e.effect), e.called_for ? "yes" : "no", by,
                printable(e.why), done && !e.how.empty() ? "; " : "", done ? e.how : "");
     if (!units || units->effects[i].empty()) continue;

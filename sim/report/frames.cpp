@@ -83,8 +83,8 @@ Status add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCo
     for (const auto& [unit, count] : *counted) units.push_back(fmt::format("{}\u00a0{}", count, unit));
     std::string text = effect.by == DoneBy::hardware ? "hardware"
                        : effect.by == DoneBy::host   ? "host"
-                                                     : "nobody";
-    if ((effect.called_for || effect.elaborated || effect.by == DoneBy::nobody) && !effect.how.empty())
+                                                     : "none";
+    if ((effect.called_for || effect.elaborated || effect.by == DoneBy::none) && !effect.how.empty())
       text += "; " + effect.how;
     row["by"].push_back({{"text", text}, {"units", nullptr}});
     if (!units.empty())
