@@ -8,7 +8,8 @@
 -- Latency     0 (combinational)
 -- Throughput  1 address per clock
 -- Error       none: the address is exactly the cell that contains the angle
--- Source      spherical paper, section 4: the upper bits of the line interpolator address the ROM. in_range is ours
+-- Source      spherical paper, section 4: the upper bits of the line interpolator address the ROM. in_range is ours: the
+--             paper's bell is zero outside, and that its angle wraps is our reading
 -- Golden twin model/golden/angle_address.hpp
 
 library ieee;
