@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sim/figures/check.hpp"
+#include "sim/figures/cut_lines.hpp"
 #include "sim/figures/pictures.hpp"
 #include "sim/figures/plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
@@ -344,6 +345,30 @@ TEST(SixPointFit, GoesThroughTheSixPointsByOneDivision) {
   EXPECT_EQ(counts.additions, 2);
   EXPECT_EQ(counts.multiplications, 2);
   EXPECT_EQ(counts.divisions, 1);
+}
+
+// The same picture and the same vectors where no highlight leaves its bell; where the register would wrap,
+// more records and no ghost highlight.
+TEST(CutLines, AreCutOnlyWhereABellEnds) {
+  constexpr FrameSize c_size{160, 120};
+  const Context golden{.quick = true};
+  const PlanRequest plan{.shader = Shader::spherical, .preset = Preset::published};
+  Scene scene = sphere_scene(17, 12, 20.0);
+  const ReferenceImage phong = draw_in_software(scene, c_size, 1).phong;
+  const Hardware wrapping = draw_in_hardware(golden, scene, c_size, plan);
+  const CutLines cut = draw_with_cut_lines(scene, c_size);
+  EXPECT_GT(cut.vectors, wrapping.counts.vectors);
+  EXPECT_GT(cut.records, wrapping.counts.records);
+  EXPECT_LT(cut.records, 2 * wrapping.counts.records);
+  const double ghosts_db = distance(wrapping.frame, phong.frame, phong.mask).psnr_db;
+  EXPECT_GT(distance(cut.frame, phong.frame, phong.mask).psnr_db, ghosts_db + 6.0);
+
+  scene.materials[0].specular = 0.0;
+  const Hardware matte = draw_in_hardware(golden, scene, c_size, plan);
+  const CutLines same = draw_with_cut_lines(scene, c_size);
+  EXPECT_EQ(same.frame.rgb, matte.frame.rgb);
+  EXPECT_EQ(same.vectors, matte.counts.vectors);
+  EXPECT_EQ(same.records, matte.counts.records);
 }
 
 TEST(TimingTrace, MeasuresTheTimeFromAnInputsChangeToItsOwn) {
