@@ -338,6 +338,11 @@ TEST(SixPointFit, GoesThroughTheSixPointsByOneDivision) {
   EXPECT_NEAR(fit.at(c_x3 / 2, c_y3 / 2), c_values[4], 1e-14);
   EXPECT_NEAR(fit.at((c_x2 + c_x3) / 2, (c_y2 + c_y3) / 2), c_values[5], 1e-14);
 
+  const auto printed = fit_six_points_as_printed(c_x2, 1.0, c_x3, c_y3, c_values),
+             ours = fit_six_points(c_x2, 1.0, c_x3, c_y3, c_values);
+  for (const auto& [x, y] : {std::pair{0.0, 0.0}, {7.0, 1.0}, {2.0, 6.0}, {3.5, 0.5}, {1.0, 3.0}, {1.3, 2.2}})
+    EXPECT_NEAR(printed.at(x, y), ours.at(x, y), 1e-13) << x << ", " << y;
+
   OperationCounts counts;
   const auto counted = [&](double v) { return CountedNumber(v, counts); };
   EXPECT_EQ((2.0 * counted(3.0) - counted(1.0) * (counted(1.0) + counted(4.0))).value(), 1.0);

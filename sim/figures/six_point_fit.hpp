@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadratic through a triangle's three vertices and three edge midpoints, computed with one division. The
-// number type is a parameter, so that its operations can be counted.
+// The quadratic through a triangle's three vertices and three edge midpoints: with one division, and as
+// printed, with five. The number type is a parameter, so that the operations of both can be counted.
 #pragma once
 
 #include <array>
@@ -40,6 +40,25 @@ QuadraticCoefficients<Value> fit_six_points(Scalar x2, Scalar y2, Scalar x3, Sca
           i1};
 }
 
+/// The same by the formulas of section 3 of the quadratic paper. Each value is computed once, and the factor
+/// 4 of C23 is taken out. It divides by zero if y2 = 0.
+template <class Scalar>
+QuadraticCoefficients<Scalar> fit_six_points_as_printed(Scalar x2, Scalar y2, Scalar x3, Scalar y3,
+                                                        const std::array<Scalar, 6>& values) {
+  const auto& [i1, i2, i3, i12, i13, i23] = values;
+  const Scalar c2 = 4.0 * i12 - 3.0 * i1 - i2, c12 = i1 + i2 - 2.0 * i12;
+  const Scalar c3 = 4.0 * i13 - 3.0 * i1 - i3, c13 = i1 + i3 - 2.0 * i13;
+  const Scalar c23 = 4.0 * (i1 - i12 - i13 + i23);
+  const Scalar area = x2 * y3 - y2 * x3;
+  const Scalar a = 2.0 * x2 * x2 * y3 - 2.0 * x2 * y2 * x3, b = y2 * x3 * y3 - x2 * y3 * y3;
+  const Scalar c = x2 * y2 * y3 - y2 * y2 * x3, d = 2.0 * y2 * x3 * x3 - 2.0 * x2 * x3 * y3;
+  const Scalar e = 4.0 * c13 * y2 - c23 * y3, f = 4.0 * c12 * y3 - c23 * y2;
+  const Scalar below = a * b - c * d;
+  const Scalar t4 = (e * a - f * d) / below, t5 = (f * b - e * c) / below;
+  const Scalar t3 = (2.0 * c12 - t5 * x2 * x2 - t4 * x2 * y2) / (y2 * y2);
+  return {t5, t4, t3, (c2 * y3 - c3 * y2) / area, (c3 * x2 - c2 * x3) / area, i1};
+}
+
 struct OperationCounts {
   int additions = 0, multiplications = 0, divisions = 0;
 };
@@ -63,10 +82,11 @@ class CountedNumber {
     return {a.value_ * b.value_, *a.counts_};
   }
   friend CountedNumber operator*(double a, CountedNumber b) { return CountedNumber(a, *b.counts_) * b; }
-  friend CountedNumber operator/(double a, CountedNumber b) {
+  friend CountedNumber operator/(CountedNumber a, CountedNumber b) {
     ++b.counts_->divisions;
-    return {a / b.value_, *b.counts_};
+    return {a.value_ / b.value_, *b.counts_};
   }
+  friend CountedNumber operator/(double a, CountedNumber b) { return CountedNumber(a, *b.counts_) / b; }
 
  private:
   double value_;
