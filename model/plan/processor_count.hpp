@@ -26,8 +26,8 @@ constexpr std::uint64_t pipeline_clocks(ProcessorVersion version) {
   return version == ProcessorVersion::one ? 7 : 13;
 }
 
-/// Clocks in one processor that computes all terms. As printed, both terms of a light cost as much as the
-/// slower one.
+/// Clocks of all terms, one after another: the table's second row, whose label the scan lost. As printed,
+/// both terms of a light cost as much as the slower one.
 constexpr std::uint64_t single_clocks(ProcessorVersion version, std::uint64_t directional,
                                       std::uint64_t positional) {
   return version == ProcessorVersion::one ? 14 * directional + 4 : 14 * directional + 26 * positional + 6;
@@ -49,7 +49,7 @@ PipelineCount count_pipelines(std::uint64_t clocks, std::uint64_t per_pipeline, 
 
 /// As defined by the paper's formulas.
 struct ProcessorCount : PipelineCount {
-  std::uint64_t single_ns;  ///< per pixel, in one processor that computes all terms
+  std::uint64_t single_ns;  ///< per pixel, all terms one after another
   /// The same with the paper's rounding: the time per pixel is truncated to whole nanoseconds, for example
   /// 33.3 to 33. Empty if the result is zero.
   std::optional<std::uint64_t> published_due_ns, published_pipelines;

@@ -241,7 +241,7 @@ void print_processors(const Scene& scene, const PlanCommand& command, FrameSize 
       fmt::print("  {:<28} {:<24} {}\n", what, formula, value);
     };
     row("a pixel in a pipeline", one ? "7 O dt" : "13 O dt", fmt::format("{} ns", n.pipeline_ns));
-    row("in one processor for all", one ? "(14 R + 4) O dt" : "(14 R + 26 P + 6) O dt",
+    row("its terms one after another", one ? "(14 R + 4) O dt" : "(14 R + 26 P + 6) O dt",
         fmt::format("{} ns", n.single_ns));
     const std::string p = fmt::format("{} M {} O dt", load.frames, pipeline_clocks(version));
     row("pipelines side by side, p", p, fmt::format("{} ({:.2f})", n.pipelines, n.pipelines_needed));
