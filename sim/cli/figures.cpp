@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <thread>
 
@@ -91,20 +92,22 @@ int run(const Folders& folders, const FiguresCommand& command) try {
     return report_all(wrong, "docs/results/figures: run make figures");
   }
   const std::vector<std::string> wrong = figures::faults(entries);
-  std::ptrdiff_t rows = 0, agreeing = 0;
+  std::map<figures::Verdict, int> count;
+  int rows = 0;
   for (const figures::Entry& e : entries)
     for (const figures::Row& r : e.rows) {
       const std::string criterion = r.claim.criterion.text();
       fmt::print("{:<20} {}: published {}, measured {}: {}\n", e.figure.id, r.claim.what, r.claim.published,
                  r.measured.text,
-                 r.agrees() ? fmt::format("agrees ({})", criterion)
-                            : fmt::format("differs ({}): {}", criterion, r.reason()));
+                 r.holds() ? fmt::format("{} ({})", figures::to_string(r.verdict()), criterion)
+                           : fmt::format("differs ({}): {}", criterion, r.reason()));
+      ++count[r.verdict()];
       ++rows;
-      agreeing += r.agrees() ? 1 : 0;
     }
   write_texts(folders, context.out, entries);
-  fmt::print("{}: {} figures, {} rows, {} agree, {} differ\n", context.out.string(), entries.size(), rows,
-             agreeing, rows - agreeing);
+  fmt::print("{}: {} figures, {} rows, {} agree, {} differ, {} hold by construction\n", context.out.string(),
+             entries.size(), rows, count[figures::Verdict::agrees], count[figures::Verdict::differs],
+             count[figures::Verdict::by_construction]);
   if (!wrong.empty()) return report_all(wrong, "sim/figures/claims.toml does not match the measurements");
   if (!command.page.empty()) copy_into(folders, command.page, context.out, entries);
   return static_cast<int>(ExitCode::equal);

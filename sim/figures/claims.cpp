@@ -69,6 +69,7 @@ Claim claim_of(toml::node& node, const std::string& file) {
   Claim claim{.what = fields.text("what"), .published = fields.text("published")};
   claim.criterion = criterion_of(fields);
   claim.why_not = fields.take<std::string>("why_not").value_or("");
+  claim.by_construction = fields.take<std::string>("by_construction").value_or("");
   claim.slow = fields.take<bool>("slow").value_or(false);
   claim.timed = fields.take<bool>("timed").value_or(false);
   fields.close();

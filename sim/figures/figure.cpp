@@ -30,7 +30,7 @@ Json json_of(const Row& row) {
           {"measured", measured.text},
           {"value", measured.value},  // null if the value is not a number
           {"criterion", claim.criterion.text()},
-          {"verdict", row.agrees() ? "agrees" : "differs"},
+          {"verdict", to_string(row.verdict())},
           {"reason", row.reason()},
           {"slow", claim.slow}};
 }
@@ -74,14 +74,22 @@ std::string Criterion::text() const {
   return "the same";
 }
 
-bool Row::agrees() const {
+const char* to_string(Verdict verdict) {
+  return verdict == Verdict::agrees ? "agrees" : verdict == Verdict::differs ? "differs" : "by construction";
+}
+
+bool Row::holds() const {
   return claim.criterion.kind == Criterion::Kind::same ? measured.text == claim.published
                                                        : claim.criterion.holds(measured.value);
 }
 
+Verdict Row::verdict() const {
+  if (!holds()) return Verdict::differs;
+  return claim.by_construction.empty() ? Verdict::agrees : Verdict::by_construction;
+}
+
 const std::string& Row::reason() const {
-  static const std::string none;
-  return agrees() ? none : claim.why_not;
+  return holds() ? claim.by_construction : claim.why_not;
 }
 
 Result<Entry> drawn(const Figure& figure, const Context& context) {
@@ -99,6 +107,12 @@ Result<Entry> drawn(const Figure& figure, const Context& context) {
     if (found.empty())
       return tool_failed(fmt::format("{}: nothing was measured for '{}'", figure.id, claim.what));
     entry.rows.push_back({claim, found.mapped()});
+    const Row& row = entry.rows.back();
+    if (row.holds() && row.measured.by_construction == claim.by_construction.empty())
+      return tool_failed(fmt::format("{}: '{}' {}", figure.id, claim.what,
+                                     claim.by_construction.empty()
+                                         ? "holds by construction: the claim needs the reason by_construction"
+                                         : "was measured: remove by_construction from the claim"));
   }
   for (const auto& [what, measured] : drawing.measured)
     if (std::ranges::find(figure.claims, what, &Claim::what) == figure.claims.end())
@@ -125,9 +139,11 @@ std::vector<std::string> faults(std::span<const Entry> entries) {
         say(": a cell is empty");
       const std::string sides = fmt::format("published {}, measured {} ({})", claim.published,
                                             row->measured.text, claim.criterion.text());
-      if (!row->agrees() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
+      if (!row->holds() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
+      if (!claim.by_construction.empty() && !claim.why_not.empty())
+        say(" has a reason why not and one of construction");
       // A processor's time may agree on one machine and differ on another.
-      if (row->agrees() && !claim.why_not.empty() && !claim.timed)
+      else if (row->holds() && !claim.why_not.empty() && !claim.timed)
         say(" agrees, though a reason why not is given: " + sides);
     }
   }
@@ -144,7 +160,7 @@ std::vector<Entry> completed(std::vector<Entry> drawn, const std::map<std::strin
       const auto there = before->second.find(claim.what);
       const bool known = there != before->second.end();
       const bool measured = now != entry.rows.end();
-      if (known && (!measured || (claim.timed && Row{claim, there->second}.agrees() == now->agrees())))
+      if (known && (!measured || (claim.timed && Row{claim, there->second}.holds() == now->holds())))
         rows.push_back({claim, there->second});
       else if (measured)
         rows.push_back(*now);
@@ -178,7 +194,7 @@ Result<std::map<std::string, Measurements>> measurements_of(const std::string& j
 
 Result<std::string> to_page(std::span<const Entry> entries, const std::filesystem::path& source) {
   Json figures = Json::array(), papers = Json::array();
-  std::int64_t count = 0, agreeing = 0;
+  std::map<std::string, std::int64_t> counts;
   for (const Entry& entry : entries) {
     Json figure = json_of(entry);
     const std::string heading = fmt::format("{}, {}", entry.figure.paper(), entry.figure.number);
@@ -187,9 +203,10 @@ Result<std::string> to_page(std::span<const Entry> entries, const std::filesyste
     std::ranges::replace(anchor, ' ', '-');
     figure.update({{"heading", heading}, {"anchor", anchor}});
     for (Json& row : figure["rows"]) {
-      row["agrees"] = row["verdict"] == "agrees";
-      agreeing += row["verdict"] == "agrees" ? 1 : 0;
-      ++count;
+      const std::string verdict = row["verdict"];
+      row["differs"] = verdict == to_string(Verdict::differs);
+      row["explained"] = row["reason"] != "";
+      ++counts[verdict];
     }
     figures.push_back(std::move(figure));
   }
@@ -202,11 +219,16 @@ Result<std::string> to_page(std::span<const Entry> entries, const std::filesyste
       if (figure["paper"] == name) paper["figures"].push_back(figure);
     papers.push_back(std::move(paper));
   }
-  return filled_template(source / "sim/figures/page.md.mustache", {{"rows_in_all", count},
-                                                                   {"agreeing", agreeing},
-                                                                   {"differing", count - agreeing},
-                                                                   {"papers", papers},
-                                                                   {"figures", figures}});
+  const auto count = [&](Verdict verdict) { return counts[to_string(verdict)]; };
+  const std::int64_t agreeing = count(Verdict::agrees), differing = count(Verdict::differs),
+                     constructed = count(Verdict::by_construction);
+  return filled_template(source / "sim/figures/page.md.mustache",
+                         {{"rows_in_all", agreeing + differing + constructed},
+                          {"agreeing", agreeing},
+                          {"differing", differing},
+                          {"constructed", constructed},
+                          {"papers", papers},
+                          {"figures", figures}});
 }
 
 }  // namespace halfway::figures

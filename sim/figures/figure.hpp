@@ -48,6 +48,8 @@ struct Criterion {
 struct Measured {
   std::string text;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< used by all criteria except `same`
+  /// Computed from the paper's own numbers, or from values chosen to give the published one.
+  bool by_construction = false;
 };
 
 /// A number with its text, for example measured(0.5, "{:.2f} of {}", 3).
@@ -56,12 +58,19 @@ Measured measured(double value, fmt::format_string<double, const More&...> text,
   return {fmt::format(text, double(value), more...), value};
 }
 
+/// The same for a number that holds by construction.
+template <class... More>
+Measured constructed(double value, fmt::format_string<double, const More&...> text, const More&... more) {
+  return {fmt::format(text, double(value), more...), value, true};
+}
+
 /// A number or a statement of the paper. claims.toml describes each field.
 struct Claim {
   std::string what;
   std::string published;
   Criterion criterion{};
   std::string why_not{};
+  std::string by_construction{};
   bool slow = false, timed = false;
 };
 
@@ -102,13 +111,18 @@ Result<std::vector<Figure>> all_figures(const std::filesystem::path& source);
 Result<std::vector<Figure>> read_figures(const std::string& toml, const std::string& file,
                                          std::map<std::string, Draw> drawings);
 
+enum class Verdict { agrees, by_construction, differs };
+const char* to_string(Verdict verdict);  ///< "agrees", "by construction", "differs"
+
 /// A claim and its measured value.
 struct Row {
   Claim claim;
   Measured measured;
 
-  bool agrees() const;
-  const std::string& reason() const;  ///< reason for the difference; empty if it agrees
+  bool holds() const;  ///< the measured value fulfils the criterion
+  /// A row that holds by construction does not count as agreeing.
+  Verdict verdict() const;
+  const std::string& reason() const;  ///< reason for the verdict; empty if the row agrees
 };
 
 /// A figure with its rows.
@@ -118,15 +132,16 @@ struct Entry {
   std::vector<Row> rows;
 };
 
-/// Draw and measure a figure. With Context::quick, rows of slow claims are omitted.
+/// Draw and measure a figure. With Context::quick, rows of slow claims are omitted. Fails if the drawing
+/// measures what no claim names, and if drawing and claim do not agree on what holds by construction.
 Result<Entry> drawn(const Figure& figure, const Context& context);
 
 /// Faults of the rows, one sentence each: a claim without a row, an empty cell, a difference without a
-/// reason, a reason without a difference.
+/// reason, a reason without a difference, two reasons.
 std::vector<std::string> faults(std::span<const Entry> entries);
 
 /// figures.json: a list of figures. Each has id, paper, number, caption, shows, pictures (file, alt) and rows
-/// (what, published, measured, value or null, criterion, verdict "agrees" or "differs", reason, slow).
+/// (what, published, measured, value or null, criterion, verdict, reason, slow).
 std::string to_json(std::span<const Entry> entries);
 /// The measured values in a figures.json, by figure.
 Result<std::map<std::string, Measurements>> measurements_of(const std::string& json, const std::string& file);

@@ -31,17 +31,30 @@ Result<Figure7> read_figure7(const std::filesystem::path& file) {
     std::string kind, name;
     fields >> kind >> name >> std::hex;
     TraceWords words;
-    for (std::uint32_t word = 0; fields >> word;) words.push_back(word);
+    std::vector<bool> restored;
+    for (std::uint32_t word = 0; fields >> word;) {
+      words.push_back(word);
+      restored.push_back(fields.peek() == '=');
+      if (std::string in_scan; restored.back()) fields >> in_scan;
+    }
     const Error bad = bad_input(fmt::format("{}: cannot be read: {}", file.string(), text));
     if (!fields.eof() || words.empty()) return bad;
     if (kind == "step" && words.size() == 1)
       figure.step[name] = words.front();
     else if (kind == "line" || kind == "pixel")
-      (kind == "line" ? figure.line : figure.pixel)[name] = words;
+      (kind == "line" ? figure.line : figure.pixel)[name] = words, figure.restored[name] = restored;
     else
       return bad;
   }
   return figure;
+}
+
+std::string Figure7::published(const std::string& name) const {
+  std::string text;
+  for (std::size_t i = 0; i < words(name).size(); ++i)
+    text += fmt::format("{}{}{:08X}{}", i == 0 ? "" : " ", restored.at(name)[i] ? "[" : "", words(name)[i],
+                        restored.at(name)[i] ? "]" : "");
+  return text;
 }
 
 std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure7& figure) {
@@ -117,10 +130,9 @@ Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& 
   return trace;
 }
 
-std::string hexadecimal(std::span<const std::uint32_t> words, std::size_t most) {
+std::string hexadecimal(std::span<const std::uint32_t> words) {
   std::string text;
-  for (const std::uint32_t word : words.first(std::min(most, words.size())))
-    text += fmt::format("{}{:08X}", text.empty() ? "" : " ", word);
+  for (const std::uint32_t word : words) text += fmt::format("{}{:08X}", text.empty() ? "" : " ", word);
   return text;
 }
 

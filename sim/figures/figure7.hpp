@@ -23,6 +23,14 @@ using TraceWords = std::vector<std::uint32_t>;
 struct Figure7 {
   std::map<std::string, std::uint32_t> step;
   std::map<std::string, TraceWords> line, pixel;
+  /// Per register, which words are illegible in the scan and restored from their differences.
+  std::map<std::string, std::vector<bool>> restored;
+
+  const TraceWords& words(const std::string& name) const {
+    return line.contains(name) ? line.at(name) : pixel.at(name);
+  }
+  /// The published words of a register, restored ones in square brackets.
+  std::string published(const std::string& name) const;
 };
 Result<Figure7> read_figure7(const std::filesystem::path& file);
 
@@ -52,7 +60,7 @@ Figure7Trace golden_figure7(const Figure7& figure);
 /// Trace of the RTL in GHDL.
 Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& folders);
 
-/// "FFFD1688 FFFD0626", at most `most` words.
-std::string hexadecimal(std::span<const std::uint32_t> words, std::size_t most = SIZE_MAX);
+/// "FFFD1688 FFFD0626"
+std::string hexadecimal(std::span<const std::uint32_t> words);
 
 }  // namespace halfway::figures

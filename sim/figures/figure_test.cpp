@@ -13,6 +13,7 @@
 
 #include "sim/figures/check.hpp"
 #include "sim/figures/cut_lines.hpp"
+#include "sim/figures/figure7.hpp"
 #include "sim/figures/pictures.hpp"
 #include "sim/figures/plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
@@ -70,9 +71,44 @@ TEST(Figures, AVerdictNeedsAReasonWhereItDiffersAndNoneWhereItAgrees) {
   excused.timed = true;  // measured on another machine
   EXPECT_THAT(faults_of(excused, same), IsEmpty());
   const Claim words{"a", "06AF"};
-  EXPECT_TRUE((Row{words, {"06AF"}}.agrees()));
-  EXPECT_FALSE((Row{words, {"06AE"}}.agrees()));
+  EXPECT_TRUE((Row{words, {"06AF"}}.holds()));
+  EXPECT_FALSE((Row{words, {"06AE"}}.holds()));
   EXPECT_THAT(faults_of(c_plain, {"", 60}), Contains(HasSubstr("a cell is empty")));
+}
+
+TEST(Figures, ARowThatHoldsByConstructionDoesNotAgree) {
+  Claim made = c_plain;
+  made.by_construction = "60 = 6 · 10";
+  const Measured same = constructed(60, "{}"), other = constructed(59, "{}");
+  EXPECT_EQ((Row{made, same}.verdict()), Verdict::by_construction);
+  EXPECT_EQ((Row{made, same}.reason()), "60 = 6 · 10");
+  EXPECT_THAT(faults_of(made, same), IsEmpty());
+  EXPECT_EQ((Row{made, other}.verdict()), Verdict::differs);
+  EXPECT_THAT(faults_of(made, other), Contains(HasSubstr("differs, and no reason is known")));
+  Claim both = made;
+  both.why_not = "rounded";
+  EXPECT_THAT(faults_of(both, other), Contains(HasSubstr("and one of construction")));
+
+  const auto draw = [&](const Claim& claim, const Measured& value) {
+    const auto entry = drawn({"x-1",
+                              "figure 1",
+                              "c",
+                              "s",
+                              {claim},
+                              [&](const Context&, Drawing& out) { out.measured[claim.what] = value; }},
+                             {});
+    return entry ? std::string("drawn") : entry.error().message;
+  };
+  EXPECT_EQ(draw(made, same), "drawn");
+  EXPECT_EQ(draw(c_plain, measured(60, "{}")), "drawn");
+  EXPECT_THAT(draw(c_plain, same), HasSubstr("holds by construction: the claim needs the reason"));
+  EXPECT_THAT(draw(made, measured(60, "{}")), HasSubstr("was measured: remove by_construction"));
+  const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {made}, {}}, {}, {{made, same}}}};
+  EXPECT_THAT(to_json(entries), HasSubstr("\"verdict\": \"by construction\""));
+  const auto page = to_page(entries, c_source);
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_THAT(*page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction."));
+  EXPECT_THAT(*page, HasSubstr("| by construction (exactly): 60 = 6 · 10 |"));
 }
 
 TEST(Figures, AClaimsFileIsReadStrictly) {
@@ -143,13 +179,29 @@ std::vector<Entry> committed() {
   return completed(entries, measurements(*json));
 }
 
+// The claims print the words of the trace, restored ones in brackets.
+TEST(Figures, Figure7PublishesTheWordsOfTheTrace) {
+  const auto trace = read_figure7(c_source / "tb/published/figure7.txt");
+  ASSERT_TRUE(trace) << trace.error().message;
+  int registers = 0;
+  for (const Figure& figure : figures())
+    for (const Claim& claim : figure.claims) {
+      const std::string name = (claim.what.starts_with("Δ") ? "d" : "") +
+                               claim.what.substr(claim.what.starts_with("Δ") ? std::string("Δ").size() : 0);
+      if (figure.id != "quadratic-07" || !trace->restored.contains(name)) continue;
+      EXPECT_EQ(claim.published, trace->published(name));
+      ++registers;
+    }
+  EXPECT_EQ(registers, 5);
+}
+
 // Changing the published number of each row changes every verdict.
 TEST(Figures, EveryVerdictCanChange) {
   int rows = 0;
   for (const Entry& entry : committed())
     for (const auto& [claim, measured] : entry.rows) {
       SCOPED_TRACE(entry.figure.id + ": " + claim.what);
-      const bool agrees = Row{claim, measured}.agrees();
+      const bool agrees = Row{claim, measured}.holds();
       Claim other = claim;
       Criterion& c = other.criterion;
       switch (c.kind) {
@@ -166,7 +218,7 @@ TEST(Figures, EveryVerdictCanChange) {
           c.value = agrees ? measured.value + 1 : measured.value;
           break;
       }
-      EXPECT_NE((Row{other, measured}.agrees()), agrees);
+      EXPECT_NE((Row{other, measured}.verdict()), (Row{claim, measured}.verdict()));
       if (other.timed && !agrees)
         EXPECT_THAT(faults_of(other, measured), IsEmpty());
       else

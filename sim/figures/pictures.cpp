@@ -75,6 +75,8 @@ Software draw_in_software(const Scene& scene, FrameSize size, unsigned threads) 
 Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize size,
                           const PlanRequest& request, const SetupOptions& options) {
   Hardware drawn{.key = must(plan_scene(scene, request)).key};
+  // The option needs the units.
+  if (options.processors.normalize) drawn.key.processors.normalize = true;
   if (context.quick) {
     const std::unique_ptr<Setup> setup = make_setup(scene, size, drawn.key, options);
     SceneStream stream(*setup, drawn.key, context.threads);

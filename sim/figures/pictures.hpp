@@ -45,7 +45,8 @@ struct Hardware {
   SetupCounts counts;
 };
 /// Draw by the RTL in Verilator. Each fragment is compared with the golden model's; a difference throws
-/// Failure. With Context::quick, draw by the golden model only.
+/// Failure. With Context::quick, draw by the golden model only. With ProcessorsSetupOptions::normalize, the
+/// hardware has the units that normalize N.
 Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize size, const PlanRequest& plan,
                           const SetupOptions& options = {});
 

@@ -30,25 +30,29 @@ constexpr std::array<std::pair<const char*, const char*>, 3> c_line_registers = 
 constexpr std::array<std::pair<const char*, const char*>, 2> c_pixel_registers = {
     {{"dI(X,Y)", "ΔI(X,Y)"}, {"I(X,Y)", "I(X,Y)"}}};
 
-// One box per word, over the clocks in which the register holds it.
-std::string figure_7_script(const Figure7Trace& trace) {
-  std::array<std::string, 3> blocks;  // words printed in the paper, our additional words, lines
-  const auto add = [&](double lane, std::size_t from, std::size_t until, std::uint32_t word, bool printed) {
-    blocks[printed ? 0 : 1] += fmt::format("{} {} {} {:08X}\n", lane, from, until, word);
+// One box per word of our registers, over the clocks in which the register holds it.
+std::string figure_7_script(const Figure7& figure, const Figure7Trace& trace) {
+  std::array<std::string, 3>
+      blocks;  // words as printed, words after the printed ones, words printed differently
+  const auto add = [&](double lane, std::size_t from, std::size_t until, const std::string& name,
+                       const TraceWords& words, std::size_t i) {
+    const TraceWords& printed = figure.words(name);
+    const std::size_t block = i >= printed.size() ? 1 : printed[i] == words.at(i) ? 0 : 2;
+    blocks[block] += fmt::format("{} {} {} {:08X}\n", lane, from, until, words.at(i));
   };
   double lane = 5.0;
   for (const auto& [name, shown] : c_line_registers) {
     std::size_t from = 0;
     for (std::uint32_t k = 0; k < c_figure7_lines; from += ++k)
-      add(lane, from, from + k + 1, trace.line.at(name).at(k), true);
+      add(lane, from, from + k + 1, name, trace.line.at(name), k);
     lane -= 1.0;
   }
-  // words of each register, after which the printed scan ends
-  constexpr std::array<std::size_t, 2> c_printed{7, 8};
-  for (std::size_t r = 0; r < c_pixel_registers.size(); ++r, lane -= 1.0)
-    for (std::size_t i = 0; i < c_figure7_pixels; ++i)
-      add(lane, i, i + 1, trace.pixel.at(c_pixel_registers[r].first).at(i), i < c_printed[r]);
-  std::string script = "$printed << EOD\n" + blocks[0] + "EOD\n$ours << EOD\n" + blocks[1] + "EOD\n";
+  for (const auto& [name, shown] : c_pixel_registers) {
+    for (std::size_t i = 0; i < c_figure7_pixels; ++i) add(lane, i, i + 1, name, trace.pixel.at(name), i);
+    lane -= 1.0;
+  }
+  std::string script = "$printed << EOD\n" + blocks[0] + "EOD\n$ours << EOD\n" + blocks[1] +
+                       "EOD\n$other << EOD\n" + blocks[2] + "EOD\n";
   script += fmt::format(
       "set xrange [0:{0}]\nset yrange [0.4:5.7]\nunset ytics\nset border 1\nset xtics 1 format "
       "''\n"
@@ -62,24 +66,33 @@ std::string figure_7_script(const Figure7Trace& trace) {
     for (const auto& [name, shown] : registers)
       script += fmt::format("set label {} '{}' at graph -0.012, first {} right noenhanced\n", label++, shown,
                             std::exchange(label_at, label_at - 1.0));
-  return script +
-         "set style fill solid noborder\nhalf = 0.36\n"
-         "plot $printed using 2:1:($2 + 0.02):($3 - 0.02):($1 - half):($1 + half) with boxxyerror linecolor "
-         "rgb "
-         "'#cfe4f7', $ours using 2:1:($2 + 0.02):($3 - 0.02):($1 - half):($1 + half) with boxxyerror "
-         "linecolor rgb "
-         "'#ededed', $printed using (($2 + $3) / 2):1:4 with labels font ',11', $ours using (($2 + $3) / "
-         "2):1:4 with "
-         "labels font ',11'\n";
+  script += "set style fill solid noborder\nhalf = 0.36\nplot ";
+  for (const auto& [block, colour] :
+       {std::pair{"$printed", "#cfe4f7"}, {"$ours", "#ededed"}, {"$other", "#f7d4cf"}})
+    script += fmt::format(
+        "{0} using 2:1:($2 + 0.02):($3 - 0.02):($1 - half):($1 + half) with boxxyerror linecolor rgb '{1}', "
+        "{0} using (($2 + $3) / 2):1:4 with labels font ',11', ",
+        block, colour);
+  return script + "\n";
+}
+
+// The words that a register holds while the printed ones are shown, and how many of these differ.
+Measured compared_words(const Figure7& figure, const std::string& name, std::span<const std::uint32_t> held) {
+  const TraceWords& printed = figure.words(name);
+  const auto words = held.first(printed.size());
+  std::size_t differing = 0;
+  for (std::size_t i = 0; i < printed.size(); ++i) differing += words[i] != printed[i] ? 1 : 0;
+  return {fmt::format("{}: {} of {} differ", hexadecimal(words), differing, printed.size()),
+          static_cast<double>(differing)};
 }
 
 void draw_figure_7(const Context& context, Drawing& out) {
   const Figure7 figure = must(read_figure7(context.folders.source / "tb" / "published" / "figure7.txt"));
   const Figure7Trace golden = golden_figure7(figure);
   for (const auto& [name, shown] : c_line_registers)
-    out.measured[shown] = {hexadecimal(golden.line.at(name), figure.line.at(name).size())};
+    out.measured[shown] = compared_words(figure, name, golden.line.at(name));
   for (const auto& [name, shown] : c_pixel_registers)
-    out.measured[shown] = {hexadecimal(golden.pixel.at(name), figure.pixel.at(name).size())};
+    out.measured[shown] = compared_words(figure, name, golden.pixel.at(name));
   if (!context.quick) {
     const Figure7Trace rtl = must(rtl_figure7(figure, context.folders));
     std::size_t words = 0, differing = 0;
@@ -103,9 +116,9 @@ void draw_figure_7(const Context& context, Drawing& out) {
   draw_plot(
       context, "quadratic-07",
       {.size = {1080, 300},
-       .title = "The five registers of the quadratic interpolator over ten clocks; the printed words are "
-                "blue, grey goes on where the scan breaks off",
-       .script = figure_7_script(golden)},
+       .title = "The five registers of the quadratic interpolator over ten clocks; words as printed are "
+                "blue, the one that is printed differently is red, grey goes on where the scan breaks off",
+       .script = figure_7_script(figure, golden)},
       out);
 }
 
@@ -192,7 +205,7 @@ void draw_spheres(const std::string& id, std::uint32_t slices, std::uint32_t sta
     out.measured[fmt::format("n = {}: Gouraud against Phong shading", n)] =
         alike(software.gouraud.frame).measured();
   }
-  out.measured["triangles of a sphere"] = measured(static_cast<double>(triangles), "{}");
+  out.measured["triangles of a sphere"] = constructed(static_cast<double>(triangles), "{}");
   save_picture(context, id, sheet(pictures, 3),
                fmt::format("Spheres of {} triangles, exponents 5 above and 50 below: Gouraud, quadratic and "
                            "Phong shading",
@@ -255,20 +268,25 @@ void draw_times(const Context& context, Drawing& out) {
   const double off = std::abs(right - std::ldexp(static_cast<double>(value.value().bits()), -c_rule_bits));
   out.measured["error after M = 1000 pixels by the 10 fraction bits of b > log₂ M"] =
       measured(off, "{:.0f} colour steps");
-  // The printed T3 has Y2² in the denominator. With Y2 = 0 the numerator T5 X2² - 2 C12 is 0 too.
-  const double x2 = 10.0, y2 = 0.0, c12 = 0.3, t5 = 2.0 * c12 / (x2 * x2), t4 = 0.1;
-  const double t3 = (2.0 * c12 - t5 * x2 * x2 - t4 * x2 * y2) / (y2 * y2);
+  constexpr std::array c_values{0.1, 0.4, 0.3, 0.9, 0.5, 0.7};
+  const double t3 = fit_six_points_as_printed(10.0, 0.0, 2.0, 6.0, c_values).t3;
   out.measured["T3 of a triangle with Y2 = 0, by the printed formula"] = {
-      std::isfinite(t3) ? "a number" : "0/0, no number"};
-  OperationCounts counts;
-  const auto counted = [&](double v) { return CountedNumber(v, counts); };
-  fit_six_points(
-      counted(7.0), counted(1.0), counted(2.0), counted(6.0),
-      std::array{counted(0.1), counted(0.4), counted(0.3), counted(0.9), counted(0.5), counted(0.7)});
-  out.measured["additions, multiplications and divisions for the six coefficients"] = {
-      fmt::format("{}, {}, {}", counts.additions, counts.multiplications, counts.divisions)};
+      std::isfinite(t3) ? "a number" : "division by zero, no number"};
+  // Count the operations of a form of the fit.
+  const auto count = [&](const auto& fit) {
+    OperationCounts counts;
+    const auto counted = [&](double v) { return CountedNumber(v, counts); };
+    std::array values{counted(0.0), counted(0.0), counted(0.0), counted(0.0), counted(0.0), counted(0.0)};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = counted(c_values[i]);
+    fit(counted(7.0), counted(1.0), counted(2.0), counted(6.0), values);
+    return Measured{fmt::format("{}, {}, {}", counts.additions, counts.multiplications, counts.divisions)};
+  };
+  const std::string operations = "additions, multiplications and divisions for the six coefficients";
+  out.measured[operations + ", as printed but for one 4 for C23 instead of four"] =
+      count([](const auto&... of) { fit_six_points_as_printed(of...); });
+  out.measured[operations + ", our form"] = count([](const auto&... of) { fit_six_points(of...); });
   const double cycle_ns = 50.0, frames = std::floor(1e9 / (cycle_ns * 1e6));
-  out.measured["frames a second at 1000×1000 and 50 ns a pixel"] = measured(frames, "{}");
+  out.measured["frames a second at 1000×1000 and 50 ns a pixel"] = constructed(frames, "{}");
   if (context.quick) return;
 
   const Scene scene = sphere_scene(12, 8, 50.0);
@@ -299,7 +317,7 @@ void draw_times(const Context& context, Drawing& out) {
       pace(scene, {160, 160},
            {.shader = Shader::processors, .preset = Preset::published, .form = ProcessorForm::folded});
   out.measured["clocks a pixel, quadratic shader"] = measured(quadratic, "{:.3f}");
-  out.measured["in hardware, quadratic as a multiple of linear"] = measured(quadratic / linear, "{:.3f}");
+  out.measured["in hardware, quadratic as a multiple of linear"] = constructed(quadratic / linear, "{:.3f}");
   out.measured["in hardware, Phong shading by the processors paper's version I, likewise"] =
       measured(folded / linear, "{:.2f}");
 }

@@ -273,11 +273,11 @@ std::string script_of(const TimingTrace& trace) {
   return text + std::string(c_drawing);
 }
 
-// Print a single value, such as "5 ns", if all are equal.
+// Print a single value, such as "5 ns", if all are equal. The model's delays are the published ones.
 Measured always(const std::vector<double>& times) {
   const auto [least, most] = std::ranges::minmax(times);
   if (least != most) return {fmt::format("{} to {} ns", least, most)};
-  return measured(least, "{} ns");
+  return constructed(least, "{} ns");
 }
 
 }  // namespace
@@ -288,7 +288,7 @@ void draw_figure_17(const Context& context, Drawing& out) {
   for (const TimingTrace::Span& s : trace.steps) steps.push_back(s.until - s.from);
   out.measured["cycle of `step`"] = always(steps);
   const double rate = 1e9 / (steps.front() * 1e6);
-  out.measured["frames a second at 1000×1000"] = measured(std::floor(rate), "{} ({:.2f})", rate);
+  out.measured["frames a second at 1000×1000"] = constructed(std::floor(rate), "{} ({:.2f})", rate);
   for (const auto& [what, signal] :
        {std::pair{"multiplexer", "next_angle"}, {"adder", "sum"}, {"register", "angle"}}) {
     std::vector<double> times;
@@ -300,7 +300,8 @@ void draw_figure_17(const Context& context, Drawing& out) {
   }
   double together = 0.0;
   for (const TimingTrace::Span& s : trace.both) together += s.until - s.from;
-  out.measured["both stages at work at once"] = measured(together, "{} ns in {} pixels", trace.pixels.size());
+  out.measured["both stages at work at once"] =
+      constructed(together, "{} ns in {} pixels", trace.pixels.size());
   draw_plot(context, "spherical-17",
             {.size = {1080, 590},
              .title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",

@@ -74,9 +74,8 @@ Status add_figures(Page& page) {
                                   {"alt", picture.at("alt").get<std::string>()}});
       }
       for (const Json& row : figure.at("rows")) {
-        Json& line =
-            of["rows"].emplace_back(Json{{"verdict", row.at("verdict") == "agrees" ? "agrees" : "differs"}});
-        for (const char* key : {"what", "published", "measured", "criterion", "reason"})
+        Json& line = of["rows"].emplace_back(Json::object());
+        for (const char* key : {"verdict", "what", "published", "measured", "criterion", "reason"})
           line[key] = words_of(row, key);
       }
       ++page.report.figures;

@@ -30,7 +30,24 @@ Figure read_figure() {
   return figure ? *figure : Figure{};
 }
 
-// The published words, as many as are printed, must be equal to the registers' values.
+// The one word that is printed differently from its differences.
+constexpr struct {
+  const char* name;
+  std::size_t at;
+  std::uint32_t printed, right;
+} c_misprint{"dI(X,Y)", 7, 0x0014DFED, 0x0014DF5D};
+
+// The words that the registers must hold.
+Words right_words(const std::string& name, Words words) {
+  if (name == c_misprint.name && words.size() > c_misprint.at) {
+    EXPECT_EQ(words[c_misprint.at], c_misprint.printed);
+    words[c_misprint.at] = c_misprint.right;
+  }
+  return words;
+}
+
+// The published words, as many as are printed, must be equal to the registers' values, except for the
+// misprint.
 void expect_figure(const Figure& figure, const Trace& trace) {
   EXPECT_TRUE(trace.known);
   for (const auto& [kind, published, seen, count] :
@@ -41,7 +58,8 @@ void expect_figure(const Figure& figure, const Trace& trace) {
       Words held = seen->at(name);
       EXPECT_EQ(held.size(), count) << kind << ' ' << name;
       held.resize(words.size());
-      EXPECT_EQ(figures::hexadecimal(held), figures::hexadecimal(words)) << kind << ' ' << name;
+      EXPECT_EQ(figures::hexadecimal(held), figures::hexadecimal(right_words(name, words)))
+          << kind << ' ' << name;
     }
   // Line k has k pixels.
   Words x, y;
@@ -86,11 +104,12 @@ TEST(figure7, published_numbers_agree_with_their_differences) {
   ASSERT_EQ(figure.pixel.size(), 2U);
   const Words &de = figure.line.at("dI_start"), &start = figure.line.at("I_start"),
               &dx = figure.line.at("dI(X_start)");
-  const Words &pixel_dx = figure.pixel.at("dI(X,Y)"), &pixel = figure.pixel.at("I(X,Y)");
+  const Words pixel_dx = right_words("dI(X,Y)", figure.pixel.at("dI(X,Y)")),
+              &pixel = figure.pixel.at("I(X,Y)");
   ASSERT_EQ(de.size(), c_lines);
   ASSERT_EQ(start.size(), c_lines);
   ASSERT_EQ(dx.size(), c_lines);
-  ASSERT_EQ(pixel_dx.size(), 7U);
+  ASSERT_EQ(pixel_dx.size(), 8U);
   ASSERT_EQ(pixel.size(), 8U);
   for (std::size_t k = 1; k < c_lines; ++k) {
     EXPECT_EQ(de[k], de[k - 1] + figure.step.at("dI_start")) << k;
