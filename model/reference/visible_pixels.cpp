@@ -65,11 +65,6 @@ void find_visible(std::span<const ScreenTriangle> triangles, std::span<const Ban
 
 }  // namespace
 
-glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
-                                 std::int64_t y) {
-  return barycentric_screen(triangle, (2 * x + 1) << subpixel_bits, (2 * y + 1) << subpixel_bits);
-}
-
 ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle> triangles,
                               const RenderOptions& options, const std::function<PixelShader()>& make_shader) {
   const Tile tile = options.tile.value_or(whole_frame(options.frame));

@@ -14,10 +14,6 @@
 
 namespace halfway {
 
-/// Weights of the triangle's vertices at the centre of a pixel.
-glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
-                                 std::int64_t y);
-
 /// Radiance at pixel (x, y), where triangles[index] is the nearest.
 using PixelShader = std::function<glm::dvec3(std::uint32_t index, std::uint32_t x, std::uint32_t y)>;
 

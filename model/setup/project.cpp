@@ -305,6 +305,11 @@ glm::dvec3 barycentric_screen(const ScreenTriangle& triangle, std::int64_t x_hal
   return {weight(0), weight(1), weight(2)};
 }
 
+glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
+                                 std::int64_t y) {
+  return barycentric_screen(triangle, (2 * x + 1) << subpixel_bits, (2 * y + 1) << subpixel_bits);
+}
+
 SurfacePoint surface_point(const ScreenTriangle& triangle, glm::dvec3 barycentric_screen) {
   const auto& [a, b, c] = triangle.vertex;
   glm::dvec3 weight = barycentric_screen * glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);

@@ -125,6 +125,10 @@ class Projector {
 /// is the sum of its ends.
 glm::dvec3 barycentric_screen(const ScreenTriangle& triangle, std::int64_t x_half, std::int64_t y_half);
 
+/// The same at the centre of a pixel. The triangle's coordinates are in 1/2^subpixel_bits of a pixel.
+glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
+                                 std::int64_t y);
+
 struct SurfacePoint {
   glm::dvec3 position_world;
   glm::dvec3 normal_world;  ///< always unit

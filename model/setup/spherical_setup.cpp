@@ -428,10 +428,9 @@ class SphericalSetup::ExactTriangle {
     glm::dvec3 position[2], normal[2];
     double inverse_w[2];
     for (int i = 0; i < 2; ++i) {
-      const std::int64_t half_x = 2 * (i == 0 ? at.first : at.last) + 1;
-      glm::dvec3 weight = barycentric_screen(triangle_, half_x << subpixel_bits_,
-                                             (2 * std::int64_t{at.y} + 1) << subpixel_bits_) *
-                          glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
+      glm::dvec3 weight =
+          barycentric_at_centre(triangle_, subpixel_bits_, i == 0 ? at.first : at.last, at.y) *
+          glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
       inverse_w[i] = weight.x + weight.y + weight.z;
       weight /= inverse_w[i];
       position[i] = weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world;
