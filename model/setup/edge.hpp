@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "frame/frame_size.hpp"
 
@@ -97,6 +98,26 @@ void for_each_span(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame,
     if (a < b)
       span(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   }
+}
+
+/// A pixel of the frame.
+struct Pixel {
+  std::int64_t x, y;
+  friend bool operator==(const Pixel&, const Pixel&) = default;
+};
+
+/// The pixels of the frame that the triangle covers, line by line, each line from left to right. A triangle
+/// of at most 2 pixels in width and height covers at most three, of a block of 2x2: by the fill rule a pixel
+/// is covered if the point a little to the right of its centre, and far less below it, is inside. Four such
+/// points of a block would be a unit square inside a triangle of area 2 or less. The largest square in a
+/// triangle has half its area and touches its edges.
+inline std::vector<Pixel> covered_pixels(const std::array<ScreenPoint, 3>& p, int unit_bits,
+                                         FrameSize frame) {
+  std::vector<Pixel> pixels;
+  for_each_span(p, unit_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t x = begin; x < end; ++x) pixels.push_back({x, y});
+  });
+  return pixels;
 }
 
 }  // namespace halfway

@@ -80,6 +80,26 @@ QuadraticWords QuadraticFit::words(const SixSamples& i, const DifferenceStart& s
   return w;
 }
 
+QuadraticWords PixelFit::words(std::span<const std::int64_t> colours, const DifferenceStart& start,
+                               std::int64_t half) const {
+  // Colour per pixel to the right. A single pixel or a diagonal pair has none.
+  Int128 right = 0;
+  for (std::size_t i = 1; i < pixels_.size(); ++i)
+    if (pixels_[i].y == pixels_[i - 1].y) right = Int128{colours[i]} - colours[i - 1];
+  // Colour per line down.
+  Int128 down = 0;
+  for (std::size_t i = 1; i < pixels_.size(); ++i)
+    if (pixels_[i].y != pixels_[i - 1].y)
+      down = Int128{colours[i]} - colours[i - 1] - right * (pixels_[i].x - pixels_[i - 1].x);
+
+  QuadraticWords w{};
+  w.value = colours[0] + right * (start.x - pixels_[0].x) + down * (start.y - pixels_[0].y) + half;
+  w.dx = start.backward ? -right : right;
+  w.de0 = right * start.quotient + down;
+  w.de1 = w.de0 + right;
+  return w;
+}
+
 DepthFit::DepthFit(std::array<ScreenPoint, 3> p, int unit_bits, std::array<std::int64_t, 3> z)
     : origin_(p[0]), unit_bits_(unit_bits), depth_(z[0]), d_(twice_area(p)), divider_(magnitude(d_)) {
   const Int128 x2 = Int128{p[1].x} - p[0].x, y2 = Int128{p[1].y} - p[0].y;

@@ -5,6 +5,9 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "setup/edge.hpp"
 #include "setup/exact_division.hpp"
@@ -50,6 +53,24 @@ class QuadraticFit {
   std::int64_t x2_, y2_, x3_, y3_;
   Int128 d_;
   ExactDivider divider_;
+};
+
+/// The plane through the colours at the pixels of a small triangle. It is exact: on the grid of pixels its
+/// differences are differences of colours, so no word is rounded, and the words of a quadratic that a plane
+/// does not need are 0.
+class PixelFit {
+ public:
+  /// At least one and at most three pixels of a block of 2x2, line by line, each line from left to right:
+  /// what a triangle of at most 2 pixels in width and height covers (`covered_pixels`).
+  explicit PixelFit(std::vector<Pixel> pixels) : pixels_(std::move(pixels)) {}
+
+  /// The words for the colours of one channel at these pixels, in their order, in the unit of the words. A
+  /// colour is off by its rounding to this unit only. `half` as in QuadraticFit.
+  QuadraticWords words(std::span<const std::int64_t> colours, const DifferenceStart& start,
+                       std::int64_t half) const;
+
+ private:
+  std::vector<Pixel> pixels_;
 };
 
 struct DepthWords {

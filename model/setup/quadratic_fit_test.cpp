@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares QuadraticFit and DepthFit with the 6x6 and 3x3 systems solved in rationals, and the golden model's
-// fragments with those rationals at every covered pixel.
+// fragments with those rationals at every covered pixel. PixelFit has no tolerance.
 #include "setup/quadratic_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <iostream>
+#include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -177,6 +179,94 @@ TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
   }
 }
 
+void put_words(std::span<std::uint32_t> init, const QuadraticWords& w) {
+  using At = Exact::init_channel_at;
+  const auto put = [&](const golden::Field& field, Int128 value) {
+    golden::set_bits(init, field, static_cast<std::uint64_t>(value), Exact::c_init_header_bits);
+  };
+  put(At::value, w.value);
+  put(At::dx, w.dx);
+  put(At::de0, w.de0);
+  put(At::de1, w.de1);
+  put(At::dxx, w.dxx);
+  put(At::dxe0, w.dxe0);
+  put(At::dxe1, w.dxe1);
+  put(At::de0e0, w.de0e0);
+  put(At::de0e1, w.de0e1);
+  put(At::de1e1, w.de1e1);
+}
+
+/// Compares the colour register at each pixel with the colours given for the pixels.
+class PixelComparison {
+ public:
+  PixelComparison(const std::vector<Pixel>& pixels, const std::vector<std::int64_t>& colours)
+      : pixels_(pixels), colours_(colours) {}
+  template <class Shader>
+  void line(const Shader&) {}
+  template <class Shader>
+  void span(const Shader& shader, golden::SpanXWord x) {
+    const auto at = std::ranges::find(pixels_, Pixel{x.value(), shader.walker().y()});
+    ASSERT_NE(at, pixels_.end());
+    ASSERT_EQ(shader.channel(0).value().value(), colours_[static_cast<std::size_t>(at - pixels_.begin())]);
+    ++drawn_;
+  }
+  std::size_t drawn() const { return drawn_; }
+
+ private:
+  const std::vector<Pixel>& pixels_;
+  const std::vector<std::int64_t>& colours_;
+  std::size_t drawn_ = 0;
+};
+
+// Random colours at the pixels of random triangles of at most 2 pixels: each pixel's colour register holds
+// its colour, bit for bit. The frame cuts some of them.
+TEST(PixelFit, EachPixelHasItsColourExactly) {
+  using Shader = golden::QuadraticShader<Exact, 1>;
+  constexpr FrameSize c_small_frame{5, 5};
+  RandomTriangles random(12);
+  // Lines, pixels of the first line, pixels of the last line.
+  std::set<std::array<std::size_t, 3>> shapes;
+  int backward = 0, diagonal = 0, moved = 0;  // moved: the second line starts at another column
+  for (int round = 0; round < 600'000; ++round) {
+    const int unit_bits = 4 + round % 6, side = 2 << unit_bits;
+    const int left = random.within(-side, 5 * side / 2), top = random.within(-side, 5 * side / 2);
+    Points p;
+    for (ScreenPoint& q : p) q = {left + random.within(0, side), top + random.within(0, side)};
+    const std::vector<Walk> walks = plan_walks(p, unit_bits, c_small_frame);
+    const std::vector<Pixel> pixels = covered_pixels(p, unit_bits, c_small_frame);
+    ASSERT_EQ(walks.empty(), pixels.empty());
+    if (walks.empty()) continue;
+    std::vector<std::int64_t> colours;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      colours.push_back(round % 4 == 0 ? random.within(0, 1) * c_largest_sample_word
+                                       : (std::int64_t{random.within(0, 1022)} << c_fraction) +
+                                             random.within(0, 1 << 28));
+    const PixelFit fit(pixels);
+    PixelComparison comparison(pixels, colours);
+    for (const Walk& walk : walks) {
+      std::array<std::uint32_t, Shader::c_init_words> init{};
+      put_walk(init, walk);
+      put_words(init, fit.words(colours, {walk.start.pixel, walk.y, walk.start.quotient, walk.backward}, 0));
+      Shader shader;
+      shader.draw(
+          init, [](const Fragment&) {}, comparison);
+      if (HasFatalFailure()) return;
+      backward += walk.backward;
+      moved += walk.upper_lines + walk.lower_lines > 1 && (walk.start.quotient != 0 || walk.start.carry);
+    }
+    ASSERT_EQ(comparison.drawn(), pixels.size());
+    const auto lines = static_cast<std::size_t>(pixels.back().y - pixels.front().y + 1);
+    shapes.insert({lines, static_cast<std::size_t>(std::ranges::count(pixels, pixels.front().y, &Pixel::y)),
+                   static_cast<std::size_t>(std::ranges::count(pixels, pixels.back().y, &Pixel::y))});
+    diagonal += pixels.size() == 2 && lines == 2 && pixels[0].x != pixels[1].x;
+  }
+  EXPECT_EQ(shapes,
+            (std::set<std::array<std::size_t, 3>>{{1, 1, 1}, {1, 2, 2}, {2, 1, 1}, {2, 1, 2}, {2, 2, 1}}));
+  EXPECT_GT(backward, 1000);
+  EXPECT_GT(diagonal, 100);
+  EXPECT_GT(moved, 1000);
+}
+
 /// Worst cases over the pixels of a triangle drawn by the golden model. Errors are relative to their bounds.
 struct Worst {
   double intensity = 0.0, intensity_steps = 0.0, depth = 0.0, depth_steps = 0.0, colour_steps = 0.0;
@@ -288,7 +378,6 @@ Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& sa
            const std::array<std::int64_t, 3>& z) {
   using Shader = golden::QuadraticShader<Exact, 1>;
   using At = Exact::init_header_at;
-  using ChannelAt = Exact::init_channel_at;
   const std::vector<Walk> walks = plan_walks(p, unit_bits, frame);
   if (walks.empty()) return {};
   const QuadraticFit fit(p, unit_bits);
@@ -307,19 +396,7 @@ Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& sa
     put(At::z_de0, dw.de0);
     put(At::z_de1, dw.de1);
     const QuadraticWords qw = fit.words(samples, start, std::int64_t{1} << (c_fraction - 1));
-    const auto put_channel = [&](const golden::Field& field, Int128 value) {
-      golden::set_bits(init, field, static_cast<std::uint64_t>(value), Exact::c_init_header_bits);
-    };
-    put_channel(ChannelAt::value, qw.value);
-    put_channel(ChannelAt::dx, qw.dx);
-    put_channel(ChannelAt::de0, qw.de0);
-    put_channel(ChannelAt::de1, qw.de1);
-    put_channel(ChannelAt::dxx, qw.dxx);
-    put_channel(ChannelAt::dxe0, qw.dxe0);
-    put_channel(ChannelAt::dxe1, qw.dxe1);
-    put_channel(ChannelAt::de0e0, qw.de0e0);
-    put_channel(ChannelAt::de0e1, qw.de0e1);
-    put_channel(ChannelAt::de1e1, qw.de1e1);
+    put_words(init, qw);
     comparison.begin(walk);
     Shader shader;
     shader.draw(

@@ -58,9 +58,13 @@ class Sampler {
       : scene_(scene), triangle_(triangle), material_(scene.materials[triangle.material]), counts_(counts) {}
 
   Sample at(const Corner& corner) const {
-    ++counts_.shaded;
     const SurfacePoint surface = surface_point(triangle_, corner.barycentric);
-    return {corner, surface, radiance(scene_, material_, surface.position_world, surface.normal_world)};
+    return {corner, surface, shaded(surface)};
+  }
+  /// The radiance at the centre of a pixel.
+  glm::dvec3 at_centre(Pixel pixel, int subpixel_bits) const {
+    return shaded(
+        surface_point(triangle_, barycentric_at_centre(triangle_, subpixel_bits, pixel.x, pixel.y)));
   }
   /// `a` and `b` are in units of one level, the sample's point in units of the next.
   Sample between(const Sample& a, const Sample& b) const {
@@ -70,6 +74,11 @@ class Sampler {
   const Scene& scene() const { return scene_; }
 
  private:
+  glm::dvec3 shaded(const SurfacePoint& surface) const {
+    ++counts_.shaded;
+    return radiance(scene_, material_, surface.position_world, surface.normal_world);
+  }
+
   const Scene& scene_;
   const ScreenTriangle& triangle_;
   const Material& material_;
@@ -110,7 +119,7 @@ std::array<Piece, 4> split(const Piece& p, const Sampler& sampler) {
           piece(ab, bc, ac, ab_bc, ab_ac, ac_bc)};
 }
 
-bool needs_split(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options) {
+bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options) {
   if (options.test == HighlightTest::none) return false;
   SampledTriangle t;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -126,25 +135,27 @@ bool needs_split(const Piece& p, const Sampler& sampler, const QuadraticSetupOpt
   return centroid_error(t, sampler.at({{}, centroid}).radiance) > options.threshold;
 }
 
-// Triangles of at most this width and height, in pixels, are not split.
-constexpr std::int32_t c_least_pixels = 2;
-
-bool is_small(const Piece& p, int subpixel_bits) {
-  const auto [x0, x1] =
-      std::minmax({p.samples[0].corner.point.x, p.samples[1].corner.point.x, p.samples[2].corner.point.x});
-  const auto [y0, y1] =
-      std::minmax({p.samples[0].corner.point.y, p.samples[1].corner.point.y, p.samples[2].corner.point.y});
-  return std::max(x1 - x0, y1 - y0) <= c_least_pixels << (subpixel_bits + p.level);
+std::array<ScreenPoint, 3> screen_points(const Piece& p) {
+  return {p.samples[0].corner.point, p.samples[1].corner.point, p.samples[2].corner.point};
 }
 
+bool is_small(const std::array<ScreenPoint, 3>& p, int unit_bits) {
+  const auto [x0, x1] = std::minmax({p[0].x, p[1].x, p[2].x});
+  const auto [y0, y1] = std::minmax({p[0].y, p[1].y, p[2].y});
+  return std::max(x1 - x0, y1 - y0) <= c_small_pixels << unit_bits;
+}
+
+// Calls leaf(piece) for each piece that is not split. A small piece that is drawn pixel by pixel has no error
+// to test.
 template <class Leaf>
 void subdivide(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options,
-               int subpixel_bits, SetupCounts& counts, Leaf&& leaf) {
-  if (!is_small(p, subpixel_bits) && needs_split(p, sampler, options)) {
-    if (p.level < options.max_level) {
+               int subpixel_bits, bool small_by_pixel, SetupCounts& counts, Leaf&& leaf) {
+  const bool small = is_small(screen_points(p), subpixel_bits + p.level);
+  if (!(small && small_by_pixel) && is_above_threshold(p, sampler, options)) {
+    if (!small && p.level < options.max_level) {
       if (p.level == 0) ++counts.subdivided;
       for (const Piece& quarter : split(p, sampler))
-        subdivide(quarter, sampler, options, subpixel_bits, counts, leaf);
+        subdivide(quarter, sampler, options, subpixel_bits, small_by_pixel, counts, leaf);
       return;
     }
     ++counts.unresolved;
@@ -173,25 +184,19 @@ ChannelSamples held_samples(const Piece& piece, int channels, SetupCounts& count
   return samples;
 }
 
-}  // namespace
+constexpr int c_exact_fraction = Exact::c_intensity_fraction_bits;
 
-void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                    std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
-                    const DepthFit& depth, const ChannelSamples& samples) {
-  constexpr int c_fraction = Exact::c_intensity_fraction_bits;
+// Appends one vector of preset exact per walk. channel_words(c, start) returns the words of channel c.
+template <class ChannelWords>
+void append_walks(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+                  std::span<const Walk> walks, const DepthFit& depth, ChannelWords&& channel_words) {
   using ChannelAt = Exact::init_channel_at;
-  const QuadraticFit fit(points, unit_bits);
-  std::array<SixSamples, 3> channel;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
-    const auto sample = [&](std::size_t i) { return fixed(samples[c][i], c_fraction); };
-    channel[c] = {{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
-  }
   for (const Walk& walk : walks) {
     InitVector init(words, vector_bits<Exact>(channels));
     const DifferenceStart start = difference_start(walk);
     put_header(init, triangle, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
     for (int c = 0; c < channels; ++c) {
-      const QuadraticWords w = fit.words(channel[static_cast<std::size_t>(c)], start, half(c_fraction));
+      const QuadraticWords w = channel_words(static_cast<std::size_t>(c), start);
       const int low = Exact::c_init_header_bits + c * Exact::c_init_channel_bits;
       init.put(ChannelAt::value, w.value, low);
       init.put(ChannelAt::dx, w.dx, low);
@@ -205,6 +210,22 @@ void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32
       init.put(ChannelAt::de1e1, w.de1e1, low);
     }
   }
+}
+
+}  // namespace
+
+void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+                    std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
+                    const DepthFit& depth, const ChannelSamples& samples) {
+  const QuadraticFit fit(points, unit_bits);
+  std::array<SixSamples, 3> channel;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
+    const auto sample = [&](std::size_t i) { return fixed(samples[c][i], c_exact_fraction); };
+    channel[c] = {{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
+  }
+  append_walks(words, channels, triangle, walks, depth, [&](std::size_t c, const DifferenceStart& start) {
+    return fit.words(channel[c], start, half(c_exact_fraction));
+  });
 }
 
 std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
@@ -253,9 +274,93 @@ QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const Hardwa
       init_bits_(preset_ == Preset::exact ? vector_bits<Exact>(channels_)
                                           : vector_bits<Published>(channels_)),
       options_(options),
+      small_by_pixel_(preset_ == Preset::exact && options.test == HighlightTest::conservative),
       projector_(scene, frame,
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
                                           : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {}
+
+// One triangle of preset exact.
+class QuadraticSetup::ExactTriangle {
+ public:
+  ExactTriangle(const QuadraticSetup& setup, const ScreenTriangle& triangle,
+                std::vector<std::uint32_t>& words, SetupCounts& counts)
+      : setup_(setup),
+        triangle_(triangle),
+        words_(words),
+        counts_(counts),
+        subpixel_bits_(setup.projector_.options().subpixel_bits),
+        corners_(screen_points(triangle)),
+        depths_(fixed_depths(triangle)),
+        sampler_(*setup.scene_, triangle, counts) {}
+
+  void append() const {
+    // A triangle that covers no pixel needs no samples; a small one only those at its pixels.
+    if (plan_walks(corners_, subpixel_bits_, setup_.frame_).empty()) return;
+    if (is_by_pixel(corners_, 0)) {
+      ++counts_.leaves;
+      append_pixels(corners_, 0);
+      return;
+    }
+    subdivide(whole(triangle_, sampler_), sampler_, setup_.options_, subpixel_bits_, setup_.small_by_pixel_,
+              counts_, [&](const Piece& piece) {
+                const std::array<ScreenPoint, 3> points = screen_points(piece);
+                if (is_by_pixel(points, piece.level))
+                  append_pixels(points, piece.level);
+                else
+                  append_quadratic(points, piece);
+              });
+  }
+
+ private:
+  bool is_by_pixel(const std::array<ScreenPoint, 3>& points, int level) const {
+    return setup_.small_by_pixel_ && is_small(points, subpixel_bits_ + level);
+  }
+
+  void append_quadratic(const std::array<ScreenPoint, 3>& points, const Piece& piece) const {
+    const int unit_bits = subpixel_bits_ + piece.level;
+    const std::vector<Walk> walks = plan_walks(points, unit_bits, setup_.frame_);
+    if (walks.empty()) return;
+    append_vectors(words_, setup_.channels_, triangle_.source, walks, points, unit_bits,
+                   depth_fit(piece.level), held_samples(piece, setup_.channels_, counts_));
+    counts_.vectors += walks.size();
+  }
+
+  void append_pixels(const std::array<ScreenPoint, 3>& points, int level) const {
+    const int unit_bits = subpixel_bits_ + level;
+    const std::vector<Walk> walks = plan_walks(points, unit_bits, setup_.frame_);
+    if (walks.empty()) return;
+    const std::vector<Pixel> pixels = covered_pixels(points, unit_bits, setup_.frame_);
+    std::array<std::vector<std::int64_t>, 3> colour;
+    for (const Pixel pixel : pixels) {
+      const glm::dvec3 radiance = sampler_.at_centre(pixel, subpixel_bits_);
+      for (int c = 0; c < setup_.channels_; ++c)
+        colour[static_cast<std::size_t>(c)].push_back(
+            fixed(held_sample(radiance[c], counts_), c_exact_fraction));
+    }
+    const PixelFit fit(pixels);
+    append_walks(words_, setup_.channels_, triangle_.source, walks, depth_fit(level),
+                 [&](std::size_t c, const DifferenceStart& start) {
+                   return fit.words(colour[c], start, half(c_exact_fraction));
+                 });
+    counts_.vectors += walks.size();
+  }
+
+  // All pieces use the depth plane of the whole triangle, so that their depths agree.
+  DepthFit depth_fit(int level) const {
+    std::array<ScreenPoint, 3> scaled = corners_;
+    for (ScreenPoint& p : scaled) p = {p.x << level, p.y << level};
+    return DepthFit(scaled, subpixel_bits_ + level, depths_);
+  }
+
+  const QuadraticSetup& setup_;
+  const ScreenTriangle& triangle_;
+  std::vector<std::uint32_t>& words_;
+  SetupCounts& counts_;
+  int subpixel_bits_;
+  std::array<ScreenPoint, 3> corners_;
+  std::array<std::int64_t, 3> depths_;
+  Sampler sampler_;
+};
 
 void QuadraticSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& words,
                             SetupCounts& counts) const {
@@ -264,40 +369,16 @@ void QuadraticSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& 
   for (const ScreenTriangle& t : on_screen) {
     ++counts.triangles;
     if (preset_ == Preset::exact)
-      append_exact(t, words, counts);
+      ExactTriangle(*this, t, words, counts).append();
     else
       append_published(t, words, counts);
   }
 }
 
-void QuadraticSetup::append_exact(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
-                                  SetupCounts& counts) const {
-  const int subpixel_bits = projector_.options().subpixel_bits;
-  const std::array<ScreenPoint, 3> corners = screen_points(triangle);
-  // A triangle that covers no pixel needs no samples.
-  if (plan_walks(corners, subpixel_bits, frame_).empty()) return;
-  const Sampler sampler(*scene_, triangle, counts);
-  const std::array<std::int64_t, 3> depths = fixed_depths(triangle);
-
-  subdivide(whole(triangle, sampler), sampler, options_, subpixel_bits, counts, [&](const Piece& piece) {
-    const int unit_bits = subpixel_bits + piece.level;
-    const auto& s = piece.samples;
-    const std::array<ScreenPoint, 3> points = {s[0].corner.point, s[1].corner.point, s[2].corner.point};
-    const std::vector<Walk> walks = plan_walks(points, unit_bits, frame_);
-    if (walks.empty()) return;
-    std::array<ScreenPoint, 3> scaled = corners;
-    for (ScreenPoint& p : scaled) p = {p.x << piece.level, p.y << piece.level};
-    // All pieces use the depth plane of the whole triangle, so that their depths agree.
-    append_vectors(words, channels_, triangle.source, walks, points, unit_bits,
-                   DepthFit(scaled, unit_bits, depths), held_samples(piece, channels_, counts));
-    counts.vectors += walks.size();
-  });
-}
-
 void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                                       SetupCounts& counts) const {
   const Sampler sampler(*scene_, triangle, counts);
-  subdivide(whole(triangle, sampler), sampler, options_, 0, counts, [&](const Piece& piece) {
+  subdivide(whole(triangle, sampler), sampler, options_, 0, small_by_pixel_, counts, [&](const Piece& piece) {
     const auto vertex = [&](std::size_t i) {
       const Sample& sample = piece.samples[i];
       return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));

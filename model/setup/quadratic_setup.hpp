@@ -31,6 +31,9 @@ void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32
 std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
                            const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples);
 
+/// Preset exact with the conservative test draws small leaves pixel by pixel (PixelFit), so that the colour
+/// of every pixel is the reference's, rounded. All other leaves are drawn by the quadratic through six
+/// samples.
 class QuadraticSetup final : public Setup {
  public:
   /// The scene must outlive the setup.
@@ -42,8 +45,7 @@ class QuadraticSetup final : public Setup {
   void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
 
  private:
-  void append_exact(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
-                    SetupCounts& counts) const;
+  class ExactTriangle;
   void append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                         SetupCounts& counts) const;
 
@@ -53,6 +55,7 @@ class QuadraticSetup final : public Setup {
   int channels_;
   unsigned init_bits_;
   QuadraticSetupOptions options_;
+  bool small_by_pixel_;  ///< small leaves are drawn by PixelFit
   Projector projector_;
 };
 

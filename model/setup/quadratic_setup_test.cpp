@@ -8,13 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <map>
 #include <random>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "golden/quadratic_shader.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "setup/test/random_scenes.hpp"
 #include "shading/shade.hpp"
 
 namespace halfway {
@@ -57,9 +60,9 @@ Scene sphere_scene(unsigned seed, double jitter, double bump) {
   return scene;
 }
 
-Scene teapot_scene() {
+Scene teapot_scene(std::uint32_t divisions = 3) {
   Scene scene = lit_scene();
-  add_mesh(scene, make_teapot(3));
+  add_mesh(scene, make_teapot(divisions));
   scene.camera.eye_world = {1.6, 5.0, 9.4};
   scene.camera.target_world = {0.2, 1.4, 0.0};
   return scene;
@@ -194,8 +197,7 @@ TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroug
         const SurfacePoint p = surface_point(t, barycentric);
         return 255.0 * radiance(scene, scene.materials[0], p.position_world, p.normal_world);
       };
-      const glm::dvec3 b =
-          barycentric_screen(t, (2 * f.x + 1) << c_subpixel_bits, (2 * f.y + 1) << c_subpixel_bits);
+      const glm::dvec3 b = barycentric_at_centre(t, c_subpixel_bits, f.x, f.y);
       const glm::dvec3 colour =
           b.x * (2 * b.x - 1) * sample({1, 0, 0}) + b.y * (2 * b.y - 1) * sample({0, 1, 0}) +
           b.z * (2 * b.z - 1) * sample({0, 0, 1}) + 4 * b.x * b.y * sample({0.5, 0.5, 0}) +
@@ -285,6 +287,108 @@ TEST(QuadraticSetup, CountsAreCorrect) {
   const SetupCounts once = draw(scene, frame, shallow).counts;
   EXPECT_GT(once.unresolved, 0u);
   EXPECT_LE(once.leaves, 4 * once.triangles);
+}
+
+/// Triangles of a fraction of a pixel to 2 pixels at random places, with normals far apart, sharp highlights
+/// and every kind of light.
+Scene dust_scene(unsigned seed, FrameSize frame) {
+  RandomScenes random(seed);
+  Scene scene;
+  scene.materials.push_back(random.material(false, seed % 2 == 0));
+  if (seed % 3 == 0) scene.materials[0].exponent = 500.0;
+  random.add_lights(scene, 1 + static_cast<int>(seed % 5), RandomScenes::any, 1.0, false);
+  scene.ambient = glm::dvec3(random.within(0.0, 0.5));
+  // At the eye's distance of 4, a field of view of 40 degrees and a square frame.
+  const double pixel = 2.0 * 4.0 * std::tan(glm::radians(20.0)) / frame.height;
+  random.add_triangles(scene, 400, 0.5 * pixel, 1.5);
+  return scene;
+}
+
+bool all_are_small(const std::vector<ScreenTriangle>& triangles) {
+  return std::ranges::all_of(triangles, [](const ScreenTriangle& t) {
+    const auto [x0, x1] = std::minmax({t.vertex[0].x, t.vertex[1].x, t.vertex[2].x});
+    const auto [y0, y1] = std::minmax({t.vertex[0].y, t.vertex[1].y, t.vertex[2].y});
+    return std::max(x1 - x0, y1 - y0) <= c_small_pixels << c_subpixel_bits;
+  });
+}
+
+// The reference's colour of a channel, if it is not within rounding of the middle between two bytes.
+bool is_rounded(std::uint32_t colour, double radiance) {
+  const double steps = std::clamp(255.0 * radiance, 0.0, 255.0);
+  return std::abs(static_cast<double>(colour) - steps) <= 0.5 + 1e-8;
+}
+
+// Six samples may miss all that a small triangle shows. At its pixels' centres nothing is missed: each
+// fragment has the reference's colour, rounded, whatever threshold and levels.
+TEST(QuadraticSetup, SmallTrianglesHaveTheReferencesColours) {
+  std::vector<std::pair<Scene, FrameSize>> cases = {{teapot_scene(), {7, 5}}, {teapot_scene(10), {32, 24}}};
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    const FrameSize frame{32 + seed, 32 + seed};
+    cases.emplace_back(dust_scene(seed, frame), frame);
+  }
+  std::uint64_t fragments = 0, missed = 0;
+  for (const auto& [scene, frame] : cases) {
+    const std::vector<ScreenTriangle> triangles = projected(scene, frame);
+    ASSERT_TRUE(all_are_small(triangles)) << frame.width;
+    std::map<std::uint32_t, ScreenTriangle> by_source;
+    for (const ScreenTriangle& t : triangles) ASSERT_TRUE(by_source.emplace(t.source, t).second);
+    const auto wrong = [&](const Fragment& f) {
+      const ScreenTriangle& t = by_source.at(f.triangle);
+      const SurfacePoint p = surface_point(t, barycentric_at_centre(t, c_subpixel_bits, f.x, f.y));
+      const glm::dvec3 r = radiance(scene, scene.materials[0], p.position_world, p.normal_world);
+      return !(is_rounded(f.red, r.x) && is_rounded(f.green, r.y) && is_rounded(f.blue, r.z));
+    };
+    for (const int max_level : {0, 5}) {
+      const Drawn drawn = draw(scene, frame, {.threshold = 50.0, .max_level = max_level});
+      EXPECT_EQ(std::ranges::count_if(drawn.fragments, wrong), 0) << frame.width;
+      EXPECT_EQ(drawn.counts.shaded, drawn.fragments.size());
+      EXPECT_EQ(drawn.counts.unresolved, 0u);
+      fragments += drawn.fragments.size();
+    }
+    missed += static_cast<std::uint64_t>(std::ranges::count_if(draw(scene, frame, c_whole).fragments, wrong));
+  }
+  EXPECT_GT(fragments, 5000u);
+  // Six samples get many of them wrong.
+  EXPECT_GT(missed, fragments / 10);
+}
+
+// Small pieces of larger triangles: with a threshold that splits everything, no fragment of a triangle that
+// is small after the last level is off.
+TEST(QuadraticSetup, SmallPiecesHaveTheReferencesColours) {
+  const Scene scene = sphere_scene(8, 0.1, 0.1);
+  const FrameSize frame{96, 72};
+  std::map<std::uint32_t, std::vector<ScreenTriangle>> by_source;
+  for (const ScreenTriangle& t : projected(scene, frame)) by_source[t.source].push_back(t);
+  const Drawn drawn = draw(scene, frame, {.threshold = 1e-9});
+  EXPECT_GT(drawn.counts.subdivided, 50u);
+  EXPECT_EQ(drawn.counts.unresolved, 0u);
+  ASSERT_GT(drawn.fragments.size(), 1000u);
+  for (const Fragment& f : drawn.fragments) {
+    const bool right = std::ranges::any_of(by_source.at(f.triangle), [&](const ScreenTriangle& t) {
+      const SurfacePoint p = surface_point(t, barycentric_at_centre(t, c_subpixel_bits, f.x, f.y));
+      const glm::dvec3 r = radiance(scene, scene.materials[0], p.position_world, p.normal_world);
+      return is_rounded(f.red, r.x) && is_rounded(f.green, r.y) && is_rounded(f.blue, r.z);
+    });
+    ASSERT_TRUE(right) << "triangle " << f.triangle << ", pixel " << f.x << ',' << f.y;
+  }
+}
+
+// Where small leaves are drawn by six samples, those above the threshold are counted.
+TEST(QuadraticSetup, SmallLeavesOfSixSamplesAreTestedAndCounted) {
+  const FrameSize frame{48, 48};
+  const Scene scene = dust_scene(3, frame);
+  ASSERT_TRUE(all_are_small(projected(scene, frame)));
+  const auto unresolved = [&](HighlightTest test, Preset preset) {
+    const SetupCounts counts = draw(scene, frame, {.test = test}, preset).counts;
+    EXPECT_EQ(counts.subdivided, 0u);
+    EXPECT_LE(counts.unresolved, counts.leaves);
+    return counts.unresolved;
+  };
+  EXPECT_GT(unresolved(HighlightTest::centroid, Preset::exact), 10u);
+  EXPECT_GT(unresolved(HighlightTest::centroid, Preset::published), 10u);
+  EXPECT_GT(unresolved(HighlightTest::conservative, Preset::published),
+            unresolved(HighlightTest::centroid, Preset::published));
+  EXPECT_EQ(unresolved(HighlightTest::none, Preset::published), 0u);
 }
 
 // The papers' walk: lines and spans include both ends, and the edges have real slopes. It draws every pixel

@@ -20,13 +20,18 @@ namespace halfway {
 enum class HighlightTest {
   none,         ///< never split
   centroid,     ///< as published: test at the centroid
-  conservative  ///< additionally uses a bound on missed highlights
+  conservative  ///< additionally uses a bound on missed highlights; preset exact draws small leaves by pixel
 };
+
+/// A triangle or piece of at most this width and height, in pixels, is small: it is not split. It covers at
+/// most three pixels, so preset exact can draw it with the exact colours at their centres (PixelFit).
+inline constexpr std::int32_t c_small_pixels = 2;
 
 struct QuadraticSetupOptions {
   HighlightTest test = HighlightTest::conservative;
-  double threshold = 2.0;  ///< colour steps of 1/255; above it a triangle is split into four
-  int max_level = 5;       ///< of subdivision, 0 to 5
+  /// Colour steps of 1/255; above it a triangle is split into four, unless it is small.
+  double threshold = 2.0;
+  int max_level = 5;  ///< of subdivision, 0 to 5
 };
 
 /// Source of the vectors at the two ends of a span of the spherical shader.
@@ -73,7 +78,7 @@ struct SetupCounts {
   std::uint64_t records = 0;      ///< line records that follow them
   std::uint64_t shaded = 0;       ///< evaluations of the illumination model; spherical: of the vectors
   std::uint64_t overexposed = 0;  ///< samples clamped at c_largest_sample, or factors at their limit
-  std::uint64_t unresolved = 0;   ///< leaves above the threshold at the last level
+  std::uint64_t unresolved = 0;   ///< leaves above the threshold: small, or at the last level
   std::uint64_t shadows = 0;      ///< init vectors of shadow polygons
   /// Greatest number of opening or of closing shadow polygons of one light on one pixel, including the
   /// volumes around the eye. Up to c_most_shadows can be counted.

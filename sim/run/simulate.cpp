@@ -153,10 +153,17 @@ class Simulation {
           "{} triangles lie behind the eye or nearer than the near plane, which was fitted to {:.4g}; set "
           "near in [camera] to see nearer ones",
           n.projection.behind_near, depth_range(scene_.camera, bounding_sphere(scene_)).near));
-    if (n.unresolved != 0 && s_.setup.quadratic.max_level > 0)
+    if (n.unresolved != 0 && s_.setup.quadratic.max_level > 0) {
+      const bool by_pixel =
+          s_.plan.preset == Preset::exact && s_.setup.quadratic.test == HighlightTest::conservative;
       note(fmt::format(
-          "{} pieces may err by more than {} colour steps after {} levels of splitting; a finer mesh helps",
-          n.unresolved, s_.setup.quadratic.threshold, s_.setup.quadratic.max_level));
+          "{} pieces may err by more than {} colour steps; they are split {} times{}", n.unresolved,
+          s_.setup.quadratic.threshold, s_.setup.quadratic.max_level,
+          by_pixel ? "; a finer mesh helps"
+                   : fmt::format(" or at most {} pixels wide and high; preset exact with the conservative "
+                                 "test draws these without error",
+                                 c_small_pixels)));
+    }
     if (s_.plan.shader == Shader::spherical)
       note_of_bells();
     else if (n.overexposed != 0)
