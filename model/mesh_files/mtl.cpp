@@ -12,13 +12,6 @@ namespace halfway {
 
 namespace {
 
-std::string lower(std::string_view word) {
-  std::string text(word);
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
 /// Read one number or more, up to `most`, to the end of the line.
 Result<int> read_numbers(TextLines& lines, std::string_view key, float* values, int most) {
   int count = 0;
@@ -65,7 +58,7 @@ Status read_mtl(std::string_view text, std::string_view file, MtlMaterials& mate
   MtlMaterial* current = nullptr;
   while (lines.next()) {
     const std::string_view word = lines.word();
-    const std::string key = lower(word);
+    const std::string key = lower_case(word);
     const bool is_texture = key.starts_with("map_") || key == "bump" || key == "disp" || key == "decal" ||
                             key == "refl" || key == "norm";
     if (key == "newmtl") {

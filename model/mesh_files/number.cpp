@@ -27,9 +27,7 @@ bool is_digit(char c) {
 
 /// True for the spellings of NaN and infinity, which are recognized for the message only.
 bool is_not_finite(std::string_view word) {
-  std::string text(word.substr(0, 9));
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::string text = lower_case(word.substr(0, 9));
   if (text.starts_with('+') || text.starts_with('-')) text.erase(0, 1);
   return text == "nan" || text == "inf" || text == "infinity";
 }
@@ -120,6 +118,13 @@ std::string fault_text(NumberFault fault, std::string_view word) {
       return quoted(word) + " is too large";
   }
   return {};
+}
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return lower;
 }
 
 std::string quoted(std::string_view word) {

@@ -17,6 +17,9 @@ NumberFault read_number(std::string_view word, float& value);
 /// The fault as the end of a message: "'x' is not a number".
 std::string fault_text(NumberFault fault, std::string_view word);
 
+/// The text with the letters A to Z as a to z. It does not depend on the locale.
+std::string lower_case(std::string_view text);
+
 /// A word in quotes for a message, shortened and printable, because damaged files contain any bytes.
 std::string quoted(std::string_view word);
 

@@ -68,6 +68,36 @@ TEST(ReadNumber, GivesTheNearestFloat) {
   }
 }
 
+TEST(ReadNumber, RoundsOnceNextToTies) {
+  // The middle between 1 + 2^-23 and 1 + 2^-22 goes up to even, the middle between 1 and 1 + 2^-23 down.
+  const std::string up = "1.00000017881393432617187", down = "1.00000005960464477539062";
+  const std::string zeros(60, '0');
+  const std::pair<std::string, float> spellings[] = {
+      {down + "5", 0x1p0f},
+      {down + "5" + zeros + "1", 0x1.000002p0f},
+      {down + "4" + std::string(60, '9'), 0x1p0f},
+      {up + "5", 0x1.000004p0f},
+      {up + "5" + zeros + "1", 0x1.000004p0f},
+      {up + "4" + std::string(60, '9'), 0x1.000002p0f},
+      // The nearest double of each is the middle between two floats, and the float next to it whose last bit
+      // is 0 is not the nearest. The first four are below the middle, the others above it.
+      {"2857231255620718e-17", 0x1.d420f6p-6f},
+      {"1740885909384815e-20", 0x1.24127ap-16f},
+      {"2279717623377271e4", 0x1.3c5fd6p64f},
+      {"2573286979527152e16", 0x1.44cb62p104f},
+      {"2351119089871645e-17", 0x1.813516p-6f},
+      {"2077587942039827e-20", 0x1.5c8fbap-16f},
+      {"3148025925185464e4", 0x1.b4e05ap64f},
+      {"3279784921006089e16", 0x1.9df792p104f}};
+  for (const auto& [word, wanted] : spellings) {
+    float value = 0.0f;
+    EXPECT_EQ(read_number(word, value), NumberFault::none) << word;
+    EXPECT_EQ(value, wanted) << word;
+    EXPECT_EQ(read_number("-" + word, value), NumberFault::none) << word;
+    EXPECT_EQ(value, -wanted) << word;
+  }
+}
+
 TEST(ReadNumber, RefusesEverythingElse) {
   const std::pair<const char*, NumberFault> spellings[] = {
 

@@ -60,13 +60,6 @@ std::string_view TextLines::rest() {
   return text_.substr(first, last - first);
 }
 
-std::size_t TextLines::next_line_start() {
-  while (!word().empty()) {
-  }
-  skip_line_end();
-  return at_;
-}
-
 Error TextLines::error(std::string_view what) const {
   return bad_input(std::string(file_) + ":" + std::to_string(line_) + ": " + std::string(what));
 }

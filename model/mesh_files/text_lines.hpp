@@ -30,8 +30,6 @@ class TextLines {
   std::string_view rest();
   /// The number of the line, from 1; of joined lines the first.
   std::uint64_t line() const { return line_; }
-  /// Start of the next line: only for the end of a text header.
-  std::size_t next_line_start();
   /// An error at the line: `file:line: what`.
   Error error(std::string_view what) const;
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -18,7 +17,9 @@
 #include <utility>
 
 #include "common/to_integer.hpp"
+#include "mesh_files/number.hpp"
 #include "scene/scene.hpp"
+#include "sim/scene_files/load_mesh.hpp"
 
 namespace halfway {
 
@@ -101,13 +102,6 @@ class Lines {
   std::uint64_t number_ = 0;
   std::uint64_t first_number_ = 0;
 };
-
-/// A word for a message, shortened and printable, because damaged files contain any bytes.
-std::string quoted(std::string_view word) {
-  std::string text = "'";
-  for (const char c : word.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
-  return text + (word.size() > 40 ? "...'" : "'");
-}
 
 /// Empty if the word is a number in the range of float; otherwise the reason.
 std::string number_fault(std::string_view word) {
@@ -533,9 +527,7 @@ Result<MeshFileSummary> check_gltf(const std::filesystem::path& path) {
 }  // namespace
 
 Result<MeshFileSummary> check_mesh_file(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string ending = lower_ending(path);
   try {
     if (ending == ".stl") return check_stl(path);
     if (ending == ".ply") return PlyCheck(path).run();

@@ -15,6 +15,7 @@
 #include <memory>
 #include <string_view>
 
+#include "mesh_files/number.hpp"
 #include "mesh_files/obj.hpp"
 #include "sim/scene_files/check_mesh_file.hpp"
 #include "sim/scene_files/mesh_reply.hpp"
@@ -134,6 +135,10 @@ Result<LoadedMesh> load_obj(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::string lower_ending(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
 
 bool is_mesh_file_name(const std::filesystem::path& path) {
   return std::find(c_endings.begin(), c_endings.end(), lower_ending(path)) != c_endings.end();

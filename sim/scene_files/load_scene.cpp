@@ -50,13 +50,6 @@ class BadScene {
   Error error_;
 };
 
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
 /// The line of the first key with too many parts, or 0. toml++ limits the nesting of values, but not of keys,
 /// which would overflow the stack. If the text is not TOML the search may end early, as does toml++.
 std::size_t line_of_deep_key(std::string_view text) {

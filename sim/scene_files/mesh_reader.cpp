@@ -28,6 +28,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh_files/number.hpp"
 #include "scene/mesh.hpp"
 #include "sim/scene_files/check_mesh_file.hpp"
 #include "sim/scene_files/mesh_reply.hpp"
@@ -162,7 +163,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
   if (scene == nullptr) throw Refused(importer.GetErrorString());
   if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw Refused("the mesh has no faces");
 
-  const std::string ending = lower_ending(path);
+  const std::string ending = lower_case(path.extension().string());
   const bool is_gltf = ending == ".gltf" || ending == ".glb";
   std::vector<std::string> notes;
   std::uint64_t polygons = 0, points_and_lines = 0, vertices = 0, triangles_expected = 0;
@@ -244,7 +245,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
     sink.put(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) sink.put(mesh.mVertices[v]);
     // STL has normals per facet only
-    const bool has_normals = mesh.HasNormals() && lower_ending(path) != ".stl";
+    const bool has_normals = mesh.HasNormals() && lower_case(path.extension().string()) != ".stl";
     sink.put(has_normals);
     if (has_normals) {
       for (unsigned v = 0; v < mesh.mNumVertices; ++v) sink.put(mesh.mNormals[v]);

@@ -2,11 +2,8 @@
 // Format of the data from halfway_mesh_reader to `load_mesh`: plain values in sequence.
 #pragma once
 
-#include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <new>
 #include <string>
 #include <string_view>
@@ -56,13 +53,6 @@ class ReplySource {
 };
 
 enum class ReplyKind : std::uint8_t { mesh, error };
-
-inline std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
 
 /// Limit of the reader's processor time, enforced by the system.
 inline constexpr unsigned c_reader_cpu_seconds = 300;
