@@ -60,9 +60,6 @@ entity triangle_walker is
     line_carry     : out std_logic;                                                   -- that step goes a pixel further
     span_load      : out std_logic;                                                   -- begin the line
     span_step      : out std_logic;                                                   -- go to the next pixel
-    line_y         : out std_logic_vector(formats(g_exact).pixel_y.bits - 1 downto 0);
-    line_start     : out std_logic_vector(formats(g_exact).span_x.bits - 1 downto 0);
-    line_stop      : out std_logic_vector(formats(g_exact).span_x.bits - 1 downto 0); -- exclusive
     fragment_valid : out std_logic;
     fragment_ready : in  std_logic;
     triangle       : out std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
@@ -82,6 +79,10 @@ architecture rtl of triangle_walker is
   -- Line stage.
   signal advance, line_valid : std_logic;
   signal line                : line_t;
+
+  -- The line's words as vectors, for traces: GHDL's VCD has no records.
+  signal line_y                : std_logic_vector(y'range);
+  signal line_start, line_stop : std_logic_vector(x'range);
 
   -- Span stage.
   signal span_last_next, span_valid : std_logic;
@@ -161,6 +162,7 @@ begin
   line_load  <= advance and edge_first;
   line_held  <= line_valid;
   line_carry <= line.carry;
+
   line_y     <= std_logic_vector(line.y);
   line_start <= std_logic_vector(line.start);
   line_stop  <= std_logic_vector(line.stop);

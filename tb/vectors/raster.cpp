@@ -38,14 +38,12 @@ EdgeStart garbage_edge(Random& random) {
           random.one_in(2)};
 }
 
-// The files of a set of triangles. lines: y, start, stop, empty, last, carry. fragments: triangle, y, x, and
+// The files of a set of triangles. lines: empty, last, carry. fragments: triangle, y, x, and
 // the clock in which the fragment is output at full speed.
 struct WalkFiles {
   VectorFile inits, lines, fragments;
 
-  template <class Preset>
   void add_line(const WalkedLine& line) {
-    lines.word(line.y, Preset::c_pixel_y_bits).word(line.start).word(line.stop);
     lines.flag(line.pixels() == 0).flag(line.last).flag(line.carry).end_vector();
   }
   // The first fragment is output in clock `first`.
@@ -103,7 +101,7 @@ Status write_walker(const std::filesystem::path& folder) {
       files.inits.word(static_cast<std::uint64_t>(clock.read() + 1), 32).end_vector();
       std::int64_t first_clock = -1, pixels = 0;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
-        files.add_line<Preset>(line);
+        files.add_line(line);
         const std::int64_t first = clock.take_line(line.pixels()) + 2;
         if (pixels == 0) first_clock = first;
         pixels += line.pixels();
