@@ -2,6 +2,7 @@
 // Result of reading a mesh file of any format.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,20 @@ namespace halfway {
 inline constexpr double c_smooth_crease_degrees = 180.0;
 /// Default crease angle of STL, which has flat facets only and mostly describes machine parts.
 inline constexpr double c_stl_crease_degrees = 60.0;
+/// A triangle uses three vertices at most.
+inline constexpr std::size_t c_max_vertices = 3 * std::size_t{c_max_triangles};
 
 struct LoadedMesh {
   Mesh mesh;  ///< equal positions are merged; normals are zero if the file has none
   double default_crease_degrees = c_smooth_crease_degrees;
   std::vector<std::string> notes;  ///< "file: what was left out or changed"
 };
+
+/// The material of a file without materials.
+inline Material default_material() {
+  Material material;
+  material.name = "default";
+  return material;
+}
 
 }  // namespace halfway

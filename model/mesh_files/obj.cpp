@@ -12,17 +12,15 @@
 #include <unordered_map>
 #include <vector>
 
+#include "mesh_files/face_list.hpp"
 #include "mesh_files/mtl.hpp"
 #include "mesh_files/number.hpp"
 #include "mesh_files/text_lines.hpp"
-#include "mesh_files/triangulate.hpp"
 
 namespace halfway {
 
 namespace {
 
-/// A triangle uses three vertices at most.
-constexpr std::size_t c_max_vertices = 3 * std::size_t{c_max_triangles};
 constexpr std::uint32_t c_none = UINT32_MAX;
 
 constexpr std::string_view c_without_effect[] = {
@@ -58,24 +56,19 @@ class ObjReader {
     if (Status ok = read_vertices(); !ok) return ok.error();
     if (Status ok = read_faces(); !ok) return ok.error();
     if (loaded_.mesh.triangles.empty()) {
-      const bool has_faces = faces_without_area_ > 0;
-      return bad_input(std::string(file_) + (has_faces ? ": no face of the mesh has any area"
-                                                       : ": the mesh has no faces; export it with faces"));
+      return bad_input(line_of_first_face_ == 0
+                           ? fmt::format("{}: the mesh has no faces; export it with faces", file_)
+                           : fmt::format("{}:{}: no face from here on has any area; correct the vertices",
+                                         file_, line_of_first_face_));
     }
-    if (!has_materials_) {
-      loaded_.mesh.materials.emplace_back();
-      loaded_.mesh.materials.back().name = "default";
-    }
+    if (!has_materials_) loaded_.mesh.materials.push_back(default_material());
     add_notes();
     join_positions(loaded_.mesh);
     return std::move(loaded_);
   }
 
  private:
-  struct Corner {
-    std::uint32_t position;
-    std::uint32_t normal;  ///< 0: none; the mesh's first normal is zero
-  };
+  using Corner = FaceList::Corner;  ///< normal 0: none; the mesh's first normal is zero
   /// A list that corners index.
   struct Field {
     std::string_view what;
@@ -105,7 +98,6 @@ class ObjReader {
       if (!ok) return ok;
     }
     has_materials_ = uses_material && libraries_ > 0;
-    new_index_.assign(positions_.size(), c_none);
     return Ok{};
   }
 
@@ -147,7 +139,7 @@ class ObjReader {
       }
     }
     has_colours_ |= *count == 6;
-    positions_.emplace_back(v[0], v[1], v[2]);
+    faces_.add_position({v[0], v[1], v[2]});
     return Ok{};
   }
 
@@ -286,47 +278,12 @@ class ObjReader {
       ++points_and_lines_;
       return Ok{};
     }
-    if (loaded_.mesh.triangles.size() + corners_.size() - 2 > c_max_triangles) {
-      return lines.error(fmt::format("more than {} triangles; reduce the mesh", c_max_triangles));
-    }
-    if (corners_.size() == 3) {
-      add_triangle({0, 1, 2});
-      return Ok{};
-    }
-
-    // Divide a polygon.
-    places_.clear();
-    for (const Corner& corner : corners_) places_.push_back(positions_[corner.position]);
-    divided_.clear();
-    switch (triangulator_.divide(places_, divided_)) {
-      case PolygonKind::divided:
-        break;
-      case PolygonKind::no_area:
-        ++faces_without_area_;
-        break;
-      case PolygonKind::crossing:
-        return lines.error("the outline of the face crosses itself; divide the face into triangles");
-      case PolygonKind::out_of_work:
-        return lines.error("the concave faces up to here have too many corners; divide them into triangles");
-    }
-    for (const Triangulator::Triangle& triangle : divided_) add_triangle(triangle);
-    return Ok{};
-  }
-
-  void add_triangle(const Triangulator::Triangle& triangle) {
+    if (line_of_first_face_ == 0) line_of_first_face_ = lines.line();
+    if (const std::string fault = faces_.divide(corners_); !fault.empty()) return lines.error(fault);
+    if (!faces_.is_divided()) return Ok{};
     if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
-    SceneTriangle added{.position = {}, .normal = {}, .material = material_};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Corner& corner = corners_[triangle[i]];
-      std::uint32_t& index = new_index_[corner.position];
-      if (index == c_none) {
-        index = static_cast<std::uint32_t>(loaded_.mesh.positions.size());
-        loaded_.mesh.positions.emplace_back(positions_[corner.position]);
-      }
-      added.position[i] = index;
-      added.normal[i] = corner.normal;
-    }
-    loaded_.mesh.triangles.push_back(added);
+    faces_.append(material_, loaded_.mesh);
+    return Ok{};
   }
 
   /// The index of the current material. A material gets its index when the first face uses it.
@@ -368,7 +325,7 @@ class ObjReader {
     if (has_textures_) note("textures are left out");
     if (has_curves_) note("curves and surfaces are left out");
     if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
-    if (faces_without_area_ > 0) note(fmt::format("{} faces of no area left out", faces_without_area_));
+    if (faces_.without_area() > 0) note(fmt::format("{} faces of no area left out", faces_.without_area()));
     loaded_.notes.insert(loaded_.notes.end(), notes_.begin(), notes_.end());
   }
 
@@ -378,8 +335,6 @@ class ObjReader {
   LoadedMesh loaded_;
 
   Field position_{.what = "vertex"}, texel_{.what = "texture coordinate"}, normal_{.what = "normal"};
-  std::vector<glm::vec3> positions_;
-  std::vector<std::uint32_t> new_index_;  ///< of each vertex in the mesh, or c_none before its first use
 
   MtlMaterials defined_;
   std::set<std::string> missing_libraries_;
@@ -390,12 +345,11 @@ class ObjReader {
   std::unordered_map<std::string, std::uint32_t> indices_;  ///< of materials in the mesh
 
   std::vector<Corner> corners_;  ///< of the current face
-  std::vector<glm::vec3> places_;
-  std::vector<Triangulator::Triangle> divided_;
-  Triangulator triangulator_;
+  FaceList faces_;
+  std::uint64_t line_of_first_face_ = 0;
 
   std::set<std::string> notes_;
-  std::uint64_t points_and_lines_ = 0, faces_without_area_ = 0;
+  std::uint64_t points_and_lines_ = 0;
   bool has_colours_ = false, has_textures_ = false, has_curves_ = false;
 };
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh_files/test/spelling.hpp"
+
 namespace halfway {
 namespace {
 
@@ -23,43 +25,7 @@ Result<LoadedMesh> read(const std::string& text, const Libraries& libraries = {}
   });
 }
 
-/// The triangles by their corners: "x,y,z x,y,z x,y,z; ...". A refusal as its message, with '!' in front.
-std::string triangles_of(const Result<LoadedMesh>& loaded) {
-  if (!loaded) return "! " + loaded.error().message;
-  std::string text;
-  const Mesh& mesh = loaded->mesh;
-  for (const SceneTriangle& triangle : mesh.triangles) {
-    if (!text.empty()) text += "; ";
-    for (std::size_t i = 0; i < 3; ++i) {
-      const glm::dvec3& p = mesh.positions.at(triangle.position[i]);
-      text += fmt::format("{}{},{},{}", i == 0 ? "" : " ", p.x, p.y, p.z);
-    }
-  }
-  return text;
-}
-
-std::string normals_of(const LoadedMesh& loaded) {
-  std::string text;
-  for (const SceneTriangle& triangle : loaded.mesh.triangles) {
-    for (const std::uint32_t normal : triangle.normal) {
-      const glm::dvec3& n = loaded.mesh.normals.at(normal);
-      text += fmt::format("{},{},{} ", n.x, n.y, n.z);
-    }
-  }
-  return text;
-}
-
 // ---- Spellings: each is read exactly, or refused with file and line
-
-struct Spelling {
-  const char* name;
-  std::string text;
-  std::string wanted;  ///< triangles_of
-};
-
-void PrintTo(const Spelling& spelling, std::ostream* out) {
-  *out << spelling.name;
-}
 
 class ObjSpelling : public ::testing::TestWithParam<Spelling> {};
 
@@ -204,7 +170,7 @@ const std::vector<Spelling> c_spellings = {
     {"bow_tie", c_square + "f 1 3 2 4\n",
      "! a.obj:5: the outline of the face crosses itself; divide the face into triangles"},
     {"polygon_on_a_line", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n",
-     "! a.obj: no face of the mesh has any area"},
+     "! a.obj:5: no face from here on has any area; correct the vertices"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, ObjSpelling, ::testing::ValuesIn(c_spellings),

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The faces of a mesh file, divided into triangles of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh_files/loaded_mesh.hpp"
+#include "mesh_files/triangulate.hpp"
+
+namespace halfway {
+
+class FaceList {
+ public:
+  struct Corner {
+    std::uint32_t position;  ///< index of the file's vertex
+    std::uint32_t normal;    ///< index of the mesh's normal
+  };
+
+  void add_position(const glm::vec3& position);
+  std::size_t positions() const { return positions_.size(); }
+
+  /// Divide a face of three corners or more. Returns what is wrong with it, or nothing. The corners must
+  /// exist until `append`.
+  std::string divide(std::span<const Corner> corners);
+  /// True if the last face has triangles.
+  bool is_divided() const { return !divided_.empty(); }
+  /// Append the triangles of the last `divide` to the mesh. Vertices are in the order of their first use.
+  void append(std::uint32_t material, Mesh& mesh);
+
+  /// Faces whose corners are on one line; they have no triangles.
+  std::uint64_t without_area() const { return without_area_; }
+
+ private:
+  std::vector<glm::vec3> positions_;
+  std::vector<std::uint32_t> new_index_;  ///< of each vertex in the mesh, or c_none before its first use
+  std::span<const Corner> corners_;
+  std::vector<glm::vec3> places_;
+  std::vector<Triangulator::Triangle> divided_;
+  Triangulator triangulator_;
+  std::uint64_t triangles_ = 0, without_area_ = 0;
+};
+
+}  // namespace halfway
