@@ -17,7 +17,7 @@ struct MeshFileSummary {
   std::optional<std::uint64_t> vertices;  ///< if assimp must return the same number
 };
 
-/// Check a PLY, STL or glTF file. PLY and STL are read completely in constant memory, of glTF the JSON part.
+/// Check the JSON part of a glTF file.
 Result<MeshFileSummary> check_mesh_file(const std::filesystem::path& path);
 
 }  // namespace halfway

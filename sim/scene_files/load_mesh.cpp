@@ -17,6 +17,8 @@
 
 #include "mesh_files/number.hpp"
 #include "mesh_files/obj.hpp"
+#include "mesh_files/ply.hpp"
+#include "mesh_files/stl.hpp"
 #include "sim/scene_files/check_mesh_file.hpp"
 #include "sim/scene_files/mesh_reply.hpp"
 #include "sim/system/file.hpp"
@@ -170,6 +172,11 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   }
   if (Status ok = check_readable(path); !ok) return ok.error();
   if (lower_ending(path) == ".obj") return load_obj(path);
+  if (lower_ending(path) == ".ply" || lower_ending(path) == ".stl") {
+    const Result<std::string> bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    return lower_ending(path) == ".ply" ? read_ply(*bytes, name) : read_stl(*bytes, name);
+  }
   Result<MeshFileSummary> summary = check_mesh_file(path);
   if (!summary) return summary.error();
   if (summary->polygons == 0u) return bad_input(name + ": the mesh has no faces; export it with faces");
@@ -180,7 +187,6 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   if (source.get<ReplyKind>() == ReplyKind::error) return bad_input(name + ": " + source.get_text());
 
   LoadedMesh loaded;
-  if (lower_ending(path) == ".stl") loaded.default_crease_degrees = c_stl_crease_degrees;
   for (auto left = source.get<std::uint32_t>(); left > 0 && !source.failed(); --left) {
     loaded.mesh.materials.push_back(get_material(source));
   }
@@ -192,8 +198,7 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   }
   if (source.failed()) return tool_failed(name + ": the reader's reply is truncated");
   if (loaded.mesh.materials.empty()) {
-    loaded.mesh.materials.emplace_back();
-    loaded.mesh.materials.back().name = "default";
+    loaded.mesh.materials.push_back(default_material());
     for (SceneTriangle& triangle : loaded.mesh.triangles) triangle.material = 0;
   }
   join_positions(loaded.mesh);

@@ -17,8 +17,8 @@ std::string lower_ending(const std::filesystem::path& path);
 bool is_mesh_file_name(const std::filesystem::path& path);
 
 /// Read a mesh file. Points and lines are omitted.
-/// OBJ: read_obj, with its material libraries.
-/// PLY, STL, glTF: polygons are triangulated, node transforms applied. glTF: the base colour becomes the
+/// OBJ: read_obj, with its material libraries. PLY: read_ply. STL: read_stl.
+/// glTF: node transforms are applied. The base colour becomes the
 /// colour, and a roughness r the exponent 2 / r^4 - 2. The highlight of a metal has its colour. k_d and k_s
 /// are those of the default material. Exponents below 1 become 1. A file without materials gets one default
 /// material. Textures and vertex colours are omitted with a note. assimp reads these files in

@@ -49,12 +49,12 @@ class Refused {
   std::string reason_;
 };
 
-void keep_three_readers(Assimp::Importer& importer) {
+void keep_one_reader(Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string_view name = importer.GetImporterInfo(i)->mName;
     const std::string_view endings = importer.GetImporterInfo(i)->mFileExtensions;
     const bool is_gltf2 = name.starts_with("glTF2");
-    if (endings == "ply" || endings == "stl" || is_gltf2) continue;
+    if (is_gltf2) continue;
     const std::unique_ptr<Assimp::BaseImporter> unused(importer.GetImporter(i));
     importer.UnregisterLoader(unused.get());
   }
@@ -158,7 +158,7 @@ void put_material(ReplySink& sink, const Material& material) {
 void import_file(const std::filesystem::path& path, const MeshFileSummary& summary, ReplySink& sink) {
   Assimp::Importer importer;
   importer.SetIOHandler(new RegularFiles);  // owned by the importer
-  keep_three_readers(importer);
+  keep_one_reader(importer);
   const aiScene* scene = importer.ReadFile(path.string(), aiProcess_ValidateDataStructure);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
   if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw Refused("the mesh has no faces");
@@ -211,7 +211,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
   if (polygons < triangles_expected) scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) throw Refused(importer.GetErrorString());
 
-  // Of PLY and STL, assimp's material is its own; use the default material instead.
+  // Of PLY, assimp's material is its own; use the default material instead.
   const bool has_materials = is_gltf;
   const std::vector<Instance> parts = instances(*scene);
   std::vector<std::uint32_t> new_index(scene->mNumMaterials, UINT32_MAX);
@@ -244,8 +244,7 @@ void import_file(const std::filesystem::path& path, const MeshFileSummary& summa
     sink.put(has_materials ? new_index.at(mesh.mMaterialIndex) : 0u);
     sink.put(mesh.mNumVertices);
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) sink.put(mesh.mVertices[v]);
-    // STL has normals per facet only
-    const bool has_normals = mesh.HasNormals() && lower_case(path.extension().string()) != ".stl";
+    const bool has_normals = mesh.HasNormals();
     sink.put(has_normals);
     if (has_normals) {
       for (unsigned v = 0; v < mesh.mNumVertices; ++v) sink.put(mesh.mNormals[v]);

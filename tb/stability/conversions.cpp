@@ -95,7 +95,7 @@ constexpr Site c_sites[] = {
     {"sim/report/figures.cpp", 2, "size_of: width and height of an SVG that this project wrote"},
     {"model/frame/frame.hpp", 1, "to_byte: Channels of a picture"},
     {"model/reference/ray_cast.cpp", 1, "ShadowRays: bins of a tree; Extreme numbers, the reference picture"},
-    {"sim/scene_files/check_mesh_file.cpp", 1, "corners of a PLY polygon; Numbers of a mesh file"},
+    {"model/mesh_files/ply.cpp", 1, "index of a corner, in range; Numbers of a mesh file"},
     {"model/scene/hen_mesh.cpp", 1, "Net: cells of a lattice; numbers of its own"},
     {"sim/scene_files/load_scene.cpp", 1, "slices at another tessellation, in range; load_scene_test"},
     {"model/setup/exact_division.hpp", 1, "an estimate that exact remainders mend; exact_division_test"},

@@ -1,0 +1,505 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files/ply.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/to_integer.hpp"
+#include "mesh_files/bytes.hpp"
+#include "mesh_files/face_list.hpp"
+#include "mesh_files/number.hpp"
+#include "mesh_files/text_lines.hpp"
+
+namespace halfway {
+
+namespace {
+
+// ---- Types
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct TypeName {
+  std::string_view name;
+  Type type;
+};
+constexpr TypeName c_type_names[] = {
+    {"char", Type::int8},   {"uchar", Type::uint8},   {"short", Type::int16},     {"ushort", Type::uint16},
+    {"int", Type::int32},   {"uint", Type::uint32},   {"float", Type::float32},   {"double", Type::float64},
+    {"int8", Type::int8},   {"uint8", Type::uint8},   {"int16", Type::int16},     {"uint16", Type::uint16},
+    {"int32", Type::int32}, {"uint32", Type::uint32}, {"float32", Type::float32}, {"float64", Type::float64}};
+
+const TypeName* find_type(std::string_view name) {
+  const auto found = std::find_if(std::begin(c_type_names), std::end(c_type_names),
+                                  [name](const TypeName& type) { return type.name == name; });
+  return found == std::end(c_type_names) ? nullptr : found;
+}
+
+bool is_real(Type type) {
+  return type == Type::float32 || type == Type::float64;
+}
+
+/// Bytes of each type, in the order of Type.
+constexpr std::size_t c_sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+/// Least and greatest value of the integer types, in the order of Type.
+constexpr std::int64_t c_least[] = {INT8_MIN, 0, INT16_MIN, 0, INT32_MIN, 0};
+constexpr std::int64_t c_greatest[] = {INT8_MAX, UINT8_MAX, INT16_MAX, UINT16_MAX, INT32_MAX, UINT32_MAX};
+
+/// A double represents the values of all types.
+double value_at(std::string_view bytes, std::size_t at, Type type, ByteOrder order) {
+  switch (type) {
+    case Type::int8:
+      return number_in<std::int8_t>(bytes, at, order);
+    case Type::uint8:
+      return number_in<std::uint8_t>(bytes, at, order);
+    case Type::int16:
+      return number_in<std::int16_t>(bytes, at, order);
+    case Type::uint16:
+      return number_in<std::uint16_t>(bytes, at, order);
+    case Type::int32:
+      return number_in<std::int32_t>(bytes, at, order);
+    case Type::uint32:
+      return number_in<std::uint32_t>(bytes, at, order);
+    case Type::float32:
+      return static_cast<double>(number_in<float>(bytes, at, order));
+    case Type::float64:
+      return number_in<double>(bytes, at, order);
+  }
+  return 0.0;
+}
+
+// ---- Header
+
+/// What a property of a vertex or face is used for. x to nz are indices of a vertex's numbers.
+enum class Use { x, y, z, nx, ny, nz, corners, none };
+constexpr std::string_view c_numbers[] = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::string_view c_colours[] = {"red",         "green",         "blue",
+                                          "diffuse_red", "diffuse_green", "diffuse_blue"};
+
+template <std::size_t N>
+std::size_t index_in(const std::string_view (&words)[N], std::string_view word) {
+  return static_cast<std::size_t>(std::find(std::begin(words), std::end(words), word) - std::begin(words));
+}
+
+struct Property {
+  std::string_view name;
+  Type type = Type::int8;
+  bool is_list = false;
+  Type length_type = Type::int8;  ///< of a list
+  Use use = Use::none;
+};
+
+enum class Kind { vertex, face, tristrips, other };
+
+struct Element {
+  std::string_view name;
+  Kind kind = Kind::other;
+  std::uint64_t count = 0;
+  std::uint64_t line = 0;
+  std::vector<Property> properties;
+};
+
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, std::string_view file)
+      : bytes_(bytes), file_(file), lines_(bytes, file, {.comments = false, .continuation = false}) {}
+
+  Result<LoadedMesh> read() {
+    if (Status ok = read_header(); !ok) return ok.error();
+    loaded_.mesh.normals.emplace_back(0.0);
+    loaded_.mesh.materials.push_back(default_material());
+    if (!is_text_) at_ = data_start();
+    for (const Element& element : elements_) {
+      if (Status ok = read_element(element); !ok) return ok.error();
+    }
+    if (Status ok = check_end(); !ok) return ok.error();
+    if (loaded_.mesh.triangles.empty()) {
+      return bad_input(fmt::format("{}: {}", file_,
+                                   faces_.without_area() > 0
+                                       ? "no face of the mesh has any area; correct the vertices"
+                                       : "the mesh has no faces; export it with faces"));
+    }
+    add_notes();
+    join_positions(loaded_.mesh);
+    return std::move(loaded_);
+  }
+
+ private:
+  // ---- Header
+
+  Status read_header() {
+    lines_.next();
+    if (lines_.word() != "ply" || !lines_.word().empty()) {
+      return lines_.error("not a PLY file: its first line is not 'ply'; export it again");
+    }
+    bool has_format = false;
+    while (lines_.next()) {
+      const std::string_view keyword = lines_.word();
+      Status ok = Ok{};
+      if (keyword.empty() || keyword == "comment" || keyword == "obj_info") {
+        lines_.rest();
+      } else if (keyword == "format") {
+        if (has_format) return lines_.error("a second format; remove it");
+        has_format = true;
+        ok = read_format();
+      } else if (keyword == "element") {
+        ok = read_element_line();
+      } else if (keyword == "property") {
+        ok = read_property();
+      } else if (keyword == "end_header") {
+        if (!has_format) return lines_.error("the PLY header names no format; export the file again");
+        if (!lines_.word().empty()) return lines_.error("a word after end_header; remove it");
+        return check_elements();
+      } else {
+        return lines_.error(quoted(keyword) +
+                            " is not a keyword of a PLY header; correct or remove the line");
+      }
+      if (!ok) return ok;
+      if (const std::string_view word = lines_.word(); !word.empty()) {
+        return lines_.error(fmt::format("{} at the end of a {} line; remove it", quoted(word), keyword));
+      }
+    }
+    return lines_.error("the PLY header has no end_header; the file is truncated, export it again");
+  }
+
+  Status read_format() {
+    const std::string_view format = lines_.word(), version = lines_.word();
+    is_text_ = format == "ascii";
+    order_ = format == "binary_big_endian" ? ByteOrder::big : ByteOrder::little;
+    if (!is_text_ && format != "binary_big_endian" && format != "binary_little_endian") {
+      return lines_.error(quoted(format) + " is not a format of PLY; export the file again");
+    }
+    if (version != "1.0") {
+      return lines_.error(quoted(version) + " is not a version of PLY that can be read; export as 1.0");
+    }
+    return Ok{};
+  }
+
+  Status read_element_line() {
+    Element element{.name = lines_.word(), .line = lines_.line()};
+    const std::string_view count = lines_.word();
+    const auto [end, fault] = std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (fault != std::errc() || end != count.data() + count.size()) {
+      return lines_.error(quoted(count) + " is not a count of items; correct it");
+    }
+    for (const Element& other : elements_) {
+      if (other.name != element.name) continue;
+      return lines_.error(fmt::format("a second element {}; rename or remove it", quoted(element.name)));
+    }
+    if (element.name == "vertex") {
+      element.kind = Kind::vertex;
+      vertices_ = element.count;
+      if (vertices_ > c_max_vertices) {
+        return lines_.error(
+            fmt::format("{} vertices, but {} is the most; reduce the mesh", vertices_, c_max_vertices));
+      }
+    } else if (element.name == "face" || element.name == "tristrips") {
+      element.kind = element.name == "face" ? Kind::face : Kind::tristrips;
+      if (elements_.empty() || !has_element("vertex")) {
+        return lines_.error(fmt::format("element {} before element vertex; reorder them", element.name));
+      }
+    }
+    elements_.push_back(std::move(element));
+    return Ok{};
+  }
+  bool has_element(std::string_view name) const {
+    return std::any_of(elements_.begin(), elements_.end(),
+                       [name](const Element& element) { return element.name == name; });
+  }
+
+  Status read_property() {
+    if (elements_.empty()) return lines_.error("a property before the first element; reorder them");
+    Element& element = elements_.back();
+    Property property;
+    std::string_view type = lines_.word();
+    property.is_list = type == "list";
+    if (property.is_list) {
+      const std::string_view length_type = lines_.word();
+      const TypeName* found = find_type(length_type);
+      if (found == nullptr || is_real(found->type)) {
+        return lines_.error(quoted(length_type) + " is not a type for the length of a list; correct it");
+      }
+      property.length_type = found->type;
+      type = lines_.word();
+    }
+    const TypeName* found = find_type(type);
+    if (found == nullptr) return lines_.error(quoted(type) + " is not a type of PLY; correct it");
+    property.type = found->type;
+    property.name = lines_.word();
+    if (property.name.empty()) return lines_.error("a property without a name; give it one");
+    for (const Property& other : element.properties) {
+      if (other.name != property.name) continue;
+      return lines_.error(fmt::format("a second property {} of {}; rename or remove it",
+                                      quoted(property.name), quoted(element.name)));
+    }
+
+    // Decide what it is used for.
+    const std::size_t number = index_in(c_numbers, property.name);
+    const bool is_corners = property.name == "vertex_indices" || property.name == "vertex_index";
+    if (element.kind == Kind::vertex && number < std::size(c_numbers)) {
+      if (property.is_list) return lines_.error(fmt::format("{} is a list; correct it", property.name));
+      property.use = static_cast<Use>(number);
+    } else if ((element.kind == Kind::face || element.kind == Kind::tristrips) && is_corners) {
+      if (!property.is_list || is_real(property.type)) {
+        return lines_.error(fmt::format("{} is not a list of integers; correct it", property.name));
+      }
+      if (uses(element, Use::corners)) return lines_.error("a second list of corners; remove it");
+      property.use = Use::corners;
+    }
+    has_colours_ |= element.kind == Kind::vertex &&
+                    index_in(c_colours, property.name) < std::size(c_colours) && element.count > 0;
+    element.properties.push_back(property);
+    return Ok{};
+  }
+  static bool uses(const Element& element, Use use) {
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [use](const Property& property) { return property.use == use; });
+  }
+
+  Status check_elements() {
+    for (const Element& element : elements_) {
+      const auto error = [&](std::string_view what) {
+        return bad_input(fmt::format("{}:{}: {}", file_, element.line, what));
+      };
+      if (element.count == 0) continue;
+      // Items without properties take no bytes, so the file could request any number.
+      if (element.properties.empty()) {
+        return error(fmt::format("the {} items of {} have no property; remove the element", element.count,
+                                 quoted(element.name)));
+      }
+      if (element.kind == Kind::vertex) {
+        for (const Use use : {Use::x, Use::y, Use::z}) {
+          if (uses(element, use)) continue;
+          return error(fmt::format("vertices have no property {}; export the file again",
+                                   c_numbers[static_cast<std::size_t>(use)]));
+        }
+        has_normals_ = uses(element, Use::nx);
+        if (uses(element, Use::ny) != has_normals_ || uses(element, Use::nz) != has_normals_) {
+          return error("vertices have only a part of nx, ny and nz; give all three or none");
+        }
+      }
+      if (element.kind == Kind::face || element.kind == Kind::tristrips) {
+        if (!uses(element, Use::corners)) {
+          return error(
+              fmt::format("element {} has no list vertex_indices; export the file again", element.name));
+        }
+      }
+    }
+    return Ok{};
+  }
+
+  /// The byte after the header. The line ends of the header are those of its first line, because the data may
+  /// start with the byte of a line end.
+  std::size_t data_start() const {
+    const std::size_t first = bytes_.find_first_of("\r\n");
+    const std::string end(bytes_.substr(first, bytes_.substr(first, 2) == "\r\n" ? 2 : 1));
+    const std::size_t last_line = std::min(bytes_.find(end + "end_header"), bytes_.size());
+    const std::size_t last_end = bytes_.find(end, std::min(last_line + 1, bytes_.size()));
+    return last_end == std::string_view::npos ? bytes_.size() : last_end + end.size();
+  }
+
+  // ---- Data
+
+  Status read_element(const Element& element) {
+    for (item_ = 0; item_ < element.count; ++item_) {
+      if (is_text_ && !next_line()) return truncated(element);
+      corners_.clear();
+      std::array<float, 6> numbers{};
+      for (const Property& property : element.properties) {
+        double length = 1.0;
+        if (property.is_list) {
+          if (Status ok = read_value(element, property, property.length_type, length); !ok) return ok;
+          if (length < 0.0) return error(element, fmt::format("a list of {} values; correct it", length));
+        }
+        for (double i = 0.0; i < length; i += 1.0) {
+          double value = 0.0;
+          if (Status ok = read_value(element, property, property.type, value); !ok) return ok;
+          if (property.use == Use::corners) {
+            if (Status ok = add_corner(element, value); !ok) return ok;
+          } else if (property.use != Use::none) {
+            numbers[static_cast<std::size_t>(property.use)] = static_cast<float>(value);
+          }
+        }
+      }
+      if (Status ok = check_line_end(element); !ok) return ok;
+      if (Status ok = add_item(element, numbers); !ok) return ok;
+    }
+    if (element.kind == Kind::other && element.count > 0) {
+      loaded_.notes.push_back(fmt::format("{}: elements {} are left out", file_, quoted(element.name)));
+    }
+    return Ok{};
+  }
+
+  Error error(const Element& element, std::string_view what) const {
+    const std::string text = fmt::format("{} {}: {}", element.name, item_, what);
+    return is_text_ ? lines_.error(text) : bad_input(fmt::format("{}: byte {}: {}", file_, at_, text));
+  }
+  Error truncated(const Element& element) const {
+    const std::string text = fmt::format(
+        "the file ends at item {} of {} of {}; it is truncated, or the count in its header is "
+        "wrong; export it again",
+        item_, element.count, quoted(element.name));
+    return is_text_ ? lines_.error(text) : bad_input(fmt::format("{}: byte {}: {}", file_, at_, text));
+  }
+
+  /// Go to the next line that is not empty.
+  bool next_line() {
+    word_ = {};
+    while (word_.empty() && lines_.next()) word_ = lines_.word();
+    return !word_.empty();
+  }
+  Status check_line_end(const Element& element) const {
+    if (!is_text_ || word_.empty()) return Ok{};
+    return error(element, quoted(word_) + " follows its last number; remove it");
+  }
+  Status check_end() {
+    if (is_text_) {
+      if (!next_line()) return Ok{};
+      return lines_.error(quoted(word_) +
+                          " follows the last element; correct the counts in the header, or remove it");
+    }
+    if (at_ == bytes_.size()) return Ok{};
+    return bad_input(fmt::format(
+        "{}: byte {}: {} bytes follow the last element; correct the counts in the header, or remove them",
+        file_, at_, bytes_.size() - at_));
+  }
+
+  /// Read the next number of this type. A number that is used is finite as a float.
+  Status read_value(const Element& element, const Property& property, Type type, double& value) {
+    if (!is_text_) {
+      const std::size_t size = c_sizes[static_cast<std::size_t>(type)];
+      if (bytes_.size() - at_ < size) return truncated(element);
+      value = value_at(bytes_, at_, type, order_);
+      // Half a unit above the largest float, the nearest float is infinite.
+      if (property.use != Use::none && is_real(type) && !(std::abs(value) < 0x1.ffffffp127)) {
+        return error(element, fmt::format("{} is not finite, or too large; correct it", property.name));
+      }
+      at_ += size;
+      return Ok{};
+    }
+    if (word_.empty()) {
+      return error(element, fmt::format("{} is missing at the end of the line; add it", property.name));
+    }
+    if (is_real(type)) {
+      float number = 0.0f;
+      const NumberFault fault = read_number(word_, number);
+      const bool is_refused = property.use != Use::none || fault == NumberFault::not_a_number;
+      if (fault != NumberFault::none && is_refused) {
+        return error(element, fault_text(fault, word_) + "; correct the number");
+      }
+      value = static_cast<double>(number);
+    } else {
+      std::int64_t number = 0;
+      const auto [end, fault] = std::from_chars(word_.data(), word_.data() + word_.size(), number);
+      const auto index = static_cast<std::size_t>(type);
+      if (fault == std::errc::invalid_argument || end != word_.data() + word_.size()) {
+        return error(element, quoted(word_) + " is not an integer; correct it, or the type in the header");
+      }
+      if (fault != std::errc() || number < c_least[index] || number > c_greatest[index]) {
+        return error(element, quoted(word_) +
+                                  " is out of the range of its type; correct it, or the type in the header");
+      }
+      value = static_cast<double>(number);
+    }
+    word_ = lines_.word();
+    return Ok{};
+  }
+
+  // ---- Mesh
+
+  Status add_corner(const Element& element, double index) {
+    if (element.kind == Kind::tristrips && index == -1.0) return end_strip(element);
+    if (index < 0.0 || index >= static_cast<double>(vertices_)) {
+      return error(element, fmt::format("its corner is vertex {}, but the file has {}, counted from 0; "
+                                        "correct the index",
+                                        index, vertices_));
+    }
+    const auto vertex = to_integer<std::uint32_t>(index);
+    corners_.push_back({vertex, has_normals_ ? vertex + 1 : 0});
+    return Ok{};
+  }
+
+  Status add_item(const Element& element, const std::array<float, 6>& numbers) {
+    switch (element.kind) {
+      case Kind::vertex:
+        faces_.add_position({numbers[0], numbers[1], numbers[2]});
+        if (has_normals_) loaded_.mesh.normals.emplace_back(numbers[3], numbers[4], numbers[5]);
+        return Ok{};
+      case Kind::face:
+        return add_face(element, corners_);
+      case Kind::tristrips:
+        return end_strip(element);
+      case Kind::other:
+        return Ok{};
+    }
+    return Ok{};
+  }
+
+  Status add_face(const Element& element, std::span<const FaceList::Corner> corners) {
+    if (corners.size() < 3) {
+      ++points_and_lines_;
+      return Ok{};
+    }
+    if (const std::string fault = faces_.divide(corners); !fault.empty()) return error(element, fault);
+    faces_.append(0, loaded_.mesh);
+    return Ok{};
+  }
+
+  /// Add the triangles of the corners so far. Every second triangle of a strip is in the opposite direction.
+  /// Triangles that use a vertex twice connect parts of a strip.
+  Status end_strip(const Element& element) {
+    for (std::size_t i = 0; i + 2 < corners_.size(); ++i) {
+      std::array<FaceList::Corner, 3> triangle = {corners_[i], corners_[i + 1], corners_[i + 2]};
+      if (i % 2 == 1) std::swap(triangle[0], triangle[1]);
+      const auto [a, b, c] = triangle;
+      if (a.position == b.position || b.position == c.position || c.position == a.position) continue;
+      if (Status ok = add_face(element, triangle); !ok) return ok;
+    }
+    corners_.clear();
+    return Ok{};
+  }
+
+  void add_notes() {
+    const auto note = [this](std::string_view what) {
+      loaded_.notes.push_back(fmt::format("{}: {}", file_, what));
+    };
+    if (has_colours_) note("vertex colours are left out");
+    if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
+    if (faces_.without_area() > 0) note(fmt::format("{} faces of no area left out", faces_.without_area()));
+  }
+
+  std::string_view bytes_;
+  std::string_view file_;
+  TextLines lines_;
+  bool is_text_ = false;
+  ByteOrder order_ = ByteOrder::little;
+  std::vector<Element> elements_;
+  std::uint64_t vertices_ = 0;
+  bool has_normals_ = false, has_colours_ = false;
+
+  std::uint64_t item_ = 0;  ///< of the current element
+  std::string_view word_;   ///< next word of the line, of text
+  std::size_t at_ = 0;      ///< next byte, of binary data
+
+  std::vector<FaceList::Corner> corners_;  ///< of the current face or strip
+  FaceList faces_;
+  LoadedMesh loaded_;
+  std::uint64_t points_and_lines_ = 0;
+};
+
+}  // namespace
+
+Result<LoadedMesh> read_ply(std::string_view bytes, std::string_view file) {
+  return PlyReader(bytes, file).read();
+}
+
+}  // namespace halfway
