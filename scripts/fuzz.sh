@@ -19,7 +19,7 @@ if [ "${1-}" = --one ]; then
   seconds=$3
   mkdir -p "$build/corpus/$target" "$build/tmp/$target"
   dictionary=$inputs/dictionaries/$target.dict
-  # A report from assimp's process, whose standard error goes nowhere, would be lost without a log of its own.
+  # The report has a log of its own, apart from what libFuzzer prints.
   log_path=$PWD/$build/logs/$target.report
   rm -f "$log_path".*
   status=0
@@ -57,7 +57,6 @@ for target in "$@"; do
   status=$(cat "$build/logs/$target.status" 2>/dev/null || echo 3)
   last() { sed -n "s/.*$1 *\([0-9][0-9]*\).*/\1/p" "$log" | tail -n 1; }
   crashes=$(find "$build/crashes" -name "$target-*" ! -name "$target-slow-unit-*" | wc -l)
-  # Of the process that reads meshes: what our own code did, not what assimp did.
   reports=$(cat "$build/logs/$target.report."* 2>/dev/null | grep -cE 'runtime error:|^ *#0 .* in halfway::') || true
   state=clean
   if [ "$crashes" != 0 ] || [ "$reports" != 0 ]; then

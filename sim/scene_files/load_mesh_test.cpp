@@ -234,7 +234,7 @@ TEST_F(LoadMesh, PipesAndDevicesAreNeitherLibrariesNorBuffers) {
     ASSERT_TRUE(loaded) << loaded.error().message;
     ASSERT_EQ(loaded->notes.size(), 1u);
     EXPECT_NE(loaded->notes[0].find(name + " cannot be read"), std::string::npos);
-    expect_error("m.gltf", gltf_json(R"(,"uri":")" + name + '"'), "could not open");
+    expect_error("m.gltf", gltf_json(R"(,"uri":")" + name + '"'), "m.gltf: buffers[0].uri: ");
   }
 }
 
@@ -292,23 +292,6 @@ TEST_F(LoadMesh, PlyAndStlFaultsNameTheFile) {
   expect_error("a.ply", ply_binary() + "1", "1 bytes follow the last element");
   expect_error("a.stl", stl_ascii() + "1\n", "'1' in place of 'solid'");
   expect_error("a.stl", stl_binary() + "1", "a.stl: not an STL file, or damaged");
-}
-
-TEST_F(LoadMesh, GltfFaultsAreErrors) {
-  std::vector<std::uint16_t> indices = c_indices;
-  indices[4] = 5;
-  expect_error("a.gltf", gltf(bytes(c_positions) + bytes(indices)),
-               "6 polygons in the file, but only 5 can be read");
-  std::vector<float> positions = c_positions;
-  positions[4] = std::numeric_limits<float>::quiet_NaN();
-  expect_error("a.gltf", gltf(bytes(positions) + bytes(c_indices)), "vertex 2 of mesh");
-  expect_error("a.gltf", R"({"asset":{"version":"2.0"}})", "a.gltf: ");
-  expect_error("a.gltf", R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[]}],"scene":0})", "a.gltf: ");
-  expect_error("a.gltf", gltf_json(R"(,"uri":"gone.bin")"), "a.gltf: ");
-  expect_error(
-      "a.gltf",
-      gltf_json(R"(,"uri":"data:application/octet-stream;base64,)" + base64(c_buffer) + '"', "4000000000"),
-      "a.gltf: ");
 }
 
 /// A damaged file must cause no crash, no index out of range and no infinite or undefined number.
@@ -370,14 +353,6 @@ TEST_F(LoadMesh, DamagedFilesAreErrorsOrMeshes) {
       expect_error_or_sound(load(name, damaged), std::string(name) + " trial " + std::to_string(trial));
     }
   }
-}
-
-TEST_F(LoadMesh, AFileThatCrashesTheReaderIsAnError) {
-  // assimp's JSON reader uses stack for each bracket, without a limit.
-  const std::string deep = std::string(2'000'000, '[') + std::string(2'000'000, ']');
-  std::string text = gltf();
-  text.insert(1, R"("extras":)" + deep + ",");
-  expect_error("a.gltf", text, "a.gltf: the reader crashed");
 }
 
 TEST_F(LoadMesh, OtherFilesAreRefused) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Mesh files, one target per format (HALFWAY_FUZZ_ENDING). Each file loads as a valid scene or is refused.
-// Scenes that load are drawn. OBJ is read in this process; assimp runs in its own and cannot crash this one.
+// Scenes that load are drawn.
 #include <algorithm>
 
 #include "fuzz/draw.hpp"

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0, as .gltf and .glb.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "common/result.hpp"
+#include "mesh_files/loaded_mesh.hpp"
+
+namespace halfway {
+
+/// Read a glTF file from its bytes. `path` is its name in messages and the folder of its buffers. Refusals
+/// name the line of faulty JSON, or the object, as in "file: meshes[0].primitives[1].indices: ".
+///
+/// Read: the nodes of the scene that the file selects, of its first scene, or of all root nodes if there is
+/// none; their transforms; triangles, strips and fans with POSITION and NORMAL, indexed or not, interleaved
+/// or sparse; the materials that primitives use. Every index, count and length is checked, and a key with a
+/// value of another type is refused. Buffers are in the file, in base64, or regular files in its folder or
+/// below.
+/// Materials: the base colour is the colour; a roughness r gives the exponent 2 / r^4 - 2, at least 1, and
+/// the factor 1 - r on k_s; the highlight of a metal has its colour. Other values are those of the default
+/// material.
+/// Left out with a note: points and lines, textures, colours of vertices, bones (the mesh is in its bind
+/// pose), morph targets. Extensions that change vertices are refused.
+Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path& path);
+
+}  // namespace halfway
