@@ -3,13 +3,20 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "sim/system/file.hpp"
+#include "sim/system/page_part.hpp"
 
 namespace halfway::page {
 std::string with_sections(std::string_view text, std::span<const Section> sections) {
   std::string page(text);
   if (!page.empty() && page.back() != '\n') page += '\n';
   for (const Section& section : sections) {
+    if (auto written = with_page_part(page, section.heading, section.body)) {
+      page = std::move(*written);
+      continue;
+    }
     const std::string mark = fmt::format("\n## {}\n", section.heading);
     const std::string written = fmt::format("{}\n{}", mark, section.body);
     const std::size_t begin = page.find(mark);

@@ -17,7 +17,9 @@ struct Section {
   std::string body{};     ///< ends with a line feed
 };
 
-/// The text with these sections. A section replaces the one with the same heading, or is appended.
+/// The text with these sections. A section replaces the part of the page between the comments
+/// `<!-- HEADING: ... -->` and `<!-- end of HEADING -->`, or the section with the same heading, or is
+/// appended.
 std::string with_sections(std::string_view text, std::span<const Section> sections);
 
 Status write_sections(const std::filesystem::path& page, std::span<const Section> sections);
