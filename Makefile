@@ -234,11 +234,12 @@ prove: configure ## prove properties of the RTL; each proof must also refute fau
 	@build/tb/halfway_proofs --evidence all . build/proofs $${PROOF:+"$$PROOF"}
 
 evidence: configure ## measure the stale rows of the pages of evidence again: accuracy, bounds, hard cases, proofs, mutants, cells (two hours at most; may be interrupted)
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_accuracy halfway_bounds halfway_stability halfway_proofs \
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_accuracy halfway_bounds halfway_stability halfway_proofs \
 	  halfway_mutants halfway_vectors halfway_synth
 	@build/tb/halfway_vectors all build/tb/vectors
 	@end=0; build/tb/halfway_bounds --gtest_brief=1 --evidence=stale || end=$$?; \
 	build/tb/halfway_accuracy --gtest_brief=1 --evidence=stale || end=$$?; \
+	tb/examples/transcripts.sh write "$$(pwd -P)/build/halfway" "$$(pwd -P)" "$$(pwd -P)/build/tb/transcripts" || end=$$?; \
 	$(call sweep,stale) || end=$$?; \
 	build/tb/halfway_proofs --evidence stale . build/proofs || end=$$?; \
 	build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants || end=$$?; \

@@ -489,6 +489,13 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
   }
   least_sum(1000);
   EXPECT_LE(most_bound, c_most * (1 + 1e-12));
+  // docs/accuracy.md lists the parts of the worst exponent.
+  EXPECT_NEAR(worst.total(), 4.92, 0.005);
+  EXPECT_NEAR(worst_exponent, 2.65, 0.005);
+  EXPECT_NEAR(worst.fit, 3.14, 0.005);
+  const PowerParts& of_power = power_parts(fitted_bell(worst_exponent).power);
+  EXPECT_NEAR(of_power.table, 1.00, 0.005);
+  EXPECT_NEAR(of_power.drift, 0.25, 0.005);
 
   std::ostringstream text;
   text << "worst exponent " << worst_exponent << ": " << worst << "; worst integer " << worst_integer << ": "
