@@ -25,7 +25,6 @@ entity unit_vector is
   );
   port (
     clk        : in  std_logic;
-    reset      : in  std_logic;
     enable     : in  std_logic;
     components : in  std_logic_vector(c_axes * g_vector_bits - 1 downto 0);
     unit       : out std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0)
@@ -93,7 +92,6 @@ begin
       )
     port map (
       clk     => clk,
-      reset   => reset,
       enable  => enable,
       word    => shifted,
       delayed => waited

@@ -34,7 +34,6 @@ entity ambient_term is
   );
   port (
     clk     : in  std_logic;
-    reset   : in  std_logic;
     enable  : in  std_logic;
     light   : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token   : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
@@ -73,7 +72,6 @@ begin
           )
         port map (
           clk        => clk,
-          reset      => reset,
           enable     => enable,
           components => normal_of(g_config, token),
           unit       => unit
@@ -96,7 +94,6 @@ begin
         )
       port map (
         clk        => clk,
-        reset      => reset,
         enable     => enable,
         components => negated(place_of(g_config, token)),
         unit       => view
@@ -115,7 +112,6 @@ begin
       )
     port map (
       clk     => clk,
-      reset   => reset,
       enable  => enable,
       word    => coefficients_of(g_config, c_ambient, token),
       delayed => coefficients

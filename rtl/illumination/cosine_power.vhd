@@ -32,7 +32,6 @@ entity cosine_power is
   );
   port (
     clk       : in  std_logic;
-    reset     : in  std_logic;
     enable    : in  std_logic;
     normal    : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
     direction : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
@@ -77,7 +76,6 @@ begin
           )
         port map (
           clk     => clk,
-          reset   => reset,
           enable  => enable,
           word    => exponent,
           delayed => exponent_q

@@ -32,7 +32,6 @@ entity half_vector is
   );
   port (
     clk        : in  std_logic;
-    reset      : in  std_logic;
     enable     : in  std_logic;
     positional : in  std_logic; -- preset published: the light has a position; otherwise to_eye is H
     to_light   : in  std_logic_vector(c_axes * half_light_bits(g_exact) - 1 downto 0);
@@ -70,7 +69,6 @@ begin
           )
         port map (
           clk        => clk,
-          reset      => reset,
           enable     => enable,
           components => sum,
           unit       => unit

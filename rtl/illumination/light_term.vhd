@@ -54,7 +54,6 @@ entity light_term is
   );
   port (
     clk    : in  std_logic;
-    reset  : in  std_logic;
     enable : in  std_logic;
     light  : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token  : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
@@ -98,7 +97,6 @@ begin
       )
     port map (
       clk        => clk,
-      reset      => reset,
       enable     => enable,
       positional => positional,
       place      => light_place(c_exact, light),
@@ -133,7 +131,6 @@ begin
               )
             port map (
               clk     => clk,
-              reset   => reset,
               enable  => enable,
               word    => view_of(g_config, token) & direction_of(g_config, token),
               delayed => vectors
@@ -163,7 +160,6 @@ begin
               )
             port map (
               clk        => clk,
-              reset      => reset,
               enable     => enable,
               word(0)    => above_now,
               delayed(0) => above
@@ -184,7 +180,6 @@ begin
           )
         port map (
           clk        => clk,
-          reset      => reset,
           enable     => enable,
           positional => positional,
           to_light   => way,
@@ -206,7 +201,6 @@ begin
       )
     port map (
       clk     => clk,
-      reset   => reset,
       enable  => enable,
       word    => direction_of(g_config, token) & exponent_of(g_config, token),
       delayed => aligned
@@ -222,7 +216,6 @@ begin
       )
     port map (
       clk       => clk,
-      reset     => reset,
       enable    => enable,
       normal    => normal,
       direction => direction,
@@ -238,7 +231,6 @@ begin
       )
     port map (
       clk      => clk,
-      reset    => reset,
       enable   => enable,
       spot     => spot,
       axis     => light_axis(c_exact, light),
@@ -256,7 +248,6 @@ begin
       )
     port map (
       clk     => clk,
-      reset   => reset,
       enable  => enable,
       word    => coefficients_of(g_config, g_kind, token),
       delayed => coefficients

@@ -33,7 +33,6 @@ entity light_vector is
   );
   port (
     clk        : in  std_logic;
-    reset      : in  std_logic;
     enable     : in  std_logic;
     positional : in  std_logic; -- the light has a position
     place      : in  std_logic_vector(c_axes * formats(g_exact).light_place.bits - 1 downto 0);
@@ -90,7 +89,6 @@ begin
               )
             port map (
               clk     => clk,
-              reset   => reset,
               enable  => enable,
               word    => point,
               delayed => points
@@ -125,7 +123,6 @@ begin
           )
         port map (
           clk        => clk,
-          reset      => reset,
           enable     => enable,
           components => way,
           unit       => unit

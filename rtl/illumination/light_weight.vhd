@@ -33,7 +33,6 @@ entity light_weight is
   );
   port (
     clk      : in  std_logic;
-    reset    : in  std_logic;
     enable   : in  std_logic;
     spot     : in  std_logic; -- the light is one
     axis     : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
@@ -96,7 +95,6 @@ begin
           )
         port map (
           clk     => clk,
-          reset   => reset,
           enable  => enable,
           word    => share,
           delayed => share_both
@@ -109,7 +107,6 @@ begin
           )
         port map (
           clk     => clk,
-          reset   => reset,
           enable  => enable,
           word    => cosine,
           delayed => cosine_both

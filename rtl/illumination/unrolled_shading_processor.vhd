@@ -151,7 +151,6 @@ begin
       )
     port map (
       clk     => clk,
-      reset   => reset,
       enable  => enable,
       word    => in_token,
       delayed => term_token
@@ -172,7 +171,6 @@ begin
           )
         port map (
           clk     => clk,
-          reset   => reset,
           enable  => enable,
           light   => light,
           token   => in_token,
@@ -208,7 +206,6 @@ begin
         generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
         port map (
           clk    => clk,
-          reset  => reset,
           enable => enable,
           light  => light,
           token  => in_token,
@@ -223,7 +220,6 @@ begin
           )
         port map (
           clk        => clk,
-          reset      => reset,
           enable     => enable,
           word(0)    => lit,
           delayed(0) => lit_term

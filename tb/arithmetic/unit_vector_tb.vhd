@@ -21,12 +21,11 @@ architecture sim of unit_vector_run is
   signal clk        : std_logic := '0';
   signal enable     : std_logic := '0';
   signal components : std_logic_vector(3 * g_vector_bits - 1 downto 0) := (others => '0');
-  signal reset      : std_logic := '1';
   signal unit       : std_logic_vector(3 * formats(g_exact).direction.bits - 1 downto 0);
 begin
   dut : entity work.unit_vector
     generic map (g_exact => g_exact, g_vector_bits => g_vector_bits)
-    port map (clk => clk, reset => reset, enable => enable, components => components, unit => unit);
+    port map (clk => clk, enable => enable, components => components, unit => unit);
 
   clk <= not clk after c_half_period when not finished;
 
@@ -36,8 +35,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_vector_bits) & ".txt");
     vectors.expect_latency(unit_vector_latency(g_exact));
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

@@ -24,7 +24,6 @@ architecture sim of ambient_term_run is
   constant c_vector  : positive := c_axes * formats(g_exact).direction.bits;
 
   signal clk     : std_logic := '0';
-  signal reset   : std_logic := '1';
   signal enable  : std_logic := '0';
   signal light   : std_logic_vector(light_bits(c_config) - 1 downto 0) := (others => '0');
   signal token   : std_logic_vector(token_bits(c_config) - 1 downto 0) := (others => '0');
@@ -37,7 +36,6 @@ begin
     generic map (g_config => c_config)
     port map (
       clk     => clk,
-      reset   => reset,
       enable  => enable,
       light   => light,
       token   => token,
@@ -48,7 +46,7 @@ begin
 
   late : entity work.delay_line
     generic map (token'length, c_latency)
-    port map (clk, reset, enable, token, delayed);
+    port map (clk, enable, token, delayed);
 
   clk <= not clk after c_half_period when not finished;
 
@@ -58,8 +56,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
     vectors.expect_latency(c_latency);
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

@@ -22,7 +22,6 @@ architecture sim of cosine_power_run is
   constant c_latency : natural   := cosine_power_latency(g_exact, g_highlight);
 
   signal clk       : std_logic := '0';
-  signal reset     : std_logic := '1';
   signal enable    : std_logic := '0';
   signal normal    : std_logic_vector(3 * c_formats.direction.bits - 1 downto 0) := (others => '0');
   signal direction : std_logic_vector(3 * c_formats.direction.bits - 1 downto 0) := (others => '0');
@@ -33,7 +32,6 @@ begin
     generic map (g_exact => g_exact, g_highlight => g_highlight)
     port map (
       clk       => clk,
-      reset     => reset,
       enable    => enable,
       normal    => normal,
       direction => direction,
@@ -48,8 +46,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_highlight)) & ".txt");
     vectors.expect_latency(c_latency);
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

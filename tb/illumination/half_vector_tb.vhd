@@ -22,7 +22,6 @@ architecture sim of half_vector_run is
   constant c_latency : natural   := half_vector_latency(g_exact, g_normalize);
 
   signal clk        : std_logic := '0';
-  signal reset      : std_logic := '1';
   signal enable     : std_logic := '0';
   signal positional : std_logic := '0';
   signal to_light   : std_logic_vector(3 * half_light_bits(g_exact) - 1 downto 0) := (others => '0');
@@ -33,7 +32,6 @@ begin
     generic map (g_exact => g_exact, g_normalize => g_normalize)
     port map (
       clk        => clk,
-      reset      => reset,
       enable     => enable,
       positional => positional,
       to_light   => to_light,
@@ -48,8 +46,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_normalize)) & ".txt");
     vectors.expect_latency(c_latency);
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

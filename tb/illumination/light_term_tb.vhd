@@ -25,7 +25,6 @@ architecture sim of light_term_run is
   constant c_latency : positive := times(c_config, g_kind, g_light).term;
 
   signal clk    : std_logic := '0';
-  signal reset  : std_logic := '1';
   signal enable : std_logic := '0';
   signal light  : std_logic_vector(light_bits(c_config) - 1 downto 0) := (others => '0');
   signal token  : std_logic_vector(token_bits(c_config) - 1 downto 0) := (others => '0');
@@ -36,7 +35,6 @@ begin
     generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
     port map (
       clk    => clk,
-      reset  => reset,
       enable => enable,
       light  => light,
       token  => token,
@@ -52,8 +50,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_kind) & to_string(g_light) & ".txt");
     vectors.expect_latency(c_latency);
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

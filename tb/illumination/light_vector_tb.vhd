@@ -23,7 +23,6 @@ architecture sim of light_vector_run is
   constant c_latency : natural   := light_vector_latency(g_exact, g_positional);
 
   signal clk        : std_logic := '0';
-  signal reset      : std_logic := '1';
   signal enable     : std_logic := '0';
   signal positional : std_logic := '0';
   signal place      : std_logic_vector(3 * c_formats.light_place.bits - 1 downto 0) := (others => '0');
@@ -36,7 +35,6 @@ begin
     generic map (g_exact => g_exact, g_positional => g_positional)
     port map (
       clk        => clk,
-      reset      => reset,
       enable     => enable,
       positional => positional,
       place      => place,
@@ -53,8 +51,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_positional)) & ".txt");
     vectors.expect_latency(c_latency);
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

@@ -23,7 +23,6 @@ architecture sim of light_weight_run is
   constant c_latency : natural   := g_lead + light_weight_latency(true, g_lead);
 
   signal clk      : std_logic := '0';
-  signal reset    : std_logic := '1';
   signal enable   : std_logic := '0';
   signal spot     : std_logic := '0';
   signal axis     : std_logic_vector(3 * c_formats.direction.bits - 1 downto 0) := (others => '0');
@@ -38,7 +37,6 @@ begin
     generic map (g_exact => g_exact, g_lead => g_lead)
     port map (
       clk      => clk,
-      reset    => reset,
       enable   => enable,
       spot     => spot,
       axis     => axis,
@@ -50,7 +48,7 @@ begin
 
   late : entity work.delay_line
     generic map (cosine'length, g_lead)
-    port map (clk, reset, enable, cosine, cosine_late);
+    port map (clk, enable, cosine, cosine_late);
 
   clk <= not clk after c_half_period when not finished;
 
@@ -60,8 +58,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_lead) & ".txt");
     vectors.expect_latency(c_latency);
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);

@@ -43,7 +43,7 @@ begin
 
   late : entity work.delay_line
     generic map (weight'length, 1)
-    port map (clk, '0', enable, weight, weight_late);
+    port map (clk, enable, weight, weight_late);
 
   clk <= not clk after c_half_period when not finished;
 

@@ -134,15 +134,15 @@ begin
 
   one : entity work.delay_line
     generic map (g_bits => 40, g_depth => 1)
-    port map (clk => clk, reset => reset, enable => enable, word => a(39 downto 0), delayed => line_1);
+    port map (clk => clk, enable => enable, word => a(39 downto 0), delayed => line_1);
 
   two : entity work.delay_line
     generic map (g_bits => 71, g_depth => 2)
-    port map (clk => clk, reset => reset, enable => enable, word => a(70 downto 0), delayed => line_2);
+    port map (clk => clk, enable => enable, word => a(70 downto 0), delayed => line_2);
 
   nine : entity work.delay_line
     generic map (g_bits => 72, g_depth => 9)
-    port map (clk => clk, reset => reset, enable => enable, word => b, delayed => line_9);
+    port map (clk => clk, enable => enable, word => b, delayed => line_9);
 
   load <= control(10) or not filled;
   step <= control(11); -- also together with load: no contract allows that, but the RTL defines the result

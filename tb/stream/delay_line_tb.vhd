@@ -7,7 +7,7 @@ use work.tb_pkg.all;
 entity delay_line_run is
   generic (
     g_bits        : positive;
-    g_depth       : positive;
+    g_depth       : natural;
     g_folder      : string
   );
   port (
@@ -17,14 +17,13 @@ end entity;
 
 architecture sim of delay_line_run is
   signal clk        : std_logic := '0';
-  signal reset      : std_logic := '1';
   signal enable     : std_logic := '0';
   signal word       : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
   signal delayed    : std_logic_vector(g_bits - 1 downto 0);
 begin
   dut : entity work.delay_line
     generic map (g_bits => g_bits, g_depth => g_depth)
-    port map (clk => clk, reset => reset, enable => enable, word => word, delayed => delayed);
+    port map (clk => clk, enable => enable, word => word, delayed => delayed);
 
   clk <= not clk after c_half_period when not finished;
 
@@ -34,9 +33,6 @@ begin
   begin
     vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_depth) & ".txt");
     vectors.expect_latency(g_depth);
-    -- Release the reset: the buffer's index counts from here.
-    wait until rising_edge(clk);
-    reset <= '0';
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -56,7 +52,7 @@ entity delay_line_tb is
 end entity;
 
 architecture sim of delay_line_tb is
-  signal finished : boolean_vector(0 to 4);
+  signal finished : boolean_vector(0 to 5);
 begin
   run_0 : entity work.delay_line_run
     generic map (g_bits => 8, g_depth => 1, g_folder => g_folder)
@@ -77,6 +73,10 @@ begin
   run_4 : entity work.delay_line_run
     generic map (g_bits => 100, g_depth => 13, g_folder => g_folder)
     port map (finished => finished(4));
+
+  run_5 : entity work.delay_line_run
+    generic map (g_bits => 8, g_depth => 0, g_folder => g_folder)
+    port map (finished => finished(5));
 
   done : process is
   begin

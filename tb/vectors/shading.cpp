@@ -303,7 +303,7 @@ Status write_spot_cone(const std::filesystem::path& folder) {
 }
 
 Status write_delay_line(const std::filesystem::path& folder) {
-  for (const auto& [bits, depth] : {std::pair{8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})
+  for (const auto& [bits, depth] : {std::pair{8, 0}, {8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})
     if (auto s = write_delay_line_of(folder, bits, depth); !s) return s;
   return Ok{};
 }
