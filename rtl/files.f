@@ -69,6 +69,9 @@ shaders/shading_pipeline.vhd
 shaders/word_buffer.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd
+shaders/spherical_light.vhd
+shaders/ambient_light.vhd
+shaders/colour_sum.vhd
 shaders/spherical_shader.vhd
 shaders/token_rasterizer.vhd
 shaders/token_order.vhd

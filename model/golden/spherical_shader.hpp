@@ -3,15 +3,14 @@
 // fragments, in the hardware's order.
 #pragma once
 
-#include <array>
 #include <cassert>
 #include <vector>
 
 #include "frame/fragment.hpp"
-#include "golden/diffuse_slice.hpp"
-#include "golden/saturating_sum.hpp"
-#include "golden/specular_slice.hpp"
+#include "golden/ambient_light.hpp"
+#include "golden/colour_sum.hpp"
 #include "golden/spherical_layout.hpp"
+#include "golden/spherical_light.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
 #include "golden/z_interpolator.hpp"
@@ -21,17 +20,12 @@ namespace halfway::golden {
 template <class Preset>
 class SphericalShader {
  public:
-  explicit SphericalShader(const SphericalConfig& config) : config_(config), layout_(config) {
+  explicit SphericalShader(const SphericalConfig& config)
+      : config_(config), layout_(config), ambient_(config.channels, config.data_bits) {
     assert(config.channels == 1 || config.channels == 3);
-    assert(config.highlight_channels == 1 || config.highlight_channels == config.channels);
     assert(config.lights >= 0);
-    const auto lights = static_cast<std::size_t>(config.lights);
-    if (layout_.has_diffuse_part())
-      diffuse_.assign(lights, DiffuseSlice<Preset>(layout_.diffuse_channels(), config.address_bits,
-                                                   config.data_bits, config.tables));
-    if (config.specular)
-      specular_.assign(lights, SpecularSlice<Preset>(config.highlight_channels, config.powers,
-                                                     config.address_bits, config.data_bits, config.tables));
+    if (config.diffuse || config.specular)
+      lights_.assign(static_cast<std::size_t>(config.lights), SphericalLight<Preset>(config));
   }
 
   int init_bits() const { return layout_.init_bits(); }
@@ -70,9 +64,9 @@ class SphericalShader {
 
   // Registers, for callbacks.
   const ZInterpolator<Preset>& depth() const { return depth_; }
-  const DiffuseSlice<Preset>& diffuse(std::size_t light) const { return diffuse_[light]; }
-  const SpecularSlice<Preset>& specular(std::size_t light) const { return specular_[light]; }
-  bool lit(std::size_t light) const { return diffuse_.empty() || diffuse_[light].lit(); }
+  const DiffuseSlice<Preset>& diffuse(std::size_t light) const { return lights_[light].diffuse(); }
+  const SpecularSlice<Preset>& specular(std::size_t light) const { return lights_[light].specular(); }
+  bool lit(std::size_t light) const { return lights_[light].lit(); }
 
  private:
   static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
@@ -80,9 +74,8 @@ class SphericalShader {
   void line_load(std::span<const std::uint32_t> header) {
     walker_.line_load(header);
     depth_.line_load(header);
-    for (int c = 0; c < config_.channels; ++c)
-      ambient_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>(
-          get_bits(header, Preset::ambient_channel_at::ambient, layout_.ambient_low(c)));
+    // All spans of the triangle have its ambient light.
+    ambient_.span_load(header, layout_.ambient_low(0));
   }
   void line_step() {
     const bool carry = walker_.carry();
@@ -91,16 +84,12 @@ class SphericalShader {
   }
   void span_load(std::span<const std::uint32_t> record) {
     depth_.span_load();
-    for (int l = 0; l < config_.lights; ++l) {
-      const auto light = static_cast<std::size_t>(l);
-      if (!diffuse_.empty()) diffuse_[light].span_load(record, layout_.diffuse_low(l));
-      if (!specular_.empty()) specular_[light].span_load(record, layout_.specular_low(l));
-    }
+    int number = 0;
+    for (auto& light : lights_) light.span_load(record, number++);
   }
   void span_step() {
     depth_.span_step();
-    for (auto& slice : diffuse_) slice.span_step();
-    for (auto& slice : specular_) slice.span_step();
+    for (auto& light : lights_) light.span_step();
   }
 
   template <class Emit, class Watch>
@@ -116,45 +105,26 @@ class SphericalShader {
   }
 
   Fragment fragment(SpanXWord x) const {
-    const auto sums = channel_sums();
-    // With one channel (grey) all colours are equal.
-    const auto colour = [&](std::size_t channel) {
-      return static_cast<std::uint8_t>(sums[config_.channels == 3 ? channel : 0].result(
-          Preset::c_factor_fraction_bits + config_.data_bits, Preset::c_colour_bits));
-    };
+    ColourSum<Preset> sum(config_.channels, config_.data_bits);
+    const auto add = [&](const ColourTerms& terms) { sum.add(terms); };
+    add(ambient_.terms());
+    for (const auto& light : lights_) light.add_terms(add);
+    const auto [red, green, blue] = sum.colours();
     return {.triangle = walker_.triangle(),
             .z = depth_.z(),
             .y = static_cast<std::uint16_t>(walker_.y()),
             .x = static_cast<std::uint16_t>(low_bits(x.bits(), Preset::c_pixel_x_bits)),
-            .red = colour(0),
-            .green = colour(1),
-            .blue = colour(2)};
-  }
-
-  /// One sum per channel: ambient light and the products of all slices.
-  std::array<SaturatingSum, 3> channel_sums() const {
-    std::array<SaturatingSum, 3> sums;
-    for (int c = 0; c < config_.channels; ++c) sums[c].add(std::uint64_t{ambient_[c]} << config_.data_bits);
-    for (const auto& slice : diffuse_) {
-      const std::uint32_t sample = slice.gated_sample();
-      for (int c = 0; c < config_.channels; ++c) sums[c].add(slice.product(c, sample));
-    }
-    for (std::size_t light = 0; light < specular_.size(); ++light) {
-      const auto& slice = specular_[light];
-      const std::uint32_t sample = slice.gated_sample(lit(light));
-      for (int c = 0; c < config_.channels; ++c)
-        sums[c].add(slice.product(config_.highlight_channels == 1 ? 0 : c, sample));
-    }
-    return sums;
+            .red = red,
+            .green = green,
+            .blue = blue};
   }
 
   SphericalConfig config_;
   SphericalLayout<Preset> layout_;
   TriangleWalker<Preset> walker_;
   ZInterpolator<Preset> depth_;
-  std::array<std::uint32_t, 3> ambient_{};
-  std::vector<DiffuseSlice<Preset>> diffuse_;    // one per light, or none
-  std::vector<SpecularSlice<Preset>> specular_;  // one per light, or none
+  AmbientLight<Preset> ambient_;
+  std::vector<SphericalLight<Preset>> lights_;  // none without diffuse light and highlights
 };
 
 }  // namespace halfway::golden

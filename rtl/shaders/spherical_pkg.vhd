@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Positions of a light's parts in a line record of the spherical shader. A line record holds for every light its
--- diffuse part, then its specular part.
+-- Positions of a light's parts in a line record of the spherical shader, and its terms of the sum of colours. A line
+-- record holds for every light its diffuse part, then its specular part.
 -- Golden twin model/golden/spherical_layout.hpp
 
 use work.formats_pkg.all;
@@ -18,6 +18,16 @@ package spherical_pkg is
   function diffuse_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean) return natural;
 
   function specular_part_bits (exact, specular : boolean; highlight_channels : positive) return natural;
+
+  -- Bits of one light: its diffuse part, then its specular part.
+  function light_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean;
+    highlight_channels : positive) return natural;
+
+  -- Terms of one light in the sum of a channel.
+  function light_terms (diffuse, specular : boolean) return natural;
+
+  -- Bits of a term: a factor times a sample of data_bits.
+  function term_bits (exact : boolean; data_bits : positive) return positive;
 
   -- 0: no line records follow a triangle's header.
   function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
@@ -60,11 +70,27 @@ package body spherical_pkg is
     return 0;
   end function;
 
+  function light_part_bits (exact : boolean; channels : positive; diffuse, specular : boolean;
+    highlight_channels : positive) return natural is
+  begin
+    return diffuse_part_bits(exact, channels, diffuse, specular)
+      + specular_part_bits(exact, specular, highlight_channels);
+  end function;
+
+  function light_terms (diffuse, specular : boolean) return natural is
+  begin
+    return boolean'pos(diffuse) + boolean'pos(specular);
+  end function;
+
+  function term_bits (exact : boolean; data_bits : positive) return positive is
+  begin
+    return formats(exact).factor.bits + data_bits;
+  end function;
+
   function record_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return natural is
   begin
-    return lights * (diffuse_part_bits(exact, channels, diffuse, specular)
-      + specular_part_bits(exact, specular, highlight_channels));
+    return lights * light_part_bits(exact, channels, diffuse, specular, highlight_channels);
   end function;
 
   function init_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;

@@ -27,10 +27,9 @@ std::vector<std::string> instances_of(Effect effect, Shader shader) {
     case Effect::exponents:
       return {"power"};
     case Effect::ambient:
-      // The first processor of the pipeline. In the spherical shader: one register for the line and one for
-      // the span.
+      // The first processor of the pipeline.
       if (shader == Shader::processors) return {"chain_n1"};
-      return {"line_ambient_register", "span_ambient_register"};
+      return {"ambient_light"};
     default:
       return {};
   }

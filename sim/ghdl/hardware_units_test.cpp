@@ -109,7 +109,8 @@ TEST_F(HardwareUnits, OfEffectsOfTheSphericalShader) {
                                                     {"skewed_register", 2},
                                                     {"skewed_strobe", 7},
                                                     {"z_interpolator", 1}}));
-  EXPECT_EQ(units(plan, Effect::ambient), (UnitCounts{{"parameter_register", 2}}));
+  EXPECT_EQ(units(plan, Effect::ambient),
+            (UnitCounts{{"ambient_light", 1}, {"delay_line", 1}, {"parameter_register", 1}}));
   EXPECT_EQ(units(plan, Effect::specular), (UnitCounts{{"angle_address", 1},
                                                        {"cosine_rom", 1},
                                                        {"line_interpolator", 1},

@@ -272,13 +272,13 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
       if (layout_.has_diffuse_part())
         use(
             Slice{fmt::format("light {} diffuse", l + 1), "diffuse_slice",
-                  dut(fmt::format("lights({})/diffuse/slice/", l)), "cosines/sample", light,
+                  dut(fmt::format("lights({})/light/diffuse/slice/", l)), "cosines/sample", light,
                   layout_.diffuse_channels()},
             [light](const Shader& s) -> const auto& { return s.diffuse(light); });
       if (config_.specular)
         use(
             Slice{fmt::format("light {} specular", l + 1), "specular_slice",
-                  dut(fmt::format("lights({})/specular/slice/", l)), "sample", light,
+                  dut(fmt::format("lights({})/light/specular/slice/", l)), "sample", light,
                   config_.highlight_channels},
             [light](const Shader& s) -> const auto& { return s.specular(light); });
     }

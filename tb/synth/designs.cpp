@@ -110,6 +110,10 @@ std::vector<ListedDesign> all_designs() {
         true);
     add("diffuse_slice", with({is_exact}, table));
     add("specular_slice", with({is_exact, {"g_channels", "1"}, {"g_powers", exact ? "8" : "2"}}, table));
+    add("spherical_light",
+        with({is_exact, {"g_highlight_channels", "1"}, {"g_powers", exact ? "8" : "2"}}, table));
+    add("ambient_light", {is_exact, table[1]}, true);
+    add("colour_sum", {is_exact, {"g_terms", "3"}, table[1]}, true);
     add("cosine_rom", with({is_exact, {"g_power", exact ? "8" : "2"}}, table), true);
     add("angle_address", {is_exact, table[0]}, true);
     const std::string factor = of("factor");

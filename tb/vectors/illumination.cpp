@@ -1,22 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// The slices of a light, clock by clock. Uses every combination of strobes, also those that the shader never
-// drives.
+// The spherical shader's slices, lights, ambient light and sum of colours, clock by clock. Uses every
+// combination of strobes, also those that the shader never drives.
 #include <fmt/format.h>
 
 #include <array>
+#include <vector>
 
+#include "golden/ambient_light.hpp"
+#include "golden/colour_sum.hpp"
 #include "golden/cosine_rom.hpp"
+#include "golden/delay_line.hpp"
 #include "golden/diffuse_slice.hpp"
 #include "golden/specular_slice.hpp"
+#include "golden/spherical_light.hpp"
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/light_parts.hpp"
+#include "vectors/pipeline.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
 namespace {
 
-using golden::Exact, golden::Published;
+using golden::ColourTerms, golden::Exact, golden::Published;
 
 struct Strobes {
   bool span_load, span_step, sample_step;
@@ -108,6 +114,114 @@ Status write_specular(const std::filesystem::path& folder, const SliceSize& size
                                          size.address_bits, size.data_bits));
 }
 
+// A light. tb/shaders/spherical_light_tb.vhd has the same list.
+struct Light {
+  const char* name;
+  golden::SphericalConfig config;
+};
+
+constexpr Light c_exact_lights[] = {
+    {"coloured_highlights", {3, 1, true, true, 3, 18, 9, 8}},
+    {"white_highlights", {3, 1, true, true, 1, 2, 9, 8}},
+    {"grey", {1, 1, true, true, 1, 16, 9, 8}},
+    {"highlights", {3, 1, false, true, 3, 9, 9, 8}},
+    {"matte", {3, 1, true, false, 1, 2, 9, 8}},
+};
+constexpr Light c_published_lights[] = {
+    {"published", {3, 1, true, true, 1, 2, 6, 6}},
+    {"published_highlights", {1, 1, false, true, 1, 2, 4, 4}},
+};
+
+// A line: checked, part, span_load, span_step, sample_step; terms, before the edge.
+template <class Preset>
+Status write_light(const std::filesystem::path& folder, const Light& light) {
+  using Groups = std::vector<ColourTerms>;
+  const golden::SphericalConfig& config = light.config;
+  const golden::SphericalLayout<Preset> layout(config);
+  const int bits = layout.record_bits();
+  Random random(static_cast<std::uint64_t>(bits));
+  VectorFile file;
+  golden::SphericalLight<Preset> twin(config);
+  const auto terms = [&] {
+    Groups groups;
+    twin.add_terms([&](const ColourTerms& group) { groups.push_back(group); });
+    return groups;
+  };
+  Groups sampled = terms(), quarters = sampled, halves = sampled, multiplied = sampled;
+  for (int i = 0; i < 3000; ++i) {
+    InitVector part = random_vector(random, bits);
+    if (layout.has_diffuse_part())
+      put_diffuse_part<Preset>(part, random, layout.diffuse_channels(), 1, layout.diffuse_low(0));
+    if (config.specular)
+      put_specular_part<Preset>(part, random, config.highlight_channels, 1, layout.specular_low(0));
+    const Strobes s = random_strobes(random, i);
+    file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
+    for (const ColourTerms& group : multiplied)
+      add_products(file, group, config.channels, Preset::c_factor_bits + config.data_bits);
+    file.end_vector();
+    // As in write_diffuse.
+    multiplied = halves;
+    halves = quarters;
+    if (s.sample_step) quarters = sampled;
+    if (s.span_step) sampled = terms();
+    if (s.span_load)
+      twin.span_load(part, 0);
+    else if (s.span_step)
+      twin.span_step();
+  }
+  return file.write(folder / fmt::format("{}.txt", light.name));
+}
+
+// A line: checked, ambient, span_load; terms, before the edge.
+template <class Preset>
+Status write_ambient(const std::filesystem::path& folder, int channels, int data_bits, int depth) {
+  const int bits = channels * Preset::c_ambient_channel_bits;
+  Random random(static_cast<std::uint64_t>(bits + depth));
+  VectorFile file;
+  golden::AmbientLight<Preset> twin(channels, data_bits);
+  golden::DelayLine<ColourTerms> delay(depth);
+  for (int i = 0; i < 2000; ++i) {
+    const InitVector ambient = random_vector(random, bits);
+    const bool span_load = i == 0 || random.one_in(3);
+    file.flag(i > depth).words_of(ambient, bits).flag(span_load);
+    add_products(file, delay.delayed(), channels, Preset::c_factor_bits + data_bits);
+    file.end_vector();
+    // As in write_diffuse.
+    delay.step(twin.terms());
+    if (span_load) twin.span_load(ambient, 0);
+  }
+  return file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, channels, data_bits, depth));
+}
+
+// Inputs: terms.
+template <class Preset>
+Status write_colour_sum_of(const std::filesystem::path& folder, int channels, int terms, int data_bits) {
+  const int bits = Preset::c_factor_bits + data_bits;
+  const std::int64_t white = std::int64_t{300} << (Preset::c_factor_fraction_bits + data_bits);
+  Random random(static_cast<std::uint64_t>(channels * terms + bits));
+  Pipeline pipeline(1);
+  for (int i = 0; i < 3000; ++i) {
+    golden::ColourSum<Preset> sum(channels, data_bits);
+    Flat words;
+    for (int term = 0; term < terms; ++term) {
+      ColourTerms group{};
+      for (int c = 0; c < channels; ++c) {
+        // Sums around white, few of them far above.
+        group[static_cast<std::size_t>(c)] =
+            random.one_in(16)
+                ? random.word(bits)
+                : golden::low_bits(static_cast<std::uint64_t>(random.between(0, 2 * white / terms)), bits);
+        words.add(group[static_cast<std::size_t>(c)], bits);
+      }
+      sum.add(group);
+    }
+    Flat colours;
+    for (const std::uint8_t colour : sum.colours()) colours.add(colour, Preset::c_colour_bits);
+    pipeline.clock(!random.one_in(4), {words}, colours);
+  }
+  return pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, channels, terms, data_bits));
+}
+
 }  // namespace
 
 // A line: checked, enable, address; sample, before the edge.
@@ -146,6 +260,27 @@ Status write_specular_slice(const std::filesystem::path& folder) {
     if (auto s = write_specular<Exact>(folder, {channels, powers, 9, 8}); !s) return s;
   if (auto s = write_specular<Published>(folder, {3, 2, 6, 6}); !s) return s;
   return write_specular<Published>(folder, {1, 2, 4, 4});
+}
+
+Status write_spherical_light(const std::filesystem::path& folder) {
+  for (const Light& light : c_exact_lights)
+    if (auto s = write_light<Exact>(folder, light); !s) return s;
+  for (const Light& light : c_published_lights)
+    if (auto s = write_light<Published>(folder, light); !s) return s;
+  return Ok{};
+}
+
+Status write_ambient_light(const std::filesystem::path& folder) {
+  if (auto s = write_ambient<Exact>(folder, 3, 8, 4); !s) return s;
+  if (auto s = write_ambient<Exact>(folder, 1, 8, 4); !s) return s;
+  return write_ambient<Published>(folder, 3, 6, 2);
+}
+
+Status write_colour_sum(const std::filesystem::path& folder) {
+  for (const int terms : {1, 3, 5})
+    if (auto s = write_colour_sum_of<Exact>(folder, 3, terms, 8); !s) return s;
+  if (auto s = write_colour_sum_of<Exact>(folder, 1, 3, 8); !s) return s;
+  return write_colour_sum_of<Published>(folder, 3, 3, 6);
 }
 
 }  // namespace halfway::vectors

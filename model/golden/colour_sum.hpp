@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Golden model of rtl/shaders/colour_sum.vhd.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "golden/saturating_sum.hpp"
+
+namespace halfway::golden {
+
+/// A term of each channel. Without colour (one channel) only the first one is used.
+using ColourTerms = std::array<std::uint64_t, 3>;
+
+/// Red, green, blue.
+using Colours = std::array<std::uint8_t, 3>;
+
+/// The sums of all terms of each channel.
+template <class Preset>
+class ColourSum {
+ public:
+  /// `data_bits`: of a light's sample. A term has so many fraction bits more than a factor.
+  ColourSum(int channels, int data_bits) : channels_(channels), data_bits_(data_bits) {}
+
+  void add(const ColourTerms& terms) {
+    for (int c = 0; c < channels_; ++c)
+      sums_[static_cast<std::size_t>(c)].add(terms[static_cast<std::size_t>(c)]);
+  }
+  /// With one channel all colours are equal.
+  Colours colours() const {
+    const auto colour = [&](std::size_t channel) {
+      return static_cast<std::uint8_t>(sums_[channels_ == 3 ? channel : 0].result(
+          Preset::c_factor_fraction_bits + data_bits_, Preset::c_colour_bits));
+    };
+    return {colour(0), colour(1), colour(2)};
+  }
+
+ private:
+  int channels_, data_bits_;
+  std::array<SaturatingSum, 3> sums_;
+};
+
+}  // namespace halfway::golden
