@@ -219,7 +219,8 @@ TEST(Figures, EveryVerdictCanChange) {
           break;
       }
       EXPECT_NE((Row{other, measured}.verdict()), (Row{claim, measured}.verdict()));
-      if (other.timed && !agrees)
+      // A time may agree in one run and differ in another: its reason may stay.
+      if (other.timed && (!agrees || !other.why_not.empty()))
         EXPECT_THAT(faults_of(other, measured), IsEmpty());
       else
         EXPECT_THAT(faults_of(other, measured),

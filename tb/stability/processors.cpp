@@ -462,8 +462,8 @@ constexpr HardCase c_cases[] = {
      "each carries its own N and material", "the illumination model within the units' errors", "colour steps",
      PublishedForm::breaks, objects_at_a_pixel},
     {"lights_between_frames", "Lights redefined and deleted between frames",
-     "processors, section 3.2: redefine, delete", "a valid bit for each light",
-     "each frame as it is alone", "frames that differ", PublishedForm::holds, lights_between_frames},
+     "processors, section 3.2: redefine, delete", "a valid bit for each light", "each frame as it is alone",
+     "frames that differ", PublishedForm::holds, lights_between_frames},
 };
 
 INSTANTIATE_TEST_SUITE_P(processors, HardCases, testing::ValuesIn(c_cases), id_of);
