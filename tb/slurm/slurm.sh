@@ -149,13 +149,17 @@ same_table() { # name, name of the local run
 
 # Start the study and kill its first running task.
 run_with_a_task_killed() { # name, arguments of the study...
-  local name=$1 run killed='' tries retried
+  local name=$1 run killed='' task tries retried
   shift
   "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 &
   run=$!
   for ((tries = 0; tries < 300; tries++)); do
-    killed=$(ours "^$halfway .*--out $scratch/$name .*--part" | head -n 1)
-    [ -n "$killed" ] && kill -KILL "$killed" 2>/dev/null && break
+    task=$(ours "^$halfway .*--out $scratch/$name .*--part" | head -n 1)
+    # A task that ends by itself can be killed, too, without effect. A stopped one cannot end.
+    if [ -n "$task" ] && kill -STOP "$task" 2>/dev/null; then
+      sleep 0.05
+      grep -qs '^State:.*T (stopped)' "/proc/$task/status" && kill -KILL "$task" && killed=$task && break
+    fi
     sleep 0.05
   done
   [ -n "$killed" ] || fail "$name: no task to kill"
