@@ -33,6 +33,8 @@ package tb_pkg is
     procedure check_word (name : in string; got : in std_logic_vector);
     -- As check_word if `checked` is '1'; otherwise skips the word.
     procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector);
+    -- As check_word_if for each word of `bits` bits of `got`, the lowest first. A failure names it "NAME INDEX".
+    procedure check_words_if (checked : in std_logic; name : in string; bits : in positive; got : in std_logic_vector);
     procedure check_flag (name : in string; got : in std_logic);
     procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic);
     -- Reads the next word as a number below 2**31.
@@ -224,6 +226,14 @@ package body tb_pkg is
       if checked = '1' and got /= expected then
         fail(name & " is " & to_text(got) & ", expected " & to_text(expected));
       end if;
+    end procedure;
+
+    procedure check_words_if (checked : in std_logic; name : in string; bits : in positive; got : in std_logic_vector) is
+      alias words : std_logic_vector(got'length - 1 downto 0) is got;
+    begin
+      for index in 0 to got'length / bits - 1 loop
+        check_word_if(checked, name & " " & to_string(index), words((index + 1) * bits - 1 downto index * bits));
+      end loop;
     end procedure;
 
     procedure check_word (name : in string; got : in std_logic_vector) is

@@ -64,10 +64,7 @@ begin
       vectors.drive(sample_step);
       vectors.drive(lit);
       wait until rising_edge(clk);
-      for channel in 0 to g_channels - 1 loop
-        vectors.check_word_if(checked, "product of channel " & to_string(channel),
-          products((channel + 1) * c_product_bits - 1 downto channel * c_product_bits));
-      end loop;
+      vectors.check_words_if(checked, "product of channel", c_product_bits, products);
     end loop;
     finished <= true;
     wait;

@@ -44,10 +44,7 @@ begin
       vectors.drive(ambient);
       vectors.drive(span_load);
       wait until rising_edge(clk);
-      for channel in 0 to g_channels - 1 loop
-        vectors.check_word_if(checked, "term of channel " & to_string(channel),
-          terms((channel + 1) * c_term_bits - 1 downto channel * c_term_bits));
-      end loop;
+      vectors.check_words_if(checked, "term of channel", c_term_bits, terms);
     end loop;
     finished <= true;
     wait;

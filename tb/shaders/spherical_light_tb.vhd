@@ -67,10 +67,7 @@ begin
       vectors.drive(span_step);
       vectors.drive(sample_step);
       wait until rising_edge(clk);
-      for term in 0 to c_terms - 1 loop
-        vectors.check_word_if(checked, "term " & to_string(term),
-          terms((term + 1) * c_term_bits - 1 downto term * c_term_bits));
-      end loop;
+      vectors.check_words_if(checked, "term", c_term_bits, terms);
     end loop;
     finished <= true;
     wait;
