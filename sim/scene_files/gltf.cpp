@@ -42,6 +42,12 @@ struct BadGltf {
   std::string what;
 };
 
+/// An object without keys, for one that a file leaves out.
+const json& no_keys() {
+  static const json c_none = json::object();
+  return c_none;
+}
+
 /// A value of the file and its place for messages: "meshes[0].primitives[1]".
 class Item {
  public:
@@ -669,9 +675,8 @@ class GltfReader {
     const auto next = static_cast<std::uint32_t>(loaded_.mesh.materials.size());
     const auto [entry, is_new] = material_index_.try_emplace(source, next);
     if (is_new) {
-      static const json c_no_keys = json::object();
       loaded_.mesh.materials.push_back(source ? read_material(materials_[*source], "")
-                                              : read_material(Item(c_no_keys, "material"), "default"));
+                                              : read_material(Item(no_keys(), "material"), "default"));
     }
     return entry->second;
   }
@@ -679,9 +684,8 @@ class GltfReader {
   Material read_material(const Item& source, std::string_view name) {
     Material material;
     material.name = source.text("name", name);
-    static const json c_no_keys = json::object();
     const Item look = source.has("pbrMetallicRoughness") ? source.object("pbrMetallicRoughness")
-                                                         : Item(c_no_keys, source.place());
+                                                         : Item(no_keys(), source.place());
     if (look.has("baseColorFactor")) {
       const auto colour = look.numbers<4>("baseColorFactor");
       for (int channel = 0; channel < 3; ++channel) {

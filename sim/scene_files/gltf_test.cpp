@@ -29,21 +29,6 @@ std::string buffer() {
   return bytes;
 }
 
-std::string base64(const std::string& data) {
-  constexpr char c_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < data.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      word = word << 8 | (i + k < data.size() ? static_cast<unsigned char>(data[i + k]) : 0u);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k > data.size() ? '=' : c_digits[word >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
-}
-
 /// A triangle: accessor 0 has the positions, accessor 1 the first three indices.
 json plain(const std::string& bytes = buffer()) {
   json file =

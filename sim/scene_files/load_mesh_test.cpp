@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh_files/test/spelling.hpp"
+
 namespace halfway {
 namespace {
 
@@ -23,21 +25,6 @@ std::string bytes(const std::vector<T>& values) {
   std::string result(values.size() * sizeof(T), '\0');
   std::memcpy(result.data(), values.data(), result.size());
   return result;
-}
-
-std::string base64(const std::string& data) {
-  constexpr char c_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < data.size(); i += 3) {
-    std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      word = word << 8 | (i + k < data.size() ? static_cast<unsigned char>(data[i + k]) : 0u);
-    }
-    for (int k = 0; k < 4; ++k) {
-      text += i + static_cast<std::size_t>(k) > data.size() ? '=' : c_digits[word >> (18 - 6 * k) & 63];
-    }
-  }
-  return text;
 }
 
 // The same square pyramid with apex (0, 0, 1) in every format: 4 triangles and a square base, or 6 triangles.
@@ -290,7 +277,7 @@ TEST_F(LoadMesh, ObjFaultsNameTheLine) {
 TEST_F(LoadMesh, PlyAndStlFaultsNameTheFile) {
   expect_error("a.ply", c_ply_ascii + "1\n", "a.ply:20: '1' follows the last element");
   expect_error("a.ply", ply_binary() + "1", "1 bytes follow the last element");
-  expect_error("a.stl", stl_ascii() + "1\n", "'1' in place of 'solid'");
+  expect_error("a.stl", stl_ascii() + "1\n", "'1' instead of 'solid'");
   expect_error("a.stl", stl_binary() + "1", "a.stl: not an STL file, or damaged");
 }
 

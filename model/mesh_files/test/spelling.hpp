@@ -71,4 +71,20 @@ std::string big_endian(T value) {
   return {bytes.rbegin(), bytes.rend()};
 }
 
+/// The bytes of a buffer that is written into a glTF file.
+inline std::string base64(const std::string& data) {
+  constexpr char c_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < data.size(); i += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      word = word << 8 | (i + k < data.size() ? static_cast<unsigned char>(data[i + k]) : 0u);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += i + k > data.size() ? '=' : c_digits[word >> (18 - 6 * k) & 63];
+    }
+  }
+  return text;
+}
+
 }  // namespace halfway
