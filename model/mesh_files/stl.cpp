@@ -66,7 +66,7 @@ class TextReader {
       return lines_.error(
           fmt::format("the file ends where {} must follow; it is truncated, export it again", what));
     }
-    return lines_.error(fmt::format("{} in place of {}; correct the line", quoted(word_), what));
+    return lines_.error(fmt::format("{} instead of {}; correct the line", quoted(word_), what));
   }
   Status expect(std::string_view keyword) {
     next_word();
