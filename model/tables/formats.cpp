@@ -234,9 +234,8 @@ std::vector<Format> published_formats() {
        0,
        11,
        "12 bits, the upper 6 of them the address: the spherical paper's line interpolator. That it wraps at "
-       "the "
-       "bell's ends is our reading. Start and slope are each off by at most half a unit: 8 addresses after "
-       "1023 steps",
+       "the bell's ends is our reading. Start and slope are each off by at most half a unit: 8 addresses "
+       "after 1023 steps",
        {off_by(1, "half bells", "(1 + pixels) * u / 2")}},
       {"power", false, 0, 0, "only cosine squared", {at_most(0, "0")}},
       {"plane_sum",
