@@ -18,10 +18,9 @@ Result<std::string> program_hash() {
 
 // Hash of the files that the row of this name reads, and of the netlists that it draws with.
 Result<std::string> inputs_hash(const std::string& name) {
-  const std::map<std::string, Row> rows = all_rows();
-  const auto found = rows.find(name);
+  const auto found = all_rows().find(name);
   // A stored row may name one that does not exist any more. It is stale.
-  if (found == rows.end()) return std::string();
+  if (found == all_rows().end()) return std::string();
   const Row& row = found->second;
   ContentHash hash;
   try {

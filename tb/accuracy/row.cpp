@@ -85,18 +85,21 @@ std::string grouped(std::uint64_t number) {
   return text;
 }
 
-std::map<std::string, Row> all_rows() {
-  std::map<std::string, Row> rows;
-  const auto add = [&](const char* family, const std::vector<Row>& of_family) {
-    for (const Row& row : of_family) rows.emplace(fmt::format("{}/{}", family, row.id), row);
-  };
-  add("quadratic_shader", quadratic_rows());
-  add("spherical_shader", spherical_rows());
-  add("cosine_tables", cosine_rows());
-  add("bright_lights", bright_rows());
-  add("shading_processors", processors_rows());
-  add("root_tables", root_rows());
-  return rows;
+const std::map<std::string, Row>& all_rows() {
+  static const std::map<std::string, Row> c_rows = [] {
+    std::map<std::string, Row> rows;
+    const auto add = [&](const char* family, const std::vector<Row>& of_family) {
+      for (const Row& row : of_family) rows.emplace(fmt::format("{}/{}", family, row.id), row);
+    };
+    add("quadratic_shader", quadratic_rows());
+    add("spherical_shader", spherical_rows());
+    add("cosine_tables", cosine_rows());
+    add("bright_lights", bright_rows());
+    add("shading_processors", processors_rows());
+    add("root_tables", root_rows());
+    return rows;
+  }();
+  return c_rows;
 }
 
 TEST_P(Accuracy, Full) {

@@ -34,7 +34,7 @@ struct Row {
 };
 
 /// Every row of the page by its name, FAMILY/ID, for the hash of what a row depends on.
-std::map<std::string, Row> all_rows();
+const std::map<std::string, Row>& all_rows();
 
 /// The scene of a file, relative to the project's root.
 Scene loaded(const std::string& file);
