@@ -37,41 +37,7 @@ class Cutter {
   // `group`: the half's header and records. Appends what the cutting host sends, and counts it.
   void cut(const ScreenTriangle& triangle, const std::array<HalfVertex, 3>& vertex, const HalfTriangle& half,
            WordSpan group, Words& out, CutLines& count) const {
-    const Material& material = scene_.materials[triangle.material];
-    std::array<PointVectors, 3> vectors;
-    for (std::size_t i = 0; i < 3; ++i) {
-      glm::dvec3 corner(0.0);
-      corner[static_cast<int>(i)] = 1.0;
-      vectors[i] = setup_.vectors_at(material, surface_point(triangle, corner));
-    }
-    std::vector<Line> lines;
-    golden::TriangleWalker<Published> walker;
-    walker.line_load(group);
-    walker.walk([&] {
-      Line line{static_cast<std::int64_t>(walker.y()), walker.start().value(), {}};
-      const std::int64_t pixels = walker.line_empty() ? 0 : walker.stop().value() - line.first;
-      const auto t = [&](const HalfEdge& edge) {
-        return static_cast<double>((line.y - vertex[edge.top].y) /
-                                   (vertex[edge.bottom].y - vertex[edge.top].y));
-      };
-      for (std::size_t light = 0; light < key_.spherical.lights; ++light) {
-        const auto end = [&](const HalfEdge& edge) {
-          const LightVectors &a = vectors[edge.top].light[light], &b = vectors[edge.bottom].light[light];
-          return std::pair(slerp(a.u, b.u, t(edge)), slerp(a.v, b.v, t(edge)));
-        };
-        const auto [u1, v1] = end(half.start);
-        const auto [u2, v2] = pixels > 1 ? end(half.stop) : std::pair(u1, v1);
-        line.pixels.resize(static_cast<std::size_t>(pixels));
-        const CosineArc arc = cosine_arc(u1, u2, v1, v2);
-        const double bell_end = std::numbers::pi / 2 / published_scale(material.exponent),
-                     step = pixels > 1 ? 1.0 / static_cast<double>(pixels - 1) : 0.0;
-        for (std::size_t i = 0; i < line.pixels.size(); ++i)
-          if (std::abs(static_cast<double>(i) * step * arc.sweep - arc.phase) <= bell_end)
-            line.pixels[i] |= Inside{1} << light;
-      }
-      lines.push_back(std::move(line));
-    });
-
+    const std::vector<Line> lines = walked(triangle, vertex, half, group);
     const bool whole = std::ranges::all_of(lines, [](const Line& line) {
       return line.pixels.empty() ||
              std::ranges::count(line.pixels, line.pixels[0]) == std::ssize(line.pixels);
@@ -105,6 +71,46 @@ class Cutter {
     std::int64_t y, first;
     std::vector<Inside> pixels;
   };
+
+  // The lines of the half, as the hardware walks them.
+  std::vector<Line> walked(const ScreenTriangle& triangle, const std::array<HalfVertex, 3>& vertex,
+                           const HalfTriangle& half, WordSpan header) const {
+    const Material& material = scene_.materials[triangle.material];
+    std::array<PointVectors, 3> vectors;
+    for (std::size_t i = 0; i < 3; ++i) {
+      glm::dvec3 corner(0.0);
+      corner[static_cast<int>(i)] = 1.0;
+      vectors[i] = setup_.vectors_at(material, surface_point(triangle, corner));
+    }
+    std::vector<Line> lines;
+    golden::TriangleWalker<Published> walker;
+    walker.line_load(header);
+    walker.walk([&] {
+      Line line{static_cast<std::int64_t>(walker.y()), walker.start().value(), {}};
+      const std::int64_t pixels = walker.line_empty() ? 0 : walker.stop().value() - line.first;
+      const auto t = [&](const HalfEdge& edge) {
+        return static_cast<double>((line.y - vertex[edge.top].y) /
+                                   (vertex[edge.bottom].y - vertex[edge.top].y));
+      };
+      for (std::size_t light = 0; light < key_.spherical.lights; ++light) {
+        const auto end = [&](const HalfEdge& edge) {
+          const LightVectors &a = vectors[edge.top].light[light], &b = vectors[edge.bottom].light[light];
+          return std::pair(slerp(a.u, b.u, t(edge)), slerp(a.v, b.v, t(edge)));
+        };
+        const auto [u1, v1] = end(half.start);
+        const auto [u2, v2] = pixels > 1 ? end(half.stop) : std::pair(u1, v1);
+        line.pixels.resize(static_cast<std::size_t>(pixels));
+        const CosineArc arc = cosine_arc(u1, u2, v1, v2);
+        const double bell_end = std::numbers::pi / 2 / published_scale(material.exponent),
+                     step = pixels > 1 ? 1.0 / static_cast<double>(pixels - 1) : 0.0;
+        for (std::size_t i = 0; i < line.pixels.size(); ++i)
+          if (std::abs(static_cast<double>(i) * step * arc.sweep - arc.phase) <= bell_end)
+            line.pixels[i] |= Inside{1} << light;
+      }
+      lines.push_back(std::move(line));
+    });
+    return lines;
+  }
 
   // The header of a triangle of one line, with the ambient light of the half's header.
   void put_one_line(std::uint32_t source, const HalfTriangle& line, const std::array<HalfVertex, 3>& vertex,
