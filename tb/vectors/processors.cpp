@@ -156,7 +156,7 @@ Status write_light_state_of(const std::filesystem::path& folder) {
 // A line: token, comes; the output object (valid if comes), fault afterwards.
 template <class Preset>
 Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfig& config, bool faults) {
-  constexpr int c_tokens = 360;
+  constexpr int c_tokens = 240;
   const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits));
   golden::ShadingPipeline<Preset> twin(config);
@@ -305,7 +305,7 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
 }
 
 Status write_shading_processor(const std::filesystem::path& folder) {
-  constexpr int c_tokens = 400;
+  constexpr int c_tokens = 280;
   if (auto s = write_processors<Exact>(folder, c_tokens); !s) return s;
   return write_processors<Published>(folder, c_tokens);
 }

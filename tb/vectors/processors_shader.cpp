@@ -27,17 +27,17 @@ struct Processors {
 };
 
 constexpr Processors c_exact_shaders[] = {
-    {"directional", {3, 1, 0, 0, true, true, true, false}, 160},
-    {"all_kinds", {3, 1, 1, 1, true, true, true, false}, 160},
-    {"grey", {1, 2, 0, 0, true, false, false, false}, 160},
-    {"no_light", {3, 0, 0, 0, false, false, true, false}, 160},
-    {"shadows", {3, 1, 1, 0, true, true, true, true}, 160},
-    {"folded", {3, 0, 1, 0, true, true, true, false}, 90},
+    {"directional", {3, 1, 0, 0, true, true, true, false}, 112},
+    {"all_kinds", {3, 1, 1, 1, true, true, true, false}, 112},
+    {"grey", {1, 2, 0, 0, true, false, false, false}, 112},
+    {"no_light", {3, 0, 0, 0, false, false, true, false}, 112},
+    {"shadows", {3, 1, 1, 0, true, true, true, true}, 112},
+    {"folded", {3, 0, 1, 0, true, true, true, false}, 64},
 };
 constexpr Processors c_published_shaders[] = {
-    {"published", {3, 1, 1, 1, true, true, true, false}, 90},
-    {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, 160},
-    {"published_shadows", {3, 0, 1, 0, false, true, true, true}, 90},
+    {"published", {3, 1, 1, 1, true, true, true, false}, 64},
+    {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, 112},
+    {"published_shadows", {3, 0, 1, 0, false, true, true, true}, 64},
 };
 
 template <class Preset>
