@@ -55,6 +55,9 @@ Scene lit(Material material = {}) {
   return scene;
 }
 
+// Colour steps. Half a step is the rounding to eight bits.
+constexpr double c_conditioned = 1.0;
+
 const Material c_shiny{.colour = {0.9, 0.6, 0.3}, .diffuse = 0.5, .specular = 0.5, .exponent = 60.0};
 
 // Corners counter-clockwise, with one normal each.
@@ -413,7 +416,7 @@ constexpr HardCase c_cases[] = {
     {"light_at_the_surface", "A light at the surface's own point", "processors: (P_p − P)/abs(P_p − P), 0/0",
      "block shift before the square; a zero vector stays one",
      "the illumination model within the units' errors; at the point itself any colour of the light",
-     "colour steps", PublishedForm::breaks, light_at_the_surface},
+     "colour steps", PublishedForm::breaks, light_at_the_surface, c_conditioned},
     {"far_light", "A light 10^3 to 10^300 of the scene's size away",
      "processors: P_p − P in words of one scale",
      "a light's place has a power of two of its own; past 2^31 it is drawn as a direction, and noted",
@@ -427,7 +430,7 @@ constexpr HardCase c_cases[] = {
     {"opposed_normals", "Normals opposed, or zero", "processors: N/abs(N), 0/0",
      "a zero vector stays one; a flat face's own normal",
      "the illumination model within the units' errors, which where N vanishes is any", "colour steps",
-     PublishedForm::breaks, opposed_normals},
+     PublishedForm::breaks, opposed_normals, c_conditioned},
     {"below_the_horizon", "Highlights below the horizon",
      "processors: I_out = I_in + k I (N.H)^m, whatever N.L is", "no highlight where N.L <= 0",
      "the illumination model within the units' errors", "colour steps", PublishedForm::breaks,
@@ -439,11 +442,11 @@ constexpr HardCase c_cases[] = {
      "processors: no spots; their units resolve a cosine to 2^-7",
      "a cosine within 2^-19, the edge's slope up to 2^18; cones of less than 0.63 degrees are noted",
      "the illumination model within the units' errors, which a narrow cone magnifies", "colour steps",
-     PublishedForm::breaks, narrow_spots},
+     PublishedForm::breaks, narrow_spots, c_conditioned},
     {"hard_spots", "Spots with a hard edge", "processors: no spots; their units resolve a cosine to 2^-7",
      "a cosine within 2^-19, the edge's slope up to 2^18",
      "the illumination model within the units' errors: at the edge's own pixels any share of the light",
-     "colour steps", PublishedForm::breaks, hard_spots},
+     "colour steps", PublishedForm::breaks, hard_spots, c_conditioned},
     {"sums_past_white", "Sums past white over 33 processors",
      "processors, equation 5 and section 3.1: I_out = I_in + k I (N.A)^x, integers",
      "22 bits of radiance, saturating", "the illumination model, at most white", "colour steps",

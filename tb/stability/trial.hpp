@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -81,9 +82,11 @@ struct Simulators {
 
 class Trial {
  public:
-  /// A quick sweep takes part of a second, a full one up to a minute. The cases share `rtl`.
-  Trial(SimulatorFolders folders, Simulators& rtl, bool quick)
-      : folders_(std::move(folders)), rtl_(rtl), quick_(quick) {}
+  /// A quick sweep takes part of a second, a full one up to a minute. The cases share `rtl`. Figures of our
+  /// form with a bound above `conditioned` are ill-conditioned.
+  Trial(SimulatorFolders folders, Simulators& rtl, bool quick,
+        double conditioned = std::numeric_limits<double>::infinity())
+      : folders_(std::move(folders)), rtl_(rtl), quick_(quick), conditioned_(conditioned) {}
 
   bool quick() const { return quick_; }
   /// The project's root.
@@ -95,6 +98,8 @@ class Trial {
   /// property.
   void ours(long double figure, long double bound, const std::function<std::string()>& where) {
     ours_.add(static_cast<double>(figure), static_cast<double>(bound), where);
+    if (!(bound > conditioned_))
+      well_conditioned_.add(static_cast<double>(figure), static_cast<double>(bound), where);
   }
   void published(long double figure, long double bound, const std::function<std::string()>& where) {
     published_.add(static_cast<double>(figure), static_cast<double>(bound), where);
@@ -122,6 +127,8 @@ class Trial {
   std::vector<Fragment> draw(const HardwareKey& key, std::span<const std::uint32_t> words);
 
   const Worst& ours() const { return ours_; }
+  /// The figures of our form without the ill-conditioned ones.
+  const Worst& well_conditioned() const { return well_conditioned_; }
   const Worst& published() const { return published_; }
   /// The reason for which the case failed independently of the figures; empty if it did not.
   const std::string& failure() const { return failure_; }
@@ -143,7 +150,8 @@ class Trial {
   SimulatorFolders folders_;
   Simulators& rtl_;
   bool quick_;
-  Worst ours_, published_;
+  double conditioned_;
+  Worst ours_, well_conditioned_, published_;
   std::string failure_;
   Status tools_ = Ok{};
   std::set<std::string> hardware_;
