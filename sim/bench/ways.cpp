@@ -36,6 +36,8 @@ const Name& name_of(Way way) {
   static constexpr std::array<Name, c_ways.size()> c_names = {
       {{"lanes_compared", "RTL in lanes, every field compared with the golden model drawn on the same core"},
        {"lanes", "RTL in lanes alone"},
+       {"lanes_without_avx512_compared", "RTL in lanes, compiled without AVX-512, compared likewise"},
+       {"lanes_without_avx512", "RTL in lanes, compiled without AVX-512, alone"},
        {"verilator_compared", "RTL in Verilator as built here, compared likewise"},
        {"verilator", "RTL in Verilator as built here, alone"},
        {"verilator_as_it_comes", "RTL in Verilator as it comes, alone"},
@@ -57,12 +59,15 @@ std::string ghdl_program(Way way, const SimulatorFolders& folders) {
   return way == Way::ghdl_llvm ? "ghdl-llvm" : ghdl_mcode(folders);
 }
 
+bool without_avx512(Way way) {
+  return way == Way::lanes_without_avx512_compared || way == Way::lanes_without_avx512;
+}
+
 /// RTL in this process, alone, or with the golden model and a comparison of every field on the same thread.
 Result<Go> in_process(Way way, const WayInput& input) {
-  const bool lanes = way == Way::lanes || way == Way::lanes_compared;
-  const bool compared = way == Way::lanes_compared || way == Way::verilator_compared;
-  auto opened = open_engine(lanes ? EngineKind::lanes : EngineKind::verilator, input.batches->key,
-                            input.folders, {.fast = input.fast});
+  const bool compared = is_compared(way);
+  auto opened = open_engine(in_lanes(way) ? EngineKind::lanes : EngineKind::verilator, input.batches->key,
+                            input.folders, {.fast = input.fast, .avx512 = !without_avx512(way)});
   if (!opened) return opened.error();
   const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
   return Go([=, engine = *opened, &s = *input.batches]() -> Result<double> {
@@ -156,6 +161,15 @@ std::string short_name(Way way) {
   return name_of(way).short_name;
 }
 
+bool in_lanes(Way way) {
+  return way == Way::lanes_compared || way == Way::lanes || without_avx512(way);
+}
+
+bool is_compared(Way way) {
+  return way == Way::lanes_compared || way == Way::lanes_without_avx512_compared ||
+         way == Way::verilator_compared;
+}
+
 std::string lacking(Way way, const SimulatorFolders& folders) {
   const auto program = [](const char* name) { return find_program(name).empty() ? name : ""; };
   switch (way) {
@@ -224,6 +238,8 @@ Result<Go> make_way(Way way, const WayInput& input) {
   switch (way) {
     case Way::lanes_compared:
     case Way::lanes:
+    case Way::lanes_without_avx512_compared:
+    case Way::lanes_without_avx512:
     case Way::verilator_compared:
     case Way::verilator:
       return in_process(way, input);

@@ -16,6 +16,8 @@ namespace halfway {
 enum class Way {
   lanes_compared,
   lanes,
+  lanes_without_avx512_compared,
+  lanes_without_avx512,
   verilator_compared,
   verilator,
   verilator_as_it_comes,
@@ -35,6 +37,10 @@ inline constexpr auto c_ways = [] {
 std::string to_string(Way way);
 /// Name in benchmarks.
 std::string short_name(Way way);
+
+bool in_lanes(Way way);
+/// True if the golden model draws the same fragments, and every field is compared, within the measured time.
+bool is_compared(Way way);
 
 /// The program or package that a way needs and this machine lacks; empty if it can run.
 std::string lacking(Way way, const SimulatorFolders& folders);

@@ -63,7 +63,7 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   // Change the input. The way still draws the first one, which is now wrong.
   if (way == Way::mesa)
     scene_.materials[0].colour *= 0.5;
-  else if (way == Way::lanes_compared || way == Way::verilator_compared)
+  else if (is_compared(way))
     batches_.golden.pop_back();
   else
     batches_.golden.back().red ^= 1;

@@ -56,7 +56,7 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
 
   ContentHash hash;
   hash.add("lanes 1").add(*verilator_version).add(compiler->identity).add(build.netlist).add(build.top);
-  hash.add(*harness).add(build.fast ? "-O3" : "-O1");
+  hash.add(*harness).add(build.fast ? "-O3" : "-O1").add(build.avx512 ? "" : "no AVX-512");
   const auto sources = generator_sources(build.source);
   if (!sources) return sources.error();
   for (const std::filesystem::path& file : *sources) {
@@ -92,6 +92,9 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
     auto& arguments = compile.arguments;
     arguments.insert(arguments.end(), c_compiler_flags.begin(), c_compiler_flags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
+#ifdef __x86_64__
+    if (!build.avx512) arguments.emplace_back("-mno-avx512f");
+#endif
     // g++ would share inline variables between all libraries of the process.
     if (compiler->program.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);

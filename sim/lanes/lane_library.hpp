@@ -21,6 +21,7 @@ struct LaneBuild {
   std::filesystem::path source;          ///< the project's root
   std::vector<std::string> definitions;  ///< NAME=value for the harness
   bool fast = true;                      ///< optimize, which takes long to compile
+  bool avx512 = true;                    ///< false: no instruction of AVX-512
   std::string compiler;                  ///< empty: clang++ if installed, otherwise g++
 };
 

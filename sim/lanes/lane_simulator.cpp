@@ -254,6 +254,7 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
                         .source = folders.source,
                         .definitions = definitions,
                         .fast = options.fast,
+                        .avx512 = options.avx512,
                         .compiler = options.compiler};
   auto library = open_lanes(build, folders.cache);
   if (!library) return library.error();

@@ -42,7 +42,8 @@ Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& 
                                            {.threads = options.threads,
                                             .idle_limit = c_idle_limit,
                                             .stall_seed = options.stall_seed,
-                                            .fast = options.fast}));
+                                            .fast = options.fast,
+                                            .avx512 = options.avx512}));
 }
 
 bool lanes_pay(const HardwareKey& key, double pixels) {

@@ -18,6 +18,7 @@ struct EngineOptions {
   unsigned threads = 1;          ///< for engines that use several
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
   bool fast = true;              ///< optimize, which takes long to compile
+  bool avx512 = true;            ///< false: lanes without an instruction of AVX-512
   /// Called by engines that draw late, with the number of bytes of trace written so far.
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};
 };

@@ -42,7 +42,7 @@ bool in_ghdl(Way way) {
 bool is_measured(Way way, std::size_t column) {
   if (!is_wanted(name_of(way, column)) || !lacking(way, c_folders).empty()) return false;
   if (way == Way::reference || way == Way::mesa) return column == 0;
-  if (way == Way::lanes || way == Way::lanes_compared) return c_hardware[column].lanes;
+  if (in_lanes(way)) return c_hardware[column].lanes;
   if (way == Way::cxxrtl || way == Way::verilator_as_it_comes) return column != c_folded;
   return true;
 }
@@ -80,9 +80,7 @@ WayTable::WayTable(Measurements& measurements, unsigned jobs) : measurements_(me
   std::vector<Job> alone, compared;
   for (const Way way : c_ways)
     for (std::size_t column = 0; column < c_columns; ++column)
-      if (is_measured(way, column))
-        (way == Way::lanes_compared || way == Way::verilator_compared ? compared : alone)
-            .push_back({way, column});
+      if (is_measured(way, column)) (is_compared(way) ? compared : alone).push_back({way, column});
   // Ways with comparison use the hardware built for the ways without comparison.
   for (std::vector<Job>* jobs_now : {&alone, &compared}) {
     must(for_each_on_threads(jobs, jobs_now->size(), [&](std::size_t i) -> Status {
