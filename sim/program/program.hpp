@@ -2,11 +2,15 @@
 // Shared by all programs of this project: the folders of the checkout, and how a program ends.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string_view>
 
 #include "common/result.hpp"
+
+// CLI11 is declared, not included: its header takes six seconds to compile.
+namespace CLI {
+class App;
+}
 
 namespace halfway::cli {
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `halfway tables` as a separate program, for `make tables`. It does not depend on the files that it writes.
+#include <CLI/CLI.hpp>
+
 #include "sim/program/program.hpp"
 
 int main(int argc, char** argv) {

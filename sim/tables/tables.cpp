@@ -2,6 +2,7 @@
 // `halfway tables`: writes the generated files, or checks that the checkout's copies are current.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>

@@ -4,7 +4,6 @@
 // program that measures them, and its tables are written from them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -16,6 +15,11 @@
 
 #include "common/result.hpp"
 #include "page/page.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
 
 namespace halfway::evidence {
 

@@ -3,6 +3,7 @@
 // values are in their ranges.
 #include "sim/cli/options.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -3,6 +3,7 @@
 // the proof must refute it. Each proof has a row of evidence.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cstdio>

@@ -4,6 +4,7 @@
 // tb/synth/pinned.txt. Each design has a row of evidence.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
