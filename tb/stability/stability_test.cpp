@@ -139,6 +139,19 @@ TEST(Refutation, ComesFromPublishedFiguresThatAreNotAsExpected) {
             "has a figure of the published form, and says that there is none");
 }
 
+TEST(Trial, KeepsWellConditionedFiguresApart) {
+  Simulators simulators;
+  Trial trial(SimulatorFolders{}, simulators, true, 1.0);
+  const auto where = [] { return "x"; };
+  trial.ours(0.5, 1.0, where);
+  trial.ours(9.0, 10.0, where);
+  trial.published(0.7, 0.8, where);
+  EXPECT_EQ(trial.ours().count, 2U);
+  EXPECT_EQ(trial.ours().figure, 9.0);
+  EXPECT_EQ(trial.well_conditioned().count, 1U);
+  EXPECT_EQ(trial.well_conditioned().figure, 0.5);
+}
+
 // The spans are equal to the definition, pixel by pixel.
 TEST(Specification, SpansHoldThePixelsThatAreCovered) {
   std::size_t pixels = 0;
