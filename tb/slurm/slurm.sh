@@ -147,6 +147,19 @@ same_table() { # name, name of the local run
   cmp "$scratch/$2/study.csv" "$scratch/$1/study.csv" || fail "$1: another table than the local run's"
 }
 
+# Wait until the process has stopped. False if it has ended before.
+stopped() { # process
+  local state
+  while state=$(sed -n 's/^State:[[:space:]]*\(.\).*/\1/p' "/proc/$1/status" 2>/dev/null); do
+    case $state in
+      T) return 0 ;;
+      '' | Z | X) return 1 ;;
+    esac
+    sleep 0.01
+  done
+  return 1
+}
+
 # Start the study and kill its first running task.
 run_with_a_task_killed() { # name, arguments of the study...
   local name=$1 run killed='' task tries retried
@@ -156,10 +169,7 @@ run_with_a_task_killed() { # name, arguments of the study...
   for ((tries = 0; tries < 300; tries++)); do
     task=$(ours "^$halfway .*--out $scratch/$name .*--part" | head -n 1)
     # A task that ends by itself can be killed, too, without effect. A stopped one cannot end.
-    if [ -n "$task" ] && kill -STOP "$task" 2>/dev/null; then
-      sleep 0.05
-      grep -qs '^State:.*T (stopped)' "/proc/$task/status" && kill -KILL "$task" && killed=$task && break
-    fi
+    [ -n "$task" ] && kill -STOP "$task" 2>/dev/null && stopped "$task" && kill -KILL "$task" && killed=$task && break
     sleep 0.05
   done
   [ -n "$killed" ] || fail "$name: no task to kill"
