@@ -185,10 +185,12 @@ check-report: build ## test the page of make report in headless Chromium, with m
 diagrams: setup ## draw the shaders' block diagrams in rtl/diagrams from their text
 	@scripts/diagrams.sh build/diagrams
 
-gallery: program ## draw the pictures in docs/results/gallery by the RTL, and measure README.md's plot, again
+gallery: program ## draw the pictures in docs/results/gallery by the RTL, and measure the plots of README.md and docs/accuracy.md, again
 	@scripts/gallery.sh build/gallery
 	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
-	@build/halfway report --study build/gallery/study --front docs/results/gallery --readme README.md
+	@build/halfway report --study build/gallery/study --front docs/results/gallery --page docs/accuracy.md
+	@build/halfway study --space sim/studies/times.toml --out build/gallery/times $(call option,THREADS,--threads)
+	@build/halfway report --study build/gallery/times --times docs/results/gallery --page docs/accuracy.md --readme README.md
 
 tables: generator ## write the generated ROMs and formats
 	@build/halfway_generator tables $(table_options)

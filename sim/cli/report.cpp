@@ -6,6 +6,7 @@
 
 #include "sim/cli/options.hpp"
 #include "sim/report/front.hpp"
+#include "sim/report/times.hpp"
 #include "sim/system/csv.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/page_part.hpp"
@@ -19,13 +20,15 @@ struct ReportCommand {
   std::optional<std::string> figures;  ///< std::nullopt: those of the last make figures, or the checkout's
   bool no_timing = false;
   std::string front;   ///< write the front to this folder, and no page
-  std::string readme;  ///< with `front`: also write the part "front" of this page
+  std::string times;   ///< write the times of frames to this folder, and no page
+  std::string page;    ///< with `front` or `times`: also write the part of that name of this page
+  std::string readme;  ///< with `times`: also write the short form of that part of this page
 };
 
-Status write_front_part(const Table& front, const std::string& readme) {
-  const auto words = report::readme_front(front);
-  if (!words) return words.error();
-  return rewrite_page(readme, [&](const std::string& page) { return with_page_part(page, "front", *words); });
+Status write_part(const std::string& file, const char* part, const Result<std::string>& text) {
+  if (file.empty()) return Ok{};
+  if (!text) return text.error();
+  return rewrite_page(file, [&](const std::string& page) { return with_page_part(page, part, *text); });
 }
 
 int write_front(const ReportCommand& command) {
@@ -37,16 +40,33 @@ int write_front(const ReportCommand& command) {
   if (!designs) return report(designs.error());
   if (*designs == 0)
     return report(bad_input(command.study + ": no design in it has both a cost and an error; make study"));
-  if (!command.readme.empty())
-    if (Status written = write_front_part(report::front_of(*study), command.readme); !written)
-      return report(written.error());
+  if (Status written = write_part(command.page, "front", report::page_front(report::front_of(*study)));
+      !written)
+    return report(written.error());
   fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
+             *designs);
+  return 0;
+}
+
+int write_times(const ReportCommand& command) {
+  const auto times = read_csv(std::filesystem::path(command.study) / "times.csv");
+  if (!times) return report(times.error());
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return report(scratch.error());
+  const auto designs = report::write_times(*times, command.times, scratch->path());
+  if (!designs) return report(designs.error());
+  if (Status written = write_part(command.page, "times", report::page_times(*times)); !written)
+    return report(written.error());
+  if (Status written = write_part(command.readme, "times", report::readme_times(*times)); !written)
+    return report(written.error());
+  fmt::print("{}: the times of {} designs\n", (std::filesystem::path(command.times) / "times.csv").string(),
              *designs);
   return 0;
 }
 
 int run(const Folders& folders, const ReportCommand& command) {
   if (!command.front.empty()) return write_front(command);
+  if (!command.times.empty()) return write_times(command);
   std::filesystem::path figures = command.figures.value_or("build/figures");
   if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
     figures = folders.source / "docs/results/figures";
@@ -84,8 +104,13 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option(
       "--front", command->front,
       "write front.svg and front.csv, a study's error against cells, to this folder, and no page");
+  sub->add_option("--times", command->times,
+                  "write times.csv and its plots, a study's error against the time of a frame, to this "
+                  "folder, and no page");
+  sub->add_option("--page", command->page,
+                  "with --front or --times: a page whose part \"front\" or \"times\" is written");
   sub->add_option("--readme", command->readme,
-                  "with --front: a page whose parts \"front\" and \"shaders\" are written");
+                  "with --times: a page whose part \"times\" is written, in a short form");
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
 

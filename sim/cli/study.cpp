@@ -12,6 +12,7 @@
 
 #include "sim/cli/options.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/study/frame_time.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/pictures.hpp"
@@ -31,6 +32,7 @@ constexpr std::size_t c_parts = 64;
 // In the folder for results. A query does not change this table, because `halfway report` shows it.
 constexpr const char* c_study_table = "study.csv";
 constexpr const char* c_question_table = "question.csv";
+constexpr const char* c_times_table = "times.csv";
 
 struct StudyCommand {
   std::string scene, space;
@@ -193,6 +195,12 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   if (Status written = write_file(table, csv); !written) return report(written.error());
   fmt::print("{}: {} points, {} measured in this run\n", table.string(), made.records.size(), made.measured);
+  const auto times = study::frame_times_of(made.records, hardware, clock);
+  if (!plan.demand.any())
+    if (Status written = write_file(plan.settings.out / c_times_table,
+                                    study::times_csv(made.provenance, made.records, times));
+        !written)
+      return report(written.error());
   if (plan.demand.any() && markets.empty()) {
     fmt::print("nothing meets it: none of the points is hardware\n");
     return static_cast<int>(ExitCode::differs);
@@ -205,6 +213,9 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
     if (plan.demand.any() || market == main)
       fmt::print("{}", study::to_text(*market, answer, plan.demand, made.records));
     met = met && (!plan.demand.any() || answer.cheapest);
+    const auto timed = std::ranges::find(times, market->picture, &study::PictureTimes::picture);
+    if (timed != times.end() && (plan.demand.any() || market == main))
+      fmt::print("{}", study::to_text(*timed, made.records));
   }
   if (!plan.demand.any()) fmt::print("make report draws it\n");
   return static_cast<int>(met ? ExitCode::equal : ExitCode::differs);
@@ -216,6 +227,7 @@ int run(const Folders& folders, const StudyCommand& command) {
   study::StudySettings& settings = plan->settings;
   if (!command.set_up.empty()) return set_up(settings, command.set_up);
   settings.set_up = worker_of(folders, command, plan->space);
+  settings.host_times = command.part.empty();
   const bool on_slurm = command.executor == "slurm";
   // A run without parts places after the measurement, when it is known which hardware can fit; this saves
   // synthesis.

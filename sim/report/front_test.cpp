@@ -70,15 +70,15 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
             (std::vector<std::pair<double, double>>{{100, 8}, {200, 2}}));
   EXPECT_EQ(lower_left({{.x = 50, .y = 1, .aside = true}, {200, 2}}),
             (std::vector<std::pair<double, double>>{{200, 2}}));
-  // README lists the designs on the line, including those hidden under another mark.
-  const auto words = readme_front(front);
+  // The page lists the designs on the line, including those hidden under another mark.
+  const auto words = page_front(front);
   ASSERT_TRUE(words) << words.error().message;
   EXPECT_THAT(*words, AllOf(HasSubstr("each of 3 designs"),
                             HasSubstr("1/255 of white):\nq (100 cells, 8);\ns (200 cells, 2)."),
                             Not(HasSubstr("dear")), Not(HasSubstr("Equal in both figures"))));
   std::string equal = c_study;
   equal += "twin,adaptive,exact,7,20,q,100,10,8,h\n";
-  EXPECT_THAT(*readme_front(front_of(read(equal))),
+  EXPECT_THAT(*page_front(front_of(read(equal))),
               AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("Equal in both figures: q and twin.")));
   // If one count is missing, the axis shows clocks instead of cells.
   std::string uncounted = c_study;
@@ -86,11 +86,11 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   const auto clocks = draw_front(front_of(read(uncounted)), here());
   ASSERT_TRUE(clocks) << clocks.error().message;
   EXPECT_THAT(*clocks, HasSubstr("clocks of the frame"));
-  EXPECT_FALSE(readme_front(front_of(read(uncounted))));
+  EXPECT_FALSE(page_front(front_of(read(uncounted))));
   EXPECT_FALSE(draw_front(front_of(read("point,method\n")), here()));
 }
 
-// README's front must be of the checkout's scene, space and hardware, and agree with front.csv next to it.
+// The page's front must be of the checkout's scene, space and hardware, and agree with front.csv next to it.
 class GalleryFront : public FrontTest {
  protected:
   void SetUp() override {
@@ -124,10 +124,10 @@ TEST_F(GalleryFront, IsDrawnFromItsTable) {
   EXPECT_TRUE(*drawn == *svg) << c_again;
 }
 
-TEST_F(GalleryFront, IsWhatReadmeSays) {
-  const auto readme = read_file(c_source / "README.md");
-  ASSERT_TRUE(readme) << readme.error().message;
-  const auto part = page_part(*readme, "front"), expected = readme_front(front_);
+TEST_F(GalleryFront, IsWhatItsPageSays) {
+  const auto page = read_file(c_source / "docs/accuracy.md");
+  ASSERT_TRUE(page) << page.error().message;
+  const auto part = page_part(*page, "front"), expected = page_front(front_);
   ASSERT_TRUE(part) << part.error().message;
   ASSERT_TRUE(expected) << expected.error().message;
   EXPECT_EQ(*part, *expected) << c_again;

@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -14,10 +16,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <string_view>
 
+#include "reference/renderer.hpp"
+#include "setup/project.hpp"
+#include "sim/study/hardware.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/sanitizers.hpp"
 #include "sim/system/subprocess.hpp"
@@ -29,19 +35,65 @@ constexpr std::chrono::minutes c_longest{60};
 constexpr std::size_t c_longest_name = 512;
 constexpr std::string_view c_totals = "\ntotals: ";
 
+// Runs of a measurement of time: at least, at most, and the time after which there are enough.
+constexpr std::size_t c_fewest_runs = 5, c_most_runs = 100;
+constexpr double c_enough_ns = 3e8;
+
+double thread_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
+}
+
+// The quickest run: other work on the machine makes a run longer, never shorter.
+template <class Work>
+double quickest_ns(const Work& work) {
+  double quickest = std::numeric_limits<double>::infinity(), whole = 0;
+  for (std::size_t run = 0; run < c_fewest_runs || (run < c_most_runs && whole < c_enough_ns); ++run) {
+    const double start = thread_ns();
+    work();
+    const double taken = thread_ns() - start;
+    quickest = std::min(quickest, taken);
+    whole += taken;
+  }
+  return quickest;
+}
+
 }  // namespace
 
-SetupCounts set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
-                         const SetupOptions& options, const MadeFormats* formats) {
+HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key, const SetupOptions& options,
+                      const MadeFormats* formats) {
   const std::unique_ptr<Setup> setup = make_setup(scene, size, key, options, formats);
-  SetupCounts counts;
+  HostWork work;
   std::vector<std::uint32_t> words;
-  setup->append_prologue(words, counts);
+  setup->append_prologue(words, work.counts);
+  work.words = words.size();
   for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
     words.clear();
-    setup->append(unit, words, counts);
+    setup->append(unit, words, work.counts);
+    work.words += words.size();
   }
-  return counts;
+  return work;
+}
+
+Result<HostTime> host_time(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders) {
+  if (in_hardware(point.method)) {
+    const auto hardware = drawing_hardware_of(point, scene, folders);
+    if (!hardware) return hardware.error();
+    HostTime time;
+    time.ns = quickest_ns([&] {
+      time.words =
+          set_up_frame(scene, point.size, hardware->key, point.setup(), hardware->formats.get()).words;
+    });
+    return time;
+  }
+  const RenderOptions options{.frame = point.size, .subpixel_bits = 4};
+  const auto draw = point.method == Method::gouraud ? render_gouraud : render_reference;
+  return HostTime{.ns = quickest_ns([&] {
+                    const auto triangles = Projector(scene, point.size, {}).project_all();
+                    draw(scene, triangles, options);
+                  }),
+                  .words = 0};
 }
 
 Status in_processes(const std::filesystem::path& names,

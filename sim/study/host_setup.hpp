@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Number of host instructions for a frame, counted by Callgrind.
+// The host's work for a frame: its instructions, counted by Callgrind, and its time.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,27 @@
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
 #include "sim/formats/made_formats.hpp"
+#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/study/design_point.hpp"
+#include "sim/study/measure.hpp"
 
 namespace halfway::study {
 
 inline constexpr const char* c_install_valgrind = "apt-get install valgrind";
 
+struct HostWork {
+  SetupCounts counts;
+  std::uint64_t words = 0;  ///< 32-bit words of init vectors and line records
+};
+
 /// Compute the init vectors of one frame from the scene. Callgrind counts this function, found by its name.
 /// `formats` as in make_setup.
-[[gnu::noinline]] SetupCounts set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
-                                           const SetupOptions& options, const MadeFormats* formats);
+[[gnu::noinline]] HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
+                                        const SetupOptions& options, const MadeFormats* formats);
+
+/// The host's time for one frame of the point on one core of this machine: processor time of the thread,
+/// the quickest of several runs. In hardware: set_up_frame. In software: from the scene to the picture.
+Result<HostTime> host_time(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders);
 
 /// For each line of the file, a name: call `each` in a new process, then print the process id and the name on
 /// standard output. All processes start with the same heap, for any names, because the allocator's

@@ -28,6 +28,12 @@ struct Drawing {
   SetupCounts setup;               ///< host
 };
 
+/// The host's work for a frame, in time of one core of the machine that measured it.
+struct HostTime {
+  double ns = 0;
+  std::uint64_t words = 0;  ///< 32-bit words sent to the hardware; 0 in software
+};
+
 struct Measurement {
   Frame frame;                  ///< drawn by the RTL if the method is hardware
   FrameDistance picture;        ///< compared with the reference, over the pixels that either covers
@@ -41,6 +47,8 @@ struct Measurement {
   SetupCounts setup;            ///< host
   /// Host instructions for the frame's init vectors; std::nullopt in software, or if not counted.
   std::optional<std::uint64_t> host_instructions;
+  /// Not a column of the study's table, because it varies from run to run.
+  std::optional<HostTime> host_time{};
 };
 
 /// Draw the frame or a tile. Hardware is drawn by the RTL in Verilator. If a fragment differs from the golden

@@ -18,7 +18,7 @@ namespace halfway::study {
 struct Demand {
   std::optional<double> largest_error;  ///< upper limit, in steps of 1/255
   std::optional<double> psnr_db;        ///< lower limit
-  std::optional<double> seconds;        ///< upper limit, per frame
+  std::optional<double> seconds;        ///< upper limit, per frame, host included
   bool accuracy() const { return largest_error || psnr_db; }
   bool any() const { return accuracy() || seconds; }
   /// Such as `largest error at most 2/255, a frame in 10 ms`.
@@ -37,7 +37,10 @@ struct Offer {
   std::optional<double> cells;
   double cycles = 0;              ///< for the frame
   std::optional<double> seconds;  ///< `cycles` at the hardware's clock
-  bool fits = true;               ///< false: the device used for clocks is too small
+  /// Of a frame, when host and hardware overlap: the longer of both. std::nullopt if one of them is not
+  /// known.
+  std::optional<double> frame_seconds{};
+  bool fits = true;  ///< false: the device used for clocks is too small
   /// Host instructions per triangle of the scene; std::nullopt if not counted.
   std::optional<double> host{};
 };
@@ -67,6 +70,7 @@ struct Answer {
   std::vector<std::size_t> front;  ///< from the cheapest to the most expensive
   std::vector<std::size_t> steps;  ///< members of the front that are more accurate than all cheaper members
   std::optional<std::size_t> cheapest;  ///< among those that meet the demand
+  std::optional<std::size_t> quickest;  ///< by frame_seconds, among those that meet the demand
   std::optional<std::size_t> best_met;  ///< the most accurate that meets the demand
   std::optional<std::size_t> cheaper;   ///< the most accurate of the cheaper ones
   std::optional<std::size_t> accurate;  ///< the cheapest of the more accurate ones that meet the time limit

@@ -178,6 +178,8 @@ Result<std::optional<Record>> Records::find(const DesignPoint& point) const {
     for_each_figure(record.measured,
                     [&](const char* name, auto& value) { take(json->at("figures").at(name), value); });
     json->at("picture").get_to(record.picture);
+    if (const Json& time = json->at("host_time"); !time.is_null())
+      record.measured.host_time = {time.at("ns").get<double>(), time.at("words").get<std::uint64_t>()};
   } catch (const Json::exception&) {
     return damaged(file(point));
   }
@@ -195,9 +197,13 @@ Status Records::add(const Record& record) const {
   Json figures;
   for_each_figure(record.measured,
                   [&](const char* name, const auto& value) { figures[name] = json_of(value); });
+  Json time;
+  if (record.measured.host_time)
+    time = {{"ns", record.measured.host_time->ns}, {"words", record.measured.host_time->words}};
   return write_file(file(record.point), sealed({{"point", record.point.name()},
                                                 {"provenance", json_of(provenance_)},
                                                 {"figures", figures},
+                                                {"host_time", time},
                                                 {"picture", record.picture}}));
 }
 

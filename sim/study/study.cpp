@@ -206,6 +206,23 @@ Status count_instructions(const StudySettings& settings, const Records& kept, st
   });
 }
 
+// Measure the host's time for the records that lack it, one after the other, so that they do not disturb each
+// other.
+Status time_hosts(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
+  std::size_t done = 0;
+  for (Record& record : records) {
+    settings.on_progress(fmt::format("the host's time of {} of {} points", ++done, records.size()));
+    if (record.measured.host_time) continue;
+    const auto scene = drawn_scene(settings.scene, settings.folders.source / "sim" / "scenes", record.point);
+    if (!scene) return scene.error();
+    const auto time = host_time(record.point, *scene, settings.folders);
+    if (!time) return time.error();
+    record.measured.host_time = *time;
+    if (Status added = kept.add(record); !added) return added;
+  }
+  return Ok{};
+}
+
 }  // namespace
 
 Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
@@ -305,6 +322,8 @@ Result<Study> run_study(const StudySettings& settings) {
     if (record) study.records.push_back(std::move(*record));
   if (Status counted = count_instructions(settings, bench->kept(), study.records); !counted)
     return counted.error();
+  if (settings.host_times)
+    if (Status timed = time_hosts(settings, bench->kept(), study.records); !timed) return timed.error();
   return study;
 }
 

@@ -27,6 +27,7 @@ struct StudySettings {
   std::vector<DesignPoint> placed;
   /// The worker for host_instructions. Empty: do not count instructions.
   std::vector<std::string> set_up;
+  bool host_times = false;  ///< also measure Measurement::host_time; only in a run of all parts
   /// Called after each piece. Points measured earlier count as done.
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
   /// Called at once for each damaged file, with the file and the piece that is measured again.

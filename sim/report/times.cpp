@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/times.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "sim/report/front.hpp"
+#include "sim/report/plot.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway::report {
+namespace {
+
+constexpr double c_ms = 1e-6;  // ns to ms
+
+double ms(const Table& table, std::size_t row, const char* column) {
+  return c_ms * table.number(row, column).value_or(0.0);
+}
+std::string ms_text(const Table& table, std::size_t row, const char* column) {
+  return table.text(row, column).empty() ? "–" : fmt::format("{:.3g}", ms(table, row, column));
+}
+std::string millions(const Table& table, std::size_t row, const char* column) {
+  const auto value = table.number(row, column);
+  return value ? fmt::format("{:.3g}", 1e-6 * *value) : "–";
+}
+double rms(const Table& table, std::size_t row) {
+  return table.number(row, "rms").value_or(0.0);
+}
+bool is_hardware(const Table& table, std::size_t row) {
+  return !table.text(row, "hardware").empty();
+}
+
+Plot plot_of(const Table& picture) {
+  Plot plot{.x_label = "milliseconds per frame: host and hardware, overlapped",
+            .y_label = "rms error, steps of 1/255"};
+  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
+    const std::string series = series_of(picture, row);
+    const auto found = std::ranges::find(plot.legend, series);
+    const auto number = static_cast<std::size_t>(found - plot.legend.begin());
+    if (found == plot.legend.end()) plot.legend.push_back(series);
+    plot.points.push_back(
+        {ms(picture, row, "overlapped_ns"), rms(picture, row), number, row, picture.text(row, "point")});
+  }
+  plot.front = lower_left(plot.points);
+  return plot;
+}
+
+// The rows from the quickest; of equally quick ones, the most accurate first.
+std::vector<std::size_t> by_time(const Table& picture) {
+  std::vector<std::size_t> rows(picture.rows.size());
+  std::iota(rows.begin(), rows.end(), 0U);
+  std::ranges::stable_sort(rows, {}, [&](std::size_t row) {
+    return std::pair(ms(picture, row, "overlapped_ns"), rms(picture, row));
+  });
+  return rows;
+}
+
+std::vector<std::size_t> front_rows(const Table& picture) {
+  std::vector<std::size_t> rows;
+  for (const std::size_t row : by_time(picture))
+    if (rows.empty() || rms(picture, row) < rms(picture, rows.back())) rows.push_back(row);
+  return rows;
+}
+
+std::string table_of(const Table& picture, const std::vector<std::size_t>& rows) {
+  std::string text =
+      "| design | ms per frame, overlapped | bound by | in sequence | host | hardware | host, million "
+      "instructions | words sent | rms error | largest | pixels seen to differ |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const std::size_t row : rows)
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} | {} | {} |\n",
+                        picture.text(row, "design"), ms_text(picture, row, "overlapped_ns"),
+                        picture.text(row, "bound"), ms_text(picture, row, "sequential_ns"),
+                        ms_text(picture, row, "host_ns"), ms_text(picture, row, "hardware_ns"),
+                        millions(picture, row, "host_instructions"),
+                        is_hardware(picture, row) ? picture.text(row, "words") : "–", rms(picture, row),
+                        picture.text(row, "largest_error"), picture.text(row, "perceived_pixels"));
+  return text;
+}
+
+std::string size_of(const Table& picture) {
+  return fmt::format("{}×{}", picture.text(0, "width"), picture.text(0, "height"));
+}
+
+}  // namespace
+
+std::vector<Table> pictures_of(const Table& times) {
+  std::vector<Table> pictures;
+  std::vector<std::string> names;
+  for (std::size_t row = 0; row < times.rows.size(); ++row) {
+    const std::string name = picture_of(times, row);
+    const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (at == names.size()) {
+      names.push_back(name);
+      pictures.push_back({times.columns, {}});
+    }
+    pictures[at].rows.push_back(times.rows[row]);
+  }
+  std::ranges::stable_sort(pictures, {}, [](const Table& picture) {
+    return picture.number(0, "width").value_or(0) * picture.number(0, "height").value_or(0);
+  });
+  return pictures;
+}
+
+std::string plot_name(const Table& picture) {
+  return fmt::format("times-{}x{}.svg", picture.text(0, "width"), picture.text(0, "height"));
+}
+
+Result<std::string> draw_times(const Table& picture, const std::filesystem::path& scratch) {
+  return draw_plot(plot_of(picture), scratch);
+}
+
+Result<std::string> readme_times(const Table& times) {
+  const std::vector<Table> pictures = pictures_of(times);
+  if (pictures.empty()) return bad_input("times: no design has a known time");
+  const Table& picture = pictures.front();
+  const std::vector<std::size_t> front = front_rows(picture);
+  std::vector<std::size_t> hardware;
+  std::ranges::copy_if(front, std::back_inserter(hardware),
+                       [&](std::size_t row) { return is_hardware(picture, row); });
+  if (hardware.size() < 2) return bad_input("times: fewer than two designs of hardware to compare");
+  const std::size_t quick = hardware.front(), best = hardware.back();
+  std::vector<std::string> lines;
+  for (const std::size_t row : front)
+    lines.push_back(fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", picture.text(row, "design"),
+                                ms_text(picture, row, "overlapped_ns"), picture.text(row, "bound"),
+                                ms_text(picture, row, "sequential_ns"), rms(picture, row),
+                                picture.text(row, "largest_error")));
+  std::string text = fmt::format(
+      "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
+      "*{0} designs draw one sphere of {2} triangles at {3}. A frame's time is that of the host's set-up "
+      "(one core) "
+      "or of the hardware (at its clock on an iCE40), whichever is longer. No design of the line has both a "
+      "shorter time and a smaller error than one of these:*\n\n"
+      "| design | ms per frame | bound by | host, then hardware | rms error, 1/255 | largest |\n"
+      "| --- | --- | --- | --- | --- | --- |\n{4}\n",
+      picture.rows.size(), plot_name(picture), picture.text(quick, "triangles"), size_of(picture),
+      fmt::join(lines, ""));
+  text += fmt::format("- {} divides the rms error of {} by {:.2g}. A frame takes {:.3g} times as long.\n",
+                      picture.text(best, "design"), picture.text(quick, "design"),
+                      rms(picture, quick) / rms(picture, best),
+                      ms(picture, best, "overlapped_ns") / ms(picture, quick, "overlapped_ns"));
+  text += fmt::format(
+      "- Without overlap the host's share counts: {} ms instead of {} ms, of which the host "
+      "takes {:.0f} %.\n",
+      ms_text(picture, best, "sequential_ns"), ms_text(picture, quick, "sequential_ns"),
+      100 * ms(picture, best, "host_ns") / ms(picture, best, "sequential_ns"));
+  for (const std::size_t row : front)
+    if (!is_hardware(picture, row) && rms(picture, row) == 0)
+      text += fmt::format(
+          "- Phong shading per pixel in software on one core takes {} ms, {:.2g} times as long.\n",
+          ms_text(picture, row, "overlapped_ns"),
+          ms(picture, row, "overlapped_ns") / ms(picture, best, "overlapped_ns"));
+  return text;
+}
+
+Result<std::string> page_times(const Table& times) {
+  std::string text;
+  for (const Table& picture : pictures_of(times))
+    text += fmt::format("{0}![Rms error against milliseconds per frame at {1}](results/gallery/{2})\n\n{3}",
+                        text.empty() ? "" : "\n", size_of(picture), plot_name(picture),
+                        table_of(picture, by_time(picture)));
+  if (text.empty()) return bad_input("times: no design has a known time");
+  return text;
+}
+
+Result<std::size_t> write_times(const Table& times, const std::filesystem::path& folder,
+                                const std::filesystem::path& scratch) {
+  if (Status made = make_folders(folder); !made) return made.error();
+  for (const Table& picture : pictures_of(times)) {
+    const auto svg = draw_times(picture, scratch);
+    if (!svg) return svg.error();
+    if (Status written = write_file(folder / plot_name(picture), *svg); !written) return written.error();
+  }
+  if (Status written = write_file(folder / "times.csv", to_csv(times)); !written) return written.error();
+  return times.rows.size();
+}
+
+}  // namespace halfway::report

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/report/times.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/study/hardware.hpp"
+#include "sim/study/pictures.hpp"
+#include "sim/study/study.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/page_part.hpp"
+
+namespace halfway::report {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const fs::path c_source = HALFWAY_SOURCE_DIR;
+
+// Two pictures. Times in ms: q 1, a 2, s 3 (beaten by a), phong 10.
+constexpr const char* c_times =
+    "scene_hash,point,design,method,preset,form,tessellation,exponent,width,height,hardware,triangles,"
+    "host_ns,host_instructions,words,hardware_ns,overlapped_ns,sequential_ns,bound,rms,largest_error,"
+    "perceived_pixels\n"
+    "7,q at,q,quadratic,published,,1,20,64,48,k,690,2e5,1e6,5,1e6,1e6,1.2e6,hardware,8,9,10\n"
+    "7,s at,s,spherical,exact,,1,20,64,48,k,690,3e6,1e6,5,1e6,3e6,4e6,host,5,9,10\n"
+    "7,a at,a,adaptive,exact,,1,20,64,48,k,690,1e6,1e6,5,2e6,2e6,3e6,hardware,2,3,4\n"
+    "7,p at,phong,phong,,,1,20,64,48,,690,1e7,,,,1e7,1e7,host,0,0,0\n"
+    "7,q large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10\n";
+
+class TimesTest : public ::testing::Test {
+ protected:
+  Table read(const std::string& text) const {
+    EXPECT_TRUE(write_file(here() / "t.csv", text));
+    auto table = read_csv(here() / "t.csv");
+    EXPECT_TRUE(table) << table.error().message;
+    return table ? *table : Table{};
+  }
+  const fs::path& here() const { return folder_->path(); }
+  Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
+};
+
+TEST_F(TimesTest, EachPictureHasAPlot) {
+  const auto pictures = pictures_of(read(c_times));
+  ASSERT_EQ(pictures.size(), 2U);
+  EXPECT_EQ(pictures[0].rows.size(), 4U);
+  EXPECT_EQ(plot_name(pictures[1]), "times-80x60.svg");
+  const auto designs = write_times(read(c_times), here() / "out", here());
+  ASSERT_TRUE(designs) << designs.error().message;
+  EXPECT_EQ(*designs, 5U);
+  const auto svg = read_file(here() / "out/times-64x48.svg");
+  ASSERT_TRUE(svg);
+  EXPECT_THAT(*svg, AllOf(HasSubstr("aria-label=\"q at\""), HasSubstr("aria-label=\"p at\""),
+                          HasSubstr("milliseconds per frame"), Not(HasSubstr("q large"))));
+  EXPECT_TRUE(fs::exists(here() / "out/times-80x60.svg"));
+  EXPECT_TRUE(fs::exists(here() / "out/times.csv"));
+}
+
+TEST_F(TimesTest, SentencesAreOfTheFront) {
+  const auto text = readme_times(read(c_times));
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_THAT(
+      *text,
+      AllOf(HasSubstr("| q | 1 | hardware | 1.2 | 8 | 9 |\n| a | 2 | hardware | 3 | 2 | 3 |\n| phong | 10 |"),
+            HasSubstr("- a divides the rms error of q by 4. A frame takes 2 times as long.\n"),
+            HasSubstr("3 ms instead of 1.2 ms, of which the host takes 33 %."),
+            HasSubstr("takes 10 ms, 5 times as long."), Not(HasSubstr("| s |"))));
+  const auto page = page_times(read(c_times));
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_THAT(*page, AllOf(HasSubstr("| s | 3 | host | 4 | 3 | 1 | 1 | 5 | 5 | 9 | 10 |"),
+                           HasSubstr("times-80x60.svg"),
+                           HasSubstr("| phong | 10 | host | 10 | 10 | – | – | – | 0 | 0 | 0 |")));
+}
+
+TEST_F(TimesTest, WithoutDesignsThereIsNothingToSay) {
+  EXPECT_FALSE(page_times(read("point,method\n")));
+  EXPECT_FALSE(readme_times(read("point,method\n")));
+}
+
+// The table in docs/results/gallery.
+class GalleryTimes : public TimesTest {
+ protected:
+  void SetUp() override {
+    auto table = read_csv(c_source / "docs/results/gallery/times.csv");
+    ASSERT_TRUE(table) << table.error().message;
+    times_ = std::move(*table);
+  }
+  static constexpr const char* c_again = "make gallery measures it again";
+  Table times_;
+};
+
+TEST_F(GalleryTimes, AreWhatThePagesSay) {
+  const auto readme = read_file(c_source / "README.md"), page = read_file(c_source / "docs/accuracy.md");
+  ASSERT_TRUE(readme && page);
+  EXPECT_EQ(*page_part(*readme, "times"), *readme_times(times_)) << c_again;
+  EXPECT_EQ(*page_part(*page, "times"), *page_times(times_)) << c_again;
+}
+
+TEST_F(GalleryTimes, AreDrawnFromTheirTable) {
+  for (const Table& picture : pictures_of(times_)) {
+    const auto drawn = read_file(c_source / "docs/results/gallery" / plot_name(picture));
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    const auto svg = draw_times(picture, here());
+    ASSERT_TRUE(svg) << svg.error().message;
+    EXPECT_TRUE(*drawn == *svg) << plot_name(picture) << ": " << c_again;
+  }
+}
+
+// Its points, hardware, clocks, cycles and errors are those of the checkout. The host's time is the
+// machine's.
+TEST_F(GalleryTimes, AreOfTheCheckoutsDesigns) {
+  const auto space = study::read_space(c_source / "sim/studies/times.toml");
+  ASSERT_TRUE(space) << space.error().message;
+  const std::string scene = c_source / "sim/studies/sphere.toml";
+  study::StudySettings settings;
+  settings.scene = scene;
+  settings.out = here();
+  settings.folders = {c_source, c_source / "build/cache"};
+  for (std::size_t row = 0; row < times_.rows.size(); ++row) {
+    const auto point = std::ranges::find(*space, times_.text(row, "point"), &study::DesignPoint::name);
+    ASSERT_NE(point, space->end()) << times_.text(row, "point") << ": " << c_again;
+    const auto drawn = study::drawn_scene(scene, c_source / "sim/scenes", *point);
+    ASSERT_TRUE(drawn) << drawn.error().message;
+    EXPECT_EQ(times_.text(row, "scene_hash"), study::scene_hash(*load_scene(scene, c_source / "sim/scenes")))
+        << c_again;
+    if (!study::in_hardware(point->method)) continue;
+    const auto hardware = study::hardware_of(*point, *drawn);
+    ASSERT_TRUE(hardware) << hardware.error().message;
+    EXPECT_EQ(times_.text(row, "hardware"), hardware->key.name()) << c_again;
+    if (point->method == study::Method::adaptive && point->size.width == 640) settings.points = {*point};
+  }
+  ASSERT_EQ(settings.points.size(), 1U);
+  const auto made = study::run_study(settings);
+  ASSERT_TRUE(made) << made.error().message;
+  const auto hardware =
+      study::hardware_figures(scene, made->records, settings.folders, {.threads = 1, .cells = false});
+  ASSERT_TRUE(hardware) << hardware.error().message;
+  const study::Measurement& m = made->records.at(0).measured;
+  for (std::size_t row = 0; row < times_.rows.size(); ++row) {
+    if (times_.text(row, "point") != settings.points[0].name()) continue;
+    EXPECT_EQ(times_.text(row, "cycles"), fmt::format("{}", m.cycles)) << c_again;
+    EXPECT_EQ(times_.text(row, "rms"), fmt::format("{}", m.picture.rms)) << c_again;
+    const auto& mhz = hardware->at(m.hardware).mhz;
+    ASSERT_TRUE(mhz);
+    EXPECT_EQ(times_.text(row, "hardware_ns"),
+              fmt::format("{:.6g}", 1e3 * static_cast<double>(m.cycles) / *mhz))
+        << c_again;
+  }
+}
+
+}  // namespace
+}  // namespace halfway::report

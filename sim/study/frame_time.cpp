@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/study/frame_time.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "sim/study/front.hpp"
+#include "sim/system/csv.hpp"
+
+namespace halfway::study {
+namespace {
+
+constexpr double c_ms = 1e-6;  // ns to ms
+
+std::optional<double> clock_of(const Measurement& measured, const HardwareTable& hardware, Clock clock) {
+  const auto found = hardware.find(measured.hardware);
+  if (found == hardware.end()) return clock.mhz;
+  if (!found->second.fits) return std::nullopt;
+  return found->second.mhz ? found->second.mhz : clock.mhz;
+}
+
+// A line's values with the names of their columns.
+using Line = std::vector<std::pair<const char*, std::string>>;
+
+Line line_of(const Provenance& provenance, const Record& record, const FrameTime& time) {
+  const auto& [p, m, picture] = record;
+  const bool has_hardware = time.hardware_ns.has_value();
+  const auto of_hardware = [&](const auto& value) {
+    return has_hardware ? fmt::format("{}", value) : std::string();
+  };
+  return {{"scene", provenance.scene},
+          {"scene_hash", provenance.scene_hash},
+          {"point", p.name()},
+          {"design", p.design()},
+          {"method", to_string(p.method)},
+          {"preset", in_hardware(p.method) ? to_string(p.preset) : ""},
+          {"form", p.plan().form ? to_string(p.form) : ""},
+          {"tessellation", fmt::format("{:g}", p.tessellation)},
+          {"exponent", p.exponent ? fmt::format("{:g}", *p.exponent) : ""},
+          {"width", fmt::format("{}", p.size.width)},
+          {"height", fmt::format("{}", p.size.height)},
+          {"hardware", m.hardware},
+          {"triangles", fmt::format("{}", m.triangles)},
+          {"host_ns", fmt::format("{:.6g}", time.host_ns)},
+          {"host_instructions", m.host_instructions ? fmt::format("{}", *m.host_instructions) : ""},
+          {"words", of_hardware(m.host_time->words)},
+          {"cycles", of_hardware(m.cycles)},
+          {"hardware_ns", has_hardware ? fmt::format("{:.6g}", *time.hardware_ns) : ""},
+          {"overlapped_ns", fmt::format("{:.6g}", time.overlapped_ns())},
+          {"sequential_ns", fmt::format("{:.6g}", time.sequential_ns())},
+          {"bound", time.bound()},
+          {"rms", fmt::format("{}", m.picture.rms)},
+          {"largest_error", fmt::format("{}", m.picture.max_lsb)},
+          {"perceived_pixels", fmt::format("{}", m.perceived)}};
+}
+
+}  // namespace
+
+std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const HardwareTable& hardware,
+                                         Clock clock) {
+  std::vector<PictureTimes> pictures;
+  for (std::size_t at = 0; at < records.size(); ++at) {
+    const auto& [point, measured, file] = records[at];
+    if (!measured.host_time) continue;
+    const std::string name = point.picture();
+    auto picture = std::ranges::find(pictures, name, &PictureTimes::picture);
+    if (picture == pictures.end()) picture = pictures.insert(picture, PictureTimes{name, {}});
+    FrameTime time{.record = at, .host_ns = measured.host_time->ns};
+    if (in_hardware(point.method)) {
+      const auto mhz = clock_of(measured, hardware, clock);
+      if (!mhz) {
+        ++picture->without_clock;
+        continue;
+      }
+      time.hardware_ns = 1e3 * static_cast<double>(measured.cycles) / *mhz;
+    }
+    picture->times.push_back(time);
+  }
+  return pictures;
+}
+
+std::vector<std::size_t> quickest_of(const PictureTimes& picture, std::span<const Record> records) {
+  std::vector<Costs> costs;
+  for (const FrameTime& time : picture.times)
+    costs.push_back({time.overlapped_ns(), records[time.record].measured.picture.rms});
+  std::vector<std::size_t> front = front_of(costs);
+  std::ranges::stable_sort(front, {}, [&](std::size_t at) { return costs[at]; });
+  return front;
+}
+
+std::string to_text(const PictureTimes& picture, std::span<const Record> records) {
+  std::string text = fmt::format(
+      "{}: time of a frame in ms, host (one core) and hardware\n  the front of {} points in overlapped time "
+      "and rms error{}\n",
+      picture.picture, picture.times.size(),
+      picture.without_clock == 0
+          ? ""
+          : fmt::format("; {} of hardware without a clock are left out (--clock)", picture.without_clock));
+  constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";
+  text += fmt::format(c_line, "overlapped", "in sequence", "host", "hardware", "bound", "rms/255", "largest",
+                      "design");
+  for (const std::size_t at : quickest_of(picture, records)) {
+    const FrameTime& time = picture.times[at];
+    const auto& [point, measured, file] = records[time.record];
+    const auto ms = [](double ns) { return fmt::format("{:.4g}", c_ms * ns); };
+    text +=
+        fmt::format(c_line, ms(time.overlapped_ns()), ms(time.sequential_ns()), ms(time.host_ns),
+                    time.hardware_ns ? ms(*time.hardware_ns) : "-", time.bound(),
+                    fmt::format("{:.3g}", measured.picture.rms), measured.picture.max_lsb, point.design());
+  }
+  return text;
+}
+
+std::string times_csv(const Provenance& provenance, std::span<const Record> records,
+                      std::span<const PictureTimes> pictures) {
+  Table table;
+  for (const PictureTimes& picture : pictures)
+    for (const FrameTime& time : picture.times) {
+      const Line line = line_of(provenance, records[time.record], time);
+      if (table.columns.empty())
+        for (const auto& [column, value] : line) table.columns.emplace_back(column);
+      std::vector<std::string>& row = table.rows.emplace_back();
+      for (const auto& [column, value] : line) row.push_back(value);
+    }
+  return to_csv(table);
+}
+
+}  // namespace halfway::study
