@@ -95,7 +95,8 @@ CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2,
     return (c * up + s * ahead) * v1 + (c * ahead - s * up) * v.tangent + glm::dot(x, axis) * axis;
   };
   const glm::dvec3 u2_back = v.angle == 0.0 ? u2 : turned_back(u2, v.angle);
-  return arc_seen_from(v1, u1, turn_between(u1, u2_back, turned_back(middle.u, 0.5 * v.angle)));
+  const glm::dvec3 middle_back = is_direction(middle.u) ? turned_back(middle.u, 0.5 * v.angle) : middle.u;
+  return arc_seen_from(v1, u1, turn_between(u1, u2_back, middle_back));
 }
 
 }  // namespace halfway

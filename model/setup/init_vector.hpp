@@ -39,7 +39,7 @@ class InitVector {
 
 /// value * 2^fraction_bits, rounded.
 inline std::int64_t fixed(double value, int fraction_bits) {
-  return to_integer<std::int64_t>(std::round(std::ldexp(value, fraction_bits)));
+  return to_integer<std::int64_t>(std::round(value * static_cast<double>(std::int64_t{1} << fraction_bits)));
 }
 
 constexpr std::int64_t half(int fraction_bits) {
@@ -48,8 +48,9 @@ constexpr std::int64_t half(int fraction_bits) {
 
 /// A real number as a word modulo 2^bits. Differences of a sliver may exceed the range of any integer type.
 inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits) {
-  const long double modulus = std::ldexp(1.0L, bits);
-  return to_integer<std::int64_t>(std::fmod(std::rint(std::ldexp(value, fraction_bits)), modulus));
+  const auto modulus = static_cast<long double>(std::int64_t{1} << bits);
+  const long double word = std::rint(value * static_cast<long double>(std::int64_t{1} << fraction_bits));
+  return to_integer<std::int64_t>(std::abs(word) < modulus ? word : std::fmod(word, modulus));
 }
 
 inline constexpr double c_depth_steps = double((1 << golden::Exact::c_depth_bits) - 1);

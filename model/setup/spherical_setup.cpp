@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "scene/lights.hpp"
 #include "setup/arc.hpp"
 #include "setup/half_triangle.hpp"
+#include "setup/span_bound.hpp"
 #include "shading/shade.hpp"
 
 namespace halfway {
@@ -91,9 +93,6 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       preset_(key.preset),
       options_(options),
       config_(golden_config(key)),
-      lights_(reflected_lights(scene)),
-      has_spots_(std::any_of(lights_.begin(), lights_.end(),
-                             [&](LightRef light) { return light_of(scene, light).cone.has_value(); })),
       has_records_(key.spherical.records()),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
                                            ? golden::SphericalLayout<Exact>(config_).init_bits()
@@ -101,6 +100,7 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       projector_(scene, frame,
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
                                           : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {
+  for (const LightRef light : reflected_lights(scene)) lights_.push_back(light_of(scene, light));
   if (preset_ == Preset::exact && !options_.bells)
     options_.bells = std::make_shared<const Bells>(fitted_bells(scene));
   for (const Material& m : scene.materials)
@@ -114,7 +114,7 @@ PointVectors SphericalSetup::vectors_at(const Material& material, const SurfaceP
   glm::dvec3 to_eye = direction(point.position_world, scene_->camera.eye_world);
   if (to_eye == glm::dvec3(0.0)) to_eye = point.normal_world;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const Light source = light_of(*scene_, lights_[i]);
+    const Light& source = lights_[i];
     LightVectors& light = out.light[i];
     light = {};
     light.to_light = direction_to(source, point.position_world);
@@ -208,7 +208,8 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   const Material& material = scene_->materials[material_index];
   const Bell& bell = bells_[material_index];
   // A table's largest entry is 2^D - 1 and represents 1.
-  const double full = std::ldexp(1.0, config_.data_bits) / (std::ldexp(1.0, config_.data_bits) - 1.0);
+  const auto entries = static_cast<double>(1 << config_.data_bits);
+  const double full = entries / (entries - 1.0);
   const bool diffuse = has_diffuse(material), specular = config_.specular && has_specular(material);
 
   // Write angle and slope in the table's unit. A light with zero amplitude stays dark at any angle.
@@ -223,7 +224,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const LightArcs& arcs = span.light[i];
     const int light = static_cast<int>(i);
-    const glm::dvec3 steps = 255.0 * full * arcs.spot * light_of(*scene_, lights_[i]).intensity;
+    const glm::dvec3 steps = 255.0 * full * arcs.spot * lights_[i].intensity;
     if (at.has_diffuse_part() && (diffuse || specular)) {
       using At = typename P::diffuse_header_at;
       const int low = at.diffuse_low(light);
@@ -258,7 +259,7 @@ double SphericalSetup::interpolation_error(const Material& material, const SpanA
     if (!(cosine > 0.0)) continue;
     const double highlight =
         has_specular(material) ? highlight_power(arcs.specular.at(t), material.exponent) : 0.0;
-    sum += arcs.spot * light_of(*scene_, lights_[i]).intensity *
+    sum += arcs.spot * lights_[i].intensity *
            (cosine * material.diffuse * material.colour +
             highlight * material.specular * material.specular_colour);
   }
@@ -380,8 +381,10 @@ class SphericalSetup::ExactTriangle {
       return true;
     }
     const Span at = span_of(line);
-    const SpanArcs arcs = arcs_of(at);
-    if (look && !interpolates_well(at, arcs)) return false;
+    const SpanVectors ends = vectors_of(at);
+    const SpanArcs arcs = arcs_of(at, ends);
+    if (look && !(error_bound(at, ends, arcs) <= setup_.options_.threshold) && !interpolates_well(at, arcs))
+      return false;
     part.lines.push_back({false, arcs.first, arcs.step});
     part.arcs.insert(part.arcs.end(), arcs.light.begin(),
                      arcs.light.begin() + static_cast<std::ptrdiff_t>(setup_.lights_.size()));
@@ -445,9 +448,8 @@ class SphericalSetup::ExactTriangle {
     return setup_.vectors_at(material_, surface);
   }
 
-  SpanArcs arcs_of(const Span& at) const {
-    return setup_.arcs_of(material_, vectors_of(at),
-                          [&] { return vectors(point(at.first + at.last + 1, at.y)); });
+  SpanArcs arcs_of(const Span& at, const SpanVectors& ends) const {
+    return setup_.arcs_of(material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); });
   }
   SpanVectors vectors_of(const Span& at) const {
     SpanVectors span;
@@ -466,6 +468,42 @@ class SphericalSetup::ExactTriangle {
     span.step = static_cast<double>(at.way()) / length;
     span.first = (static_cast<double>(at.first) + 0.5 - from.x) / length;
     return span;
+  }
+
+  // An upper bound of a line's error, in colour steps, from its ends alone. Infinity where none is known.
+  double error_bound(const Span& at, const SpanVectors& ends, const SpanArcs& arcs) const {
+    constexpr double c_unknown = std::numeric_limits<double>::infinity();
+    if (at.steps() == 0) return 0.0;
+    const bool specular = has_specular(material_);
+    if (specular && material_.brdf != Brdf::blinn) return c_unknown;
+    const Chord c = chord(at);
+    const SurfaceEnd begin{c.position_world, c.normal_world, c.first_inverse_w},
+        end{c.position_world + c.position_ahead, c.normal_world + c.normal_ahead, c.last_inverse_w};
+    glm::dvec3 error(0.0);
+    for (std::size_t i = 0; i < setup_.lights_.size(); ++i) {
+      const Light& light = setup_.lights_[i];
+      const auto bounds = arc_bounds(begin, end, light, setup_.scene_->camera.eye_world);
+      if (!bounds || light.cone) return c_unknown;
+      const LightVectors &first = ends.begin.light[i], &last = ends.end.light[i];
+      const auto [least, most] = std::minmax(
+          {glm::dot(ends.begin.normal, first.to_light), glm::dot(ends.end.normal, last.to_light)});
+      // Below the horizon the light adds nothing. At the horizon its highlight ends abruptly.
+      if (most < -bounds->diffuse) continue;
+      if (least < bounds->diffuse) return c_unknown;
+      error += light.intensity * bounds->diffuse * material_.diffuse * material_.colour;
+      if (!specular) continue;
+      const CosineArc& highlight = arcs.light[i].specular;
+      const bool has_peak = highlight.phase >= 0.0 && highlight.phase <= highlight.sweep;
+      const double largest =
+          has_peak ? highlight.amplitude : std::max(glm::dot(first.u, first.v), glm::dot(last.u, last.v));
+      error += light.intensity * bounds->specular * slope_up_to(largest + bounds->specular) *
+               material_.specular * material_.specular_colour;
+    }
+    return 255.0 * std::max({error.x, error.y, error.z});
+  }
+  // Steepest slope of the highlight with respect to its angle, where the angle's cosine is at most this.
+  double slope_up_to(double cosine) const {
+    return std::min(steepest_slope_, material_.exponent * highlight_power(cosine, material_.exponent - 1.0));
   }
 
   // True if a line's error is below the threshold at all places that are checked.
@@ -538,8 +576,7 @@ class SphericalSetup::ExactTriangle {
     add_turn(c.normal_world, c.normal_ahead);
     if (has_specular(material_))
       add_turn(c.position_world - setup_.scene_->camera.eye_world, c.position_ahead);
-    for (const LightRef ref : setup_.lights_) {
-      const Light light = light_of(*setup_.scene_, ref);
+    for (const Light& light : setup_.lights_) {
       if (light.point.w == 0.0) {
         const glm::dvec3& to_light = light.point.xyz_world;
         add_about(-glm::dot(c.normal_world, to_light) / glm::dot(c.normal_ahead, to_light));
@@ -611,6 +648,7 @@ class SphericalSetup::ExactTriangle {
   std::array<PointVectors, 3> vertex_;
   std::optional<DepthFit> depth_;
   double steepest_ = std::atan(1.0 / std::sqrt(material_.exponent));
+  double steepest_slope_ = steepest_slope(material_.exponent);
   bool split_ = false;
 };
 

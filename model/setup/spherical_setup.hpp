@@ -100,10 +100,9 @@ class SphericalSetup final : public Setup {
   Preset preset_;
   SphericalSetupOptions options_;
   golden::SphericalConfig config_;
-  std::vector<LightRef> lights_;  ///< at most the key's number; further lights of the key stay dark
-  bool has_spots_;
-  std::vector<Bell> bells_;  ///< one per material
-  bool has_records_;         ///< with all effects also true without a light
+  std::vector<Light> lights_;  ///< at most the key's number; further lights of the key stay dark
+  std::vector<Bell> bells_;    ///< one per material
+  bool has_records_;           ///< with all effects also true without a light
   unsigned init_bits_;
   Projector projector_;
 };

@@ -152,7 +152,8 @@ int set_up(const study::StudySettings& settings, const std::string& names) {
     if (!scene) return scene.error();
     const auto hardware = study::drawing_hardware_of(*point, *scene, settings.folders);
     if (!hardware) return hardware.error();
-    study::set_up_frame(*scene, point->size, hardware->key, point->setup(), hardware->formats.get());
+    study::set_up_frame(*scene, point->size, hardware->key, study::frame_setup(*point, *scene),
+                        hardware->formats.get());
     return Ok{};
   });
   return done ? 0 : report(done.error());

@@ -23,6 +23,7 @@
 
 #include "reference/renderer.hpp"
 #include "setup/project.hpp"
+#include "setup/spherical_setup.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/sanitizers.hpp"
@@ -76,14 +77,21 @@ HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key
   return work;
 }
 
+SetupOptions frame_setup(const DesignPoint& point, const Scene& scene) {
+  SetupOptions options = point.setup();
+  if (point.method == Method::spherical && point.preset == Preset::exact)
+    options.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
+  return options;
+}
+
 Result<HostTime> host_time(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders) {
   if (in_hardware(point.method)) {
     const auto hardware = drawing_hardware_of(point, scene, folders);
     if (!hardware) return hardware.error();
+    const SetupOptions options = frame_setup(point, scene);
     HostTime time;
     time.ns = quickest_ns([&] {
-      time.words =
-          set_up_frame(scene, point.size, hardware->key, point.setup(), hardware->formats.get()).words;
+      time.words = set_up_frame(scene, point.size, hardware->key, options, hardware->formats.get()).words;
     });
     return time;
   }

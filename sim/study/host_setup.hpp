@@ -32,6 +32,9 @@ struct HostWork {
 [[gnu::noinline]] HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
                                         const SetupOptions& options, const MadeFormats* formats);
 
+/// The options of the point, with what a host computes once per scene: the bells of the spherical shader.
+SetupOptions frame_setup(const DesignPoint& point, const Scene& scene);
+
 /// The host's time for one frame of the point on one core of this machine: processor time of the thread,
 /// the quickest of several runs. In hardware: set_up_frame. In software: from the scene to the picture.
 Result<HostTime> host_time(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders);
