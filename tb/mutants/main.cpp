@@ -90,6 +90,9 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
   if (options.mode != evidence::Mode::none)
     result.step =
         std::min(options.step, std::max(1U, static_cast<unsigned>(netlist->faults.size() / c_fewest)));
+  if (options.one > netlist->faults.size())
+    return bad_input(fmt::format("--one: {} has no fault {}; take 1 to {}", design.name, options.one,
+                                 netlist->faults.size()));
   std::vector<std::uint32_t> survivors;
   for (std::uint32_t number = 1; number <= netlist->faults.size(); ++number) {
     const Fault& fault = netlist->faults[number - 1];
