@@ -176,8 +176,9 @@ Growth::Growth(Measurements& measurements, unsigned jobs) : measurements_(measur
             ? "A sphere of 990 triangles. Each visible triangle covers pixels, also in the smallest "
               "frame. The line fits the drawing only."
             : "The same sphere. The line fits the drawing only. Set-up depends on lines, whose number "
-              "grows with the root of the pixels: it makes\none record per line, and checks every "
-              "pixel of short lines. The drawing of a line costs as much as some pixels, which shows "
+              "grows with the root of the pixels: it makes\none record per line, and searches "
+              "some lines for their largest error. The drawing of a line costs as much as some pixels, which "
+              "shows "
               "if lines are short.",
         Fitted::drawing};
     const Scene sphere = sphere_scene(1'000);

@@ -6,6 +6,7 @@
 // Absolute times are valid only for the machine that prints them.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <thread>
