@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* c_install_yosys = "apt-get install yosys";
 constexpr std::chrono::seconds c_yosys_time{3600};
+constexpr std::chrono::seconds c_miter_time{60};     // of a netlist; for larger ones nothing is proved
 constexpr std::chrono::seconds c_reduction_time{5};  // of one fault, before the proof
 
 // {0}: top, {1}: faults, {2}: seed. Make the faults after optimization: a fault in logic that is constant, or
@@ -237,8 +238,13 @@ Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
       "setundef -undriven -zero\nsetundef -init -zero\nopt -full\nasync2sync\ntechmap\nopt\ndffunmap\n"
       "setundef -zero\nopt_clean\naigmap\nopt_clean\nwrite_aiger -ascii -symbols -zinit miter.aag\n";
   if (auto s = write_file(netlist.folder / "miter.ys", script); !s) return s.error();
-  if (auto s = run_in(netlist.folder, {"yosys", "-q", "miter.ys"}, "miter of " + netlist.top); !s)
-    return s.error();
+  const auto made = run_process(
+      {.arguments = {"yosys", "-q", "miter.ys"}, .working_folder = netlist.folder, .timeout = c_miter_time},
+      c_install_yosys);
+  if (!made) return made.error();
+  if (made->timed_out) return proved;
+  if (!made->succeeded())
+    return tool_failed(fmt::format("miter of {}: {}: {}", netlist.top, made->how(), made->output));
   const auto gates = read_file(netlist.folder / "miter.aag");
   if (!gates) return gates.error();
   for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -48,7 +48,8 @@ Result<CompiledNetlist> compile(const Design& design, const FaultyNetlist& netli
                                 const std::filesystem::path& source, const std::filesystem::path& scratch);
 
 /// For each of the fault numbers: true if a proof shows that no output ever differs, for all inputs, with all
-/// registers zero at the start. `time` limits each proof.
+/// registers zero at the start. `time` limits each proof. Nothing is proved of a netlist whose gates take
+/// more than a minute to make.
 Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
                                            const std::vector<std::uint32_t>& numbers,
                                            std::chrono::seconds time);
