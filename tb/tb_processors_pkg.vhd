@@ -24,8 +24,8 @@ package tb_processors_pkg is
   -- The same with the kind of processor and the light, such as exact_31111111_12.
   function processor_name (p : processor_t) return string;
 
-  -- Both presets, every processor of six pipelines: one with all effects, the paper's version I, one with only a
-  -- positional light, and three with single effects.
+  -- Both presets, every processor of seven pipelines: one with all effects, the paper's version I, one with only a
+  -- positional light, one with only a spot, and three with single effects.
   constant c_processors : processors_t;
 
   -- The three words of a vector as words of `bits` bits. The bits above a word are 'X'.
@@ -91,6 +91,7 @@ package body tb_processors_pkg is
     return processors_of(config(exact, 3, 1, 1, 1, true, true, true, true))
       & processors_of(config(exact, 3, 1, 0, 0, true, true, false, false))
       & processors_of(config(exact, 3, 0, 1, 0, true, true, true, false))
+      & processors_of(config(exact, 1, 0, 0, 1, true, false, false, false))
       & processors_of(config(exact, 1, 1, 0, 0, true, false, false, false))
       & processors_of(config(exact, 1, 0, 1, 1, false, true, false, false))
       & processors_of(config(exact, 1, 1, 0, 0, true, false, true, false));

@@ -30,13 +30,14 @@ std::string name_of(const Processor& processor) {
                      processor.light);
 }
 
-/// Every processor of six pipelines: one with all effects, the paper's version I, one with only a positional
-/// light, and three with single effects.
+/// Every processor of seven pipelines: one with all effects, the paper's version I, one with only a
+/// positional light, one with only a spot, and three with single effects.
 inline std::vector<Processor> processors() {
   constexpr golden::ProcessorsConfig c_configs[] = {
       {3, 1, 1, 1, true, true, true, true},    {3, 1, 0, 0, true, true, false, false},
-      {3, 0, 1, 0, true, true, true, false},   {1, 1, 0, 0, true, false, false, false},
-      {1, 0, 1, 1, false, true, false, false}, {1, 1, 0, 0, true, false, true, false}};
+      {3, 0, 1, 0, true, true, true, false},   {1, 0, 0, 1, true, false, false, false},
+      {1, 1, 0, 0, true, false, false, false}, {1, 0, 1, 1, false, true, false, false},
+      {1, 1, 0, 0, true, false, true, false}};
   std::vector<Processor> all;
   for (const golden::ProcessorsConfig& config : c_configs) {
     all.push_back({config, golden::Term::ambient, 0});
