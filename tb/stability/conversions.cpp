@@ -84,6 +84,8 @@ struct Site {
   std::string_view where;
 };
 constexpr Site c_sites[] = {
+    {"sim/bench/program/growth.cpp", 2, "counts of the bench; only `make bench` asks"},
+    {"sim/bench/program/small_triangles.cpp", 2, "triangles of a sphere, clamped; only `make bench` asks"},
     {"sim/bench/workload.cpp", 1, "sphere_scene: stacks of so many triangles; only `make bench` asks"},
     {"sim/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
     {"sim/cli/plan.cpp", 1, "saved: a percentage of cells"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/to_integer.hpp"
 #include "sim/bench/program/bench.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/system/threads.hpp"
@@ -62,8 +63,7 @@ FrameCost typical(const Measurements& measurements, const Point& point, double b
   FrameCost cost;
   for (const auto& [name, part] : c_parts)
     cost.*part = value("mean", name) / value("mean", "frame_pace") * best_pace;
-  for (const auto& [name, number] : c_counts)
-    cost.*number = static_cast<std::uint64_t>(value("median", name));
+  for (const auto& [name, number] : c_counts) cost.*number = to_integer<std::uint64_t>(value("median", name));
   return cost;
 }
 
@@ -121,7 +121,7 @@ Json Growth::Series::data(const Measurements& measurements, double best_pace) co
   const Fit line = fit(terms, t);
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const FrameCost& cost = costs[i];
-    Json row = {count(unit == "triangles" ? cost.triangles : static_cast<std::uint64_t>(measured[i].n)),
+    Json row = {count(unit == "triangles" ? cost.triangles : to_integer<std::uint64_t>(measured[i].n)),
                 count(cost.vectors) + ", " + count(cost.records), count(cost.fragments)};
     for (const auto& [name, part] : c_parts) row.push_back(fmt::format("{:.4f}", cost.*part));
     row.push_back(fmt::format("{:.4f}", cost.seconds()));

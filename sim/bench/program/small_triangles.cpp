@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/to_integer.hpp"
 #include "sim/bench/program/bench.hpp"
 #include "sim/run/open_engine.hpp"
 
@@ -16,13 +17,13 @@ void measure_small_triangles(Json& speed) {
     // Number of triangles for which each triangle that covers a pixel covers `wanted` pixels.
     double triangles = 1e5;
     for (int i = 0; i < 4; ++i) {
-      const InitBatches all = must(make_batches(sphere_scene(static_cast<std::uint64_t>(triangles)), c_frame,
+      const InitBatches all = must(make_batches(sphere_scene(to_integer<std::uint64_t>(triangles)), c_frame,
                                                 {.shader = Shader::processors}));
       triangles *=
           static_cast<double>(all.golden.size()) / static_cast<double>(count_walk(all).headers) / wanted;
       triangles = std::clamp(triangles, 100.0, 1e7);
     }
-    scenes.emplace_back(wanted, sphere_scene(static_cast<std::uint64_t>(triangles)));
+    scenes.emplace_back(wanted, sphere_scene(to_integer<std::uint64_t>(triangles)));
   }
   for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
     for (const auto& [wanted, scene] : scenes) {
