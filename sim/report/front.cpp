@@ -38,13 +38,10 @@ Plot plot_of(const Table& front) {
       .x_label = counted ? "cells: LUTs (multipliers among them), flip-flops, memory" : "clocks of the frame",
       .y_label = "rms error, steps of 1/255"};
   for (std::size_t row = 0; row < front.rows.size(); ++row) {
-    const std::string series = series_of(front, row);
-    const auto found = std::ranges::find(plot.legend, series);
-    const auto number = static_cast<std::size_t>(found - plot.legend.begin());
-    if (found == plot.legend.end()) plot.legend.push_back(series);
+    const std::size_t series = series_number(plot, series_of(front, row));
     const auto x = front.number(row, counted ? c_cells : c_cycles), y = front.number(row, "rms");
     if (!is_hardware(front, row) || !x || !y || *x <= 0 || *y <= 0) continue;
-    plot.points.push_back({*x, *y, number, row, front.text(row, "point")});
+    plot.points.push_back({*x, *y, series, row, front.text(row, "point")});
   }
   plot.front = lower_left(plot.points);
   return plot;

@@ -88,6 +88,13 @@ struct Axis {
 
 }  // namespace
 
+std::size_t series_number(Plot& plot, const std::string& name) {
+  const auto found = std::ranges::find(plot.legend, name);
+  const auto number = static_cast<std::size_t>(found - plot.legend.begin());
+  if (found == plot.legend.end()) plot.legend.push_back(name);
+  return number;
+}
+
 PointLook look_of(std::size_t series) {
   return {c_colours[series % c_colours.size()], c_shapes[series % c_shapes.size()]};
 }

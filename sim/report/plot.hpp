@@ -33,6 +33,9 @@ struct Plot {
   std::vector<std::string> legend;  ///< one entry per series, on the right; empty: no legend
 };
 
+/// Number of the series with this name in the legend. Adds a series that is not in it.
+std::size_t series_number(Plot& plot, const std::string& name);
+
 /// Appearance of a series: colour and gnuplot's point type. The first twelve differ.
 struct PointLook {
   const char* colour;

@@ -8,6 +8,7 @@
 
 #include "sim/report/front.hpp"
 #include "sim/report/plot.hpp"
+#include "sim/study/front.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::report {
@@ -36,12 +37,9 @@ Plot plot_of(const Table& picture) {
   Plot plot{.x_label = "milliseconds per frame: host and hardware, overlapped",
             .y_label = "rms error, steps of 1/255"};
   for (std::size_t row = 0; row < picture.rows.size(); ++row) {
-    const std::string series = series_of(picture, row);
-    const auto found = std::ranges::find(plot.legend, series);
-    const auto number = static_cast<std::size_t>(found - plot.legend.begin());
-    if (found == plot.legend.end()) plot.legend.push_back(series);
+    const std::size_t series = series_number(plot, series_of(picture, row));
     plot.points.push_back(
-        {ms(picture, row, "overlapped_ns"), rms(picture, row), number, row, picture.text(row, "point")});
+        {ms(picture, row, "overlapped_ns"), rms(picture, row), series, row, picture.text(row, "point")});
   }
   plot.front = lower_left(plot.points);
   return plot;
@@ -57,10 +55,13 @@ std::vector<std::size_t> by_time(const Table& picture) {
   return rows;
 }
 
+// The rows that no other row beats in time and error, from the quickest.
 std::vector<std::size_t> front_rows(const Table& picture) {
-  std::vector<std::size_t> rows;
-  for (const std::size_t row : by_time(picture))
-    if (rows.empty() || rms(picture, row) < rms(picture, rows.back())) rows.push_back(row);
+  std::vector<study::Costs> costs;
+  for (std::size_t row = 0; row < picture.rows.size(); ++row)
+    costs.push_back({ms(picture, row, "overlapped_ns"), rms(picture, row)});
+  std::vector<std::size_t> rows = study::front_of(costs);
+  std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return costs[row]; });
   return rows;
 }
 

@@ -14,13 +14,6 @@ namespace {
 
 constexpr double c_ms = 1e-6;  // ns to ms
 
-std::optional<double> clock_of(const Measurement& measured, const HardwareTable& hardware, Clock clock) {
-  const auto found = hardware.find(measured.hardware);
-  if (found == hardware.end()) return clock.mhz;
-  if (!found->second.fits) return std::nullopt;
-  return found->second.mhz ? found->second.mhz : clock.mhz;
-}
-
 // A line's values with the names of their columns.
 using Line = std::vector<std::pair<const char*, std::string>>;
 
@@ -69,7 +62,7 @@ std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const 
     if (picture == pictures.end()) picture = pictures.insert(picture, PictureTimes{name, {}});
     FrameTime time{.record = at, .host_ns = measured.host_time->ns};
     if (in_hardware(point.method)) {
-      const auto mhz = clock_of(measured, hardware, clock);
+      const auto mhz = mhz_of(measured.hardware, hardware, clock);
       if (!mhz) {
         ++picture->without_clock;
         continue;

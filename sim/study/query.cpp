@@ -249,6 +249,13 @@ Result<Demand> read_demand(const std::string& error, const std::string& psnr, co
   return demand;
 }
 
+std::optional<double> mhz_of(const std::string& hardware, const HardwareTable& table, Clock assumed) {
+  const auto found = table.find(hardware);
+  if (found == table.end()) return assumed.mhz;
+  if (!found->second.fits) return std::nullopt;
+  return found->second.mhz ? found->second.mhz : assumed.mhz;
+}
+
 std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock) {
   std::vector<Market> markets;
   for (std::size_t at = 0; at < records.size(); ++at) {
@@ -261,14 +268,13 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
                 .cycles = static_cast<double>(measured.cycles)};
     if (measured.host_instructions && measured.triangles > 0)
       offer.host = static_cast<double>(*measured.host_instructions) / static_cast<double>(measured.triangles);
-    std::optional<double> mhz = clock.mhz;
     if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
       const HardwareFigures& figures = found->second;
       if (figures.cells) offer.cells = cell_count(*figures.cells);
-      if (figures.mhz) mhz = figures.mhz;
       offer.fits = figures.fits;
     }
-    if (mhz && offer.fits) offer.seconds = offer.cycles / (*mhz * 1e6);
+    if (const auto mhz = mhz_of(measured.hardware, hardware, clock))
+      offer.seconds = offer.cycles / (*mhz * 1e6);
     if (offer.seconds && measured.host_time)
       offer.frame_seconds = std::max(*offer.seconds, 1e-9 * measured.host_time->ns);
     const std::string picture = point.picture();

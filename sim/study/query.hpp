@@ -56,6 +56,10 @@ struct Clock {
   std::optional<double> mhz;
 };
 
+/// Clock of the hardware: its own, or the assumed one. std::nullopt if it is unknown, or if the hardware does
+/// not fit the device.
+std::optional<double> mhz_of(const std::string& hardware, const HardwareTable& table, Clock assumed);
+
 /// One market per picture, in the order of the records.
 std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock);
 
