@@ -8,23 +8,15 @@
 #include <algorithm>
 
 #include "sim/costs/cells.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/study/hardware.hpp"
-#include "sim/study/pictures.hpp"
-#include "sim/study/study.hpp"
-#include "sim/system/file.hpp"
+#include "sim/report/table_test.hpp"
 #include "sim/system/page_part.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::report {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const fs::path c_source = HALFWAY_SOURCE_DIR;
 
 // Two pictures with two and three hardware designs.
 constexpr const char* c_study = R"(point,method,preset,scene_hash,exponent,hardware,cells,cycles,rms,record
@@ -37,20 +29,7 @@ s,spherical,exact,7,20,s,200,20,2,f
 dear,spherical,published,7,20,d,300,15,4,g
 )";
 
-class FrontTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
-  }
-  Table read(const std::string& text) const {
-    EXPECT_TRUE(write_file(here() / "t.csv", text));
-    auto table = read_csv(here() / "t.csv");
-    EXPECT_TRUE(table) << table.error().message;
-    return table ? *table : Table{};
-  }
-  const fs::path& here() const { return folder_->path(); }
-  Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
-};
+using FrontTest = TableTest;
 
 TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   const Table study = read(c_study);
@@ -91,14 +70,11 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
 }
 
 // The page's front must be of the checkout's scene, space and hardware, and agree with front.csv next to it.
-class GalleryFront : public FrontTest {
+class GalleryFront : public GalleryTest {
  protected:
   void SetUp() override {
-    FrontTest::SetUp();
-    if (IsSkipped()) return;
-    auto table = read_csv(c_source / "docs/results/gallery/front.csv");
-    ASSERT_TRUE(table) << table.error().message;
-    front_ = std::move(*table);
+    GalleryTest::SetUp();
+    front_ = gallery_table("front.csv");
     auto space = study::read_space(c_source / "sim/studies/small.toml");
     ASSERT_TRUE(space) << space.error().message;
     for (study::DesignPoint& point : *space)
@@ -106,22 +82,12 @@ class GalleryFront : public FrontTest {
         for (study::DesignPoint& other : *space)
           if (other.picture() == point.picture()) points_.push_back(other);
   }
-  static constexpr const char* c_again = "make gallery measures it again";
   Table front_;
   std::vector<study::DesignPoint> points_;
 };
 
 TEST_F(GalleryFront, IsDrawnFromItsTable) {
-  const auto drawn = read_file(c_source / "docs/results/gallery/front.svg");
-  ASSERT_TRUE(drawn) << drawn.error().message;
-  const auto svg = draw_front(front_, here());
-  ASSERT_TRUE(svg) << svg.error().message;
-  const auto gnuplot = [](const std::string& text) {
-    const std::size_t at = text.find("GNUPLOT");
-    return text.substr(at, text.find('\n', at) - at);
-  };
-  if (gnuplot(*drawn) != gnuplot(*svg)) GTEST_SKIP() << "drawn by " << gnuplot(*drawn);
-  EXPECT_TRUE(*drawn == *svg) << c_again;
+  expect_drawn("front.svg", draw_front(front_, here()));
 }
 
 TEST_F(GalleryFront, IsWhatItsPageSays) {
@@ -135,19 +101,7 @@ TEST_F(GalleryFront, IsWhatItsPageSays) {
 
 TEST_F(GalleryFront, IsOfTheCheckoutsDesigns) {
   ASSERT_EQ(front_.rows.size(), points_.size()) << c_again;
-  const std::string scene = c_source / "sim/studies/sphere.toml";
-  const auto loaded = load_scene(scene, c_source / "sim/scenes");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  for (std::size_t row = 0; row < points_.size(); ++row) {
-    EXPECT_EQ(front_.text(row, "point"), points_[row].name()) << c_again;
-    EXPECT_EQ(front_.text(row, "scene_hash"), study::scene_hash(*loaded)) << c_again;
-    if (!study::in_hardware(points_[row].method)) continue;
-    const auto drawn = study::drawn_scene(scene, c_source / "sim/scenes", points_[row]);
-    ASSERT_TRUE(drawn) << drawn.error().message;
-    const auto hardware = study::hardware_of(points_[row], *drawn);
-    ASSERT_TRUE(hardware) << hardware.error().message;
-    EXPECT_EQ(front_.text(row, "hardware"), hardware->key.name()) << c_again;
-  }
+  for (std::size_t row = 0; row < points_.size(); ++row) expect_same_design(front_, row, points_[row]);
 }
 
 // Draw one of its designs with the current RTL.
@@ -155,11 +109,7 @@ TEST_F(GalleryFront, IsWhatTheHardwareDrawsNow) {
   const auto found = std::ranges::find(points_, study::Method::quadratic, &study::DesignPoint::method);
   ASSERT_NE(found, points_.end());
   const auto row = static_cast<std::size_t>(found - points_.begin());
-  study::StudySettings settings;
-  settings.scene = c_source / "sim/studies/sphere.toml";
-  settings.points = {*found};
-  settings.out = here();
-  settings.folders = {c_source, c_source / "build/cache"};
+  const study::StudySettings settings = study_of(*found);
   const auto made = study::run_study(settings);
   ASSERT_TRUE(made) << made.error().message;
   const study::Measurement& m = made->records.at(0).measured;

@@ -7,11 +7,7 @@
 
 #include <algorithm>
 
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/study/hardware.hpp"
-#include "sim/study/pictures.hpp"
-#include "sim/study/study.hpp"
-#include "sim/system/file.hpp"
+#include "sim/report/table_test.hpp"
 #include "sim/system/page_part.hpp"
 
 namespace halfway::report {
@@ -21,8 +17,6 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const fs::path c_source = HALFWAY_SOURCE_DIR;
 
 // Two pictures. Times in ms: q 1, a 2, s 3 (beaten by a), phong 10.
 constexpr const char* c_times =
@@ -35,17 +29,7 @@ constexpr const char* c_times =
     "7,p at,phong,phong,,,1,20,64,48,,690,1e7,,,,1e7,1e7,host,0,0,0\n"
     "7,q large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10\n";
 
-class TimesTest : public ::testing::Test {
- protected:
-  Table read(const std::string& text) const {
-    EXPECT_TRUE(write_file(here() / "t.csv", text));
-    auto table = read_csv(here() / "t.csv");
-    EXPECT_TRUE(table) << table.error().message;
-    return table ? *table : Table{};
-  }
-  const fs::path& here() const { return folder_->path(); }
-  Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
-};
+using TimesTest = TableTest;
 
 TEST_F(TimesTest, EachPictureHasAPlot) {
   const auto pictures = pictures_of(read(c_times));
@@ -85,16 +69,9 @@ TEST_F(TimesTest, WithoutDesignsThereIsNothingToSay) {
   EXPECT_FALSE(readme_times(read("point,method\n")));
 }
 
-// The table in docs/results/gallery.
-class GalleryTimes : public TimesTest {
+class GalleryTimes : public GalleryTest {
  protected:
-  void SetUp() override {
-    auto table = read_csv(c_source / "docs/results/gallery/times.csv");
-    ASSERT_TRUE(table) << table.error().message;
-    times_ = std::move(*table);
-  }
-  static constexpr const char* c_again = "make gallery measures it again";
-  Table times_;
+  Table times_ = gallery_table("times.csv");
 };
 
 TEST_F(GalleryTimes, AreWhatThePagesSay) {
@@ -105,55 +82,41 @@ TEST_F(GalleryTimes, AreWhatThePagesSay) {
 }
 
 TEST_F(GalleryTimes, AreDrawnFromTheirTable) {
-  for (const Table& picture : pictures_of(times_)) {
-    const auto drawn = read_file(c_source / "docs/results/gallery" / plot_name(picture));
-    ASSERT_TRUE(drawn) << drawn.error().message;
-    const auto svg = draw_times(picture, here());
-    ASSERT_TRUE(svg) << svg.error().message;
-    EXPECT_TRUE(*drawn == *svg) << plot_name(picture) << ": " << c_again;
-  }
+  for (const Table& picture : pictures_of(times_))
+    expect_drawn(plot_name(picture), draw_times(picture, here()));
 }
 
-// Its points, hardware, clocks, cycles and errors are those of the checkout. The host's time is the
-// machine's.
 TEST_F(GalleryTimes, AreOfTheCheckoutsDesigns) {
   const auto space = study::read_space(c_source / "sim/studies/times.toml");
   ASSERT_TRUE(space) << space.error().message;
-  const std::string scene = c_source / "sim/studies/sphere.toml";
-  study::StudySettings settings;
-  settings.scene = scene;
-  settings.out = here();
-  settings.folders = {c_source, c_source / "build/cache"};
   for (std::size_t row = 0; row < times_.rows.size(); ++row) {
     const auto point = std::ranges::find(*space, times_.text(row, "point"), &study::DesignPoint::name);
     ASSERT_NE(point, space->end()) << times_.text(row, "point") << ": " << c_again;
-    const auto drawn = study::drawn_scene(scene, c_source / "sim/scenes", *point);
-    ASSERT_TRUE(drawn) << drawn.error().message;
-    EXPECT_EQ(times_.text(row, "scene_hash"), study::scene_hash(*load_scene(scene, c_source / "sim/scenes")))
-        << c_again;
-    if (!study::in_hardware(point->method)) continue;
-    const auto hardware = study::hardware_of(*point, *drawn);
-    ASSERT_TRUE(hardware) << hardware.error().message;
-    EXPECT_EQ(times_.text(row, "hardware"), hardware->key.name()) << c_again;
-    if (point->method == study::Method::adaptive && point->size.width == 640) settings.points = {*point};
+    expect_same_design(times_, row, *point);
   }
-  ASSERT_EQ(settings.points.size(), 1U);
+}
+
+// Draw one of the designs with the current RTL. The host's time is the machine's, and is not compared.
+TEST_F(GalleryTimes, AreWhatTheHardwareTakesNow) {
+  const study::DesignPoint point{
+      .method = study::Method::adaptive, .exponent = 20, .size = {640, 480}, .tile = {1024, 1024}};
+  std::size_t row = 0;
+  while (row < times_.rows.size() && times_.text(row, "point") != point.name()) ++row;
+  ASSERT_LT(row, times_.rows.size()) << point.name() << ": " << c_again;
+  const study::StudySettings settings = study_of(point);
   const auto made = study::run_study(settings);
   ASSERT_TRUE(made) << made.error().message;
   const auto hardware =
-      study::hardware_figures(scene, made->records, settings.folders, {.threads = 1, .cells = false});
+      study::hardware_figures(settings.scene, made->records, settings.folders, {.cells = false});
   ASSERT_TRUE(hardware) << hardware.error().message;
   const study::Measurement& m = made->records.at(0).measured;
-  for (std::size_t row = 0; row < times_.rows.size(); ++row) {
-    if (times_.text(row, "point") != settings.points[0].name()) continue;
-    EXPECT_EQ(times_.text(row, "cycles"), fmt::format("{}", m.cycles)) << c_again;
-    EXPECT_EQ(times_.text(row, "rms"), fmt::format("{}", m.picture.rms)) << c_again;
-    const auto& mhz = hardware->at(m.hardware).mhz;
-    ASSERT_TRUE(mhz);
-    EXPECT_EQ(times_.text(row, "hardware_ns"),
-              fmt::format("{:.6g}", 1e3 * static_cast<double>(m.cycles) / *mhz))
-        << c_again;
-  }
+  EXPECT_EQ(times_.text(row, "cycles"), fmt::format("{}", m.cycles)) << c_again;
+  EXPECT_EQ(times_.text(row, "rms"), fmt::format("{}", m.picture.rms)) << c_again;
+  const auto& mhz = hardware->at(m.hardware).mhz;
+  ASSERT_TRUE(mhz);
+  EXPECT_EQ(times_.text(row, "hardware_ns"),
+            fmt::format("{:.6g}", 1e3 * static_cast<double>(m.cycles) / *mhz))
+      << c_again;
 }
 
 }  // namespace
