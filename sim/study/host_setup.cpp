@@ -37,8 +37,8 @@ constexpr std::size_t c_longest_name = 512;
 constexpr std::string_view c_totals = "\ntotals: ";
 
 // Runs of a measurement of time: at least, at most, and the time after which there are enough.
-constexpr std::size_t c_fewest_runs = 5, c_most_runs = 100;
-constexpr double c_enough_ns = 3e8;
+constexpr std::size_t c_fewest_runs = 3, c_most_runs = 100;
+constexpr double c_enough_ns = 1e8;
 
 double thread_ns() {
   timespec now{};
