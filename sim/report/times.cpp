@@ -149,9 +149,9 @@ Result<std::string> readme_times(const Table& times) {
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one sphere of {2} triangles at {3}. The time of a frame is that of the host's "
-      "set-up "
-      "on one core or of the hardware at its clock on an iCE40, whichever is longer. On the dashed line, no "
-      "other design is both quicker and more accurate:*\n\n"
+      "set-up on one core or of the hardware at its clock on an iCE40, whichever is longer. On the dashed "
+      "line, no other design is both quicker and more accurate. adaptive: quadratic, with triangles split "
+      "until the error is below the threshold, in colour steps; quadratic: never split.*\n\n"
       "| design | ms per frame | bound by | host, then hardware: ms | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",
       picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture));
