@@ -8,6 +8,7 @@
 #include <array>
 #include <mutex>
 
+#include "common/to_integer.hpp"
 #include "sim/costs/simulation_cost.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/csv.hpp"
@@ -144,8 +145,8 @@ Result<std::vector<Savings>> read_savings(const std::filesystem::path& csv) {
         row < table->rows.size() && std::ranges::mismatch(begin, table->rows[row]).in1 == begin.end();
     for_each_number(cost, [&](const char* name, std::uint64_t& number) {
       const auto value = right ? table->number(row, name) : std::nullopt;
-      right = value.has_value();
-      if (right) number = static_cast<std::uint64_t>(*value);
+      right = value && *value >= 0;
+      if (right) number = to_integer<std::uint64_t>(*value);
     });
     if (!right)
       return bad_input(fmt::format("{}:{}: expected a line '{},…'; make savings writes the file",

@@ -69,6 +69,7 @@ TEST(Savings, ComeBackFromTheirFile) {
   EXPECT_THAT(refused(csv.substr(0, csv.rfind(','))), HasSubstr("savings.csv:17: has 9 values"));
   EXPECT_THAT(refused(csv.substr(0, csv.size() - 1) + ",7\n"), HasSubstr("savings.csv:17: has 11 values"));
   EXPECT_THAT(refused(csv.substr(0, csv.find("spheres"))), HasSubstr("expected a line 'spheres,"));
+  EXPECT_THAT(refused(csv.substr(0, csv.rfind(',')) + ",-1\n"), HasSubstr("savings.csv:17: expected a line"));
 }
 
 TEST(Savings, AreDrawnAsSharesAndPairs) {

@@ -90,6 +90,8 @@ constexpr Site c_sites[] = {
     {"sim/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
     {"sim/cli/plan.cpp", 1, "saved: a percentage of cells"},
     {"sim/cli/sim.cpp", 1, "run: a percentage"},
+    {"sim/costs/savings.cpp", 1,
+     "read_savings: counts of a table of this project, not negative; savings_test"},
     {"sim/figures/quadratic_figures.cpp", 1, "draw_times: words of an interpolator; numbers of its own"},
     {"sim/figures/rings.cpp", 1, "measure_rings: half a line of a disc"},
     {"sim/figures/spherical_figures.cpp", 1, "entry_at: an entry of a table; angles within it"},
