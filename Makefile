@@ -6,7 +6,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 
 # The variables that each target uses. A variable on the command line that no given target uses is an error:
 # otherwise it would be ignored.
-drawing := SCENE SHADER FORM PRESET SIZE ALL_EFFECTS LIGHTS
+drawing := SCENE SHADER DEGREE FORM PRESET SIZE ALL_EFFECTS LIGHTS
 takes_sim := $(drawing) SIMULATOR OUT THREADS JOBS
 takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
 takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
@@ -42,6 +42,7 @@ takes_generator := JOBS
 # The text of `make help` for each variable.
 about_SCENE := a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)
 about_SHADER := quadratic, spherical or processors   (default: quadratic)
+about_DEGREE := degree of the quadratic shader: 2, or 1 for planes (Gouraud shading)   (default: 2)
 about_FORM := folded or unrolled shading processors   (default: unrolled)
 about_PRESET := exact or published   (default: exact; make tables: both, or with a size one of them)
 about_SIZE := WIDTHxHEIGHT in pixels   (default: 640x480)
@@ -113,7 +114,7 @@ sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ni
   -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
-  $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
+  $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
 sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \

@@ -66,6 +66,7 @@ illumination/token_register.vhd
 illumination/shading_processor.vhd
 illumination/unrolled_shading_processor.vhd
 shaders/shading_pipeline.vhd
+shaders/quadratic_pkg.vhd
 shaders/word_buffer.vhd
 shaders/quadratic_shader.vhd
 shaders/spherical_pkg.vhd

@@ -35,6 +35,16 @@ package body formats_pkg is
     return 60;
   end function;
 end package body;
+
+package quadratic_pkg is
+  function init_bits(exact : boolean; degree, channels : positive) return positive;
+end package;
+package body quadratic_pkg is
+  function init_bits(exact : boolean; degree, channels : positive) return positive is
+  begin
+    return work.formats_pkg.init_bits(exact, channels);
+  end function;
+end package body;
 )";
 
 // Emits `count` fragments along x for each vector: bits 11..0 count, 43..12 triangle, 55..44 y. The tests
@@ -45,7 +55,8 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 entity quadratic_shader is
-  generic (g_exact : boolean := true; g_channels : positive := 3);
+  generic (g_exact : boolean := true; g_channels : positive := 3;
+           g_degree : positive := 2);
   port (
     clk, reset : in std_logic;
     init_valid : in std_logic; init_ready : out std_logic;

@@ -15,6 +15,7 @@ entity frame_tb is
     -- Generics of the shader. Each shader has some of them.
     g_exact              : boolean  := true;
     g_channels           : positive := 3;
+    g_degree             : positive := 2;
     g_lights             : natural  := 1;
     g_diffuse            : boolean  := true;
     g_specular           : boolean  := true;

@@ -5,9 +5,12 @@
 
 #include <array>
 #include <cassert>
+#include <type_traits>
 
 #include "frame/fragment.hpp"
+#include "golden/plane_interpolator.hpp"
 #include "golden/quadratic_interpolator.hpp"
+#include "golden/quadratic_layout.hpp"
 #include "golden/saturate.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
@@ -15,12 +18,32 @@
 
 namespace halfway::golden {
 
-template <class Preset, int Channels>
+/// A channel of degree 1: a plane interpolator that takes its words from the channel's block.
+template <class Preset>
+class PlaneChannel : public PlaneInterpolator<Preset::c_intensity_bits> {
+ public:
+  using Plane = PlaneInterpolator<Preset::c_intensity_bits>;
+  using At = typename Preset::init_channel_at;
+
+  void line_load(std::span<const std::uint32_t> init, int block_low) {
+    const auto word = [&](const Field& field) {
+      return Plane::Value::from_bits(get_bits(init, field, block_low));
+    };
+    if constexpr (std::is_same_v<Preset, Exact>)
+      Plane::line_load(word(At::value), word(At::dx), word(At::de0), word(At::de1));
+    else
+      Plane::line_load(word(At::value), word(At::dx), word(At::de0), word(At::de0));
+  }
+};
+
+template <class Preset, int Channels, int Degree = 2>
 class QuadraticShader {
   static_assert(Channels == 1 || Channels == 3);
+  using Layout = QuadraticLayout<Preset, Degree>;
 
  public:
-  static constexpr int c_init_bits = Preset::c_init_header_bits + Channels * Preset::c_init_channel_bits;
+  using Channel = std::conditional_t<Degree == 1, PlaneChannel<Preset>, QuadraticInterpolator<Preset>>;
+  static constexpr int c_init_bits = Layout::init_bits(Channels);
   static constexpr std::size_t c_init_words = (c_init_bits + 31) / 32;
   static constexpr int init_bits() { return c_init_bits; }
   /// Number of vectors of a triangle.
@@ -47,14 +70,13 @@ class QuadraticShader {
 
   // Registers, for callbacks.
   const ZInterpolator<Preset>& depth() const { return depth_; }
-  const QuadraticInterpolator<Preset>& channel(int c) const { return channel_[static_cast<std::size_t>(c)]; }
+  const Channel& channel(int c) const { return channel_[static_cast<std::size_t>(c)]; }
 
  private:
   void line_load(std::span<const std::uint32_t> init) {
     walker_.line_load(init);
     depth_.line_load(init);
-    for (int c = 0; c < Channels; ++c)
-      channel_[c].line_load(init, Preset::c_init_header_bits + c * Preset::c_init_channel_bits);
+    for (int c = 0; c < Channels; ++c) channel_[c].line_load(init, Layout::channel_low(c));
   }
   void line_step() {
     const bool carry = walker_.carry();
@@ -101,7 +123,7 @@ class QuadraticShader {
 
   TriangleWalker<Preset> walker_;
   ZInterpolator<Preset> depth_;
-  std::array<QuadraticInterpolator<Preset>, Channels> channel_;
+  std::array<Channel, Channels> channel_;
 };
 
 }  // namespace halfway::golden

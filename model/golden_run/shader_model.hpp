@@ -77,6 +77,12 @@ class ShaderModel final : public GoldenModel {
   Shader shader_;
 };
 
+template <class Formats, int Degree>
+std::unique_ptr<GoldenModel> make_quadratic_model(const HardwareKey& key) {
+  if (key.channels == 1) return std::make_unique<ShaderModel<golden::QuadraticShader<Formats, 1, Degree>>>();
+  return std::make_unique<ShaderModel<golden::QuadraticShader<Formats, 3, Degree>>>();
+}
+
 /// S must be the key's shader.
 template <class Formats, Shader S>
 std::unique_ptr<GoldenModel> make_shader_model(const HardwareKey& key) {
@@ -84,10 +90,10 @@ std::unique_ptr<GoldenModel> make_shader_model(const HardwareKey& key) {
     return std::make_unique<ShaderModel<golden::SphericalShader<Formats>>>(golden_config(key));
   else if constexpr (S == Shader::processors)
     return std::make_unique<ShaderModel<golden::ProcessorsShader<Formats>>>(processors_config(key));
-  else if (key.channels == 1)
-    return std::make_unique<ShaderModel<golden::QuadraticShader<Formats, 1>>>();
+  else if (key.degree == 1)
+    return make_quadratic_model<Formats, 1>(key);
   else
-    return std::make_unique<ShaderModel<golden::QuadraticShader<Formats, 3>>>();
+    return make_quadratic_model<Formats, 2>(key);
 }
 
 }  // namespace halfway

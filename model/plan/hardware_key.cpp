@@ -19,6 +19,7 @@ std::string HardwareKey::entity() const {
 std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
   std::vector<std::pair<std::string, std::string>> list = {{"g_exact", boolean(preset == Preset::exact)},
                                                            {"g_channels", std::to_string(channels)}};
+  if (shader == Shader::quadratic) list.emplace_back("g_degree", std::to_string(degree));
   if (shader == Shader::spherical) {
     list.emplace_back("g_lights", std::to_string(spherical.lights));
     list.emplace_back("g_diffuse", boolean(spherical.diffuse));
@@ -44,7 +45,7 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
 std::string HardwareKey::vhdl_init_bits() const {
   switch (shader) {
     case Shader::quadratic:
-      return "work.formats_pkg.init_bits(g_exact, g_channels)";
+      return "work.quadratic_pkg.init_bits(g_exact, g_degree, g_channels)";
     case Shader::spherical:
       return "work.spherical_pkg.init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular, "
              "g_highlight_channels)";
@@ -57,6 +58,7 @@ std::string HardwareKey::vhdl_init_bits() const {
 
 std::string HardwareKey::name() const {
   std::string text = fmt::format("{}-{}-c{}", entity(), to_string(preset), channels);
+  if (shader == Shader::quadratic && degree == 1) text += "-planes";
   if (shader == Shader::spherical) {
     text += fmt::format("-l{}", spherical.lights);
     if (spherical.diffuse) text += "-d";

@@ -75,6 +75,7 @@ struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
   unsigned channels = 3;      ///< 1 if every colour of the scene is grey
+  int degree = 2;             ///< of the quadratic shader; 1: planes, as in Gouraud's shading
   SphericalUnits spherical;   ///< of the spherical shader
   ProcessorUnits processors;  ///< of the shading processors
   /// Word lengths that replace the preset's. Setup and golden model of such a key are compiled for it. Those

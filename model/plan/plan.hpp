@@ -48,6 +48,7 @@ struct PlanRequest {
   /// Number of lights of Plan::everything, for the spherical shader and the processors. Empty: the scene's
   /// number, at least one.
   std::optional<unsigned> lights;
+  std::optional<int> degree;          ///< of the quadratic shader; empty: 2
   std::optional<ProcessorForm> form;  ///< of the shading processors; empty: unrolled
 };
 

@@ -23,7 +23,8 @@ PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKe
     case Effect::shadow:
       break;
     case Effect::colour: {
-      PlannedEffect out = planned(calls, effect, DoneBy::hardware, "one interpolator per channel");
+      PlannedEffect out = planned(calls, effect, DoneBy::hardware,
+                                  key.degree == 1 ? "one plane per channel" : "one interpolator per channel");
       out.elaborated = key.channels == 3;
       HardwareKey other = key;
       other.channels = out.elaborated ? 1 : 3;
@@ -45,6 +46,7 @@ Result<Plan> plan_quadratic(const Scene&, const SceneCalls& calls, const PlanReq
   if (request.form) return bad_input(c_form_of_another);
   Plan plan;
   plan.called_for.preset = request.preset;
+  plan.called_for.degree = request.degree.value_or(2);
   plan.everything = plan.called_for;
   plan.called_for.channels = calls[Effect::colour].called_for ? 3 : 1;
   plan.everything.channels = 3;

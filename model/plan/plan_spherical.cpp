@@ -190,6 +190,7 @@ class Planner {
 
 Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
   if (request.form) return bad_input(c_form_of_another);
+  if (request.degree) return bad_input(c_degree_of_another);
   const auto tables = table_size(request);
   if (!tables) return tables.error();
   if (calls.lights.size() > c_most_lights)

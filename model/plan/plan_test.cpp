@@ -506,6 +506,15 @@ TEST(HardwareKey, DifferentHardwareHasDifferentNamesAndGenerics) {
   EXPECT_GT(keys.size(), 2000U);
 }
 
+TEST(HardwareKey, OnlyTheQuadraticShaderHasDegrees) {
+  const Plan planes = planned(grey_scene(), {.degree = 1});
+  EXPECT_EQ(planes.key.name(), "quadratic_shader-exact-c1-planes");
+  EXPECT_EQ(planes.everything.name(), "quadratic_shader-exact-c3-planes");
+  EXPECT_EQ(planned(grey_scene(), {.degree = 2}).key.name(), "quadratic_shader-exact-c1");
+  for (const Shader shader : {Shader::spherical, Shader::processors})
+    EXPECT_FALSE(plan_scene(grey_scene(), {.shader = shader, .degree = 1}));
+}
+
 TEST(HardwareKey, GenericsMatchTheKey) {
   const HardwareKey key{.shader = Shader::spherical,
                         .preset = Preset::exact,
@@ -540,7 +549,7 @@ TEST(HardwareKey, GenericsMatchTheKey) {
 
   const HardwareKey quadratic{.preset = Preset::published, .channels = 1};
   const auto few = quadratic.generics();
-  EXPECT_EQ(Map(few.begin(), few.end()), (Map{{"g_exact", "false"}, {"g_channels", "1"}}));
+  EXPECT_EQ(Map(few.begin(), few.end()), (Map{{"g_exact", "false"}, {"g_channels", "1"}, {"g_degree", "2"}}));
   EXPECT_EQ(quadratic.name(), "quadratic_shader-published-c1");
 }
 

@@ -10,6 +10,7 @@ Result<Plan> plan_quadratic(const Scene& scene, const SceneCalls& calls, const P
 Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
 Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request);
 
+inline constexpr const char* c_degree_of_another = "--degree: only the quadratic shader has two degrees";
 inline constexpr const char* c_form_of_another = "--form: only the shading processors have two forms";
 
 /// The scene's need for the effect, and the part of the system that computes it. Not elaborated.

@@ -77,7 +77,7 @@ struct DepthWords {
   Int128 value, dx, de0, de1;
 };
 
-/// The plane z(u, v) through three depths at three points.
+/// The plane z(u, v) through three depths at three points, or through a channel's three samples.
 class DepthFit {
  public:
   DepthFit(std::array<ScreenPoint, 3> points, int unit_bits, std::array<std::int64_t, 3> depths);

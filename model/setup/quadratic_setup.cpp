@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "golden/quadratic_layout.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/highlight_bound.hpp"
@@ -85,13 +86,15 @@ class Sampler {
   SetupCounts& counts_;
 };
 
-Piece whole(const ScreenTriangle& t, const Sampler& sampler) {
+// A plane that is never tested needs no samples at midpoints.
+Piece whole(const ScreenTriangle& t, const Sampler& sampler, bool midpoints) {
   std::array<Sample, 3> v;
   for (std::size_t i = 0; i < 3; ++i) {
     glm::dvec3 barycentric(0.0);
     barycentric[static_cast<int>(i)] = 1.0;
     v[i] = sampler.at({{t.vertex[i].x, t.vertex[i].y}, barycentric});
   }
+  if (!midpoints) return {{v[0], v[1], v[2]}, 0};
   return {{v[0], v[1], v[2], sampler.between(v[0], v[1]), sampler.between(v[0], v[2]),
            sampler.between(v[1], v[2])},
           0};
@@ -119,7 +122,21 @@ std::array<Piece, 4> split(const Piece& p, const Sampler& sampler) {
           piece(ab, bc, ac, ab_bc, ab_ac, ac_bc)};
 }
 
-bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options) {
+// Sets the radiance at the midpoints to that of the plane through the vertices. Returns the largest change,
+// in colour steps.
+double flatten(SampledTriangle& t) {
+  double largest = 0.0;
+  for (const auto& [middle, a, b] : {std::array{3, 0, 1}, {4, 0, 2}, {5, 1, 2}}) {
+    const auto at = [&](int i) -> glm::dvec3& { return t.radiance[static_cast<std::size_t>(i)]; };
+    const glm::dvec3 on_plane = 0.5 * (at(a) + at(b)), change = glm::abs(at(middle) - on_plane);
+    largest = std::max({largest, change.r, change.g, change.b});
+    at(middle) = on_plane;
+  }
+  return 255.0 * largest;
+}
+
+bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options,
+                        int degree) {
   if (options.test == HighlightTest::none) return false;
   SampledTriangle t;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -129,6 +146,7 @@ bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticS
   if (options.test == HighlightTest::conservative &&
       missed_highlight_bound(sampler.scene(), sampler.material(), t) > options.threshold)
     return true;
+  if (degree == 1 && flatten(t) > options.threshold) return true;
   const glm::dvec3 centroid =
       (p.samples[0].corner.barycentric + p.samples[1].corner.barycentric + p.samples[2].corner.barycentric) /
       3.0;
@@ -148,14 +166,14 @@ bool is_small(const std::array<ScreenPoint, 3>& p, int unit_bits) {
 // Calls leaf(piece) for each piece that is not split. A small piece that is drawn pixel by pixel has no error
 // to test.
 template <class Leaf>
-void subdivide(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options,
+void subdivide(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options, int degree,
                int subpixel_bits, bool small_by_pixel, SetupCounts& counts, Leaf&& leaf) {
   const bool small = is_small(screen_points(p), subpixel_bits + p.level);
-  if (!(small && small_by_pixel) && is_above_threshold(p, sampler, options)) {
+  if (!(small && small_by_pixel) && is_above_threshold(p, sampler, options, degree)) {
     if (!small && p.level < options.max_level) {
       if (p.level == 0) ++counts.subdivided;
       for (const Piece& quarter : split(p, sampler))
-        subdivide(quarter, sampler, options, subpixel_bits, small_by_pixel, counts, leaf);
+        subdivide(quarter, sampler, options, degree, subpixel_bits, small_by_pixel, counts, leaf);
       return;
     }
     ++counts.unresolved;
@@ -172,14 +190,21 @@ double held_sample(double radiance, SetupCounts& counts) {
 }
 
 template <class Preset>
-constexpr unsigned vector_bits(int channels) {
-  return static_cast<unsigned>(Preset::c_init_header_bits + channels * Preset::c_init_channel_bits);
+int channel_low(int degree, int channel) {
+  return degree == 1 ? golden::QuadraticLayout<Preset, 1>::channel_low(channel)
+                     : golden::QuadraticLayout<Preset, 2>::channel_low(channel);
 }
 
-ChannelSamples held_samples(const Piece& piece, int channels, SetupCounts& counts) {
+template <class Preset>
+unsigned vector_bits(int degree, int channels) {
+  return static_cast<unsigned>(channel_low<Preset>(degree, channels));
+}
+
+// Of degree 1: at the vertices.
+ChannelSamples held_samples(const Piece& piece, int channels, int degree, SetupCounts& counts) {
   ChannelSamples samples{};
   for (int c = 0; c < channels; ++c)
-    for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t i = 0; i < (degree == 1 ? 3 : 6); ++i)
       samples[static_cast<std::size_t>(c)][i] = held_sample(piece.samples[i].radiance[c], counts);
   return samples;
 }
@@ -188,20 +213,21 @@ constexpr int c_exact_fraction = Exact::c_intensity_fraction_bits;
 
 // Appends one vector of preset exact per walk. channel_words(c, start) returns the words of channel c.
 template <class ChannelWords>
-void append_walks(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
+void append_walks(std::vector<std::uint32_t>& words, int degree, int channels, std::uint32_t triangle,
                   std::span<const Walk> walks, const DepthFit& depth, ChannelWords&& channel_words) {
   using ChannelAt = Exact::init_channel_at;
   for (const Walk& walk : walks) {
-    InitVector init(words, vector_bits<Exact>(channels));
+    InitVector init(words, vector_bits<Exact>(degree, channels));
     const DifferenceStart start = difference_start(walk);
     put_header(init, triangle, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
     for (int c = 0; c < channels; ++c) {
       const QuadraticWords w = channel_words(static_cast<std::size_t>(c), start);
-      const int low = Exact::c_init_header_bits + c * Exact::c_init_channel_bits;
+      const int low = channel_low<Exact>(degree, c);
       init.put(ChannelAt::value, w.value, low);
       init.put(ChannelAt::dx, w.dx, low);
       init.put(ChannelAt::de0, w.de0, low);
       init.put(ChannelAt::de1, w.de1, low);
+      if (degree == 1) continue;
       init.put(ChannelAt::dxx, w.dxx, low);
       init.put(ChannelAt::dxe0, w.dxe0, low);
       init.put(ChannelAt::dxe1, w.dxe1, low);
@@ -216,20 +242,30 @@ void append_walks(std::vector<std::uint32_t>& words, int channels, std::uint32_t
 
 void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
                     std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
-                    const DepthFit& depth, const ChannelSamples& samples) {
+                    const DepthFit& depth, const ChannelSamples& samples, int degree) {
+  const auto sample = [&](std::size_t c, std::size_t i) { return fixed(samples[c][i], c_exact_fraction); };
+  if (degree == 1) {
+    std::vector<DepthFit> planes;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
+      planes.emplace_back(points, unit_bits, std::array{sample(c, 0), sample(c, 1), sample(c, 2)});
+    append_walks(words, 1, channels, triangle, walks, depth,
+                 [&](std::size_t c, const DifferenceStart& start) {
+                   const DepthWords w = planes[c].words(start, half(c_exact_fraction));
+                   return QuadraticWords{.value = w.value, .dx = w.dx, .de0 = w.de0, .de1 = w.de1};
+                 });
+    return;
+  }
   const QuadraticFit fit(points, unit_bits);
   std::array<SixSamples, 3> channel;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) {
-    const auto sample = [&](std::size_t i) { return fixed(samples[c][i], c_exact_fraction); };
-    channel[c] = {{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
-  }
-  append_walks(words, channels, triangle, walks, depth, [&](std::size_t c, const DifferenceStart& start) {
+  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
+    channel[c] = {{sample(c, 0), sample(c, 1), sample(c, 2)}, sample(c, 3), sample(c, 4), sample(c, 5)};
+  append_walks(words, 2, channels, triangle, walks, depth, [&](std::size_t c, const DifferenceStart& start) {
     return fit.words(channel[c], start, half(c_exact_fraction));
   });
 }
 
 std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                           const std::array<HalfVertex, 3>& p, const ChannelSamples& samples) {
+                           const std::array<HalfVertex, 3>& p, const ChannelSamples& samples, int degree) {
   constexpr int c_fraction = Published::c_intensity_fraction_bits, c_bits = Published::c_intensity_bits;
   using ChannelAt = Published::init_channel_at;
   using Real = long double;
@@ -237,13 +273,18 @@ std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std:
   const Real d = x2 * y3 - y2 * x3;
   const std::vector<HalfTriangle> halves = half_triangles(p);
   for (const HalfTriangle& half_triangle : halves) {
-    InitVector init(words, vector_bits<Published>(channels));
+    InitVector init(words, vector_bits<Published>(degree, channels));
     put_header(init, triangle, half_triangle, p);
     const Real u = half_triangle.x_start - p[0].x, v = static_cast<Real>(half_triangle.y) - p[0].y;
     const Real a = half_triangle.slope_start;
     for (int c = 0; c < channels; ++c) {
-      const int low = Published::c_init_header_bits + c * Published::c_init_channel_bits;
-      const auto i = [&](std::size_t n) { return Real{samples[static_cast<std::size_t>(c)][n]}; };
+      const int low = channel_low<Published>(degree, c);
+      const auto sample = [&](std::size_t n) { return Real{samples[static_cast<std::size_t>(c)][n]}; };
+      // Degree 1: the midpoints are on the plane through the vertices.
+      const auto i = [&](std::size_t n) {
+        if (degree == 2 || n < 3) return sample(n);
+        return (sample(n == 5 ? 1 : 0) + sample(n == 3 ? 1 : 2)) / 2;
+      };
       const Real c2 = 4 * i(3) - 3 * i(0) - i(1), c3 = 4 * i(4) - 3 * i(0) - i(2);
       const Real q2 = 2 * (i(0) + i(1) - 2 * i(3)), q3 = 2 * (i(0) + i(2) - 2 * i(4));
       const Real b = 4 * (i(5) - i(3) - i(4) + i(0));
@@ -257,6 +298,7 @@ std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std:
       init.put(ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2), low);
       init.put(ChannelAt::de0,
                word(t5 * a * a + (2 * t5 * u + t4 * v + t4 + t2) * a + t4 * u + 2 * t3 * v + t3 + t1), low);
+      if (degree == 1) continue;
       init.put(ChannelAt::dxx, word(2 * t5), low);
       init.put(ChannelAt::dxe0, word(2 * t5 * a + t4), low);
       init.put(ChannelAt::de0e0, word(2 * (t5 * a * a + t4 * a + t3)), low);
@@ -271,8 +313,9 @@ QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const Hardwa
       frame_(frame),
       preset_(key.preset),
       channels_(static_cast<int>(key.channels)),
-      init_bits_(preset_ == Preset::exact ? vector_bits<Exact>(channels_)
-                                          : vector_bits<Published>(channels_)),
+      degree_(key.degree),
+      init_bits_(preset_ == Preset::exact ? vector_bits<Exact>(degree_, channels_)
+                                          : vector_bits<Published>(degree_, channels_)),
       options_(options),
       small_by_pixel_(preset_ == Preset::exact && options.test == HighlightTest::conservative),
       projector_(scene, frame,
@@ -301,8 +344,8 @@ class QuadraticSetup::ExactTriangle {
       append_pixels(corners_, 0);
       return;
     }
-    subdivide(whole(triangle_, sampler_), sampler_, setup_.options_, subpixel_bits_, setup_.small_by_pixel_,
-              counts_, [&](const Piece& piece) {
+    subdivide(whole(triangle_, sampler_, setup_.needs_midpoints()), sampler_, setup_.options_, setup_.degree_,
+              subpixel_bits_, setup_.small_by_pixel_, counts_, [&](const Piece& piece) {
                 const std::array<ScreenPoint, 3> points = screen_points(piece);
                 if (is_by_pixel(points, piece.level))
                   append_pixels(points, piece.level);
@@ -321,7 +364,8 @@ class QuadraticSetup::ExactTriangle {
     const std::vector<Walk> walks = plan_walks(points, unit_bits, setup_.frame_);
     if (walks.empty()) return;
     append_vectors(words_, setup_.channels_, triangle_.source, walks, points, unit_bits,
-                   depth_fit(piece.level), held_samples(piece, setup_.channels_, counts_));
+                   depth_fit(piece.level), held_samples(piece, setup_.channels_, setup_.degree_, counts_),
+                   setup_.degree_);
     counts_.vectors += walks.size();
   }
 
@@ -338,7 +382,7 @@ class QuadraticSetup::ExactTriangle {
             fixed(held_sample(radiance[c], counts_), c_exact_fraction));
     }
     const PixelFit fit(pixels);
-    append_walks(words_, setup_.channels_, triangle_.source, walks, depth_fit(level),
+    append_walks(words_, setup_.degree_, setup_.channels_, triangle_.source, walks, depth_fit(level),
                  [&](std::size_t c, const DifferenceStart& start) {
                    return fit.words(colour[c], start, half(c_exact_fraction));
                  });
@@ -378,14 +422,16 @@ void QuadraticSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& 
 void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                                       SetupCounts& counts) const {
   const Sampler sampler(*scene_, triangle, counts);
-  subdivide(whole(triangle, sampler), sampler, options_, 0, small_by_pixel_, counts, [&](const Piece& piece) {
-    const auto vertex = [&](std::size_t i) {
-      const Sample& sample = piece.samples[i];
-      return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));
-    };
-    counts.vectors += append_vectors(words, channels_, triangle.source, {vertex(0), vertex(1), vertex(2)},
-                                     held_samples(piece, channels_, counts));
-  });
+  subdivide(whole(triangle, sampler, needs_midpoints()), sampler, options_, degree_, 0, small_by_pixel_,
+            counts, [&](const Piece& piece) {
+              const auto vertex = [&](std::size_t i) {
+                const Sample& sample = piece.samples[i];
+                return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));
+              };
+              counts.vectors +=
+                  append_vectors(words, channels_, triangle.source, {vertex(0), vertex(1), vertex(2)},
+                                 held_samples(piece, channels_, degree_, counts), degree_);
+            });
 }
 
 }  // namespace halfway

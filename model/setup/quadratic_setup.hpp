@@ -22,18 +22,21 @@ namespace halfway {
 using ChannelSamples = std::array<std::array<double, 6>, 3>;
 
 /// Appends the vectors of preset exact that draw a screen triangle or a piece of one, one vector per walk.
-/// Points are in 1/2^unit_bits pixels. `depth` may be the plane of a larger triangle.
+/// Points are in 1/2^unit_bits pixels. `depth` may be the plane of a larger triangle. Degree 1 is the plane
+/// through the samples at the vertices.
 void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
                     std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
-                    const DepthFit& depth, const ChannelSamples& samples);
+                    const DepthFit& depth, const ChannelSamples& samples, int degree = 2);
 
 /// The same for preset published, one vector per half. Returns the number of vectors.
 std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                           const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples);
+                           const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples,
+                           int degree = 2);
 
-/// Preset exact with the conservative test draws small leaves pixel by pixel (PixelFit), so that the colour
-/// of every pixel is the reference's, rounded. All other leaves are drawn by the quadratic through six
-/// samples.
+/// Hardware of degree 1 draws planes through the samples at the three vertices, as in Gouraud's shading.
+/// With degree 2, preset exact with the conservative test draws small leaves pixel by pixel (PixelFit), so
+/// that the colour of every pixel is the reference's, rounded. All other leaves are drawn by the quadratic
+/// through six samples.
 class QuadraticSetup final : public Setup {
  public:
   /// The scene must outlive the setup.
@@ -46,13 +49,14 @@ class QuadraticSetup final : public Setup {
 
  private:
   class ExactTriangle;
+  bool needs_midpoints() const { return degree_ == 2 || options_.test != HighlightTest::none; }
   void append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                         SetupCounts& counts) const;
 
   const Scene* scene_;
   FrameSize frame_;
   Preset preset_;
-  int channels_;
+  int channels_, degree_;
   unsigned init_bits_;
   QuadraticSetupOptions options_;
   bool small_by_pixel_;  ///< small leaves are drawn by PixelFit

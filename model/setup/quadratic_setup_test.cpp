@@ -75,9 +75,9 @@ struct Drawn {
   SetupCounts counts;
 };
 
-template <class Preset, int Channels>
+template <class Preset, int Channels, int Degree = 2>
 void draw_words(Drawn& drawn) {
-  using Shader = golden::QuadraticShader<Preset, Channels>;
+  using Shader = golden::QuadraticShader<Preset, Channels, Degree>;
   ASSERT_EQ(drawn.words_per_vector, Shader::c_init_words);
   Shader shader;
   for (std::size_t i = 0; i < drawn.words.size(); i += drawn.words_per_vector)
@@ -96,6 +96,44 @@ Drawn draw(const Scene& scene, FrameSize frame, QuadraticSetupOptions options, P
     channels == 3 ? draw_words<golden::Exact, 3>(drawn) : draw_words<golden::Exact, 1>(drawn);
   else
     channels == 3 ? draw_words<golden::Published, 3>(drawn) : draw_words<golden::Published, 1>(drawn);
+  return drawn;
+}
+
+// Vectors of degree 1, and what the shader of degree 1 draws.
+template <class Formats, int Channels>
+Drawn draw_planes(const Scene& scene, FrameSize frame, QuadraticSetupOptions options) {
+  constexpr Preset c_preset = std::is_same_v<Formats, golden::Exact> ? Preset::exact : Preset::published;
+  const HardwareKey key{.preset = c_preset, .channels = Channels, .degree = 1};
+  const QuadraticSetup setup(scene, frame, key, options);
+  Drawn drawn;
+  drawn.words_per_vector = (setup.init_bits() + 31) / 32;
+  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) setup.append(t, drawn.words, drawn.counts);
+  draw_words<Formats, Channels, 1>(drawn);
+  return drawn;
+}
+
+// The vectors of degree 1 as vectors of degree 2 whose second differences are zero, and what they draw.
+template <class Formats, int Channels>
+Drawn draw_as_quadratics(const Drawn& planes) {
+  using Plane = golden::QuadraticLayout<Formats, 1>;
+  using Quadratic = golden::QuadraticLayout<Formats, 2>;
+  Drawn drawn;
+  drawn.words_per_vector = golden::QuadraticShader<Formats, Channels>::c_init_words;
+  for (std::size_t i = 0; i < planes.words.size(); i += planes.words_per_vector) {
+    const auto from = std::span(planes.words).subspan(i, planes.words_per_vector);
+    drawn.words.resize(drawn.words.size() + drawn.words_per_vector);
+    const auto to = std::span(drawn.words).last(drawn.words_per_vector);
+    const auto copy = [&](int bits, int from_low, int to_low) {
+      for (int bit = 0; bit < bits; ++bit) {
+        const golden::Field field{"", bit, 1, false, 0};
+        golden::set_bits(to, field, golden::get_bits(from, field, from_low), to_low);
+      }
+    };
+    copy(Formats::c_init_header_bits, 0, 0);
+    for (int c = 0; c < Channels; ++c)
+      copy(Plane::c_channel_bits, Plane::channel_low(c), Quadratic::channel_low(c));
+  }
+  draw_words<Formats, Channels>(drawn);
   return drawn;
 }
 
@@ -437,6 +475,89 @@ TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysCloseToTheEdges) {
               }
         }
     }
+}
+
+template <class Formats, int Channels>
+void expect_planes_are_quadratics(const Scene& scene, FrameSize frame, QuadraticSetupOptions options) {
+  const Drawn planes = draw_planes<Formats, Channels>(scene, frame, options);
+  EXPECT_GT(planes.fragments.size(), 1000U);
+  const Drawn quadratics = draw_as_quadratics<Formats, Channels>(planes);
+  EXPECT_EQ(quadratics.fragments, planes.fragments);
+}
+
+TEST(QuadraticSetup, PlanesAreQuadraticsWithoutSecondDifferences) {
+  for (const Scene& scene : {teapot_scene(), sphere_scene(9, 0.1, 0.15)})
+    for (const QuadraticSetupOptions options : {c_whole, c_split_some}) {
+      expect_planes_are_quadratics<golden::Exact, 3>(scene, {160, 120}, options);
+      expect_planes_are_quadratics<golden::Exact, 1>(scene, {160, 120}, options);
+      expect_planes_are_quadratics<golden::Published, 3>(scene, {160, 120}, options);
+    }
+}
+
+// Each colour is that of the plane through the radiance at the triangle's vertices, rounded.
+TEST(QuadraticSetup, PlanesPassThroughTheVertices) {
+  const FrameSize frame{160, 120};
+  const Scene scene = teapot_scene();
+  const Drawn planes = draw_planes<golden::Exact, 3>(scene, frame, c_whole);
+  EXPECT_EQ(planes.counts.shaded, 3 * planes.counts.leaves);
+  std::map<std::uint32_t, std::vector<ScreenTriangle>> of_source;
+  for (const ScreenTriangle& t : projected(scene, frame)) of_source[t.source].push_back(t);
+  std::size_t compared = 0;
+  for (const Fragment& f : planes.fragments) {
+    const auto& triangles = of_source.at(f.triangle);
+    if (triangles.size() != 1) continue;  // clipped
+    const ScreenTriangle& t = triangles.front();
+    const auto on_screen = [&](double x, double y, std::size_t a, std::size_t b) {
+      const double unit = 1 << c_subpixel_bits;
+      const double ax = t.vertex[a].x / unit, ay = t.vertex[a].y / unit;
+      return (t.vertex[b].x / unit - ax) * (y - ay) - (t.vertex[b].y / unit - ay) * (x - ax);
+    };
+    const double x = f.x + 0.5, y = f.y + 0.5;
+    const glm::dvec3 area(on_screen(x, y, 1, 2), on_screen(x, y, 2, 0), on_screen(x, y, 0, 1));
+    glm::dvec3 colour(0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      glm::dvec3 corner(0.0);
+      corner[static_cast<int>(i)] = 1.0;
+      const SurfacePoint p = surface_point(t, corner);
+      const glm::dvec3 sample =
+          radiance(scene, scene.materials[t.material], p.position_world, p.normal_world);
+      colour += glm::clamp(255.0 * sample, 0.0, c_largest_sample) *
+                (area[static_cast<int>(i)] / (area.x + area.y + area.z));
+    }
+    colour = glm::min(colour, 255.0);
+    EXPECT_NEAR(f.red, colour.r, 0.501);
+    EXPECT_NEAR(f.green, colour.g, 0.501);
+    EXPECT_NEAR(f.blue, colour.b, 0.501);
+    ++compared;
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
+// The test of planes looks at the midpoints too: the quadratic through the same samples would pass it there.
+TEST(QuadraticSetup, PlanesAreSplitUntilTheyAreWithinTheThreshold) {
+  const FrameSize frame{160, 120};
+  const Scene scene = teapot_scene();
+  constexpr double c_threshold = 1.0;
+  const Drawn planes = draw_planes<golden::Exact, 3>(
+      scene, frame, {.test = HighlightTest::conservative, .threshold = c_threshold});
+  EXPECT_GT(planes.counts.subdivided, 100U);
+  EXPECT_EQ(planes.counts.unresolved, 0U);
+  std::map<std::uint32_t, std::vector<ScreenTriangle>> of_source;
+  for (const ScreenTriangle& t : projected(scene, frame)) of_source[t.source].push_back(t);
+  double largest = 0.0;
+  for (const Fragment& f : planes.fragments) {
+    const auto& triangles = of_source.at(f.triangle);
+    if (triangles.size() != 1) continue;  // clipped
+    const ScreenTriangle& t = triangles.front();
+    const SurfacePoint p = surface_point(t, barycentric_at_centre(t, c_subpixel_bits, f.x, f.y));
+    const glm::dvec3 steps = glm::clamp(
+        255.0 * radiance(scene, scene.materials[t.material], p.position_world, p.normal_world), 0.0, 255.0);
+    const glm::dvec3 error = glm::abs(steps - glm::dvec3(f.red, f.green, f.blue));
+    largest = std::max({largest, error.r, error.g, error.b});
+  }
+  // The test is calibrated to twice the threshold (highlight_bound.hpp); 0.5 for rounding.
+  EXPECT_LE(largest, 2 * c_threshold + 0.5);
+  EXPECT_GT(largest, 0.5);
 }
 
 }  // namespace

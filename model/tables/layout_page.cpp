@@ -16,7 +16,8 @@ struct Section {
 
 constexpr Section c_sections[] = {
     {"init", "Header and channels of a triangle",
-     "The vector of the quadratic shader: one header, then one block per channel (1 or 3). The other shaders "
+     "The vector of the quadratic shader: one header, then one block per channel (1 or 3). With `g_degree` = "
+     "1 a block ends before `dxx`. The other shaders "
      "start their vectors with the same header. In preset `exact` a triangle is one vector, or several if an "
      "edge leaves the frame. In preset `published` it is one or two vectors: each half has a horizontal "
      "side.\n\n"

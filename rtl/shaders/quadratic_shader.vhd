@@ -13,7 +13,8 @@
 --             Only the walker waits when fragments are not taken. The stages after it never stall: the queue has a place for
 --             every pixel that the walker has started.
 -- Contract    Both streams are valid/ready; a fragment does not change while it waits. With one channel (g_channels = 1)
---             red, green and blue are equal.
+--             red, green and blue are equal. With g_degree = 1 the colours are planes, as in Gouraud's shading: the words
+--             of second differences do not exist, and the fragments equal those of g_degree = 2 with zeros in these words.
 -- Formats     formats_pkg: init (header, then one block per channel), depth, colour
 -- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
 -- Throughput  1 fragment per clock, with no bubble between spans, lines and triangles. Exceptions: a triangle takes at
@@ -27,18 +28,20 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
+use work.quadratic_pkg.all;
 
 entity quadratic_shader is
   generic (
     g_exact    : boolean  := true;
-    g_channels : positive := 3
+    g_channels : positive := 3;
+    g_degree   : positive := 2  -- 1: planes, as in Gouraud's shading
   );
   port (
     clk               : in  std_logic;
     reset             : in  std_logic;
     init_valid        : in  std_logic;
     init_ready        : out std_logic;
-    init_data         : in  std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0);
+    init_data         : in  std_logic_vector(init_bits(g_exact, g_degree, g_channels) - 1 downto 0);
     fragment_valid    : out std_logic;
     fragment_ready    : in  std_logic;
     fragment_triangle : out std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
@@ -135,6 +138,9 @@ begin
   assert g_channels = 1 or g_channels = 3
     report "quadratic_shader: g_channels is " & integer'image(g_channels) & ", not 1 (grey) or 3 (red, green, blue)"
     severity failure;
+  assert g_degree = 1 or g_degree = 2
+    report "quadratic_shader: g_degree is " & integer'image(g_degree) & ", not 1 (planes) or 2 (quadratics)"
+    severity failure;
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
     report "quadratic_shader: depth_sum has " & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction)
     & " whole bits, depth " & integer'image(c_formats.depth.bits)
@@ -178,7 +184,7 @@ begin
       busy           => walking);
 
   interpolator_words : entity work.word_buffer
-    generic map (g_exact => g_exact, g_channels => g_channels, g_parts => c_parts)
+    generic map (g_exact => g_exact, g_channels => g_channels, g_degree => g_degree, g_parts => c_parts)
     port map (
       clk      => clk,
       reset    => reset,
@@ -230,21 +236,43 @@ begin
 
   channels : for channel in 0 to g_channels - 1 generate
 
+    alias block_words : std_logic_vector(channel_bits(g_exact, g_degree) - 1 downto 0) is
+      words(channel_low(g_exact, g_degree, channel + 1) - 1 downto channel_low(g_exact, g_degree, channel));
+
     signal value : std_logic_vector(c_formats.intensity.bits - 1 downto 0);
 
     begin
 
-      interpolator : entity work.quadratic_interpolator
-        generic map (g_exact => g_exact, g_parts => c_parts)
-        port map (
-          clk        => clk,
-          init       => words(init_channel_low(g_exact, channel + 1) - 1 downto init_channel_low(g_exact, channel)),
-          line_load  => r.line_load,
-          line_step  => r.line_step,
-          line_carry => r.line_carry,
-          span_load  => r.span_load,
-          span_step  => r.span_step,
-          value      => value);
+      -- Step the colour over the triangle.
+      colour : if g_degree = 2 generate
+
+        interpolator : entity work.quadratic_interpolator
+          generic map (g_exact => g_exact, g_parts => c_parts)
+          port map (
+            clk        => clk,
+            init       => block_words,
+            line_load  => r.line_load,
+            line_step  => r.line_step,
+            line_carry => r.line_carry,
+            span_load  => r.span_load,
+            span_step  => r.span_step,
+            value      => value);
+
+      else generate
+
+        interpolator : entity work.plane_interpolator
+          generic map (g_bits => c_formats.intensity.bits, g_carries => g_exact, g_parts => c_parts)
+          port map (
+            clk        => clk,
+            plane      => block_words,
+            line_load  => r.line_load,
+            line_step  => r.line_step,
+            line_carry => r.line_carry,
+            span_load  => r.span_load,
+            span_step  => r.span_step,
+            value      => value);
+
+      end generate;
 
       to_colour : entity work.saturate
         generic map (

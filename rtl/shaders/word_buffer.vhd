@@ -22,20 +22,22 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
+use work.quadratic_pkg.all;
 
 entity word_buffer is
   generic (
     g_exact    : boolean  := true;
     g_channels : positive := 3;
+    g_degree   : positive := 2; -- of the channels: see quadratic_pkg
     g_parts    : positive := 2
   );
   port (
     clk      : in  std_logic;
     reset    : in  std_logic;
     in_valid : in  std_logic;
-    in_data  : in  std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0);
+    in_data  : in  std_logic_vector(init_bits(g_exact, g_degree, g_channels) - 1 downto 0);
     start    : in  std_logic;
-    out_data : out std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0)
+    out_data : out std_logic_vector(init_bits(g_exact, g_degree, g_channels) - 1 downto 0)
   );
 end entity;
 

@@ -49,6 +49,7 @@ Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
       {"--address-bits", o.address_bits.has_value(), {{Shader::spherical}}},
       {"--data-bits", o.data_bits.has_value(), {{Shader::spherical}}},
       {"--lights", o.lights.has_value(), {{Shader::spherical}, {Shader::processors}}},
+      {"--degree", o.degree.has_value(), {{Shader::quadratic}}},
       {"--form", o.form.has_value(), {{Shader::processors}}}};
   for (const Option& option : options) {
     if (!option.given || std::ranges::any_of(option.belongs_to, [&](const Hardware& hardware) {
@@ -113,6 +114,10 @@ void DrawOptions::add_to(CLI::App& command) {
       "--lights", lights,
       "spherical and processors, with --all-effects: number of lights, up to 16 (default: that\n"
       "of the scene, at least one)");
+  command.add_option(
+      "--degree", degree,
+      "quadratic: 2, or 1: planes through the colours at the vertices, as in Gouraud's shading,\n"
+      "by hardware without second differences (default: 2)");
   command.add_option("--form", form,
                      "processors: unrolled, one object per clock, or folded, as published: one datapath\n"
                      "per processor, several clocks per object (default: unrolled)");
@@ -159,6 +164,9 @@ Result<DrawSettings> checked(const DrawOptions& o) {
     s.plan.form = ProcessorForm::folded;
   else if (o.form && o.form != "unrolled")
     return bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form));
+  if (o.degree && *o.degree != 1 && *o.degree != 2)
+    return bad_input(fmt::format("--degree: {} is not 1 or 2", *o.degree));
+  s.plan.degree = o.degree;
   if (o.lights && !o.all_effects) return bad_input("--lights goes with --all-effects; give both");
   s.plan.lights = o.lights;
   if (o.span_ends == "slerp")

@@ -26,6 +26,7 @@ struct DrawOptions {
   std::optional<unsigned> lights;  ///< with all effects
   std::optional<std::string> span_ends;
   std::string preset = "exact";
+  std::optional<int> degree;        ///< of the quadratic shader; std::nullopt: 2
   std::optional<std::string> form;  ///< of the shading processors; std::nullopt: unrolled
   std::string size = "640x480";
   std::string out = "build/out";

@@ -16,6 +16,7 @@
 #include "common/to_integer.hpp"
 #include "plan/processor_clocks.hpp"
 #include "plan/processor_count.hpp"
+#include "setup/setup.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/costs/cells.hpp"
 #include "sim/costs/simulation_cost.hpp"
@@ -132,6 +133,11 @@ std::string generics_text(const HardwareKey& key) {
   return text;
 }
 
+HardwareKey of_degree(HardwareKey key, int degree) {
+  key.degree = degree;
+  return key;
+}
+
 // Counts the cells of all keys in parallel: each takes seconds, or minutes for many lights.
 Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, unsigned threads,
                              Progress& progress) {
@@ -144,6 +150,8 @@ Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, 
   add(plan.everything);
   for (const PlannedEffect& e : plan.effects)
     if (e.other) add(*e.other);
+  if (plan.key.shader == Shader::quadratic)
+    for (const int degree : {1, 2}) add(of_degree(plan.key, degree));
 
   const auto counter = CellCounter::open(folders);
   if (!counter) return counter.error();
@@ -255,6 +263,55 @@ void print_processors(const Scene& scene, const PlanCommand& command, FrameSize 
   print_own_processors(scene, load);
 }
 
+// What setup makes of the scene for the quadratic shader of a degree.
+SetupCounts count_setup(const Scene& scene, FrameSize size, const HardwareKey& key,
+                        const QuadraticSetupOptions& options) {
+  SetupCounts counts;
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {.quadratic = options});
+  std::vector<std::uint32_t> words;
+  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
+    words.clear();
+    setup->append(unit, words, counts);
+  }
+  return counts;
+}
+
+// Quadratics and planes: for which triangles a plane is enough, and what either costs.
+void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
+                   const CellsByKey& cells) {
+  QuadraticSetupOptions options = draw.setup.quadratic, whole = options;
+  if (options.test == HighlightTest::none) options.max_level = 0;
+  whole.test = options.test = HighlightTest::conservative;
+  whole.max_level = 0;
+  const HardwareKey planes = of_degree(key, 1), quadratics = of_degree(key, 2);
+  const SetupCounts unsplit = count_setup(scene, draw.size, planes, whole);
+  const SetupCounts few = count_setup(scene, draw.size, planes, options),
+                    all = count_setup(scene, draw.size, quadratics, options);
+  const std::uint64_t enough = unsplit.leaves - unsplit.unresolved;
+  fmt::print(
+      "\nplanes (--degree 1, Gouraud's shading) at {}x{}: {} of {} triangles are within {} steps, {}\n",
+      draw.size.width, draw.size.height, enough, unsplit.leaves, options.threshold,
+      enough == unsplit.leaves ? "so planes are enough" : "so the others are split");
+  print_row("", "planes", "quadratics", "saved");
+  const auto bits = [&](const HardwareKey& of) {
+    return std::uint64_t{make_setup(scene, draw.size, of, {})->init_bits()};
+  };
+  print_counts("bits of an init vector", bits(planes), bits(quadratics));
+  print_counts("init vectors", few.vectors, all.vectors);
+  print_counts("bits of all init vectors", few.vectors * bits(planes), all.vectors * bits(quadratics));
+  print_counts("samples shaded", few.shaded, all.shaded);
+  print_counts("pieces above the threshold", few.unresolved, all.unresolved);
+  const std::uint64_t mixed = enough * bits(planes) + unsplit.unresolved * bits(quadratics);
+  fmt::print(
+      "A stream of both, a plane where it is enough, has {} fewer bits than quadratics alone, unsplit. It "
+      "shades as\n"
+      "many samples: the test needs all six. Hardware of degree 2 draws a plane from zeros.\n",
+      saved(static_cast<double>(mixed), static_cast<double>(unsplit.leaves * bits(quadratics))));
+  if (cells.empty()) return;
+  print_counts("LUTs of 4 inputs", cells.at(planes.name()).luts, cells.at(quadratics.name()).luts);
+  print_counts("flip-flops", cells.at(planes.name()).flip_flops, cells.at(quadratics.name()).flip_flops);
+}
+
 int run(const Folders& folders, const PlanCommand& command) {
   const auto draw = checked(command.draw);
   if (!draw) return report(draw.error());
@@ -322,6 +379,7 @@ int run(const Folders& folders, const PlanCommand& command) {
   const bool same = called_for.frame.rgb == everything.frame.rgb &&
                     (hides_more(plan) || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
+  if (plan.key.shader == Shader::quadratic) print_degrees(*scene, *draw, plan.key, cells);
   if (command.objects || command.rate) print_processors(*scene, command, draw->size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }

@@ -54,11 +54,28 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
                                   " +there all the same: .*4 specular_slice")));
 }
 
+TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
+  // A matte sphere needs fewer samples than a glossy one, and a plane for more of its triangles.
+  const auto lines = [&](const std::vector<std::string>& arguments) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    const std::size_t at = outcome.output.find("\nplanes (--degree 1");
+    return at == std::string::npos ? std::string() : outcome.output.substr(at);
+  };
+  const std::string few = lines({"plan", "matte", "--size", "160x120"});
+  EXPECT_THAT(few, AllOf(ContainsRegex("160x120: [1-9][0-9]* of [1-9][0-9]* triangles are within 2 steps"),
+                         ContainsRegex("\nbits of an init vector +640 +880 +27 %\n"),
+                         ContainsRegex("\nsamples shaded +[0-9]+ +[0-9]+"), Not(HasSubstr("LUTs"))));
+  const std::string all = lines({"plan", "matte", "--size", "160x120", "--threshold", "255"});
+  EXPECT_THAT(all, HasSubstr(" triangles are within 255 steps, so planes are enough\n"));
+  EXPECT_EQ(lines({"plan", "matte", "--shader", "spherical"}), "");
+}
+
 // The printed generics select the netlist that --netlist writes.
 TEST_F(PlanCommand, WritesTheRepairedNetlist) {
   const Outcome outcome = run({"plan", "matte", "--netlist", "matte.v"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("\n  generics       g_exact=true g_channels=1\n"));
+  EXPECT_THAT(outcome.output, HasSubstr("\n  generics       g_exact=true g_channels=1 g_degree=2\n"));
   const auto netlist = read_file(folder_->path() / "matte.v");
   ASSERT_TRUE(netlist) << netlist.error().message;
   const auto has = [&](std::string_view text) { return netlist->find(text) != std::string::npos; };

@@ -150,7 +150,8 @@ Result<std::string> readme_times(const Table& times) {
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one sphere of {2} triangles at {3}. The time of a frame is that of the host's "
       "set-up on one core or of the hardware at its clock on an iCE40, whichever is longer. On the dashed "
-      "line, no other design is both quicker and more accurate. adaptive: quadratic, with triangles split "
+      "line, no other design is both quicker and more accurate. planes: Gouraud's shading in hardware. "
+      "adaptive: quadratic, with triangles split "
       "until the error is below the threshold, in colour steps; quadratic: never split.*\n\n"
       "| design | ms per frame | bound by | host, then hardware: ms | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",

@@ -172,29 +172,31 @@ class StagesOf : public ShaderStages {
 
 // The walker's strobes reach the interpolators through registers. An interpolator's words are skewed: the
 // lower half follows one clock after the strobe, the upper half one clock later.
-template <class P, int Channels>
-class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channels>> {
-  using Shader = golden::QuadraticShader<P, Channels>;
+template <class P, int Channels, int Degree>
+class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channels, Degree>> {
+  using Shader = golden::QuadraticShader<P, Channels, Degree>;
 
  public:
   QuadraticStages() {
     const std::string shader = "quadratic_shader";
     this->template add_line_stage<P>(shader, 1);
-    add_channels({{"line_value", "edge_value", &Interpolator::line_value},
-                  {"line_dx", "edge_dx", &Interpolator::line_dx},
-                  {"line_de0", "edge_de0", &Interpolator::line_de0}});
-    if constexpr (std::is_same_v<P, Exact>) add_channels({{"line_de1", "edge_de1", &Interpolator::line_de1}});
+    add_channels({{"line_value", "edge_value", &Channel::line_value}});
+    if constexpr (Degree == 2)
+      add_channels({{"line_dx", "edge_dx", &Channel::line_dx}, {"line_de0", "edge_de0", &Channel::line_de0}});
+    if constexpr (Degree == 2 && std::is_same_v<P, Exact>)
+      add_channels({{"line_de1", "edge_de1", &Channel::line_de1}});
     this->template add_span_stage<P>(shader, 1);
-    add_channels(
-        {{"span_value", "span_value", &Interpolator::value}, {"span_dx", "span_dx", &Interpolator::dx}});
+    add_channels({{"span_value", "span_value", &Channel::value}, {"span_dx", "span_dx", &Channel::dx}});
     this->add_fragment_stage("saturate");
   }
 
  private:
-  using Interpolator = golden::QuadraticInterpolator<P>;
+  using Channel = typename Shader::Channel;
+  // The class that has the functions of the golden model's words.
+  using Words = std::conditional_t<Degree == 1, golden::PlaneInterpolator<P::c_intensity_bits>, Channel>;
   struct Shown {
     const char *name, *signal;
-    typename Interpolator::Value (Interpolator::*golden)() const;
+    typename Words::Value (Words::*golden)() const;
   };
   void add_channels(const std::vector<Shown>& words) {
     for (int c = 0; c < Channels; ++c)
@@ -202,9 +204,9 @@ class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channel
         this->add(
             fmt::format("{} {}", channel_name(static_cast<unsigned>(c), Channels), word.name),
             {P::c_intensity_bits, P::c_intensity_fraction_bits, true},
-            within("quadratic_interpolator", "quadratic_shader"),
+            within(Degree == 1 ? "plane_interpolator" : "quadratic_interpolator", "quadratic_shader"),
             [c, golden = word.golden](const Shader& s, SpanXWord) { return (s.channel(c).*golden)().bits(); },
-            {dut(fmt::format("channels({})/interpolator/{}", c, word.signal)), 0, 1, true});
+            {dut(fmt::format("channels({})/colour/interpolator/{}", c, word.signal)), 0, 1, true});
   }
 };
 
@@ -351,12 +353,18 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
   bool folded_;
 };
 
+template <class P, int Degree>
+std::unique_ptr<ShaderStages> make_quadratic(unsigned channels) {
+  if (channels == 1) return std::make_unique<QuadraticStages<P, 1, Degree>>();
+  return std::make_unique<QuadraticStages<P, 3, Degree>>();
+}
+
 template <class P>
 std::unique_ptr<ShaderStages> make(const HardwareKey& key) {
   switch (key.shader) {
     case Shader::quadratic:
-      if (key.channels == 1) return std::make_unique<QuadraticStages<P, 1>>();
-      return std::make_unique<QuadraticStages<P, 3>>();
+      if (key.degree == 1) return make_quadratic<P, 1>(key.channels);
+      return make_quadratic<P, 2>(key.channels);
     case Shader::spherical:
       return std::make_unique<SphericalStages<P>>(golden_config(key));
     case Shader::processors:

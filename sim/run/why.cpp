@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "golden/processors_layout.hpp"
+#include "golden/quadratic_layout.hpp"
 #include "golden/spherical_layout.hpp"
 #include "golden/word.hpp"
 #include "golden_run/golden_run.hpp"
@@ -35,14 +36,16 @@ struct Given {
   std::vector<PlacedField> init, record;
 };
 
-template <class P>
+template <class P, int Degree>
 Given quadratic_given(const HardwareKey& key) {
+  using Layout = golden::QuadraticLayout<P, Degree>;
   Given given;
   for (const golden::Field& f : P::c_init_header) given.init.push_back({std::string(f.name), f, 0});
   for (unsigned c = 0; c < key.channels; ++c)
     for (const golden::Field& f : P::c_init_channel)
-      given.init.push_back({fmt::format("{} {}", channel_name(c, key.channels), f.name), f,
-                            P::c_init_header_bits + static_cast<int>(c) * P::c_init_channel_bits});
+      if (Layout::has(f))
+        given.init.push_back({fmt::format("{} {}", channel_name(c, key.channels), f.name), f,
+                              Layout::channel_low(static_cast<int>(c))});
   return given;
 }
 
@@ -115,7 +118,8 @@ Given processors_given(const HardwareKey& key) {
 template <class P>
 Given given_of(const HardwareKey& key) {
   if (key.shader == Shader::processors) return processors_given<P>(key);
-  return key.shader == Shader::spherical ? spherical_given<P>(key) : quadratic_given<P>(key);
+  if (key.shader == Shader::spherical) return spherical_given<P>(key);
+  return key.degree == 1 ? quadratic_given<P, 1>(key) : quadratic_given<P, 2>(key);
 }
 
 std::vector<StageValue> values_of(const std::vector<PlacedField>& fields,

@@ -154,7 +154,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
       golden::Published::c_angle_fraction_bits);
   length(
       "fraction_bits", tables::c_fraction_range,
-      [](Method m) { return m == Method::quadratic || m == Method::adaptive; },
+      [](Method m) { return m == Method::planes || m == Method::quadratic || m == Method::adaptive; },
       &tables::WordLengths::fraction_bits, golden::Exact::c_intensity_fraction_bits,
       golden::Published::c_intensity_fraction_bits);
   length("seed_bits", tables::c_seed_range, is_processors, &tables::WordLengths::seed_bits,
@@ -222,6 +222,8 @@ PlanRequest DesignPoint::plan() const {
   if (method == Method::spherical) {
     request.shader = Shader::spherical;
     request.tables = tables;
+  } else if (method == Method::planes) {
+    request.degree = 1;
   } else if (is_processors(method)) {
     request.shader = Shader::processors;
     request.form = form;

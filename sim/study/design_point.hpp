@@ -21,19 +21,20 @@ namespace halfway::study {
 enum class Method {
   phong,      ///< per pixel, in software: the reference method
   gouraud,    ///< in software
-  quadratic,  ///< this and the following methods are hardware; never split
+  planes,     ///< this and the following methods are hardware: Gouraud's shading, quadratic of degree 1
+  quadratic,  ///< never split
   adaptive,   ///< quadratic; triangles with an error above `threshold` are split
   spherical,
   processors_1,  ///< the paper's version I: no normalization, only directional lights
   processors_2,  ///< the paper's version II
 };
-inline constexpr std::array c_method_names = {"phong",     "gouraud",      "quadratic",   "adaptive",
-                                              "spherical", "processors-1", "processors-2"};
+inline constexpr std::array c_method_names = {"phong",    "gouraud",   "planes",       "quadratic",
+                                              "adaptive", "spherical", "processors-1", "processors-2"};
 inline const char* to_string(Method method) {
   return c_method_names[static_cast<std::size_t>(method)];
 }
 constexpr bool in_hardware(Method method) {
-  return method >= Method::quadratic;
+  return method >= Method::planes;
 }
 /// False for phong only: its picture is the reference itself.
 constexpr bool is_drawn(Method method) {

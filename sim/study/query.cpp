@@ -147,6 +147,7 @@ std::vector<Knob> knobs_of(const DesignPoint& p) {
   const auto text_of = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
   std::vector<Knob> knobs = {{"method", to_string(p.method)}, {"preset", to_string(p.preset)}};
   switch (p.method) {
+    case Method::planes:
     case Method::quadratic:
     case Method::adaptive:
       knobs.push_back({"fraction_bits", text_of(p.words.fraction_bits)});

@@ -1,15 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, one and three channels, by shader_checker. Without empty lines the shader outputs one fragment per
+-- Both presets, one and three channels, both degrees, by shader_checker. Without empty lines the shader outputs one fragment per
 -- clock; only a triangle of a single pixel takes two clocks.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
+use work.quadratic_pkg.all;
 use work.tb_pkg.all;
 
 entity quadratic_shader_run is
   generic (
     g_exact    : boolean;
     g_channels : positive;
+    g_degree   : positive := 2;
     g_stem     : string -- start of the file names
   );
   port (
@@ -22,7 +24,7 @@ architecture sim of quadratic_shader_run is
   signal reset             : std_logic;
   signal init_valid        : std_logic;
   signal init_ready        : std_logic;
-  signal init_data         : std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0);
+  signal init_data         : std_logic_vector(init_bits(g_exact, g_degree, g_channels) - 1 downto 0);
   signal fragment_valid    : std_logic;
   signal fragment_ready    : std_logic;
   signal fragment_triangle : std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
@@ -36,7 +38,7 @@ architecture sim of quadratic_shader_run is
   signal fault             : std_logic;
 begin
   dut : entity work.quadratic_shader
-    generic map (g_exact => g_exact, g_channels => g_channels)
+    generic map (g_exact => g_exact, g_channels => g_channels, g_degree => g_degree)
     port map (
       clk               => clk,
       reset             => reset,
@@ -89,7 +91,7 @@ entity quadratic_shader_tb is
 end entity;
 
 architecture sim of quadratic_shader_tb is
-  signal finished : boolean_vector(0 to 3);
+  signal finished : boolean_vector(0 to 6);
 begin
   exact_colour : entity work.quadratic_shader_run
     generic map (g_exact => true, g_channels => 3, g_stem => g_folder & "/exact3_")
@@ -106,6 +108,18 @@ begin
   published_grey : entity work.quadratic_shader_run
     generic map (g_exact => false, g_channels => 1, g_stem => g_folder & "/published1_")
     port map (finished => finished(3));
+
+  exact_planes : entity work.quadratic_shader_run
+    generic map (g_exact => true, g_channels => 3, g_degree => 1, g_stem => g_folder & "/exact3_planes_")
+    port map (finished => finished(4));
+
+  exact_grey_planes : entity work.quadratic_shader_run
+    generic map (g_exact => true, g_channels => 1, g_degree => 1, g_stem => g_folder & "/exact1_planes_")
+    port map (finished => finished(5));
+
+  published_planes : entity work.quadratic_shader_run
+    generic map (g_exact => false, g_channels => 3, g_degree => 1, g_stem => g_folder & "/published3_planes_")
+    port map (finished => finished(6));
 
   done : process is
   begin

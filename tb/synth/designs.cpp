@@ -75,6 +75,9 @@ std::vector<ListedDesign> all_designs() {
 
     all.push_back(shader("quadratic_shader_" + p, {.preset = preset}));
     all.push_back(shader("quadratic_shader_grey_" + p, {.preset = preset, .channels = 1}));
+    all.push_back(shader("quadratic_shader_planes_" + p, {.preset = preset, .degree = 1}));
+    all.push_back(
+        shader("quadratic_shader_planes_grey_" + p, {.preset = preset, .channels = 1, .degree = 1}));
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {

@@ -34,17 +34,18 @@ void add_fragment(VectorFile& file, const Fragment& f, std::int64_t clock) {
 }
 
 // Colours that change slowly over the triangle. One channel in six keeps random words.
-template <class Preset>
+template <class Preset, int Degree>
 void put_colours(InitVector& init, Random& random, int channels) {
+  using Layout = golden::QuadraticLayout<Preset, Degree>;
   for (int c = 0; c < channels; ++c) {
     if (random.one_in(6)) continue;
-    const int low = Preset::c_init_header_bits + c * Preset::c_init_channel_bits;
     for (const golden::Field& field : Preset::c_init_channel) {
+      if (!Layout::has(field)) continue;
       // Limits: 512 steps for the value, 16 for first differences, 1 for second differences.
       const bool value = field.name == "value", second = field.name.size() > 3 || field.name == "dxx";
       const std::int64_t most = std::int64_t{1} << (field.fraction_bits + (value ? 9 : second ? 0 : 4));
       const std::int64_t word = random.between(value ? -most / 8 : -most, most);
-      set_bits(init, field, static_cast<std::uint64_t>(word), low);
+      set_bits(init, field, static_cast<std::uint64_t>(word), Layout::channel_low(c));
     }
   }
 }
@@ -74,9 +75,9 @@ class QuadraticClock {
   bool first_ = true;
 };
 
-template <class Preset, int Channels>
+template <class Preset, int Channels, int Degree>
 Status write_quadratic(const std::filesystem::path& folder) {
-  using Shader = golden::QuadraticShader<Preset, Channels>;
+  using Shader = golden::QuadraticShader<Preset, Channels, Degree>;
   Random random(Shader::c_init_bits);
   for (const auto& [mix, name] : c_sets) {
     VectorFile inits, fragments;
@@ -88,7 +89,7 @@ Status write_quadratic(const std::filesystem::path& folder) {
     for (InitVector& small : random_triangles<Preset>(random, Mix::small, Shader::c_init_bits, 60))
       set.push_back(std::move(small));
     for (InitVector init : set) {
-      put_colours<Preset>(init, random, Channels);
+      put_colours<Preset, Degree>(init, random, Channels);
       add_clock(inits.words_of(init, Shader::c_init_bits), clock.take_init());
       std::vector<std::int64_t> clocks;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
@@ -107,7 +108,8 @@ Status write_quadratic(const std::filesystem::path& folder) {
       auto at = clocks.begin();
       twin.draw(init, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); });
     }
-    const std::string stem = std::string(Preset::c_name) + std::to_string(Channels) + '_' + name;
+    const std::string stem =
+        std::string(Preset::c_name) + std::to_string(Channels) + (Degree == 1 ? "_planes_" : "_") + name;
     if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
     if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
   }
@@ -220,10 +222,13 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
 }  // namespace
 
 Status write_quadratic_shader(const std::filesystem::path& folder) {
-  if (auto s = write_quadratic<Exact, 3>(folder); !s) return s;
-  if (auto s = write_quadratic<Exact, 1>(folder); !s) return s;
-  if (auto s = write_quadratic<Published, 3>(folder); !s) return s;
-  return write_quadratic<Published, 1>(folder);
+  if (auto s = write_quadratic<Exact, 3, 2>(folder); !s) return s;
+  if (auto s = write_quadratic<Exact, 1, 2>(folder); !s) return s;
+  if (auto s = write_quadratic<Published, 3, 2>(folder); !s) return s;
+  if (auto s = write_quadratic<Published, 1, 2>(folder); !s) return s;
+  if (auto s = write_quadratic<Exact, 3, 1>(folder); !s) return s;
+  if (auto s = write_quadratic<Exact, 1, 1>(folder); !s) return s;
+  return write_quadratic<Published, 3, 1>(folder);
 }
 
 Status write_spherical_shader(const std::filesystem::path& folder) {
