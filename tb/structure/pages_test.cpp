@@ -72,8 +72,9 @@ TEST(Pages, LinksLeadToFilesAndHeadings) {
       if (file.starts_with("http")) continue;
       const fs::path target = file.empty() ? page : page.parent_path() / file;
       ASSERT_TRUE(fs::exists(target)) << page << ": link to " << file;
-      if (!anchor.empty())
+      if (!anchor.empty()) {
         EXPECT_TRUE(anchors_of(target).contains(anchor)) << page << ": link to " << file << '#' << anchor;
+      }
     }
   }
 }

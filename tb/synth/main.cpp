@@ -415,8 +415,8 @@ class Run {
     const Status written = write_pins(options_.folders.source / c_pins, pins_, synthesizer_.versions());
     if (!written) return written.error();
     if (!options_.readme.empty())
-      if (const Status written = write_readme(options_.readme, options_.folders.source / c_pins); !written)
-        return written.error();
+      if (const Status readme = write_readme(options_.readme, options_.folders.source / c_pins); !readme)
+        return readme.error();
     fmt::print("{} designs are pinned\n", pinned);
     if (hasty > 0)
       cli::say(fmt::format(
