@@ -13,6 +13,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
+use work.quadratic_pkg.all;
 
 entity example is
   port (
@@ -28,7 +29,7 @@ end entity;
 architecture rtl of example is
 
   constant c_exact  : boolean  := false;
-  constant c_bits   : positive := init_bits(c_exact, 1); -- 497
+  constant c_bits   : positive := init_bits(c_exact, 2, 1); -- 497: preset published, degree 2, 1 channel
   constant c_width  : positive := 16;
   constant c_height : positive := 12;
 

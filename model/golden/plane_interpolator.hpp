@@ -27,7 +27,7 @@ class PlaneInterpolator {
   }
   void span_step() { along_line_.step(span_dx_); }
 
-  Value line_value() const { return along_edge_.value(); }
+  Value edge_value() const { return along_edge_.value(); }
   Value value() const { return along_line_.value(); }
   Value dx() const { return span_dx_; }
 

@@ -35,19 +35,19 @@ class QuadraticInterpolator {
   }
   void line_step([[maybe_unused]] bool carry) {
     if constexpr (c_carries) {
-      value_along_edge_.step(carry ? line_de1() : line_de0());
+      value_along_edge_.step(carry ? edge_de1() : edge_de0());
       dx_along_edge_.step(carry ? dxe1_ : dxe0_);
       de0_along_edge_.step(carry ? de0e1_ : de0e0_);
       de1_along_edge_.step(carry ? de1e1_ : de0e1_);
     } else {
-      value_along_edge_.step(line_de0());
+      value_along_edge_.step(edge_de0());
       dx_along_edge_.step(dxe0_);
       de0_along_edge_.step(de0e0_);
     }
   }
   void span_load() {
-    value_along_line_.load(line_value());
-    dx_along_line_.load(line_dx());
+    value_along_line_.load(edge_value());
+    dx_along_line_.load(edge_dx());
     span_dxx_ = dxx_;
   }
   void span_step() {
@@ -55,10 +55,10 @@ class QuadraticInterpolator {
     dx_along_line_.step(span_dxx_);
   }
 
-  Value line_value() const { return value_along_edge_.value(); }
-  Value line_dx() const { return dx_along_edge_.value(); }
-  Value line_de0() const { return de0_along_edge_.value(); }
-  Value line_de1() const { return de1_along_edge_.value(); }
+  Value edge_value() const { return value_along_edge_.value(); }
+  Value edge_dx() const { return dx_along_edge_.value(); }
+  Value edge_de0() const { return de0_along_edge_.value(); }
+  Value edge_de1() const { return de1_along_edge_.value(); }
   Value value() const { return value_along_line_.value(); }
   Value dx() const { return dx_along_line_.value(); }
 

@@ -37,9 +37,9 @@ TEST(QuadraticInterpolator, ReproducesThePublishedTrace) {
       {0xFFFCE562, 0x0014E43F, {0x06A7126A, 0x06BBF6A9}, {0x0014E43F}},
   }};
   for (std::size_t l = 0; l < lines.size(); ++l) {
-    EXPECT_EQ(interpolator.line_value().bits(), lines[l].values[0]) << "line " << l;
-    EXPECT_EQ(interpolator.line_de0().bits(), lines[l].de0) << "line " << l;
-    EXPECT_EQ(interpolator.line_dx().bits(), lines[l].dx) << "line " << l;
+    EXPECT_EQ(interpolator.edge_value().bits(), lines[l].values[0]) << "line " << l;
+    EXPECT_EQ(interpolator.edge_de0().bits(), lines[l].de0) << "line " << l;
+    EXPECT_EQ(interpolator.edge_dx().bits(), lines[l].dx) << "line " << l;
     interpolator.span_load();
     for (std::size_t x = 0; x < lines[l].values.size(); ++x) {
       EXPECT_EQ(interpolator.value().bits(), lines[l].values[x]) << "line " << l << " pixel " << x;
@@ -91,7 +91,7 @@ TEST(QuadraticInterpolator, FollowsAPolynomialModuloTheWordsWidth) {
     interpolator.line_load(init, c_block_low);
     std::int64_t px = 0;
     for (std::int64_t py = 0; py < 30; ++py) {
-      ASSERT_EQ(interpolator.line_value().bits(), low_bits(at(px, py), Exact::c_intensity_bits));
+      ASSERT_EQ(interpolator.edge_value().bits(), low_bits(at(px, py), Exact::c_intensity_bits));
       interpolator.span_load();
       for (std::int64_t i = 0; i < 10; ++i) {
         ASSERT_EQ(interpolator.value().bits(), low_bits(at(px + s * i, py), Exact::c_intensity_bits))

@@ -32,7 +32,7 @@ end entity;
 architecture rtl of multiplier is
 
   -- Bits of a quarter of a. a is padded with zeros, so that no quarter is empty.
-  constant c_digit : positive := (g_a_bits + 3) / 4; -- elaboration only
+  constant c_digit : positive := (g_a_bits + 3) / 4; -- evaluated at elaboration
 
   subtype digit_t is unsigned(c_digit + g_b_bits - 1 downto 0);
   subtype half_t  is unsigned(2 * c_digit + g_b_bits - 1 downto 0);

@@ -96,7 +96,7 @@ package body shading_pkg is
   end function;
 
   function axis_of (vector : std_logic_vector; axis : natural) return signed is
-    constant c_bits : positive := vector'length / c_axes; -- elaboration only
+    constant c_bits : positive := vector'length / c_axes; -- evaluated at elaboration
     alias flat      : std_logic_vector(vector'length - 1 downto 0) is vector;
   begin
     return signed(flat((axis + 1) * c_bits - 1 downto axis * c_bits));

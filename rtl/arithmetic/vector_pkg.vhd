@@ -76,7 +76,7 @@ package body vector_pkg is
   end function;
 
   function negated (vector : std_logic_vector) return std_logic_vector is
-    constant c_bits : positive := vector'length / c_axes; -- elaboration only
+    constant c_bits : positive := vector'length / c_axes; -- evaluated at elaboration
 
     variable result : std_logic_vector(vector'length - 1 downto 0);
   begin
@@ -87,7 +87,7 @@ package body vector_pkg is
   end function;
 
   function positive_words (words : std_logic_vector; channels : positive) return std_logic_vector is
-    constant c_bits : positive := words'length / channels; -- elaboration only
+    constant c_bits : positive := words'length / channels; -- evaluated at elaboration
     alias flat      : std_logic_vector(words'length - 1 downto 0) is words;
 
     variable result : std_logic_vector(c_axes * (c_bits + 1) - 1 downto 0) := (others => '0');

@@ -10,8 +10,9 @@
 --
 --             Each step takes the result of the step before it immediately. Delay lines bring its other inputs (V, N,
 --             exponent, k) from the token. Clocks from the token at the input to each result, from times of terms_pkg.
---             The column is the kind of light that the processor can draw. A directional light has a constant L, which
---             takes no clock; a diffuse term has no H:
+--             The column is the kind of light that the processor can draw. 0: a directional light has a constant L, and
+--             in preset published a constant H. -: the term does not need it: a diffuse term has no H; as the paper
+--             prints it, a highlight needs L only for a spot's cone.
 --
 --               published   directional        positional         spot
 --                           diffuse specular   diffuse specular   diffuse specular
@@ -32,8 +33,9 @@
 --             Preset exact has no highlight below the light's horizon: `above` is '1' where N.L > 0.
 -- Contract    light must not change while a token is in the stages
 -- Formats     token, light: token_pkg; terms: reflected_term
--- Latency     times of terms_pkg: term
+-- Latency     `term` of `times` (terms_pkg): the last row above
 -- Throughput  1 token per clock
+-- Error       that of its units: light_vector, half_vector, cosine_power, light_weight, reflected_term
 -- Source      processors paper, equations 2, 3 and 5, figures 1 and 2; ours: spots, perspective, horizon
 -- Golden twin model/golden/light_term.hpp
 
@@ -58,7 +60,7 @@ entity light_term is
     light  : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token  : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
     terms  : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
-    above  : out std_logic -- with terms: the light is above the horizon; always '1' in preset published
+    above  : out std_logic -- with terms: the light is above the horizon; always '1' for a diffuse term and in preset published
   );
 end entity;
 
@@ -108,8 +110,8 @@ begin
 
   highlight : if g_kind = c_specular generate
 
-    signal way    : std_logic_vector(c_axes * half_light_bits(c_exact) - 1 downto 0); -- L, or P_p - P as printed
-    signal to_eye : directions_t;                                                     -- V, or E as printed
+    signal way    : std_logic_vector(c_axes * half_light_bits(c_exact) - 1 downto 0); -- L; in preset published P_p - P, as the paper prints it
+    signal to_eye : directions_t;                                                     -- V; in preset published E
 
     begin
 

@@ -50,7 +50,7 @@ architecture rtl of specular_slice is
 
   function has_table (power : natural) return boolean is
   begin
-    return (g_powers / 2 ** power) mod 2 = 1; -- elaboration only
+    return (g_powers / 2 ** power) mod 2 = 1; -- evaluated at elaboration
   end function;
 
   function tables return natural is

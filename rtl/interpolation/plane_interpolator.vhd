@@ -39,7 +39,7 @@ entity plane_interpolator is
     plane      : in  std_logic_vector((3 + boolean'pos(g_carries)) * g_bits - 1 downto 0);
     line_load  : in  std_logic; -- take the plane
     line_step  : in  std_logic; -- go to the next line
-    line_carry : in  std_logic; -- that step goes one pixel further
+    line_carry : in  std_logic; -- that step ends one pixel further right
     span_load  : in  std_logic; -- start the span at the edge
     span_step  : in  std_logic; -- go to the next pixel
     value      : out std_logic_vector(g_bits - 1 downto 0)
@@ -62,7 +62,7 @@ architecture rtl of plane_interpolator is
 begin
 
   steps_register : entity work.skewed_register
-    generic map (g_bits => g_bits, g_words => steps'length / g_bits, g_parts => g_parts) -- elaboration only
+    generic map (g_bits => g_bits, g_words => steps'length / g_bits, g_parts => g_parts) -- evaluated at elaboration
     port map (clk => clk, load => line_load, start => plane(steps'range), value => steps);
 
   carried : if g_carries generate

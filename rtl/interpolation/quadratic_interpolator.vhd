@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     One colour channel of a quadratic over the triangle, by second-order forward differences. edge_x and span_x are
---             interpolators: registers that start with a word and add what the arrow brings. a | b: b where the edge carries
+-- Purpose     One colour channel of a quadratic over the triangle, by second-order forward differences. edge_... and span_...
+--             are interpolators: registers that start with a word and add what the arrow brings. a | b: b where the edge carries
 --
 --               along the edge, one step per line                along the span, one step per pixel
 --
@@ -24,13 +24,15 @@
 --             de0e0 | de0e1  de0                line without | with carry                   2 (T5 A^2 + T4 A + T3)
 --             de0e1 | de1e1  de1                line without | with carry
 --             In preset published the edge steps by its real slope A, as in the paper, and does not carry: de1 and the
---             right-hand words do not exist.
+--             right-hand words do not exist. q: start_quotient of init; T2, T4, T5, A: the paper's coefficients and slope.
 -- Contract    line_load and line_step are never both '1', nor span_load and span_step. The words of init are skewed words
 --             (skew_pkg), part 0 in the clock of line_load
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits
--- Latency     g_parts clocks from a load or step to its value
+-- Latency     g_parts clocks from span_load or span_step to value; 1 clock from each load or step to part 0 of the
+--             interpolators that it changes
 -- Throughput  1 line and 1 pixel per clock
--- Error       0.15 of a colour step at most in preset exact, 16 in published: see intensity in formats_pkg
+-- Error       0.15 of a colour step at most in preset exact, 16 in published, without the
+--             rounding of the edge: see intensity in formats_pkg
 -- Source      quadratic paper, section 5 (the nested loops) and figure 6
 -- Golden twin model/golden/quadratic_interpolator.hpp
 
@@ -41,14 +43,14 @@ use work.formats_pkg.all;
 entity quadratic_interpolator is
   generic (
     g_exact : boolean  := true;
-    g_parts : positive := 1
+    g_parts : positive := 1 -- parts of each skewed word (skew_pkg)
   );
   port (
     clk        : in  std_logic;
     init       : in  std_logic_vector(init_channel_low(g_exact, 1) - init_channel_low(g_exact, 0) - 1 downto 0);
     line_load  : in  std_logic; -- take the channel's block of the init vector
     line_step  : in  std_logic; -- go to the next line
-    line_carry : in  std_logic; -- that step goes one pixel further
+    line_carry : in  std_logic; -- that step ends one pixel further right
     span_load  : in  std_logic; -- start the span at the edge
     span_step  : in  std_logic; -- go to the next pixel
     value      : out std_logic_vector(formats(g_exact).intensity.bits - 1 downto 0)
@@ -76,7 +78,7 @@ begin
 
   -- Hold the second differences of the triangle.
   constants_register : entity work.skewed_register
-    generic map (g_bits => c_bits, g_words => constants'length / c_bits, g_parts => g_parts) -- elaboration only
+    generic map (g_bits => c_bits, g_words => constants'length / c_bits, g_parts => g_parts) -- evaluated at elaboration
     port map (clk => clk, load => line_load, start => init(constants'range), value => constants);
 
   dxx   <= constants(c_init.dxx.high downto c_init.dxx.low);

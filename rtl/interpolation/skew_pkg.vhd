@@ -24,7 +24,7 @@ package body skew_pkg is
 
   function part_low (bits, parts, part : natural) return natural is
   begin
-    return part * bits / parts; -- elaboration only
+    return part * bits / parts; -- evaluated at elaboration
   end function;
 
 end package body;

@@ -24,7 +24,7 @@ entity z_interpolator is
     init       : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_load  : in  std_logic;                                                   -- take the init vector
     line_step  : in  std_logic;                                                   -- go to the next line
-    line_carry : in  std_logic;                                                   -- that step goes one pixel further
+    line_carry : in  std_logic;                                                   -- that step ends one pixel further right
     span_load  : in  std_logic;                                                   -- start the span at the edge
     span_step  : in  std_logic;                                                   -- go to the next pixel
     value      : out std_logic_vector(formats(g_exact).depth_sum.bits - 1 downto 0)

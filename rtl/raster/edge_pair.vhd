@@ -34,7 +34,7 @@ entity edge_pair is
     remaining      : out pixels_t; -- pixels after the one at start; undefined in an empty line
     empty          : out std_logic;
     backward       : out std_logic; -- spans run to smaller x
-    carry          : out std_logic -- the start edge's next step is one pixel longer than its quotient
+    carry          : out std_logic -- the start edge's next step ends one pixel further right than its quotient says
   );
 end entity;
 

@@ -31,7 +31,7 @@ entity edge_walker is
     load_carry     : in  std_logic;                                                      -- of the first step
     step           : in  std_logic; -- go to the next line
     x              : out std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
-    carry          : out std_logic -- the next step is one pixel longer than the quotient
+    carry          : out std_logic -- the next step ends one pixel further right than the quotient says
   );
 end entity;
 

@@ -26,7 +26,7 @@ package line_pkg is
     remaining : pixels_t; -- pixels after the one at start; undefined in an empty line
     empty     : std_logic; -- the line covers no pixel
     backward  : std_logic; -- spans run to smaller x
-    carry     : std_logic; -- the start edge's next step is one pixel longer than its quotient
+    carry     : std_logic; -- the start edge's next step ends one pixel further right than its quotient says
   end record;
 
   -- '1' where the condition is true.

@@ -21,19 +21,21 @@
 --
 --             The edge stage is one line ahead of the line stage, and that one line ahead of the span stage. So the
 --             next line, or triangle, is ready when a span ends, and an empty line is skipped while a span is drawn.
--- Init        preset exact: the start edge is the triangle's long one, spans run away from it (backward: to smaller x);
+-- Init        preset exact: the start edge is the one that spans all lines of the triangle, spans run away from it (backward: to smaller x);
 --             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
 --             edges stepped by a real slope, lines and spans inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
 --             fragment_ready are. fragment_ready = '0' stalls all stages that hold anything: x, y and triangle do not
---             change. init does not change from init_valid = '1' until it is taken. It may stay longer, until
---             line_load: no other one is taken before. A line leaves the line stage only where line_ready = '1': what
---             it needs besides the walker has come. line_held: the line stage holds a line.
+--             change. init does not change from init_valid = '1' until it is taken. It may stay unchanged after that, at
+--             most until line_load: the walker takes no other vector before. A line leaves the line stage only where
+--             line_ready = '1': everything else that the line needs, such as its line record, has arrived.
+--             line_held: the line stage holds a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load
 -- Throughput  with line_ready = '1' 1 fragment per clock, within and between spans and triangles. Exceptions: a triangle
 --             takes 2 clocks at least, and an empty line takes 1 clock if no span is drawn meanwhile.
--- Error       none in preset exact: a pixel belongs to the triangle by its centre, top-left rule
+-- Error       preset exact: none; a pixel belongs to the triangle by its centre, top-left rule. Preset published: x of an
+--             edge is off by at most 2**-7 pixels, see edge_x in formats_pkg
 -- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter); spherical paper, section 5, figure 13
 -- Golden twin model/golden/triangle_walker.hpp
 
@@ -53,11 +55,11 @@ entity triangle_walker is
     init_valid     : in  std_logic;
     init_ready     : out std_logic;
     init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
-    line_ready     : in  std_logic;                                                   -- the line may go on
-    line_held      : out std_logic;                                                   -- a line waits for line_ready
+    line_ready     : in  std_logic;                                                   -- the line may leave the line stage
+    line_held      : out std_logic;                                                   -- the line stage holds a line
     line_load      : out std_logic;                                                   -- begin the triangle
     line_step      : out std_logic;                                                   -- go to the next line
-    line_carry     : out std_logic;                                                   -- that step goes a pixel further
+    line_carry     : out std_logic;                                                   -- that step ends one pixel further right
     span_load      : out std_logic;                                                   -- begin the line
     span_step      : out std_logic;                                                   -- go to the next pixel
     fragment_valid : out std_logic;

@@ -13,7 +13,7 @@
 --             (g_channels = 1) red, green and blue are equal.
 --             fault stays '1' once a shadow counter has left its range. On a fault, discard all fragments.
 -- Formats     formats_pkg: depth, colour; processors_pkg gives the positions of the blocks of a vector
--- Latency     4 clocks from an accepted vector to its first object at the pipeline (its first line covering a pixel), 1
+-- Latency     4 clocks from a vector taken to its first object at the pipeline, if its first line covers a pixel, 1
 --             more with shadows; then that of shading_pipeline, and 1
 -- Throughput  that of shading_pipeline: in the unrolled form 1 fragment per clock, with no bubble between spans, lines
 --             and triangles. Exceptions: a triangle takes at least 2 clocks, a load takes 3 clocks, and a line without

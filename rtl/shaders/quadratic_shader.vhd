@@ -2,13 +2,11 @@
 --
 -- Purpose     The quadratic shader: one init vector per triangle in, one fragment per covered pixel out.
 --
---               init --> init_buffer --+--> walker --+--> strobes --> one clock --+
---                                      |             |                           v
---                                      |             |                     +-> depth -----------> z --+
---                                      +-- word_buffer --------------------+                          +--> queue --> fragment
---                                                    |                     +-> channels -> saturate --+
---                                                    |                                                |
---                                                    +--> triangle, y, x ----> positions -------------+
+--                                                +--> triangle, y, x --> positions --------------------+
+--                                                |                                                     |
+--           init --> init_buffer --+--> walker --+--> strobes --> 1 clock --+--> depth --------> z ----+--> queue --> fragment
+--                                  |                                        |                          |
+--                                  +--> word_buffer ------------------------+--> channels, saturate ---+
 --
 --             Only the walker waits when fragments are not taken. The stages after it never stall: the queue has a place for
 --             every pixel that the walker has started.
@@ -16,12 +14,13 @@
 --             red, green and blue are equal. With g_degree = 1 the colours are planes, as in Gouraud's shading: the words
 --             of second differences do not exist, and the fragments equal those of g_degree = 2 with zeros in these words.
 -- Formats     formats_pkg: init (header, then one block per channel), depth, colour
--- Latency     8 clocks from an init vector taken to the triangle's first fragment (its first line covering a pixel)
+-- Latency     8 clocks from an init vector taken to the triangle's first fragment, if its first line covers a pixel
 -- Throughput  1 fragment per clock, with no bubble between spans, lines and triangles. Exceptions: a triangle takes at
 --             least 2 clocks, and a line without a pixel takes 1 clock if no span is drawn meanwhile
 -- Error       preset exact: the colour is within 0.65 steps of the quadratic through the six samples (0.5 rounding,
---             0.15 differences), and depth within 0.69 of the triangle's plane. Within one step of 0 or of the largest
---             value the error is one step larger; setup avoids these values
+--             0.15 differences), and the depth within 0.69 depth steps of the triangle's plane. Where a depth is within one
+--             step of 0 or of the largest value, its error is one step larger; setup avoids these depths. Preset
+--             published: the colour is within 16.5 steps, without the rounding of the edges
 -- Source      quadratic paper, section 5 and figure 6
 -- Golden twin model/golden/quadratic_shader.hpp
 
@@ -131,7 +130,7 @@ architecture rtl of quadratic_shader is
   signal pixel_valid                  : std_logic;
   signal pixel, fragment              : fragment_t;
   signal pixel_word, fragment_word    : fragment_word_t;
-  signal room, queue_busy       : std_logic;
+  signal room, queue_busy             : std_logic;
 
 begin
 

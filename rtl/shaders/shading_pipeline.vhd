@@ -82,14 +82,14 @@ architecture rtl of shading_pipeline is
     if processor = 0 then
       return 0;
     end if;
-    return (processor - 1) / c_terms + 1; -- elaboration only
+    return (processor - 1) / c_terms + 1; -- evaluated at elaboration
   end function;
 
   function kind_of (processor : natural) return natural is
   begin
     if processor = 0 then
       return c_ambient;
-    elsif not g_specular or (g_diffuse and (processor - 1) mod c_terms = 0) then -- elaboration only
+    elsif not g_specular or (g_diffuse and (processor - 1) mod c_terms = 0) then -- evaluated at elaboration
       return c_diffuse;
     end if;
     return c_specular;

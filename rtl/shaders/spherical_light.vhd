@@ -4,8 +4,8 @@
 --               diffuse   a product per channel: the channel's term
 --               specular  a product per channel, or one product (g_highlight_channels = 1) that is the term of every
 --                         channel: a grey highlight
---             Hardware that no effect needs does not exist: there is no diffuse_slice without diffuse light and (preset
---             exact) without highlights, which need its horizon.
+--             Hardware that no effect needs does not exist. A diffuse_slice exists if there is diffuse light or, in
+--             preset exact, a highlight, which ends at the horizon that the diffuse_slice computes.
 -- Contract    span_load takes the light's part of the line record. span_step passes the pixel to the sample stage and
 --             advances the span to the next pixel. sample_step passes the pixel from the sample stage to the product
 --             stage. At least one of g_diffuse and g_specular is true.
@@ -40,7 +40,7 @@ entity spherical_light is
       - 1 downto 0);             -- of the line record
     span_load   : in  std_logic; -- start the line
     span_step   : in  std_logic; -- go to the next pixel
-    sample_step : in  std_logic;
+    sample_step : in  std_logic; -- pass the pixel to the product stage
     terms       : out std_logic_vector(light_terms(g_diffuse, g_specular) * g_channels * term_bits(g_exact, g_data_bits)
       - 1 downto 0)
   );
@@ -87,7 +87,7 @@ begin
           products    => products
           );
 
-        -- Without diffuse light the slice only computes the horizon.
+        -- Without diffuse light the slice computes the horizon, and its products are one word of zeros.
       diffuse_terms : if g_diffuse generate
 
         terms(products'range) <= products;

@@ -13,7 +13,7 @@
 --             spherical_pkg gives the positions of the lights' parts. With one channel (g_channels = 1) red, green and
 --             blue are equal.
 -- Formats     formats_pkg: init (header), ambient, diffuse, specular, depth, colour
--- Latency     11 clocks from an accepted header to the triangle's first fragment (its first line covering a pixel)
+-- Latency     11 clocks from a header taken to the triangle's first fragment, if its first line covers a pixel
 -- Throughput  1 fragment per clock, with no bubble between spans and lines. With line records, two clocks are lost
 --             between triangles if the last span has a single pixel, and one if it has two. Without line records, one
 --             clock is lost after a triangle of a single pixel. A line without a pixel costs one clock if no span is

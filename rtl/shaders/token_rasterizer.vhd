@@ -10,7 +10,7 @@
 -- Contract    Both streams are valid/ready. init_ready is '1' when the triangle's first line is loaded. init must be
 --             stable from the clock before, in which the walker reads it. A token does not change while it waits.
 -- Formats     init: processors_pkg, a triangle's vector; token: token_pkg, with the request's command
--- Latency     3 clocks from an offered vector to its first token (its first line covering a pixel)
+-- Latency     3 clocks from a vector offered (init_valid) to its first token, if its first line covers a pixel
 -- Throughput  1 token per clock, with no bubble between spans, lines and triangles. Exceptions: a triangle takes at
 --             least 2 clocks, and a line without a pixel takes 1 clock if no span is drawn meanwhile
 -- Error       see plane_sum in formats_pkg

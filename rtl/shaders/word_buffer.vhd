@@ -85,7 +85,7 @@ begin
   depth_words : entity work.skewed_register
     generic map (
       g_bits  => c_depth_bits,
-      g_words => (c_channels_low - c_depth_low) / c_depth_bits, -- elaboration only
+      g_words => (c_channels_low - c_depth_low) / c_depth_bits, -- evaluated at elaboration
       g_parts => g_parts)
     port map (
       clk   => clk,
@@ -96,7 +96,7 @@ begin
   channel_words : entity work.skewed_register
     generic map (
       g_bits  => c_value_bits,
-      g_words => (in_data'length - c_channels_low) / c_value_bits, -- elaboration only
+      g_words => (in_data'length - c_channels_low) / c_value_bits, -- evaluated at elaboration
       g_parts => g_parts)
     port map (
       clk   => clk,

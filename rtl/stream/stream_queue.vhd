@@ -39,7 +39,7 @@ end entity;
 architecture rtl of stream_queue is
 
   constant c_words_bits : positive := 64; -- Verilator copies so many bits as one word
-  constant c_words      : positive := (g_bits + c_words_bits - 1) / c_words_bits; -- elaboration only
+  constant c_words      : positive := (g_bits + c_words_bits - 1) / c_words_bits; -- evaluated at elaboration
 
   subtype index_t is unsigned(g_index_bits - 1 downto 0);
 
@@ -125,8 +125,8 @@ begin
 
   words : for word in 0 to c_words - 1 generate
 
-    constant c_low  : natural := word * g_bits / c_words; -- elaboration only
-    constant c_high : natural := (word + 1) * g_bits / c_words - 1; -- elaboration only
+    constant c_low  : natural := word * g_bits / c_words; -- evaluated at elaboration
+    constant c_high : natural := (word + 1) * g_bits / c_words - 1; -- evaluated at elaboration
 
     subtype word_t is std_logic_vector(c_high downto c_low);
 

@@ -92,9 +92,9 @@ void add(Figure7Trace& trace, const Stage& stage, std::span<const std::optional<
     return static_cast<std::uint32_t>(value.value_or(0));
   };
   if (stage.name == "line") {
-    trace.line["dI_start"].push_back(word("grey line_de0"));
-    trace.line["I_start"].push_back(word("grey line_value"));
-    trace.line["dI(X_start)"].push_back(word("grey line_dx"));
+    trace.line["dI_start"].push_back(word("grey edge_de0"));
+    trace.line["I_start"].push_back(word("grey edge_value"));
+    trace.line["dI(X_start)"].push_back(word("grey edge_dx"));
   } else if (stage.name == "span") {
     trace.pixel["dI(X,Y)"].push_back(word("grey span_dx"));
     trace.pixel["I(X,Y)"].push_back(word("grey span_value"));

@@ -107,7 +107,7 @@ class StagesOf : public ShaderStages {
       add("line_carry", c_flag, edges, [](const auto& s, SpanXWord) { return s.walker().carry(); },
           {dut(front + "line_carry")});
     add("line_z", c_depth<Walk>, within("z_interpolator", around),
-        [](const auto& s, SpanXWord) { return s.depth().line_value().bits(); },
+        [](const auto& s, SpanXWord) { return s.depth().edge_value().bits(); },
         {dut(front + "depth/depth/edge_value"), 0, depth_clocks, depth_clocks > 0});
   }
   template <class Walk>
@@ -180,11 +180,11 @@ class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channel
   QuadraticStages() {
     const std::string shader = "quadratic_shader";
     this->template add_line_stage<P>(shader, 1);
-    add_channels({{"line_value", "edge_value", &Channel::line_value}});
+    add_channels({{"edge_value", "edge_value", &Channel::edge_value}});
     if constexpr (Degree == 2)
-      add_channels({{"line_dx", "edge_dx", &Channel::line_dx}, {"line_de0", "edge_de0", &Channel::line_de0}});
+      add_channels({{"edge_dx", "edge_dx", &Channel::edge_dx}, {"edge_de0", "edge_de0", &Channel::edge_de0}});
     if constexpr (Degree == 2 && std::is_same_v<P, Exact>)
-      add_channels({{"line_de1", "edge_de1", &Channel::line_de1}});
+      add_channels({{"edge_de1", "edge_de1", &Channel::edge_de1}});
     this->template add_span_stage<P>(shader, 1);
     add_channels({{"span_value", "span_value", &Channel::value}, {"span_dx", "span_dx", &Channel::dx}});
     this->add_fragment_stage("saturate");

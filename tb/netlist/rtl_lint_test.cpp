@@ -50,8 +50,8 @@ bool has_word(std::string_view code, std::string_view word) {
 }
 
 /// All constructs are allowed above the architecture and inside a package: GHDL folds these constants, and
-/// they are not hardware. Other lines that are not hardware are marked with `-- elaboration only`.
-constexpr std::string_view c_elaboration_only = "-- elaboration only";
+/// they are not hardware. Other lines that are not hardware are marked with `-- evaluated at elaboration`.
+constexpr std::string_view c_elaboration_only = "-- evaluated at elaboration";
 /// Comments that make a synthesizer skip text. GHDL simulates exactly the text that is synthesized.
 constexpr std::array<std::string_view, 3> c_directives = {"translate_off", "synthesis_off", "pragma"};
 
@@ -146,7 +146,7 @@ TEST(RtlLint, SeesEachFault) {
                                          "  report \"a / b mod abs\";",
                                          "  x <= absolute;",
                                          "  signal edge_x : t;",
-                                         "  constant c : natural := n / 2; -- elaboration only",
+                                         "  constant c : natural := n / 2; -- evaluated at elaboration",
                                          "  x <= '/';",
                                          "  x <= shift_right(unsigned(y), 3);"};
   for (const std::string& line : good) EXPECT_EQ(faults_in("x.vhd", line).size(), 0U) << line;
