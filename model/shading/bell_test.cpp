@@ -489,7 +489,7 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
   }
   least_sum(1000);
   EXPECT_LE(most_bound, c_most * (1 + 1e-12));
-  // docs/accuracy.md lists the parts of the worst exponent.
+  // docs/accuracy.md states the worst exponent, its error and its fit.
   EXPECT_NEAR(worst.total(), 4.92, 0.005);
   EXPECT_NEAR(worst_exponent, 2.65, 0.005);
   EXPECT_NEAR(worst.fit, 3.14, 0.005);
