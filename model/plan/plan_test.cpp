@@ -58,8 +58,8 @@ const PlannedEffect& effect(const Plan& plan, Effect which) {
   const auto it = std::ranges::find(plan.effects, which, &PlannedEffect::effect);
   if (it != plan.effects.end()) return *it;
   ADD_FAILURE() << "no effect '" << to_string(which) << "'";
-  static const PlannedEffect none{};
-  return none;
+  static const PlannedEffect c_none{};
+  return c_none;
 }
 
 TEST(Plan, OneChannelIfEverythingVisibleIsGrey) {
