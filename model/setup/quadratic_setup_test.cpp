@@ -370,7 +370,7 @@ TEST(QuadraticSetup, SmallTrianglesHaveTheReferencesColours) {
     ASSERT_TRUE(all_are_small(triangles)) << frame.width;
     std::map<std::uint32_t, ScreenTriangle> by_source;
     for (const ScreenTriangle& t : triangles) ASSERT_TRUE(by_source.emplace(t.source, t).second);
-    const auto wrong = [&](const Fragment& f) {
+    const auto wrong = [&, &scene = scene](const Fragment& f) {
       const ScreenTriangle& t = by_source.at(f.triangle);
       const SurfacePoint p = surface_point(t, barycentric_at_centre(t, c_subpixel_bits, f.x, f.y));
       const glm::dvec3 r = radiance(scene, scene.materials[0], p.position_world, p.normal_world);
