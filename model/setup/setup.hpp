@@ -47,10 +47,8 @@ struct SphericalSetupOptions {
   SpanEnds ends = SpanEnds::on_surface;  ///< for preset exact; published always uses slerped_along_edges
   /// Preset exact, ends on the surface: colour steps of 1/255. If a span's interpolation differs more from
   /// the illumination model, the triangle is split into columns. The errors of fitted bells, tables and
-  /// rounding are additional. Short spans are checked at every pixel. Longer spans are checked at places
-  /// predicted from the angles at the ends, the turning of the surface, lights, horizons and spots. Of 44
-  /// million pixels of random scenes (lights of all kinds close to the surface, exponents 1 to 10^5) one
-  /// pixel exceeded the sum of all these errors, by 8 steps.
+  /// rounding are additional. A span is checked at every pixel unless a bound from its two ends is below the
+  /// threshold.
   double threshold = 2.0;
   /// Preset exact: the scene's bells (fitted_bells), for a scene that is drawn more than once. Without them
   /// the setup fits the bells, which takes milliseconds per bell.

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 
-#include "common/to_integer.hpp"
 #include "golden/triangle_walker.hpp"
 #include "scene/lights.hpp"
 #include "setup/arc.hpp"
@@ -300,15 +299,6 @@ class SphericalSetup::ExactTriangle {
   }
 
  private:
-  // Spans with at most this many steps are checked at every pixel.
-  static constexpr std::int64_t c_short_span = 16;
-  // Longer spans are checked at least at this many places, and twice per half bell, so that no highlight (one
-  // half bell on both sides of its peak) is missed.
-  static constexpr std::int64_t c_least_looks = 7;
-  static constexpr double c_looks_a_half_bell = 2.0;
-  // In each section of a spot's light (its edge, or full light): every pixel, or this many.
-  static constexpr std::int64_t c_spot_looks = 16;
-
   std::vector<Walk> walks_of(Columns columns) const {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
   }
@@ -416,31 +406,14 @@ class SphericalSetup::ExactTriangle {
     return surface_point(triangle_, barycentric_screen(triangle_, half_x << subpixel_bits_,
                                                        (2 * std::int64_t{y} + 1) << subpixel_bits_));
   }
-  // The surface from a span's first pixel (s = 0) to its last (s = 1), before normals are normalized: linear
-  // in s.
-  struct Chord {
-    glm::dvec3 position_world, position_ahead, normal_world, normal_ahead;
-    double first_inverse_w, last_inverse_w;
-    // Position along the span on the screen, 0 to 1.
-    double on_screen(double s) const {
-      return s * first_inverse_w / ((1.0 - s) * last_inverse_w + s * first_inverse_w);
-    }
-  };
-  Chord chord(const Span& at) const {
+  SurfaceEnd surface_end(std::int64_t x, std::uint32_t y) const {
     const auto& [a, b, c] = triangle_.vertex;
-    glm::dvec3 position[2], normal[2];
-    double inverse_w[2];
-    for (int i = 0; i < 2; ++i) {
-      glm::dvec3 weight =
-          barycentric_at_centre(triangle_, subpixel_bits_, i == 0 ? at.first : at.last, at.y) *
-          glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
-      inverse_w[i] = weight.x + weight.y + weight.z;
-      weight /= inverse_w[i];
-      position[i] = weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world;
-      normal[i] = weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world;
-    }
-    return {position[0], position[1] - position[0], normal[0], normal[1] - normal[0], inverse_w[0],
-            inverse_w[1]};
+    glm::dvec3 weight = barycentric_at_centre(triangle_, subpixel_bits_, x, y) *
+                        glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
+    const double inverse_w = weight.x + weight.y + weight.z;
+    weight /= inverse_w;
+    return {weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world,
+            weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world, inverse_w};
   }
 
   PointVectors vectors(const SurfacePoint& surface) const {
@@ -476,9 +449,7 @@ class SphericalSetup::ExactTriangle {
     if (at.steps() == 0) return 0.0;
     const bool specular = has_specular(material_);
     if (specular && material_.brdf != Brdf::blinn) return c_unknown;
-    const Chord c = chord(at);
-    const SurfaceEnd begin{c.position_world, c.normal_world, c.first_inverse_w},
-        end{c.position_world + c.position_ahead, c.normal_world + c.normal_ahead, c.last_inverse_w};
+    const SurfaceEnd begin = surface_end(at.first, at.y), end = surface_end(at.last, at.y);
     glm::dvec3 error(0.0);
     for (std::size_t i = 0; i < setup_.lights_.size(); ++i) {
       const Light& light = setup_.lights_[i];
@@ -506,131 +477,24 @@ class SphericalSetup::ExactTriangle {
     return std::min(steepest_slope_, material_.exponent * highlight_power(cosine, material_.exponent - 1.0));
   }
 
-  // True if a line's error is below the threshold at all places that are checked.
+  // True if a line's error is below the threshold at every pixel.
   bool interpolates_well(const Span& at, const SpanArcs& arcs) const {
-    if (at.steps() == 0) return true;
-    const std::vector<std::int64_t> places = places_to_look_at(arcs, at);
-    return std::all_of(places.begin(), places.end(), [&](std::int64_t i) {
+    const std::int64_t steps = at.steps();
+    if (steps == 0) return true;
+    // Skip the ends if the arcs have the surface's own vectors there.
+    const auto lights = std::span(arcs.light).first(setup_.lights_.size());
+    const bool exact_at_ends =
+        std::ranges::all_of(lights, [](const LightArcs& light) { return light.exact_at_ends; });
+    const std::int64_t first = exact_at_ends ? 1 : 0;
+    for (std::int64_t i = first; i <= steps - first; ++i) {
       ++counts_.shaded;
       const double t = arcs.first + static_cast<double>(i) * arcs.step;
-      return setup_.interpolation_error(material_, arcs, t, point(2 * (at.first + i * at.way()) + 1, at.y)) <=
-             setup_.options_.threshold;
-    });
-  }
-  // The pixels to check, counted from the span's first pixel.
-  std::vector<std::int64_t> places_to_look_at(const SpanArcs& arcs, const Span& at) const {
-    const std::int64_t steps = at.steps();
-    std::vector<std::int64_t> places;
-    const auto lights = std::span(arcs.light).first(setup_.lights_.size());
-    if (!std::all_of(lights.begin(), lights.end(),
-                     [](const LightArcs& light) { return light.exact_at_ends; }))
-      places.insert(places.end(), {0, steps});
-    if (steps <= c_short_span) {
-      for (std::int64_t i = 1; i < steps; ++i) places.push_back(i);
-      return places;
+      if (!(setup_.interpolation_error(material_, arcs, t, point(2 * (at.first + i * at.way()) + 1, at.y)) <=
+            setup_.options_.threshold))
+        return false;
     }
-    const auto add_about = [&](double t) {
-      if (!(t > 0.0 && t < 1.0)) return;
-      const auto before = to_integer<std::int64_t>(t * static_cast<double>(steps));
-      places.insert(places.end(), {before, std::min(steps, before + 1)});
-    };
-    double half_bells = 0.0;
-    for (std::size_t i = 0; i < setup_.lights_.size(); ++i) {
-      const LightArcs& light = arcs.light[i];
-      half_bells = std::max({half_bells, light.diffuse.sweep / c_half_bell,
-                             setup_.bells_[triangle_.material].scale * light.specular.sweep / c_half_bell});
-      // Check a highlight's peak and its steepest places, where a shift has the largest effect.
-      if (is_seen(light.specular.amplitude))
-        for (const double x : {-steepest_, 0.0, steepest_})
-          add_about((light.specular.phase + x) / light.specular.sweep);
-      // Check the light's horizon as drawn: there the highlight ends abruptly.
-      for (const double x : {-c_half_bell, c_half_bell})
-        add_about((light.diffuse.phase + x) / light.diffuse.sweep);
-    }
-    add_places_of_the_surface(chord(at), steps, places);
-    auto looks = std::max(c_least_looks, to_integer<std::int64_t>(c_looks_a_half_bell * half_bells) + 1);
-    looks = std::min(looks, steps - 1);
-    for (std::int64_t look = 1; look <= looks; ++look) places.push_back(look * steps / (looks + 1));
-    std::sort(places.begin(), places.end());
-    places.erase(std::unique(places.begin(), places.end()), places.end());
-    return places;
+    return true;
   }
-
-  // Adds places of changes that the arcs do not contain: fast turning directions, horizons, spots.
-  void add_places_of_the_surface(const Chord& c, std::int64_t steps,
-                                 std::vector<std::int64_t>& places) const {
-    const auto pixels = static_cast<double>(steps);
-    const auto add_about = [&](double s) {
-      if (!(s > 0.0 && s < 1.0)) return;
-      const auto before = to_integer<std::int64_t>(c.on_screen(s) * pixels);
-      places.insert(places.end(), {before, std::min(steps, before + 1)});
-    };
-    // The direction of start + s * ahead turns fastest where this vector is shortest. Most of its turn is
-    // within a few times that length.
-    const auto add_turn = [&](glm::dvec3 start, glm::dvec3 ahead) {
-      const double length = glm::length(ahead), s = -glm::dot(start, ahead) / (length * length),
-                   width = glm::length(start + s * ahead) / length;
-      if (!(width < 1.0)) return;
-      for (const double x : {-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0}) add_about(s + x * width);
-    };
-    add_turn(c.normal_world, c.normal_ahead);
-    if (has_specular(material_))
-      add_turn(c.position_world - setup_.scene_->camera.eye_world, c.position_ahead);
-    for (const Light& light : setup_.lights_) {
-      if (light.point.w == 0.0) {
-        const glm::dvec3& to_light = light.point.xyz_world;
-        add_about(-glm::dot(c.normal_world, to_light) / glm::dot(c.normal_ahead, to_light));
-        continue;
-      }
-      const glm::dvec3 from_light = c.position_world - light.point.xyz_world;
-      add_turn(from_light, c.position_ahead);
-      // N.L = 0.
-      for (const double s :
-           roots(glm::dot(c.normal_ahead, c.position_ahead),
-                 glm::dot(c.normal_ahead, from_light) + glm::dot(c.normal_world, c.position_ahead),
-                 glm::dot(c.normal_world, from_light)))
-        add_about(s);
-      if (light.cone) add_places_of_spot(*light.cone, from_light, c, steps, places);
-    }
-  }
-
-  // Adds places between each two changes of a spot's light, if the spot shines there.
-  void add_places_of_spot(const LightCone& spot, glm::dvec3 from_light, const Chord& c, std::int64_t steps,
-                          std::vector<std::int64_t>& places) const {
-    const glm::dvec3 ahead = c.position_ahead;
-    const double along = glm::dot(from_light, spot.axis_world),
-                 along_ahead = glm::dot(ahead, spot.axis_world);
-    const double d00 = glm::dot(from_light, from_light), d01 = glm::dot(from_light, ahead),
-                 d11 = glm::dot(ahead, ahead);
-    std::vector<double> turns = {0.0, 1.0};
-    // (along + s along_ahead)^2 = cos^2 |from_light + s ahead|^2
-    for (const double cosine : {spot.cos_outer, spot.cos_inner})
-      for (const double s :
-           roots(along_ahead * along_ahead - cosine * cosine * d11,
-                 2.0 * (along * along_ahead - cosine * cosine * d01), along * along - cosine * cosine * d00))
-        turns.push_back(s);
-    std::erase_if(turns, [](double s) { return !(s >= 0.0 && s <= 1.0); });
-    std::sort(turns.begin(), turns.end());
-    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
-      const glm::dvec3 there = from_light + 0.5 * (turns[i] + turns[i + 1]) * ahead;
-      if (cone_share(spot, glm::dot(there, spot.axis_world) / glm::length(there)) == 0.0) continue;
-      const auto pixels = static_cast<double>(steps);
-      const double from = std::floor(c.on_screen(turns[i]) * pixels),
-                   to = std::ceil(c.on_screen(turns[i + 1]) * pixels),
-                   way = std::max(1.0, (to - from) / static_cast<double>(c_spot_looks));
-      for (double place = from; place < to + way; place += way)
-        places.push_back(std::min(steps, to_integer<std::int64_t>(place)));
-    }
-  }
-
-  // Real roots of a s^2 + b s + c; without real roots, its extremum.
-  static std::array<double, 2> roots(double a, double b, double c) {
-    const double far = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4.0 * a * c)), b));
-    return {far / a, c / far};
-  }
-
-  // True if a highlight is bright enough there to be visible.
-  bool is_seen(double cosine) const { return highlight_power(cosine, material_.exponent) > 1.0 / 255.0; }
 
   static glm::dvec3 corner(std::size_t i) {
     glm::dvec3 barycentric(0.0);
@@ -647,7 +511,6 @@ class SphericalSetup::ExactTriangle {
   std::array<ScreenPoint, 3> corners_;
   std::array<PointVectors, 3> vertex_;
   std::optional<DepthFit> depth_;
-  double steepest_ = std::atan(1.0 / std::sqrt(material_.exponent));
   double steepest_slope_ = steepest_slope(material_.exponent);
   bool split_ = false;
 };
