@@ -155,7 +155,8 @@ class ProcessorsSetup final : public Setup {
         config_(processors_config(key)),
         layout_(config_),
         view_(scene.camera),
-        projector_(scene, frame, {.subpixel_bits = 4, .clip_to_frame = false}),
+        projector_(scene, frame,
+                   {.subpixel_bits = config_.shadows ? options.subpixel_bits : 4, .clip_to_frame = false}),
         lights_(reflected_lights(scene)),
         has_places_(
             std::any_of(lights_.begin(), lights_.end(), [&](LightRef light) { return has_place(light); })),

@@ -59,6 +59,11 @@ struct ProcessorsSetupOptions {
   /// Preset published: normalize N even if no light has a place, as in version II of the paper. The hardware
   /// must have the units for it.
   bool normalize = false;
+  /// With shadows: fraction bits of screen coordinates, 4 to c_max_subpixel_bits. Each vector then draws one
+  /// line and contains no slope of an edge, so the hardware is the same for all numbers of bits. More bits
+  /// make the edges of shadows more exact, but triangles no longer cover the same pixels as in the other
+  /// shaders.
+  int subpixel_bits = 4;
 };
 
 struct SetupOptions {

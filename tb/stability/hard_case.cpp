@@ -37,7 +37,8 @@ void HardCases::sweep(bool quick) {
   RecordProperty("published",
                  c.published == PublishedForm::silent ? "–" : fmt::format("{:.3g}", published.figure));
   RecordProperty("ours", fmt::format("{:.3g} of {:.3g} {}", ours.figure, ours.bound, c.unit) +
-                             without_ill_conditioned(c, trial));
+                             without_ill_conditioned(c, trial) +
+                             (trial.remark().empty() ? "" : "; " + trial.remark()));
   RecordProperty("figures", fmt::format("{}", ours.count + published.count));
   RecordProperty("fragments in golden, RTL",
                  fmt::format("{}, {}", trial.golden_fragments(), trial.rtl_fragments()));

@@ -16,14 +16,15 @@ long double colour_error(const Fragment& f, const LongVec& radiance) {
   return std::max({off.x, off.y, off.z});
 }
 
-Pieces::Pieces(const Scene& scene, FrameSize frame)
-    : pieces_(Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all()) {
+Pieces::Pieces(const Scene& scene, FrameSize frame, int subpixel_bits)
+    : subpixel_bits_(subpixel_bits),
+      pieces_(Projector(scene, frame, {.subpixel_bits = subpixel_bits}).project_all()) {
   std::ranges::stable_sort(pieces_, {}, &ScreenTriangle::source);
 }
 
 const ScreenTriangle* Pieces::covering(std::uint32_t source, std::int64_t x, std::int64_t y) const {
   for (const ScreenTriangle& t : std::ranges::equal_range(pieces_, source, {}, &ScreenTriangle::source))
-    if (covers(screen_points(t), c_subpixel_bits, x, y)) return &t;
+    if (covers(screen_points(t), subpixel_bits_, x, y)) return &t;
   return nullptr;
 }
 
@@ -32,7 +33,7 @@ const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std:
       std::ranges::equal_range(pieces_, source, {}, &ScreenTriangle::source), {},
       [&](const ScreenTriangle& t) {
         return std::ranges::min(
-            barycentric(screen_points(t), centre(x, c_subpixel_bits), centre(y, c_subpixel_bits)).real());
+            barycentric(screen_points(t), centre(x, subpixel_bits_), centre(y, subpixel_bits_)).real());
       });
 }
 

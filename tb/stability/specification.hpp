@@ -131,14 +131,15 @@ inline long double quadratic(const std::array<long double, 3>& barycentric,
          4 * (value[3] * a * b + value[4] * a * c + value[5] * b * c);
 }
 
-/// The surface at a pixel's centre, perspective-correct.
+/// A point of the surface, perspective-correct.
 struct ExactSurface {
   LongVec position_world, normal_world;  ///< the normal is not unit; it may vanish
   long double z;
 };
 
-inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t x, std::int64_t y) {
-  const auto screen = barycentric(screen_points(t), centre(x, unit_bits), centre(y, unit_bits)).real();
+/// The surface at a point of the screen in 1/2^(unit_bits + 1) pixels.
+inline ExactSurface exact_surface(const ScreenTriangle& t, Wide x_half, Wide y_half) {
+  const auto screen = barycentric(screen_points(t), x_half, y_half).real();
   ExactSurface s{LongVec(0), LongVec(0), 0};
   long double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -151,6 +152,11 @@ inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t
   s.position_world /= sum;
   s.normal_world /= sum;
   return s;
+}
+
+/// The surface at a pixel's centre.
+inline ExactSurface surface(const ScreenTriangle& t, int unit_bits, std::int64_t x, std::int64_t y) {
+  return exact_surface(t, centre(x, unit_bits), centre(y, unit_bits));
 }
 
 /// The unit normal at a pixel. If the interpolated normal is only rounding noise, returns the triangle's own.

@@ -126,7 +126,11 @@ class Trial {
   /// Draws hand-made vectors, in whole triangles, on hardware without a prologue.
   std::vector<Fragment> draw(const HardwareKey& key, std::span<const std::uint32_t> words);
 
+  /// Sets a sentence that the page gives with our figures.
+  void remark(std::string sentence) { remark_ = std::move(sentence); }
+
   const Worst& ours() const { return ours_; }
+  const std::string& remark() const { return remark_; }
   /// The figures of our form without the ill-conditioned ones.
   const Worst& well_conditioned() const { return well_conditioned_; }
   const Worst& published() const { return published_; }
@@ -152,7 +156,7 @@ class Trial {
   bool quick_;
   double conditioned_;
   Worst ours_, well_conditioned_, published_;
-  std::string failure_;
+  std::string failure_, remark_;
   Status tools_ = Ok{};
   std::set<std::string> hardware_;
   std::uint64_t golden_fragments_ = 0, rtl_fragments_ = 0;
