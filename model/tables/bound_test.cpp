@@ -26,7 +26,7 @@ TEST(Bound, FormulasAreReadAsTheyAreWritten) {
   EXPECT_EQ(value("2^-15"), 0x1p-15);
   EXPECT_EQ(value("1.5 * 10^2"), 150);
   EXPECT_EQ(value("sqrt(16) * u_long_name"), 28);
-  EXPECT_EQ(value("(1 + k + k * (k - 1) / 2) * u / 2"), (1 + 4095 + 4095 * 4094 / 2) * 0x1p-21);
+  EXPECT_EQ(value("(1 + k + k * (k - 1) / 2) * u / 2"), (1 + 4095 + 4095 * 4094 * 0.5) * 0x1p-21);
 }
 
 TEST(Bound, InvalidFormulasAreRefused) {

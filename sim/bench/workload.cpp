@@ -164,10 +164,11 @@ Scene many_spheres(std::uint64_t triangles) {
   scene.triangles.clear();
   for (std::uint64_t i = 0; i < triangles / c_each; ++i) {
     const std::uint64_t place = i * 61 % c_places;  // scattered
+    const std::uint64_t column = place % c_side, row = place / c_side, layer = i / c_places;
     // Spheres at one place almost coincide, so that all have the same size.
-    const glm::dvec3 centre(c_spacing * (static_cast<double>(place % c_side) - 0.5 * (c_side - 1)),
-                            c_spacing * (static_cast<double>(place / c_side) - 0.5 * (c_side - 1)),
-                            -0.02 * static_cast<double>(i / c_places));
+    const glm::dvec3 centre(c_spacing * (static_cast<double>(column) - 0.5 * (c_side - 1)),
+                            c_spacing * (static_cast<double>(row) - 0.5 * (c_side - 1)),
+                            -0.02 * static_cast<double>(layer));
     const auto first = static_cast<std::uint32_t>(scene.positions_world.size());
     for (const glm::dvec3& position : one.positions_world) scene.positions_world.push_back(position + centre);
     for (SceneTriangle triangle : one.triangles) {

@@ -48,7 +48,7 @@ class GhdlRunner {
                       const GhdlRunOptions& options = {}) const;
 
  private:
-  GhdlRunner(HardwareKey key, GhdlLibrary library) : key_(std::move(key)), library_(std::move(library)) {}
+  GhdlRunner(const HardwareKey& key, GhdlLibrary library) : key_(key), library_(std::move(library)) {}
   HardwareKey key_;
   GhdlLibrary library_;
 };
