@@ -243,6 +243,7 @@ evidence: configure ## measure the stale rows of the pages of evidence again: ac
 	@end=0; build/tb/halfway_bounds --gtest_brief=1 --evidence=stale || end=$$?; \
 	build/tb/halfway_accuracy --gtest_brief=1 --evidence=stale || end=$$?; \
 	tb/examples/transcripts.sh write "$$(pwd -P)/build/halfway" "$$(pwd -P)" "$$(pwd -P)/build/tb/transcripts" || end=$$?; \
+	tb/examples/block_clocks.sh write "$$(pwd -P)" "$$(pwd -P)/build/tb/block_clocks" || end=$$?; \
 	$(call sweep,stale) || end=$$?; \
 	build/tb/halfway_proofs --evidence stale . build/proofs || end=$$?; \
 	build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants || end=$$?; \
