@@ -20,7 +20,7 @@ struct CosineTable {
   std::span<const std::uint16_t> entries;
 };
 
-// The size that is used where none is asked for.
+// The default size.
 inline constexpr CosineSize c_exact_cosine_size{9, 8};
 inline constexpr CosineSize c_published_cosine_size{6, 6};
 

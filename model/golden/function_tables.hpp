@@ -138,7 +138,7 @@ inline constexpr std::array<std::uint32_t, 64> c_published_decay_values = {
     129
 };
 
-// Added to twice a root after a Newton step, in units of 2^-23: half of what the step falls short at most.
+// Added to twice a root after a Newton step, in units of 2^-23: half of its largest shortfall.
 inline constexpr std::uint32_t c_exact_root_raise = 17;
 inline constexpr std::uint32_t c_published_root_raise = 1064;
 

@@ -142,7 +142,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       "  type cosine_table_t is array (natural range <>) of natural;\n\n"
       "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
       "cosine_table_t;\n\n"
-      "  -- The size that is used where none is asked for.\n"
+      "  -- The default size.\n"
       "  function cosine_address_bits (exact : boolean) return positive;\n\n"
       "  function cosine_data_bits (exact : boolean) return positive;\n\n"
       "end package;\n\npackage body cosine_pkg is\n\n",
@@ -195,7 +195,7 @@ std::string cosine_cpp_header(const CosineSizes& sizes) {
       "struct CosineSize {{\n  int address_bits, data_bits;\n}};\n\n"
       "struct CosineTable {{\n  bool exact;\n  int power, address_bits, data_bits;\n"
       "  std::span<const std::uint16_t> entries;\n}};\n\n"
-      "// The size that is used where none is asked for.\n",
+      "// The default size.\n",
       c_notice);
   auto to = std::back_inserter(out);
   for (const bool exact : {true, false}) {

@@ -142,8 +142,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
       "  type function_table_t is array (natural range <>) of natural;\n\n"
       "  function function_format (exact : boolean; which : natural) return function_format_t;\n\n"
       "  function function_table (exact : boolean; which : natural) return function_table_t;\n\n"
-      "  -- Added to twice a root after a Newton step, in units of 2**-23: half of what the step falls short "
-      "at most.\n"
+      "  -- Added to twice a root after a Newton step, in units of 2**-23: half of its largest shortfall.\n"
       "  function root_raise (exact : boolean) return natural;\n\n"
       "end package;\n\npackage body function_pkg is\n\n";
   for (const FunctionTable& table : tables)
@@ -200,8 +199,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
         to_string(table.error), table.values.size(), constant_name(table),
         wrapped_numbers(table.values, "    ", 110));
   out +=
-      "\n// Added to twice a root after a Newton step, in units of 2^-23: half of what the step falls short "
-      "at most.\n";
+      "\n// Added to twice a root after a Newton step, in units of 2^-23: half of its largest shortfall.\n";
   for (const FunctionTable& table : tables)
     if (table.function == Function::reciprocal_root)
       fmt::format_to(to, "inline constexpr std::uint32_t c_{}_root_raise = {};\n", preset_name(table.exact),

@@ -9,7 +9,7 @@ package cosine_pkg is
 
   function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return cosine_table_t;
 
-  -- The size that is used where none is asked for.
+  -- The default size.
   function cosine_address_bits (exact : boolean) return positive;
 
   function cosine_data_bits (exact : boolean) return positive;

@@ -22,7 +22,7 @@ package function_pkg is
 
   function function_table (exact : boolean; which : natural) return function_table_t;
 
-  -- Added to twice a root after a Newton step, in units of 2**-23: half of what the step falls short at most.
+  -- Added to twice a root after a Newton step, in units of 2**-23: half of its largest shortfall.
   function root_raise (exact : boolean) return natural;
 
 end package;

@@ -60,7 +60,7 @@ Finding angle(const Context& context, const tables::PresetFormats&, const tables
                                                "{{ K in [0, {}] -> |(a + K * s) - (A + K * S)| <= {} }}\n"
                                                "(a + K * s) - (A + K * S) -> (a - A) + K * (s - S);\n",
                                                format.fraction_bits, c_steps, bound.value));
-  if (said && !said->empty()) finding.failure = "Gappa cannot show it: " + *said;
+  if (said && !said->empty()) finding.failure = "Gappa does not prove it: " + *said;
   if (said && said->empty()) finding.proved = bound.value;
   return finding;
 }

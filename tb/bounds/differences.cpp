@@ -200,7 +200,7 @@ void prove(const Context& context, const std::string& script, double limit, Find
   if (said->empty())
     finding.proved = limit;
   else
-    finding.failure = "Gappa cannot show it: " + *said;
+    finding.failure = "Gappa does not prove it: " + *said;
 }
 
 constexpr double c_lines = c_side - 1, c_pixels = c_side - 1, c_carries = c_side - 1;

@@ -37,7 +37,7 @@ Finding largest_pixel(const Context&, const tables::PresetFormats&, const tables
   Finding finding;
   const auto see = [&](std::int64_t pixel, const char* what, std::array<ScreenPoint, 3> p) {
     if (pixel < -(std::int64_t{1} << format.integer_bits) || pixel >= std::int64_t{1} << format.integer_bits)
-      finding.failure = fmt::format("{} is not held", pixel);
+      finding.failure = fmt::format("{} is not clamped", pixel);
     if (std::abs(static_cast<double>(pixel)) <= finding.worst) return;
     finding.worst = std::abs(static_cast<double>(pixel));
     finding.where = fmt::format("{}, triangle ({}, {}) ({}, {}) ({}, {}) / 16", what, p[0].x, p[0].y, p[1].x,
@@ -70,7 +70,7 @@ Finding largest_divisor(const Context&, const tables::PresetFormats&, const tabl
       finding.worst = std::max({finding.worst, static_cast<double>(s.divisor), static_cast<double>(s.error)});
   finding.where = "an edge from line -2048 to 6143";
   finding.proved = (c_guard_end - c_guard_begin) * double{c_unit};
-  if (finding.proved >= std::ldexp(1.0, format.integer_bits)) finding.failure = "it is not held";
+  if (finding.proved >= std::ldexp(1.0, format.integer_bits)) finding.failure = "it is not clamped";
   return finding;
 }
 
@@ -98,12 +98,13 @@ std::vector<Check> integer_checks() {
       limit("both", "command", static_cast<double>(golden::Command::shadow), "Command::shadow"),
       limit("both", "light", c_most_lights, "c_most_lights"),
       {"both", "shadow_count", "", "the golden counter past its ends", deepest_count},
-      {"exact", "edge_error", "", "an edge as high as the guard band", largest_divisor, "17 bits would do"},
+      {"exact", "edge_error", "", "an edge with the height of the guard band", largest_divisor,
+       "17 bits suffice"},
       {"exact", "edge_x", "", "triangles about the guard band, walked", largest_pixel},
       limit("exact", "power", std::countr_zero(16U), "cos^16 is word 4"),
       limit("exact", "light_shift",
             static_cast<double>(golden::low_bits(~0ULL, golden::Exact::c_light_shift_bits)),
-            "setup draws what is farther as a light at infinity"),
+            "setup draws lights farther away as directional"),
       limit("published", "offset", 4 - std::ldexp(1.0, -golden::Published::c_offset_fraction_bits),
             "the eye's vector at its largest, a light's place at 1, a point at -1"),
       limit("published", "edge_error", 0, "no bits"),

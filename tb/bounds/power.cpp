@@ -202,7 +202,7 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
                   "F - g -> d * rise;\nd -> (O - o) * s + (o * s - t);\nf - F -> (f - g) - (F - g);\n",
                   c_sum, SpotCone<P>::c_over_fraction, weight, weight, bound.value));
   if (said && said->empty()) finding.proved = bound.value;
-  if (said && !said->empty()) finding.failure = "Gappa cannot show it: " + *said;
+  if (said && !said->empty()) finding.failure = "Gappa does not prove it: " + *said;
   return finding;
 }
 
@@ -228,7 +228,7 @@ Finding diffuse(const Context&, const tables::PresetFormats&, const tables::Form
 
 std::vector<Check> power_checks() {
   return {
-      {"exact", "weight", "power", "intervals over cells and exponents; a search uphill", power<Exact>},
+      {"exact", "weight", "power", "intervals over cells and exponents; hill climbing", power<Exact>},
       {"published", "weight", "power", "every base, every exponent", power<Published>},
       {"exact", "weight", "spot", "Gappa; a random search", spot<Exact>},
       {"published", "weight", "spot", "Gappa; a random search", spot<Published>},

@@ -107,7 +107,7 @@ Finding over_scenes(const Context& context, const tables::Format& format, See&& 
     const RandomScene random(static_cast<std::uint64_t>(i));
     const SetupWords<P> words = setup_words<P>(random.scene);
     if (words.lights.size() != 13) {
-      finding.failure = "the scene's lights did not come out";
+      finding.failure = "the set-up did not output the lights of the scene";
       return finding;
     }
     see(seen, random.scene, words);
@@ -295,8 +295,8 @@ std::vector<Check> setup_checks() {
       {"published", "exponent", "", c_scenes, exponent<Published>},
       {"exact", "exponent", "highlight", "derivation; the least exponents", exponent<Exact>},
       {"published", "exponent", "highlight", "derivation; the least exponents", exponent<Published>},
-      {"exact", "vector", "", "every rest that is cut", vector<Exact>},
-      {"published", "vector", "", "every rest that is cut", vector<Published>},
+      {"exact", "vector", "", "every fraction that is cut", vector<Exact>},
+      {"published", "vector", "", "every fraction that is cut", vector<Published>},
       {"exact", "factor", "", c_scenes, factor<Exact>},
       {"published", "factor", "", c_scenes, factor<Published>},
   };

@@ -24,8 +24,9 @@ Finding colour_range(const Context&, const tables::PresetFormats&, const tables:
       sum.result(16, Exact::c_colour_bits),
       golden::saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(
           Value::from_bits(~std::uint64_t{0} >> (65 - Exact::c_intensity_bits))));
-  return {
-      .worst = double(most), .where = "the largest sum and the largest value, held", .proved = double(most)};
+  return {.worst = double(most),
+          .where = "the largest sum and the largest value, clamped",
+          .proved = double(most)};
 }
 
 // The half step that setup adds to the value, and the cut of the result: every fraction of preset published;
@@ -53,7 +54,7 @@ Finding depth_range(const Context&, const tables::PresetFormats&, const tables::
                     const tables::Bound&) {
   const double most = std::ldexp(1.0, format.integer_bits) - 1;
   return {.worst = most - 1,
-          .where = "the far plane, held a step clear of the end, drawn half a step and 0.19 deeper",
+          .where = "the far plane, clamped to one step below the end, plus half a step and an error of 0.19",
           .proved = most};
 }
 
@@ -189,7 +190,7 @@ Finding radiance(const Context&, const tables::PresetFormats&, const tables::For
 
 std::vector<Check> sum_checks() {
   return {
-      {"both", "colour", "", "the golden sums, held", colour_range},
+      {"both", "colour", "", "the golden sums, clamped", colour_range},
       {"both", "colour", "rounded", "every fraction of preset published", colour_rounded},
       {"both", "depth", "", "the program's own limits", depth_range},
       {"both", "depth", "rounded", "every fraction", depth_rounded},

@@ -219,7 +219,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
         others.where = finding.table + ", " + finding.where;
       }
   others.table = fmt::format("{} sizes and powers, 3/2 to 12/12 bits", count);
-  others.where += fmt::format("; in none less than {:.2f}", farthest_away);
+  others.where += fmt::format("; the smallest share of the bound is {:.2f}", farthest_away);
   findings.push_back(others);
   return findings;
 }
