@@ -200,14 +200,14 @@ void powers_of(Trial& trial) {
       bases.push_back(std::min<std::int64_t>(
           Power::c_one / 2 + (cell << (Power::c_base_fraction - 1 - cells)) + offset, Power::c_one));
   for (int i = 0; i < 40; ++i) bases.push_back(Power::c_one - i);
-  const auto held = [](std::int64_t m) {
+  const auto clamped = [](std::int64_t m) {
     return std::min<std::int64_t>(m, (std::int64_t{1} << P::c_exponent_bits) - 1);
   };
   std::vector<std::int64_t> exponents = {0, 1};
   const std::int64_t one = std::int64_t{1} << P::c_exponent_fraction_bits;
   for (const std::int64_t m : {1, 2, 3, 5, 20, 63, 64, 65, 1000, 1023, 4096, 8191})
-    for (const std::int64_t offset : {-1, 0, 1}) exponents.push_back(held(m * one + offset));
-  exponents.push_back(held(std::numeric_limits<std::int32_t>::max()));
+    for (const std::int64_t offset : {-1, 0, 1}) exponents.push_back(clamped(m * one + offset));
+  exponents.push_back(clamped(std::numeric_limits<std::int32_t>::max()));
   for (const std::int64_t m : exponents)
     for (const std::int64_t base : bases) {
       const long double exponent = real(m, P::c_exponent_fraction_bits),
@@ -374,29 +374,28 @@ void shifts(Trial& trial) {
 }
 
 constexpr HardCase c_cases[] = {
-    {"roots", "1/sqrt at the borders of its cells", "processors, section 3.3: a table of 1/sqrt(x)",
+    {"roots", "1/sqrt at the ends of table cells", "processors, section 3.3: a table of 1/sqrt(x)",
      "512 entries and a Newton step", "within 2^-19", "relative error", PublishedForm::breaks, roots},
-    {"unit_vectors", "Vectors of one last place, and the least there are",
+    {"unit_vectors", "Vectors that differ by one unit, and the smallest vectors",
      "processors, figure 2: N/abs(N) in fixed point", "a block shift before the square",
      "a unit vector within 2^-19", "length of the difference", PublishedForm::breaks, unit_vectors},
-    {"powers", "Powers of 0, of 1 and close to 1, exponents to 8191",
-     "processors, section 3.1: the power by a table", "log2 and 2^-x interpolated", "within 2^-15 + m 2^-23",
-     "of the peak", PublishedForm::breaks, powers},
-    {"cosines", "N.L and N.H out of [0, 1] by rounding",
-     "processors, section 2: N.A of vectors that are not quite unit", "0 below 0, 1 above 1, rounded",
-     "within half a last place", "2^-22", PublishedForm::breaks, cosines},
-    {"products", "−2^k times −2^k", "a product of two words in twice their bits",
-     "a sum of products has one bit more", "exact", "products that are wrong", PublishedForm::silent,
+    {"powers", "Powers of 0, of 1 and of bases close to 1, exponents up to 8191",
+     "processors, section 3.1: the power by a table", "log2 and 2^-x by interpolated tables",
+     "within 2^-15 + m 2^-23", "of the peak", PublishedForm::breaks, powers},
+    {"cosines", "N.L and N.H outside [0, 1] by rounding",
+     "processors, section 2: N.A of vectors whose length is not exactly 1", "clamped to [0, 1], rounded",
+     "within half a unit", "2^-22", PublishedForm::breaks, cosines},
+    {"products", "−2^k times −2^k", "a product of two words with twice their bits",
+     "a sum of products has one more bit", "exact", "products that are wrong", PublishedForm::silent,
      products},
-    {"ties", "Halves, above and below zero", "rounding away from zero",
-     "halves go up, so that a sum of 1/2 rounds", "floor(x + 1/2)", "values that are wrong",
+    {"ties", "Rounding of positive and negative halves", "rounding away from zero",
+     "halves are rounded up, so adding 1/2 and cutting rounds", "floor(x + 1/2)", "values that are wrong",
      PublishedForm::silent, ties},
-    {"saturation", "Sums past a colour's ends", "the lowest eight bits of a sum",
-     "saturation of the last step alone", "between 0 and 255", "colour steps", PublishedForm::silent,
-     saturation},
+    {"saturation", "Sums out of the range of a colour", "takes the lowest eight bits of a sum",
+     "only the last step saturates", "between 0 and 255", "colour steps", PublishedForm::silent, saturation},
     {"shifts", "Signed shifts by 0 to 31",
-     "numeric_std's shift_right, through GHDL's synthesis a logical shift", "sign bits set by hand",
-     "the illumination model within the units' errors", "colour steps", PublishedForm::silent, shifts},
+     "shift_right of numeric_std becomes a logical shift in GHDL's netlist", "sign bits are concatenated",
+     "the illumination model, within the errors of the units", "colour steps", PublishedForm::silent, shifts},
 };
 
 INSTANTIATE_TEST_SUITE_P(arithmetic, HardCases, testing::ValuesIn(c_cases), id_of);

@@ -147,13 +147,13 @@ void wide_slivers(Trial& trial) {
                            static_cast<std::int32_t>(y + reach * dy)};
       };
       const ScreenPoint a = end(std::cos(turn), std::sin(turn)), b = end(-std::cos(turn), -std::sin(turn));
-      const auto held = [](double v) {
+      const auto clamped = [](double v) {
         return static_cast<std::int32_t>(std::clamp<double>(v, c_guard_begin * 16, c_guard_end * 16));
       };
       const double t = random.within(0, 64) / 64.0;
       const int off = i % 2 == 0 ? 1 : 20;
-      const ScreenPoint c{held(a.x + t * (b.x - a.x) + random.within(-off, off)),
-                          held(a.y + t * (b.y - a.y) + random.within(-off, off))};
+      const ScreenPoint c{clamped(a.x + t * (b.x - a.x) + random.within(-off, off)),
+                          clamped(a.y + t * (b.y - a.y) + random.within(-off, off))};
       shapes.push_back(shape_of({a, b, c}));
     }
     cover_exact(trial, shapes, frame);
@@ -394,46 +394,54 @@ void near_plane(Trial& trial) {
   }
 }
 
-constexpr std::string_view c_ends =
-                               "quadratic, section 5: real slopes, spans and lines inclusive at both ends",
-                           c_integers = "edges by quotient and remainder, the top-left rule at pixel centres",
-                           c_once = "pixels drawn = pixels covered";
+constexpr std::string_view
+    c_ends = "quadratic, section 5: edges step by rounded slopes; spans and lines include both ends",
+    c_integers = "edges step by integer quotient and remainder; top-left rule at pixel centres",
+    c_once = "pixels drawn = pixels covered";
 
 constexpr HardCase c_cases[] = {
     {"on_centres", "Vertices on pixel centres", c_ends, c_integers, c_once, "pixels", PublishedForm::breaks,
      random_ones<TriangleKind::on_centres>},
-    {"horizontal_edge", "Horizontal edges", "quadratic, section 5: slope A = dX/dY, 1/0 on a level edge",
-     c_integers, c_once, "pixels", PublishedForm::breaks, random_ones<TriangleKind::horizontal_edge>},
-    {"a_line_high", "Triangles a line high", c_ends, c_integers, c_once, "pixels", PublishedForm::breaks,
+    {"horizontal_edge", "Horizontal edges",
+     "quadratic, section 5: the slope A = dX/dY is 1/0 for a horizontal edge", c_integers, c_once, "pixels",
+     PublishedForm::breaks, random_ones<TriangleKind::horizontal_edge>},
+    {"a_line_high", "Triangles of one line", c_ends, c_integers, c_once, "pixels", PublishedForm::breaks,
      a_line_high},
-    {"subpixel", "Triangles within a pixel", "quadratic, section 5: vertices are pixels",
-     "vertices in 1/16 pixel", c_once, "pixels", PublishedForm::breaks, random_ones<TriangleKind::subpixel>},
+    {"subpixel", "Triangles within a pixel", "quadratic, section 5: vertices are whole pixels",
+     "vertices are multiples of 1/16 pixel", c_once, "pixels", PublishedForm::breaks,
+     random_ones<TriangleKind::subpixel>},
     {"small", "Triangles of a few pixels", c_ends, c_integers, c_once, "pixels", PublishedForm::breaks,
      random_ones<TriangleKind::small>},
-    {"slivers", "Slivers 1/16 pixel thick over 4096",
-     "quadratic, section 5: vertices are pixels; section 3: D near 0", c_integers, c_once, "pixels",
-     PublishedForm::breaks, slivers},
-    {"no_area", "No area",
-     "quadratic, section 3: divides by D = X2 Y3 - Y2 X3 = 0; vertices are pixels: not of one line",
-     "no pixel's centre lies in it, and nothing is set up", c_once, "pixels", PublishedForm::breaks, no_area},
-    {"neighbours", "Triangles around a corner", c_ends, "a centre on an edge belongs to one side",
-     "each pixel once", "pixels", PublishedForm::breaks, neighbours},
-    {"t_junctions", "A split triangle next to a whole one, levels 1 to 5",
-     "quadratic, section 4: midpoints become pixels, and leave the edge",
-     "a bit more for each level: midpoints stay on the edge", "each pixel once (published: no cracks)",
-     "pixels", PublishedForm::breaks, t_junctions},
-    {"guard_band", "Corners at the guard band", "quadratic, section 5: the frame cuts",
-     "13 bits of pixels, held at the frame's sides", c_once, "pixels", PublishedForm::silent, guard_band},
-    {"wide_ones", "Triangles across the guard band", "quadratic, section 5: the frame cuts",
-     "at most three walks, each within the frame", c_once, "pixels", PublishedForm::silent, wide_ones},
-    {"wide_slivers", "Slivers across the guard band", "quadratic, section 5: the frame cuts",
-     "at most three walks, each within the frame", c_once, "pixels", PublishedForm::silent, wide_slivers},
-    {"fractional_edges", "Fractional edges", "quadratic, section 5: I steps by the real slope A, to X_start",
-     "differences for the edge's whole step and for its carry", "colour at the pixel's centre", "steps",
-     PublishedForm::breaks, fractional_edges},
-    {"near_plane", "A floor through the near plane", "x/w with w <= 0",
-     "cut at the near plane, each edge in one order", "each pixel of the floor once, but for its outline",
-     "pixels", PublishedForm::breaks, near_plane},
+    {"slivers", "Slivers 1/16 pixel thick and 4096 pixels long",
+     "quadratic, section 5: vertices are whole pixels; section 3: D is close to 0", c_integers, c_once,
+     "pixels", PublishedForm::breaks, slivers},
+    {"no_area", "Triangles without area", "quadratic, section 3: divides by D = X2 Y3 - Y2 X3 = 0",
+     "the triangle covers no pixel centre, so the set-up outputs no init vector", c_once, "pixels",
+     PublishedForm::breaks, no_area},
+    {"neighbours", "Triangles around a common vertex", c_ends,
+     "a pixel centre on an edge belongs to one of the two triangles", "each pixel is drawn once", "pixels",
+     PublishedForm::breaks, neighbours},
+    {"t_junctions", "A split triangle next to an unsplit one, levels 1 to 5",
+     "quadratic, section 4: midpoints are rounded to whole pixels, so they are not on the edge",
+     "one more fraction bit per level, so midpoints stay on the edge",
+     "each pixel is drawn once (published: no cracks)", "pixels", PublishedForm::breaks, t_junctions},
+    {"guard_band", "Vertices at the guard band", "quadratic, section 5: triangles are clipped at the frame",
+     "13 bits for pixels, clamped to the frame", c_once, "pixels", PublishedForm::silent, guard_band},
+    {"wide_ones", "Triangles across the guard band",
+     "quadratic, section 5: triangles are clipped at the frame",
+     "at most three init vectors, each within the frame", c_once, "pixels", PublishedForm::silent, wide_ones},
+    {"wide_slivers", "Slivers across the guard band",
+     "quadratic, section 5: triangles are clipped at the frame",
+     "at most three init vectors, each within the frame", c_once, "pixels", PublishedForm::silent,
+     wide_slivers},
+    {"fractional_edges", "Fractional edges",
+     "quadratic, section 5: I steps by the slope A, which is no integer, to X_start",
+     "separate differences for the integer step of the edge and for its carry",
+     "the colour at the pixel's centre", "steps", PublishedForm::breaks, fractional_edges},
+    {"near_plane", "A floor that crosses the near plane", "division x/w with w <= 0",
+     "clipping at the near plane; the two triangles of an edge clip it in the same order of its ends",
+     "each pixel of the floor is drawn once, except on its outline", "pixels", PublishedForm::breaks,
+     near_plane},
 };
 
 INSTANTIATE_TEST_SUITE_P(edges, HardCases, testing::ValuesIn(c_cases), id_of);

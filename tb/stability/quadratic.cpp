@@ -110,7 +110,7 @@ constexpr std::array c_words = {&QuadraticWords::value, &QuadraticWords::dx,    
 int hold_words(const ScreenPiece& piece, FrameSize frame, std::vector<std::uint32_t>& words) {
   constexpr std::size_t c_vector_words = (Exact::c_init_header_bits + Exact::c_init_channel_bits + 31) / 32;
   constexpr Int128 c_most = Int128{1} << (Exact::c_intensity_bits - 1);
-  int held = 0;
+  int clamped = 0;
   std::size_t low = words.size();
   append_exact(piece, 0, frame, words);
   const auto sample = [&](std::size_t i) { return fixed(piece.sample[i], Exact::c_intensity_fraction_bits); };
@@ -120,13 +120,13 @@ int hold_words(const ScreenPiece& piece, FrameSize frame, std::vector<std::uint3
                                         difference_start(walk), half(Exact::c_intensity_fraction_bits));
     for (std::size_t i = 0; i < c_words.size(); ++i) {
       const Int128 word = w.*c_words[i], kept = std::clamp(word, -c_most, c_most - 1);
-      held += kept != word;
+      clamped += kept != word;
       golden::set_bits(std::span(words).subspan(low, c_vector_words), Exact::c_init_channel[i],
                        static_cast<std::uint64_t>(kept), Exact::c_init_header_bits);
     }
     low += c_vector_words;
   }
-  return held;
+  return clamped;
 }
 
 void sliver_colours(Trial& trial) {
@@ -149,8 +149,7 @@ void sliver_colours(Trial& trial) {
     if (wrapped == 10) break;
   }
   trial.require(wrong > 0, [&] {
-    return fmt::format("{} slivers have words that wrap, {} of them come out wrong when held", wrapped,
-                       wrong);
+    return fmt::format("{} slivers have words that wrap, {} of them are wrong when clamped", wrapped, wrong);
   });
 }
 
@@ -350,7 +349,7 @@ void between_samples(Trial& trial) {
 void overexposed(Trial& trial) {
   constexpr FrameSize c_patch_frame{80, 80};
   RandomPatches random(10);
-  std::uint64_t held = 0;
+  std::uint64_t clamped = 0;
   for (int i = 0; i < trial.rounds(10, 600); ++i) {
     Patch patch = random.highlighted(c_patch_frame);
     const double bright = std::exp(random.within(std::log(4.1), std::log(1e12)));
@@ -359,13 +358,13 @@ void overexposed(Trial& trial) {
     for (const Preset preset : {Preset::exact, Preset::published}) {
       DrawOptions options{.plan = {.preset = preset}, .frame = c_patch_frame};
       const Drawing drawing = trial.draw(patch.scene, options);
-      held += drawing.counts.overexposed;
+      clamped += drawing.counts.overexposed;
       for (const Fragment& f : drawing.fragments)
         trial.measure(preset, 255 - std::min({f.red, f.green, f.blue}), 0,
                       [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
     }
   }
-  trial.require(held > 0, [] { return std::string("no sample is held"); });
+  trial.require(clamped > 0, [] { return std::string("no sample is clamped"); });
 }
 
 // Pieces of all levels with samples on one quadratic. They must draw that quadratic, split or not.
@@ -409,41 +408,44 @@ void split_alike(Trial& trial) {
     }
 }
 
-constexpr std::string_view c_colour = "the quadratic at the pixel's centre, rounding and drift",
-                           c_bits =
-                               "quadratic, section 5: b > log2 M, as if second differences did not add up";
+constexpr std::string_view
+    c_colour = "the quadratic at the pixel's centre, within rounding and drift",
+    c_bits = "quadratic, section 5: b > log2 M fraction bits, which ignores the second differences";
 
 constexpr HardCase c_cases[] = {
     {"level_edge", "Y2 = 0", "quadratic, section 3: T3 = (2 C12 - T5 X2^2 - T4 X2 Y2) / Y2^2",
-     "T3 to T5 over D^2, one division", c_colour, "steps", PublishedForm::breaks, level_edge},
-    {"sliver_colours", "Slivers", "quadratic, section 3: five divisions in double, D near 0",
-     "exact rationals, rounded once; sums wrap modulo 2^39, only the value at a covered pixel has to fit",
+     "T3 to T5 have the denominator D^2: one division", c_colour, "steps", PublishedForm::breaks, level_edge},
+    {"sliver_colours", "Slivers", "quadratic, section 3: five divisions, D is close to 0",
+     "exact rationals, rounded once; sums wrap modulo 2^39, so only the value at a covered pixel must fit",
      c_colour, "steps", PublishedForm::breaks, sliver_colours},
-    {"long_spans", "Spans of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps",
+    {"long_spans", "Spans of 4096 pixels", c_bits, "b = 28 fraction bits, about 2 log2 M", c_colour, "steps",
      PublishedForm::breaks, long_spans},
-    {"tall_triangles", "4096 lines", c_bits, "b = 28, about 2 log2 M", c_colour, "steps",
-     PublishedForm::breaks, tall_triangles},
-    {"largest_triangles", "4096 lines of 4096 pixels", c_bits, "b = 28, about 2 log2 M", c_colour, "steps",
-     PublishedForm::breaks, largest_triangles},
-    {"overshoot", "Overshoot below 0 and past 255", "quadratic, equation 4: leaves the samples' range",
-     "three bits above white, and saturation after the last sum", c_colour, "steps", PublishedForm::holds,
-     overshoot},
-    {"overexposed", "Overexposed samples", "quadratic, equation 4: samples have no end",
-     "samples are held at four times white", "white stays white", "steps", PublishedForm::holds, overexposed},
-    {"between_samples", "A highlight between the samples", "quadratic, section 4: the test at the centroid",
-     "a bound on N.H over the triangle", "Phong shading, within two thresholds", "steps",
+    {"tall_triangles", "Triangles of 4096 lines", c_bits, "b = 28 fraction bits, about 2 log2 M", c_colour,
+     "steps", PublishedForm::breaks, tall_triangles},
+    {"largest_triangles", "Triangles of 4096 lines of 4096 pixels", c_bits,
+     "b = 28 fraction bits, about 2 log2 M", c_colour, "steps", PublishedForm::breaks, largest_triangles},
+    {"overshoot", "Values below 0 and above 255",
+     "quadratic, equation 4: the quadratic exceeds the range of its samples",
+     "three more integer bits than white needs; saturation after the last sum", c_colour, "steps",
+     PublishedForm::holds, overshoot},
+    {"overexposed", "Overexposed samples", "quadratic, equation 4: samples are not limited",
+     "samples are clamped to four times white", "white stays white", "steps", PublishedForm::holds,
+     overexposed},
+    {"between_samples", "A highlight between the samples", "quadratic, section 4: tests only the centroid",
+     "an upper bound of N.H over the triangle", "Phong shading per pixel, within two thresholds", "steps",
      PublishedForm::breaks, between_samples},
     {"split_alike", "Pieces of one quadratic",
-     "quadratic, section 4: midpoints become pixels, samples do not move",
-     "midpoints stay where they are sampled", c_colour, "steps", PublishedForm::breaks, split_alike},
+     "quadratic, section 4: midpoints are rounded to whole pixels, their samples are not",
+     "midpoints are drawn where they are sampled", c_colour, "steps", PublishedForm::breaks, split_alike},
     {"sliver_depths", "Depth of slivers",
-     "quadratic, section 5: stepped by the real slope, off the pixel's centre",
-     "exact rationals, rounded once; sums wrap", "the plane at the pixel's centre, rounding and drift",
+     "quadratic, section 5: depth steps by the slope, away from pixel centres",
+     "exact rationals, rounded once; sums wrap", "the plane at the pixel's centre, within rounding and drift",
      "depth steps", PublishedForm::breaks, sliver_depths},
-    {"depth_ends", "Depth at near and far plane",
-     "quadratic, section 5: pixels next to the triangle, whose depth wraps",
-     "no pixel outside it; depths one step from the ends",
-     "the plane at the pixel's centre, rounding and drift", "depth steps", PublishedForm::breaks, depth_ends},
+    {"depth_ends", "Depth at the near and the far plane",
+     "quadratic, section 5: draws pixels outside the triangle, where the depth wraps",
+     "draws no pixel outside the triangle; depths are at least one step from both ends of the range",
+     "the plane at the pixel's centre, within rounding and drift", "depth steps", PublishedForm::breaks,
+     depth_ends},
 };
 
 INSTANTIATE_TEST_SUITE_P(quadratic, HardCases, testing::ValuesIn(c_cases), id_of);

@@ -237,7 +237,7 @@ class SceneChecker : public Checker {
     const Result<Drawing> drawing = draw_golden(scene, {.plan = called_for(input), .frame = frame});
     if (!drawing) return Failure{"plan", drawing.error().message};
     tally.fragments += drawing->fragments.size();
-    if (drawing->fault) return Failure{"fault", "a count of shadow volumes left its format"};
+    if (drawing->fault) return Failure{"fault", "a counter of shadow volumes exceeded its format"};
     // The spans of preset published's spherical shader cover by other rules.
     if (shader_ == Shader::spherical && preset_of(input) == Preset::published) return {};
     InputFigures figures(tally);
@@ -323,15 +323,15 @@ class SceneSearch final : public Search {
   }
   std::string_view about() const override {
     return shader_ == Shader::spherical
-               ? "Scenes of up to eight triangles with normals of their own under up to sixteen lights of "
-                 "all "
-                 "kinds, from close above the surface to far away, in the spherical shader, both presets. A "
-                 "figure is the farthest pixel of a scene, compared with what setup's threshold, bells and "
-                 "tables "
-                 "allow; preset published goes through the RTL alone."
-               : "The same scenes in the shading processors, both presets and both forms, with shadows and "
-                 "without, near planes that cut. A figure is the pixel of a scene nearest to what its units' "
-                 "errors allow; a shadow may fall on any pixel here: `shadows` has those.";
+               ? "Random scenes in the spherical shader, both presets: up to eight triangles with their own "
+                 "normals, up to sixteen lights of all kinds, from close to the surface to far away. The "
+                 "figure of a scene is that of its worst pixel; the bound is that of the set-up's threshold, "
+                 "of bells and of tables. Preset `published` is only drawn by the RTL."
+               : "The same scenes in the shading processors, both presets and both forms, with and without "
+                 "shadows, with near planes that cut triangles. The figure of a scene is that of its worst "
+                 "pixel; the bound is that of the errors of the units. A shadow may fall on any pixel here; "
+                 "the family `shadows` checks shadows.";
+    a shadow may fall on any pixel here : `shadows` has those.";
   }
   std::span<const Parameter> parameters() const override { return parameters_.all(); }
   std::uint64_t full_count() const override { return 25'000; }

@@ -144,16 +144,16 @@ Status report(const Search& search, const Options& options, const Found& found) 
     const std::string text = write_regression(
         search.name(), search.parameters(), input,
         fmt::format("{}: {} (seed {}, input {})", shrunk.quantity, shrunk.what, options.seed, i));
-    fmt::print("{}: input {} of seed {} FAILS: {}: {}\nthe smallest that does:\n{}", search.name(), i,
+    fmt::print("{}: input {} of seed {} FAILS: {}: {}\nthe reduced input:\n{}", search.name(), i,
                options.seed, found.failure.quantity, found.failure.what, text);
     if (options.keep.empty()) return Ok{};
     if (auto made = make_folders(options.keep); !made) return made;
     const auto file =
         options.keep / fmt::format("{}_{}_{}_{}.txt", search.name(), shrunk.quantity, options.seed, i);
-    fmt::print("kept as {}\n", file.string());
+    fmt::print("stored as {}\n", file.string());
     return write_file(file, text);
   }
-  fmt::print("{}: inputs {} to {} of seed {} FAIL, one after the other, and none of them alone: {}\n",
+  fmt::print("{}: inputs {} to {} of seed {} FAIL when drawn in sequence, but none of them alone: {}\n",
              search.name(), found.index, last - 1, options.seed, found.failure.what);
   return Ok{};
 }
@@ -168,7 +168,7 @@ std::string section_body(const Search& search, const Options& options, const Tal
   return fmt::format(
       "{}\n\n`make search` with seed {}: {} inputs and {} fragments through the golden model against the "
       "specification, {} inputs and {} fragments through the RTL (Verilator) against the golden model; "
-      "{:.0f} s, {:.0f} s of a processor.\n\n{}",
+      "{:.0f} s, {:.0f} s of processor time.\n\n{}",
       search.about(), options.seed, tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments,
       seconds, processor_seconds, markdown_table(columns, rows));
 }
@@ -284,15 +284,15 @@ int main(int argc, char** argv) {
   using namespace halfway::stability;
   const auto searches = all_searches();
   Options options;
-  CLI::App app{"Tries random inputs; what fails is shrunk, printed, and written down", "halfway_search"};
+  CLI::App app{"Tests random inputs; a failing input is reduced, printed and stored", "halfway_search"};
   app.add_flag("--quick", options.quick, "few inputs of each search");
   app.add_option("--seed", options.seed, "other inputs")->capture_default_str();
   for (const auto& search : searches)
     app.add_option_function<std::uint64_t>(
         fmt::format("--{}", search->name()),
         [&options, name = search->name()](std::uint64_t count) { options.counts[name] = count; },
-        "this search, with so many inputs; those not named are left out");
-  app.add_option("--page", options.page, "file in which the searches' sections are written again");
+        "run this search with this number of inputs; searches without such an option do not run");
+  app.add_option("--page", options.page, "page whose sections of searches are written");
   app.add_option("--keep", options.keep, "folder for inputs that fail");
   app.add_option("--replay", options.replay, "checks the inputs of this folder instead");
   app.add_option("SOURCE", options.source, "the project's root")->required();

@@ -586,44 +586,49 @@ void deep_shadows(Trial& trial) {
 }
 
 constexpr std::string_view c_published_walk =
-    "quadratic, section 5: spans inclusive at both ends, which a count takes twice";
+    "quadratic, section 5: spans include both ends, so a counter counts a shared edge twice";
 
 constexpr std::string_view c_holds =
-    "off the shadows' edges light is wrong only where it grazes its triangle: up to this angle";
+    "away from edges of shadows, light is wrong only where it is nearly parallel to its triangle: up to this "
+    "angle";
 
 constexpr HardCase c_cases[] = {
-    {"shared_edges", "Volumes' shared edges", c_published_walk,
-     "shadow polygons are walked exactly in either preset", c_holds, "sine of the light's angle",
+    {"shared_edges", "Shared edges of shadow volumes", c_published_walk,
+     "both presets walk shadow polygons with exact edges", c_holds, "sine of the light's angle",
      PublishedForm::breaks, shared_edges},
-    {"within_volumes", "The eye within volumes", "processors, section 3.3: at zero the object is lit",
-     "a count starts at the volumes around the eye", c_holds, "sine of the light's angle",
+    {"within_volumes", "The eye inside shadow volumes",
+     "processors, section 3.3: an object is lit if the counter is 0",
+     "the counter starts with the number of volumes around the eye", c_holds, "sine of the light's angle",
      PublishedForm::breaks, within_volumes},
-    {"near_plane_cuts", "Volumes that the near plane cuts",
-     "processors, section 3.3: shadow polygons open and close",
-     "what is before the near plane is drawn at depth 0", c_holds, "sine of the light's angle",
+    {"near_plane_cuts", "Volumes that cross the near plane",
+     "processors, section 3.3: shadow polygons open and close volumes",
+     "the part in front of the near plane is drawn at depth 0", c_holds, "sine of the light's angle",
      PublishedForm::breaks, near_plane_cuts},
-    {"open_meshes", "Open meshes", "processors, section 3.3: shadow polygons open and close",
-     "volumes of averted triangles, closed whatever the mesh is", c_holds, "sine of the light's angle",
-     PublishedForm::breaks, open_meshes},
-    {"light_inside", "A light in a solid", "processors, section 3.3: shadow polygons open and close",
-     "casters are the triangles averted from the light", c_holds, "sine of the light's angle",
+    {"open_meshes", "Open meshes", "processors, section 3.3: shadow polygons open and close volumes",
+     "the volume of all triangles that face away from the light, closed for every mesh", c_holds,
+     "sine of the light's angle", PublishedForm::breaks, open_meshes},
+    {"light_inside", "A light inside a solid",
+     "processors, section 3.3: shadow polygons open and close volumes",
+     "shadows are cast by the triangles that face away from the light", c_holds, "sine of the light's angle",
      PublishedForm::breaks, light_inside},
     {"terminators", "Silhouettes at the terminator",
-     "processors: N.L of an interpolated N, above zero on averted triangles",
-     "a triangle averted from the light lies in its own volume", c_holds, "sine of the light's angle",
-     PublishedForm::silent, terminators},
+     "processors: N.L of an interpolated N is positive on triangles that face away from the light",
+     "a triangle that faces away from the light is inside its own volume", c_holds,
+     "sine of the light's angle", PublishedForm::silent, terminators},
     {"plates", "Plates that touch, in grazing light",
      "processors, section 3.3: shadow polygons have vertices of finitely many bits",
      "surfaces and the sides of volumes that meet them are planes through vertices rounded to 1/16 pixel; "
      "the set-up rounds more finely on request (`ProcessorsSetupOptions::subpixel_bits`)",
      c_holds, "sine of the light's angle", PublishedForm::breaks, plates},
-    {"counters", "A counter at its ends", "processors, figure 2: a shadow counter, without a width",
-     "10 bits; past them a fault that golden model and simulators see; less than none is none",
-     "lit up to zero, dark above it, fault past either end", "pixels", PublishedForm::silent, counters},
-    {"deep_shadows", "511 volumes over one another, and 512",
-     "processors, figure 2: a shadow counter, without a width",
-     "setup counts the deepest, and a scene past 511 is refused", "pixels, counts and faults as by rays",
-     "pixels", PublishedForm::silent, deep_shadows},
+    {"counters", "A counter at the ends of its range",
+     "processors, figure 2: a shadow counter of unspecified width",
+     "10 bits; an overflow raises `fault` in golden model and RTL; a negative count is not a shadow",
+     "lit for counts up to 0, dark above 0, fault on overflow at both ends", "pixels", PublishedForm::silent,
+     counters},
+    {"deep_shadows", "511 nested volumes, and 512",
+     "processors, figure 2: a shadow counter of unspecified width",
+     "the set-up counts the nested volumes and refuses a scene with more than 511",
+     "pixels, counts and faults equal those of rays", "pixels", PublishedForm::silent, deep_shadows},
 };
 
 INSTANTIATE_TEST_SUITE_P(shadows, HardCases, testing::ValuesIn(c_cases), id_of);

@@ -136,7 +136,7 @@ Result<Regression> read_regression(
     const std::string_view name = line.substr(0, space),
                            value = line.substr(std::min(space + 1, line.size()));
     if (regression.search.empty()) {
-      if (name != "search") return wrong("begin with `search`, and its name");
+      if (name != "search") return wrong("the file must start with `search` and its name");
       parameters = parameters_of(value);
       if (parameters.empty()) return wrong("there is no such search");
       regression.search = value;

@@ -444,8 +444,9 @@ void behind_the_horizon(Trial& trial) {
     scene.directional.push_back({glm::normalize(glm::dvec3(1, 0, 0.3)), glm::dvec3(1.0)});
     const std::string name = fmt::format("k_d {}", diffuse);
     const Shown shown = show(trial, scene, name);
-    trial.require(shown.brightest == 0 && shown.published_brightest > 10,
-                  [&] { return name + ": no highlight behind the horizon, or one in preset exact"; });
+    trial.require(shown.brightest == 0 && shown.published_brightest > 10, [&] {
+      return name + ": no highlight below the horizon in preset published, or one in preset exact";
+    });
 
     // The horizon crosses the triangle: the highlight must end abruptly at the right pixel.
     Scene half = stage({{{-0.6, 0, 1}, {0.8, 0.1, 1}, {0, -0.1, 1}}});
@@ -482,9 +483,9 @@ void over_exposure(Trial& trial) {
                   .frame = c_stage_frame});
       const std::string name = fmt::format("intensity {:g}, preset {}", intensity, to_string(preset));
       // Preset exact represents up to 10 times white.
-      const bool held = preset == Preset::published || intensity > 10.0;
-      trial.require((drawing.counts.overexposed > 0) == held,
-                    [&] { return name + ": held, or not, and not counted so"; });
+      const bool clamped = preset == Preset::published || intensity > 10.0;
+      trial.require((drawing.counts.overexposed > 0) == clamped,
+                    [&] { return name + ": the count of clamped factors is wrong"; });
       trial.require(drawing.fragments.size() > 300, [&] { return name + ": is not drawn"; });
       for (const Fragment& f : drawing.fragments) {
         const auto where = [&] { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); };
@@ -630,53 +631,62 @@ void long_spans_drawn(Trial& trial) {
   }
 }
 
-constexpr std::string_view c_promise = "the illumination model, but for threshold, fit and table";
-constexpr std::string_view c_cosines = "cosines from end to end, against 250 bits";
+constexpr std::string_view c_promise =
+    "the illumination model, within the threshold and the errors of fit and table";
+constexpr std::string_view c_cosines = "the cosines along the span, compared with arithmetic of 250 bits";
 
 constexpr HardCase c_cases[] = {
     {"gamma_to_zero", "γ → 0", "spherical, equations 11 and 15: (cos θ2 − cos θ1 cos γ)/sin γ is 0/0",
-     "t·v1, t the tangent at u1 from the chord u2 − u1", c_cosines, "of a cosine", PublishedForm::breaks,
-     gamma_to_zero},
+     "t·v1, where t is the tangent at u1, computed from the chord u2 − u1", c_cosines, "of a cosine",
+     PublishedForm::breaks, gamma_to_zero},
     {"gamma_to_zero_drawn", "γ → 0, drawn", "spherical, equations 11 and 15", "the same", c_promise,
      "colour steps", PublishedForm::breaks, gamma_to_zero_drawn},
-    {"gamma_to_pi", "γ → π", "spherical, equations 11 and 15: 1/sin γ", "the tangent from the sum u2 + u1",
-     c_cosines, "of a cosine", PublishedForm::breaks, gamma_to_pi},
-    {"gamma_to_pi_drawn", "γ → π, drawn: opposed normals", "spherical, equation 11: no plane to turn in",
-     "the span's middle tells the plane; columns", c_promise, "colour steps", PublishedForm::breaks,
-     gamma_to_pi_drawn},
+    {"gamma_to_pi", "γ → π", "spherical, equations 11 and 15: 1/sin γ",
+     "the tangent is computed from the sum u2 + u1", c_cosines, "of a cosine", PublishedForm::breaks,
+     gamma_to_pi},
+    {"gamma_to_pi_drawn", "γ → π, drawn: opposed normals",
+     "spherical, equation 11: opposed normals do not define a plane of rotation",
+     "the middle of the span defines the plane; the triangle is cut into strips", c_promise, "colour steps",
+     PublishedForm::breaks, gamma_to_pi_drawn},
     {"gamma_v_to_zero", "γ_v → 0", "spherical, before equation 15: v1 × v2 → 0",
-     "coordinates in the turning frame", c_cosines, "of a cosine", PublishedForm::holds, gamma_v_to_zero},
+     "coordinates in the frame that rotates with v", c_cosines, "of a cosine", PublishedForm::holds,
+     gamma_v_to_zero},
     {"gamma_v_to_pi", "γ_v → π", "spherical, before equation 15: u2' divides by 1 + cos γ_v, 0/0",
-     "coordinates in the turning frame: no division", c_cosines, "of a cosine", PublishedForm::breaks,
-     gamma_v_to_pi},
-    {"gamma_v_to_pi_drawn", "γ_v → π, drawn: light in the surface", "spherical, before equation 15",
-     "the same; columns", c_promise, "colour steps", PublishedForm::breaks, gamma_v_to_pi_drawn},
-    {"gamma_by_arc_cosine", "γ by acos(u1·u2)", "spherical, equation 11: half the digits near 0 and π",
-     "atan2 of the part across u1 and of the cosine", "the angle between two directions", "rad",
-     PublishedForm::breaks, gamma_by_arc_cosine},
+     "coordinates in the frame that rotates with v, without a division", c_cosines, "of a cosine",
+     PublishedForm::breaks, gamma_v_to_pi},
+    {"gamma_v_to_pi_drawn", "γ_v → π, drawn: light in the plane of the surface",
+     "spherical, before equation 15", "the same; the triangle is cut into strips", c_promise, "colour steps",
+     PublishedForm::breaks, gamma_v_to_pi_drawn},
+    {"gamma_by_arc_cosine", "γ by acos(u1·u2)",
+     "spherical, equation 11: loses half of the digits near 0 and π",
+     "atan2 of the component perpendicular to u1 and of the cosine", "the angle between two directions",
+     "rad", PublishedForm::breaks, gamma_by_arc_cosine},
     {"sine_part_cancels", "A sin φ as γ → 0", "spherical, equation 16: cos θ2 − cos θ1 cos γ cancels", "t·v1",
-     "A sin φ, against 250 bits", "of a cosine", PublishedForm::breaks, sine_part_cancels},
-    {"equation_15", "A sin φ by equation 15",
-     "spherical, equation 15: its last line has the sign turned round", "as equation 16 has it", c_cosines,
-     "of a cosine", PublishedForm::breaks, equation_15},
-    {"both_at_once", "Both vectors turn at once", "spherical, section 3: as acceptable as v held still",
-     "v held still; columns where it shows", "(γ + γ_v)²/4 apart at most", "colour steps",
-     PublishedForm::holds, both_at_once},
+     "A sin φ, compared with arithmetic of 250 bits", "of a cosine", PublishedForm::breaks,
+     sine_part_cancels},
+    {"equation_15", "A sin φ by equation 15", "spherical, equation 15: its last line has the wrong sign",
+     "the sign of equation 16", c_cosines, "of a cosine", PublishedForm::breaks, equation_15},
+    {"both_at_once", "Both vectors rotate at once",
+     "spherical, section 3: a constant v is as acceptable as a rotating one",
+     "constant v; the triangle is cut into strips where the error exceeds the threshold",
+     "the two differ by at most (γ + γ_v)²/4", "colour steps", PublishedForm::holds, both_at_once},
     {"amplitude_zero", "A = 0", "spherical, equation 16: φ = atan2(0, 0)",
-     "dark, whatever the angle; the horizon", c_promise, "colour steps", PublishedForm::breaks,
+     "the factor is 0 for every angle; horizon test", c_promise, "colour steps", PublishedForm::breaks,
      amplitude_zero},
-    {"powers_underflow", "Aⁿ underflows", "spherical, equation 18: C = I k_s Aⁿ", "0 without a detour",
+    {"powers_underflow", "Aⁿ underflows", "spherical, equation 18: C = I k_s Aⁿ", "the factor is set to 0",
      c_promise, "colour steps", PublishedForm::holds, powers_underflow},
-    {"bells", "cosⁿ by one bell", "spherical, equation 19: cos² ax for every n",
-     "cos^m, m = 1 to 16, and a gain", "the bell against cosⁿ", "colour steps", PublishedForm::breaks, bells},
-    {"exponents", "n = 1 to 10⁶ and past it", "spherical, equations 18 and 19", "fitted bells; n held at 10⁶",
+    {"bells", "cosⁿ by one bell", "spherical, equation 19: cos² ax for all n",
+     "cos^m with m = 1 to 16, and a gain", "the bell compared with cosⁿ", "colour steps",
+     PublishedForm::breaks, bells},
+    {"exponents", "n = 1 to above 10⁶", "spherical, equations 18 and 19", "fitted bells; n is clamped to 10⁶",
      c_promise, "colour steps", PublishedForm::breaks, exponents},
-    {"past_the_bell", "Angle past the bell",
-     "spherical, section 4: 12 bits, read as wrapping; zero otherwise is printed", "out of range gives 0",
-     c_promise, "colour steps", PublishedForm::breaks, past_the_bell},
-    {"narrow_bells", "Bell narrower than a pixel", "spherical, section 4: one arc a line",
-     "columns down to a pixel", c_promise, "colour steps", PublishedForm::breaks, narrow_bells},
-    {"four_bit_tables", "Rings of a 4-bit table", "spherical, figure 15", "9 address and 8 data bits",
+    {"past_the_bell", "Angle outside the bell",
+     "spherical, section 4: 12 bits, which wrap in our reading; the paper prints zero otherwise",
+     "an angle out of range gives 0", c_promise, "colour steps", PublishedForm::breaks, past_the_bell},
+    {"narrow_bells", "Bell narrower than a pixel", "spherical, section 4: one arc per line",
+     "the triangle is cut into strips, down to one pixel", c_promise, "colour steps", PublishedForm::breaks,
+     narrow_bells},
+    {"four_bit_tables", "Rings of a 4-bit table", "spherical, figure 15", "9 address bits and 8 data bits",
      c_promise, "colour steps", PublishedForm::breaks, four_bit_tables},
     {"drift", "Long spans: the angle's register",
      "spherical, section 4: 12 bits, off by 8 addresses on 1024 pixels", "22 fraction bits",
@@ -686,26 +696,30 @@ constexpr HardCase c_cases[] = {
     {"halfway_of_zero", "L = −V", "spherical, equation 6: H = (L + V)/‖L + V‖ is 0/0", "no highlight there",
      c_promise, "colour steps", PublishedForm::breaks, halfway_of_zero},
     {"light_at_the_surface", "Light at a surface point", "processors, equation 3: (P_p − P)/‖P_p − P‖ is 0/0",
-     "nothing of it there; columns", c_promise, "colour steps", PublishedForm::breaks, light_at_the_surface},
+     "the light is 0 at the point itself; the triangle is cut into strips", c_promise, "colour steps",
+     PublishedForm::breaks, light_at_the_surface},
     {"eye_at_the_surface", "Eye at the surface",
-     "spherical, section 3: V turns half round from pixel to pixel", "columns", c_promise, "colour steps",
-     PublishedForm::breaks, eye_at_the_surface},
+     "spherical, section 3: V rotates by half a turn from pixel to pixel", "the triangle is cut into strips",
+     c_promise, "colour steps", PublishedForm::breaks, eye_at_the_surface},
     {"one_pixel_spans", "Spans of one pixel", "spherical, section 4: s = aγ/(X_end − X_start) is 0/0",
-     "nothing turns", c_promise, "colour steps", PublishedForm::breaks, one_pixel_spans},
-    {"behind_the_horizon", "Highlight behind the horizon", "spherical, equation 18: N·H > 0 where N·L < 0",
-     "the diffuse angle ends the highlight", c_promise, "colour steps", PublishedForm::breaks,
-     behind_the_horizon},
-    {"spots_that_end_at_once", "Spots that end at once", "spherical, section 4: C is constant along a line",
-     "columns", c_promise, "colour steps", PublishedForm::breaks, spots_that_end_at_once},
-    {"over_exposure", "Over-exposure", "spherical, section 4: C is past its word",
-     "held where the least entry is white", "white where the model is, nothing of it in other channels",
-     "colour steps", PublishedForm::breaks, over_exposure},
+     "the step of the angle is 0", c_promise, "colour steps", PublishedForm::breaks, one_pixel_spans},
+    {"behind_the_horizon", "Highlight below the horizon", "spherical, equation 18: N·H > 0 where N·L < 0",
+     "the highlight is 0 where the diffuse angle is out of range", c_promise, "colour steps",
+     PublishedForm::breaks, behind_the_horizon},
+    {"spots_that_end_at_once", "Spots with a hard edge", "spherical, section 4: C is constant along a line",
+     "the triangle is cut into strips", c_promise, "colour steps", PublishedForm::breaks,
+     spots_that_end_at_once},
+    {"over_exposure", "Over-exposure", "spherical, section 4: C exceeds its word",
+     "C is clamped where the smallest entry of the table gives white",
+     "white where the model is white; the other channels are unchanged", "colour steps",
+     PublishedForm::breaks, over_exposure},
     {"wide_triangles", "Triangles wider than the frame",
-     "spherical, section 5: ends by the edges, perspective ignored",
-     "the guard band; ends on the surface behind the pixels", c_promise, "colour steps",
+     "spherical, section 5: ends of lines are interpolated along the edges without perspective",
+     "guard band; ends of lines are points of the surface at the pixels", c_promise, "colour steps",
      PublishedForm::breaks, wide_triangles},
     {"many_lights", "Many lights at once", "spherical, figure 12: one light",
-     "a slice a light, sums held at white", c_promise, "colour steps", PublishedForm::breaks, many_lights},
+     "one slice per light; sums are clamped to white", c_promise, "colour steps", PublishedForm::breaks,
+     many_lights},
 };
 
 INSTANTIATE_TEST_SUITE_P(spherical, HardCases, testing::ValuesIn(c_cases), id_of);

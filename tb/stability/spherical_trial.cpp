@@ -25,7 +25,7 @@ void require_words_in_range(Trial& trial, const Drawing& drawing, const std::str
   const auto require_factor = [&](std::span<const std::uint32_t> words, const golden::Field& field, int low) {
     trial.require(golden::get_bits(words, field, low) <= (c_exact ? 65535U : 1023U)
                                                              << P::c_factor_fraction_bits,
-                  [&] { return name + ": a factor is past the largest"; });
+                  [&] { return name + ": a factor exceeds the largest"; });
   };
   const auto model = make_golden_model(drawing.key);
   const std::size_t vector_words = (drawing.init_bits + 31) / 32;
@@ -116,7 +116,7 @@ Shown show(Trial& trial, const Scene& scene, const std::string& name, const Show
   require_words_in_range<Published>(trial, published, name + ", published");
   for (const Fragment& f : published.fragments) {
     trial.require(f.x < options.frame.width && f.y < options.frame.height,
-                  [&] { return where(f) + ": published leaves the frame"; });
+                  [&] { return where(f) + ": preset published draws outside the frame"; });
     shown.published_brightest = std::max(shown.published_brightest, int{f.red});
     // Vertices on whole pixels: along the edges the pixels differ from the exact ones.
     const auto found = there.find({f.triangle, f.x, f.y});

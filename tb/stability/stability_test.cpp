@@ -100,7 +100,7 @@ TEST(Regression, SaysWhatIsWrongAndWhere) {
   for (const auto& [text, message] : std::initializer_list<std::pair<std::string_view, std::string_view>>{
            {"", "f.txt: names no search"},
            {"# only this\n", "f.txt: names no search"},
-           {"a 1\n", "f.txt:1: a 1: begin with `search`, and its name"},
+           {"a 1\n", "f.txt:1: a 1: the file must start with `search` and its name"},
            {"search others\n", "f.txt:1: search others: there is no such search"},
            {"search things\n\nx 1\n", "f.txt:3: x 1: there is no such parameter"},
            {"search things\na 1x\n", "f.txt:2: a 1x: not an integer"},

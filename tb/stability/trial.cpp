@@ -59,7 +59,7 @@ std::string refutation(PublishedForm expected, const Worst& ours, const Worst& p
   if (ours.count == 0) return "has no figure";
   if (!ours.within()) return beyond(ours);
   if (expected == PublishedForm::silent)
-    return published.count == 0 ? "" : "has a figure of the published form, and says that there is none";
+    return published.count == 0 ? "" : "has a figure of the published form, but is listed without one";
   if (published.count == 0) return "has no figure of the published form";
   if (published.within() == (expected == PublishedForm::holds)) return "";
   return (published.within() ? "the published form does not break: " : "the published form breaks: ") +
@@ -134,7 +134,7 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
     }
     rtl_fragments_ += drawn.size();
     require(bool(status) != fault, [&] {
-      return fault ? fmt::format("{}: {} sees no fault, the golden model does", key.name(), name)
+      return fault ? fmt::format("{}: {} reports no fault, but the golden model does", key.name(), name)
                    : fmt::format("{}: {}: {}", key.name(), name, status.error().message);
     });
     if (fault) return;  // after a fault the fragments have no meaning

@@ -138,8 +138,7 @@ class TriangleChecker final : public Checker {
     std::string wrong;
     std::uint64_t pixels = 0;  // too many or too few
     const auto uncovered = [&](const Fragment& f) {
-      if (pixels++ == 0)
-        wrong = fmt::format("pixel {},{} is drawn, and is not covered or drawn before", f.x, f.y);
+      if (pixels++ == 0) wrong = fmt::format("pixel {},{} is not covered, or is drawn twice", f.x, f.y);
     };
     std::size_t at = 0;
     std::int64_t first_y = -1;
@@ -156,7 +155,7 @@ class TriangleChecker final : public Checker {
                               while (before(x)) uncovered(fragments_[at++]);
                               if (at == fragments_.size() || fragments_[at].y != y || fragments_[at].x != x) {
                                 if (pixels++ == 0)
-                                  wrong = fmt::format("pixel {},{} is covered, and is not drawn", x, y);
+                                  wrong = fmt::format("pixel {},{} is covered but not drawn", x, y);
                               } else {
                                 row.compare(fragments_[at++], x, colour, z);
                               }
@@ -220,7 +219,7 @@ class TriangleChecker final : public Checker {
       const std::array<long double, 3> p = piece_.at(x - begin_), w = whole_.at(x - begin_);
       const auto add = [&](Worst& worst, long double off, long double bound) {
         worst.add(static_cast<double>(std::max(off - 0.5L, 0.0L)), static_cast<double>(bound),
-                  [&] { return fmt::format("pixel {},{}, steps past its rounding", x, y_); });
+                  [&] { return fmt::format("pixel {},{}, steps above its rounding", x, y_); });
       };
       for (std::size_t c = 0; c < 3; ++c) {
         const auto& sample = subject_.sample[subject_.channels == 3 ? c : 0];
@@ -274,12 +273,11 @@ class TriangleSearch final : public Search {
  public:
   std::string_view name() const override { return "triangles"; }
   std::string_view about() const override {
-    return "Triangles of every kind (slivers a unit thick, a line high, within a pixel, on pixel centres, "
-           "over "
-           "the whole guard band), a quarter of a quarter of them down to level 5, samples up to 1023 steps, "
-           "depths from the near to the far plane, frames of 1 to 4096 pixels either way. Colour and depth "
-           "are in "
-           "steps past the half of one that rounding takes, of what the pixel's forward differences may add.";
+    return "Random triangles of every kind: slivers one unit thick, triangles of one line, triangles within "
+           "a pixel, vertices on pixel centres, vertices anywhere in the guard band. One in four is a piece "
+           "of a split triangle, down to level 5. Samples are up to 1023 steps, depths from the near to the "
+           "far plane, sides of frames 1 to 4096 pixels. Colour and depth are in steps, minus the half step "
+           "of rounding; the bound is that of the pixel's forward differences.";
   }
   std::span<const Parameter> parameters() const override { return c_parameters; }
   std::uint64_t full_count() const override { return 10'000'000; }
