@@ -28,7 +28,7 @@ package shading_pkg is
   function round_half_up (value : unsigned; bits : natural) return unsigned;
 
   -- Clamp to the largest word of `bits` bits.
-  function held (value : unsigned; bits : positive) return unsigned;
+  function clamped (value : unsigned; bits : positive) return unsigned;
 
   -- The component of axis `axis` of a flat vector of c_axes.
   function axis_of (vector : std_logic_vector; axis : natural) return signed;
@@ -82,7 +82,7 @@ package body shading_pkg is
     return resize(word(word'high downto bits), c_bits) + word(bits - 1 downto bits - 1);
   end function;
 
-  function held (value : unsigned; bits : positive) return unsigned is
+  function clamped (value : unsigned; bits : positive) return unsigned is
     alias word        : unsigned(value'length - 1 downto 0) is value;
     constant c_zeros  : unsigned(value'length - 1 downto bits) := (others => '0');
 

@@ -52,7 +52,7 @@ architecture rtl of ambient_term is
 
   subtype directions_t is std_logic_vector(normal'range);
 
-  signal plain        : directions_t; -- N as it is, in fewer bits
+  signal plain        : directions_t; -- N, not normalized, in fewer bits
   signal coefficients : std_logic_vector(g_config.channels * c_formats.coefficient.bits - 1 downto 0);
 
 begin

@@ -58,7 +58,7 @@ architecture rtl of light_state is
 
   signal command : command_t;
   signal own     : std_logic; -- the token has this light's number
-  signal loads   : std_logic; -- its words become the light
+  signal load    : std_logic; -- its words become the light
 
 begin
 
@@ -66,7 +66,7 @@ begin
   own     <= '1' when unsigned(field_of(token, c_header.light)) = g_light else '0';
   object  <= is_object(command);
   changes <= '1' when own = '1' and (command = c_define or command = c_redefine or command = c_delete) else '0';
-  loads   <= '1' when own = '1' and (command = c_define or (command = c_redefine and r.defined = '1')) else '0';
+  load    <= '1' when own = '1' and (command = c_define or (command = c_redefine and r.defined = '1')) else '0';
   defined <= r.defined;
 
   light_register : entity work.parameter_register
@@ -75,7 +75,7 @@ begin
       )
     port map (
       clk   => clk,
-      load  => take and loads,
+      load  => take and load,
       start => light_of(g_config, token),
       value => light
       );
@@ -85,7 +85,7 @@ begin
   begin
     v := r;
     if take = '1' then
-      if loads = '1' then
+      if load = '1' then
         v.defined := '1';
       elsif own = '1' and command = c_delete then
         v.defined := '0';
@@ -123,7 +123,7 @@ begin
           clear      => clear,
           counts     => counts,
           opens      => token(c_header.opens.low),
-          takes      => object,
+          object     => object,
           x          => field_of(token, c_header.x),
           around_eye => field_of(light, light_axes_header(g_config.exact).around_eye),
           lit        => lit,

@@ -67,7 +67,7 @@ package schedule_pkg is
 
   function shared_product_bits (c : config_t; kind, light : natural) return positive;
 
-  -- Bits of a component of what is normalized.
+  -- Bits of a component of the vector that is normalized.
   function normalized_bits (c : config_t; kind, light : natural) return positive;
 
 end package;
@@ -84,7 +84,7 @@ package body schedule_pkg is
     constant c_cone_clocks  : positive := c_spot_cone_latency;
 
     variable s : schedule_t := (others => 0);
-    variable t : natural    := 1; -- when the next step has what it takes
+    variable t : natural    := 1; -- the clock in which the inputs of the next step are valid
   begin
     if c_shape.first then
       if kind /= c_ambient then

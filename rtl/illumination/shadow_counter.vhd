@@ -1,16 +1,16 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Counts one light's shadow volumes in front of the surfaces of a line, with one count per column. A shadow
---             polygon that opens a volume adds one, a polygon that closes a volume subtracts one. An object takes the
---             count of its column, which is then 0 again. The count plus the number of volumes around the eye shows
+--             polygon that opens a volume adds one, a polygon that closes a volume subtracts one. An object reads the
+--             count of its column and sets it to 0. The count plus the number of volumes around the eye shows
 --             whether the light reaches the object. A negative sum counts as 0: a volume thinner than the rounding of
 --             its depths may be closed before it is opened.
--- Contract    At a rising edge with step and ready, column x is counted (counts, with opens) or taken (takes), or all
+-- Contract    At a rising edge with step and ready, column x is counted (counts, with opens) or read for an object (object), or all
 --             columns are cleared (clear); at most one of the three. Until the next step, lit is '1' if the sum of
 --             around_eye and the previous count of column x is 0 or less; around_eye must be stable for that time.
 --             Columns may be in any order. After reset and after clear, ready is '0' until all columns are 0: one clock
 --             per column up to the last counted one, after reset one clock per column of all. A count that would
---             leave its format does not change; fault is '1' from then on.
+--             exceed its format does not change; fault is '1' from then on.
 -- Formats     formats_pkg: x: pixel_x, around_eye: shadow_count; the same in both presets
 -- Latency     1 clock from step to lit, 2 to fault
 -- Throughput  1 column per clock
@@ -31,7 +31,7 @@ entity shadow_counter is
     clear      : in  std_logic;
     counts     : in  std_logic;
     opens      : in  std_logic;
-    takes      : in  std_logic;
+    object     : in  std_logic;
     x          : in  std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
     around_eye : in  std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
     lit        : out std_logic;
@@ -52,7 +52,7 @@ architecture rtl of shadow_counter is
     last      : column_t; -- the highest column that was counted; while clearing, the column to clear
     counts    : std_logic;
     opens     : std_logic;
-    takes     : std_logic;
+    object    : std_logic;
     column    : column_t;
     forwarded : std_logic; -- the previous column was this one: its count is not yet in the memory
     forward   : count_t;
@@ -66,7 +66,7 @@ architecture rtl of shadow_counter is
   signal held     : count_t;
   signal around   : signed(count_t'length downto 0); -- volumes around the object
   signal changed  : count_t;
-  signal leaves   : std_logic; -- the count leaves its format
+  signal overflow : std_logic; -- the count would exceed its format
   signal writes   : std_logic;
   signal write_at : column_t;
   signal written  : count_t;
@@ -83,26 +83,26 @@ begin
 
   change : process (all)
   begin
-    leaves <= '0';
-    if r.takes = '1' then
+    overflow <= '0';
+    if r.object = '1' then
       changed <= (others => '0');
     elsif r.opens = '1' then
       changed <= std_logic_vector(unsigned(held) + 1);
       if held = c_most then
-        changed <= held;
-        leaves  <= r.counts;
+        changed  <= held;
+        overflow <= r.counts;
       end if;
     else
       changed <= std_logic_vector(unsigned(held) - 1);
       if held = c_least then
-        changed <= held;
-        leaves  <= r.counts;
+        changed  <= held;
+        overflow <= r.counts;
       end if;
     end if;
   end process;
 
   -- While the column waits, it is written again with the same count.
-  writes   <= r.clearing or r.counts or r.takes;
+  writes   <= r.clearing or r.counts or r.object;
   write_at <= r.last when r.clearing = '1' else r.column;
   written  <= (others => '0') when r.clearing = '1' else changed;
 
@@ -110,7 +110,7 @@ begin
     variable v : reg_t;
   begin
     v := r;
-    if leaves = '1' then
+    if overflow = '1' then
       v.fault := '1';
     end if;
     if r.clearing = '1' then
@@ -123,7 +123,7 @@ begin
       v.clearing  := clear;
       v.counts    := counts;
       v.opens     := opens;
-      v.takes     := takes;
+      v.object    := object;
       v.column    := unsigned(x);
       v.forwarded := '0';
       if writes = '1' and r.column = unsigned(x) then
@@ -138,7 +138,7 @@ begin
       v.clearing := '1';
       v.last     := (others => '1');
       v.counts   := '0';
-      v.takes    := '0';
+      v.object   := '0';
       v.fault    := '0';
     end if;
     r_next <= v;

@@ -78,7 +78,7 @@ package terms_pkg is
   -- k times I: rounded, and limited to the largest value.
   function reflected (exact : boolean; product : unsigned) return std_logic_vector;
 
-  -- I so far and a term: what is reflected times its weight.
+  -- The sum of the colour so far and a term.
   function brightened (exact : boolean; radiance : std_logic_vector; product : unsigned) return std_logic_vector;
 
   -- The same of all components of a vector, x lowest, or of all channels.
@@ -206,7 +206,7 @@ package body terms_pkg is
       if kind = c_specular and c.exact then
         t.cosine := t.to_light + half_vector_latency(c.exact, c_shape.second);
       elsif kind = c_specular then
-        -- As printed, H does not need L.
+        -- In the printed formula H does not depend on L.
         t.cosine := half_vector_latency(c.exact, c_shape.second);
       end if;
       t.raised := t.cosine + cosine_power_latency(c.exact, kind = c_specular);
@@ -290,7 +290,7 @@ package body terms_pkg is
     constant c_drop : natural := formats(exact).coefficient.fraction + formats(exact).light_intensity.fraction
       - formats(exact).reflected.fraction;
   begin
-    return std_logic_vector(held(round_half_up(product, c_drop), formats(exact).reflected.bits));
+    return std_logic_vector(clamped(round_half_up(product, c_drop), formats(exact).reflected.bits));
   end function;
 
   function brightened (exact : boolean; radiance : std_logic_vector; product : unsigned) return std_logic_vector is
@@ -301,7 +301,7 @@ package body terms_pkg is
     variable sum : unsigned(product'length - c_drop downto 0);
   begin
     sum := resize(word(word'high downto c_drop), sum'length) + unsigned(radiance);
-    return std_logic_vector(held(sum, radiance'length));
+    return std_logic_vector(clamped(sum, radiance'length));
   end function;
 
   function plain_directions (exact : boolean; vector : std_logic_vector) return std_logic_vector is

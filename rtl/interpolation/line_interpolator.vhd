@@ -5,7 +5,7 @@
 -- Formats     g_bits of two's complement throughout; sums wrap, modulo 2**g_bits
 -- Latency     1 clock from load or step to value
 -- Throughput  1 step per clock
--- Error       none of its own; k steps carry k times the increment's rounding
+-- Error       adds none; k steps carry k times the increment's rounding
 -- Source      spherical paper, figure 12 (line interpolator); quadratic paper, figure 6 (each of its registers)
 -- Golden twin model/golden/line_interpolator.hpp
 

@@ -7,7 +7,7 @@
 -- Formats     g_bits throughout; the sum of all parts wraps
 -- Latency     1 clock from load or step to value and carry_out
 -- Throughput  1 step per clock
--- Error       none of its own: k steps carry k times the increment's rounding
+-- Error       adds none: k steps carry k times the increment's rounding
 -- Source      line_interpolator; the cut is ours
 -- Golden twin model/golden/part_interpolator.hpp
 
@@ -60,7 +60,7 @@ begin
           addend := increment;
         end if;
         sum := sum_of(value, addend, carry_in);
-        -- Gate the carry instead of resetting its register, which would take a cell of its own.
+        -- Gate the carry instead of resetting its register, which would take one more cell.
         carry_out <= sum(g_bits) and not load;
         value     <= sum(g_bits - 1 downto 0);
         if load = '1' then

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     A value that is linear on the screen, by first differences. edge_value and span_value are interpolators:
---             registers that start with a word and add what the arrow brings. a | b: b where the edge carries
+--             registers that load a word and add the value of the arrow. a | b: b where the edge carries
 --
 --               along the edge, one step per line      along the span, one step per pixel
 --

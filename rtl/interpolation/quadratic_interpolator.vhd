@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     One colour channel of a quadratic over the triangle, by second-order forward differences. edge_... and span_...
---             are interpolators: registers that start with a word and add what the arrow brings. a | b: b where the edge carries
+--             are interpolators: registers that load a word and add the value of the arrow. a | b: b where the edge carries
 --
 --               along the edge, one step per line                along the span, one step per pixel
 --
@@ -67,7 +67,7 @@ architecture rtl of quadratic_interpolator is
   -- The second differences, constant over the triangle: the block's upper words.
   signal constants : std_logic_vector(init'high downto c_init.dxx.low);
 
-  -- Skewed words: the interpolators of the figure, and what is added to those along the edge.
+  -- Skewed words: the interpolators of the figure, and the addends of those along the edge.
   signal edge_value, edge_dx, edge_de0, edge_de1 : word_t;
   signal value_step, dx_step, de0_step           : word_t;
   signal dxx, dxe0, de0e0                        : word_t;

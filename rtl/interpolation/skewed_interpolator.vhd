@@ -6,7 +6,7 @@
 -- Formats     g_bits of two's complement; sums wrap, modulo 2**g_bits
 -- Latency     1 clock from load or step to part 0 of value; value is a skewed word
 -- Throughput  1 step per clock
--- Error       none of its own: k steps carry k times the increment's rounding
+-- Error       adds none: k steps carry k times the increment's rounding
 -- Source      quadratic paper, figure 6: a register with its adder; spherical paper, figure 12
 -- Golden twin model/golden/line_interpolator.hpp
 

@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Holds one line until the span stage can draw it. An empty line does not wait for the span stage.
--- Contract    enable = '0' stalls the stage. The line leaves only where line_ready = '1': what it needs besides the
---             walker has come. advance = '1': the stage takes in_line, or nothing where in_valid = '0'.
+-- Contract    enable = '0' stalls the stage. The line leaves only in a clock with line_ready = '1': all inputs of the line
+--             that do not come from the walker have arrived. advance = '1': the stage loads in_line; it becomes empty if
+--             in_valid = '0'.
 -- Formats     line_pkg
 -- Latency     1 clock
 -- Throughput  1 line per clock

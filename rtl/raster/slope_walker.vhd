@@ -7,7 +7,7 @@
 -- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
 -- Latency     1 clock from a step to x
 -- Throughput  1 line per clock
--- Error       none of its own; k steps add k times the slope's rounding error
+-- Error       adds none; k steps add k times the slope's rounding error
 -- Source      quadratic paper, section 5 and figure 6 (X counter); the split of the sum is ours
 -- Golden twin model/golden/slope_walker.hpp
 

@@ -27,9 +27,9 @@
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
 --             fragment_ready are. fragment_ready = '0' stalls all stages that hold anything: x, y and triangle do not
 --             change. init does not change from init_valid = '1' until it is taken. It may stay unchanged after that, at
---             most until line_load: the walker takes no other vector before. A line leaves the line stage only where
+--             most until line_load: the walker takes no other vector before. A line leaves the line stage only in a clock with
 --             line_ready = '1': everything else that the line needs, such as its line record, has arrived.
---             line_held: the line stage holds a line.
+--             line_held: the line stage contains a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load
 -- Throughput  with line_ready = '1' 1 fragment per clock, within and between spans and triangles. Exceptions: a triangle

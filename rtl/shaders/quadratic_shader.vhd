@@ -300,7 +300,7 @@ begin
       reset     => reset,
       claim     => span_step,
       room      => room,
-      holds     => queue_busy,
+      busy      => queue_busy,
       in_valid  => pixel_valid,
       in_data   => pixel_word,
       out_valid => fragment_valid,

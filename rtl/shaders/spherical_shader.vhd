@@ -283,7 +283,7 @@ begin
       reset     => reset,
       claim     => span_step,
       room      => room,
-      holds     => queued,
+      busy      => queued,
       in_valid  => pixel_valid,
       in_data   => pixel,
       out_valid => fragment_valid,

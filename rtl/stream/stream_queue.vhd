@@ -4,12 +4,12 @@
 --             pipeline claims a place for each word, and stalls by one register, `room`.
 -- Contract    A place is claimed where claim = '1' at a rising edge; claim is '1' only where room is. Its word comes in a
 --             later clock: in_valid = '1'. Words come in the order of their claims. A word leaves where out_valid and
---             out_ready are both '1'; out_data does not change while out_valid = '1' and out_ready = '0'. holds: a
+--             out_ready are both '1'; out_data does not change while out_valid = '1' and out_ready = '0'. busy: a
 --             place is claimed or a word is in the queue.
 -- Formats     g_bits of any format
 -- Latency     2 clocks from in_valid to out_valid
 -- Throughput  1 word per clock, if each word comes at most 2**g_index_bits - 4 clocks after its claim
--- Error       none: each word comes out once, unchanged, in order
+-- Error       none: each word is output once, unchanged, in order
 -- Source      ours: the papers show no receiver that stalls
 -- Golden twin model/golden/stream_queue.hpp
 
@@ -27,7 +27,7 @@ entity stream_queue is
     reset     : in  std_logic;
     claim     : in  std_logic;
     room      : out std_logic; -- a register
-    holds     : out std_logic;
+    busy      : out std_logic;
     in_valid  : in  std_logic;
     in_data   : in  std_logic_vector(g_bits - 1 downto 0);
     out_valid : out std_logic;
@@ -60,12 +60,12 @@ architecture rtl of stream_queue is
 
   signal advance : std_logic; -- a word moves from the memory to the output
   signal reads   : std_logic; -- the same, from the indices
-  signal leaves  : std_logic;
+  signal taken   : std_logic;
 
 begin
 
   advance <= r.stored and (out_ready or not r.out_valid);
-  leaves  <= r.out_valid and out_ready;
+  taken   <= r.out_valid and out_ready;
 
   -- This form shows a synthesizer that no place is read while it is written; otherwise it adds registers for that case.
   reads <= (out_ready or not r.out_valid) when not (r.write = r.read) else '0';
@@ -75,9 +75,9 @@ begin
     variable two : std_logic; -- two words are in the memory, if any is
   begin
     v := r;
-    if claim = '1' and leaves = '0' then
+    if claim = '1' and taken = '0' then
       v.claimed := r.claimed + 1;
-    elsif claim = '0' and leaves = '1' then
+    elsif claim = '0' and taken = '1' then
       v.claimed := r.claimed - 1;
     end if;
     v.room := '1';
@@ -151,7 +151,7 @@ begin
   end generate;
 
   room      <= r.room;
-  holds     <= '0' when r.claimed = 0 else '1';
+  busy      <= '0' when r.claimed = 0 else '1';
   out_valid <= r.out_valid;
 
 end architecture;

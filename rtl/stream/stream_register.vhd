@@ -7,7 +7,7 @@
 -- Formats     g_bits of any format
 -- Latency     1 clock
 -- Throughput  1 word per clock
--- Error       none: each word comes out once, unchanged, in order
+-- Error       none: each word is output once, unchanged, in order
 -- Source      quadratic paper, section 6 (the next triangle is initialized while this one is drawn); valid/ready is
 --             ours
 -- Golden twin model/golden/stream_register.hpp

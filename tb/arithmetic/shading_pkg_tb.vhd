@@ -92,7 +92,7 @@ begin
       if word < largest then
         largest := word(bits - 1 downto 0);
       end if;
-      check("held", std_logic_vector(held(word, bits)), std_logic_vector(largest));
+      check("clamped", std_logic_vector(clamped(word, bits)), std_logic_vector(largest));
     end procedure;
   begin
     for word_bits in 2 to 34 loop

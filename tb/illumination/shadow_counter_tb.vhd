@@ -22,7 +22,7 @@ architecture sim of shadow_counter_tb is
   signal clear    : std_logic := '0';
   signal counts   : std_logic := '0';
   signal opens    : std_logic := '0';
-  signal takes    : std_logic := '0';
+  signal object   : std_logic := '0';
   signal x        : std_logic_vector(formats(true).pixel_x.bits - 1 downto 0) := (others => '0');
   signal eye      : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0) := (others => '0');
   signal lit      : std_logic;
@@ -37,7 +37,7 @@ begin
       clear      => clear,
       counts     => counts,
       opens      => opens,
-      takes      => takes,
+      object     => object,
       x          => x,
       around_eye => eye,
       lit        => lit,
@@ -59,7 +59,7 @@ begin
       vectors.drive(clear);
       vectors.drive(counts);
       vectors.drive(opens);
-      vectors.drive(takes);
+      vectors.drive(object);
       vectors.drive(x);
       vectors.drive(eye);
       reset  <= reset_now;

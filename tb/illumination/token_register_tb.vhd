@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Tokens of all kinds through all steps of the schedule: one behind the other, then with random pauses before and after
+-- Tokens of all kinds through all steps of the schedule: one after the other, then with random pauses before and after
 -- them. Each input is 'X' in the clocks in which the contract does not read it.
 library ieee;
 use ieee.std_logic_1164.all;

@@ -169,7 +169,7 @@ begin
   lanes(12) <= lane(line_2);
   lanes(13) <= lane(line_9);
   lanes(16) <= lane(narrowed);
-  lanes(17) <= lane(std_logic_vector(held(unsigned(a), 12)) & std_logic_vector(held(unsigned(b(19 downto 0)), 18))
+  lanes(17) <= lane(std_logic_vector(clamped(unsigned(a), 12)) & std_logic_vector(clamped(unsigned(b(19 downto 0)), 18))
     & std_logic_vector(round_half_up(unsigned(a(20 downto 0)), 7)));
   lanes(18) <= lane(std_logic_vector(round_half_up(signed(b(40 downto 0)), 13)));
   lanes(19) <= lane(std_logic_vector(signed(a(29 downto 0)) * signed(b(17 downto 0))));

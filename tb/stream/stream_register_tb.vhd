@@ -78,7 +78,7 @@ begin
         full := false;
       elsif in_valid = '1' and in_ready = '1' then
         assert not full or out_ready = '1'
-          report "stream_register: takes a word over one that nobody took" severity failure;
+          report "stream_register: loads a word before the last one is taken" severity failure;
         full := true;
         held := in_data;
       elsif out_ready = '1' then
