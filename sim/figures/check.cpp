@@ -61,7 +61,7 @@ Result<std::vector<std::string>> stale(std::span<const Entry> drawn, const std::
   std::vector<std::string> wrong = faults(entries);
   if (must(to_page(entries, source)) != page) wrong.push_back("README.md is not the page of figures.json");
   if (to_json(entries) != json) {
-    wrong.push_back("figures.json is not as it is written");
+    wrong.push_back("figures.json differs from the text that make figures writes");
     const Json there = Json::parse(json), now = Json::parse(to_json(entries));
     for (const auto& difference : Json::diff(there, now)) {
       const std::string path = difference["path"];

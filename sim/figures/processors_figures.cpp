@@ -61,7 +61,7 @@ constexpr PlanRequest c_published{
     .shader = Shader::processors, .preset = Preset::published, .form = ProcessorForm::folded};
 
 // True if the hardware draws the scene lit and approximately correct. `normalize`: version II, which
-// normalizes N whatever the lights are; without it, false also if the scene needs hardware that normalizes.
+// normalizes N for any lights; without it, false also if the scene needs hardware that normalizes.
 bool draws(const Context& context, const Scene& scene, Preset preset, bool normalize) {
   constexpr FrameSize c_size{80, 60};
   constexpr double c_least_psnr_db = 18.0;

@@ -297,10 +297,10 @@ void draw_times(const Context& context, Drawing& out) {
   // Assume a constant additional time per pixel for all three methods, chosen so that Phong's ratio is the
   // published one.
   constexpr double c_published_phong = 450.0 / 230.0;
-  const double beside = (times.phong - c_published_phong * times.gouraud) / (c_published_phong - 1.0);
-  out.measured["the first with a time beside shading that makes the second 1.96"] =
-      measured((times.quadratic + beside) / (times.gouraud + beside),
-               "{:.2f}, by {:.1f} times Gouraud's time", beside / times.gouraud);
+  const double additional = (times.phong - c_published_phong * times.gouraud) / (c_published_phong - 1.0);
+  out.measured["the first with an additional time that makes the second 1.96"] =
+      measured((times.quadratic + additional) / (times.gouraud + additional),
+               "{:.2f}, by {:.1f} times Gouraud's time", additional / times.gouraud);
 
   const auto pace = [&](const Scene& of, FrameSize size, const PlanRequest& plan,
                         const SetupOptions& options = {}) {
@@ -316,7 +316,7 @@ void draw_times(const Context& context, Drawing& out) {
   const double folded =
       pace(scene, {160, 160},
            {.shader = Shader::processors, .preset = Preset::published, .form = ProcessorForm::folded});
-  out.measured["clocks a pixel, quadratic shader"] = measured(quadratic, "{:.3f}");
+  out.measured["clocks per pixel, quadratic shader"] = measured(quadratic, "{:.3f}");
   out.measured["in hardware, quadratic as a multiple of linear"] = constructed(quadratic / linear, "{:.3f}");
   out.measured["in hardware, Phong shading by the processors paper's version I, likewise"] =
       measured(folded / linear, "{:.2f}");

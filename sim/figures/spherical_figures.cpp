@@ -552,7 +552,7 @@ void draw_schemes(const Context& context, Drawing& out) {
   draw_plot(
       context, "spherical-schemes",
       {.size = {640, 330},
-       .title = "How far the angle between two turning vectors differs where one is held fixed",
+       .title = "How far the angle between two turning vectors differs where one is constant",
        .script =
            data_block("angles", rows) +
            "set xlabel 'each vector turns by, degrees'\nset ylabel 'largest difference, degrees'\nset xrange "

@@ -69,7 +69,7 @@ class TraceBuilder {
     for (const Lane& lane : c_lanes) close(std::string(lane.signal), now_);
     for (int i = 0; i < pixels_; ++i)
       trace_.words += fmt::format(
-          "{}Pixel {}: angle {}, ra {}, sample {}, product {}; beside it the sum for pixel {}, {}.",
+          "{}Pixel {}: angle {}, ra {}, sample {}, product {}; next to it the sum for pixel {}, {}.",
           i == 0 ? "" : " ", i, told_[{i, "angle"}], told_[{i, "ra"}], told_[{i, "sample"}],
           told_[{i, "product"}], i + 1, told_[{i + 1, "sum"}]);
     return std::move(trace_);
