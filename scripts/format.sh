@@ -34,7 +34,7 @@ report() { # file what
   bad=1
 }
 
-# Files written by hand whose names match, one a line. What `make tables` writes is check-tables' business.
+# Files written by hand whose names match, one per line. What `make tables` writes is check-tables' business.
 sources() { # pattern
   # grep -L's exit code means different things in different versions.
   find model sim rtl tb docs -type f | grep -E "$1" | tr '\n' '\0' |
@@ -74,7 +74,7 @@ format_vhdl() {
   sources '\.vhd$' >"$scratch/vhdl"
   compile_order | awk '!seen[$0]++' >"$scratch/order"
   mkdir "$scratch/work"
-  # What it says of a broken file is said again below.
+  # Its messages for a broken file are repeated below.
   while read -r file; do if [ -f "$file" ]; then printf '%s\0' "$file"; fi; done <"$scratch/order" |
     xargs -0 ghdl -i --std=08 --workdir="$scratch/work" >"$scratch/errors" 2>&1 || true
   while read -r file; do

@@ -13,13 +13,13 @@ cd "$(dirname "$0")/.."
 build=build/fuzz
 inputs=tb/fuzz
 
-# One target, to its end; its log tells the rest.
+# Run one target to its end; the details are in its log.
 if [ "${1-}" = --one ]; then
   target=$2
   seconds=$3
   mkdir -p "$build/corpus/$target" "$build/tmp/$target"
   dictionary=$inputs/dictionaries/$target.dict
-  # The report has a log of its own, apart from what libFuzzer prints.
+  # The report has a separate log, without the output of libFuzzer.
   log_path=$PWD/$build/logs/$target.report
   rm -f "$log_path".*
   status=0

@@ -54,7 +54,7 @@ for picture in spheres teapot shadows; do
     cp $picture.png "$gallery"
     echo "docs/results/gallery/$picture.png: written"
   elif ! idiff $picture.png "$gallery/$picture.png" >$picture.log; then
-    echo "gallery: docs/results/gallery/$picture.png is not what is drawn: run make gallery" >&2
+    echo "gallery: docs/results/gallery/$picture.png differs from the drawn picture: run make gallery" >&2
     bad=1
   fi
 done

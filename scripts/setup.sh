@@ -5,7 +5,7 @@
 #   scripts/setup.sh [GROUP...]   the groups build and sim, and those named
 #   scripts/setup.sh --doctor     report on every group, install nothing
 #
-# Exit codes: 0 all is there, 2 bad usage, 3 something is missing or too old.
+# Exit codes: 0 all tools are present, 2 bad usage, 3 something is missing or too old.
 set -eu
 export LC_ALL=C
 cd "$(dirname "$0")/.."

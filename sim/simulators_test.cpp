@@ -278,7 +278,7 @@ TEST_F(Simulators, BothGiveTheExpectedFragmentsAndCycles) {
   }
 }
 
-TEST_F(Simulators, StallsChangeTheCyclesAlikeAndNothingElse) {
+TEST_F(Simulators, StallsChangeOnlyTheCyclesAndInBothEqually) {
   for (const std::uint32_t seed : {1U, 77U}) {
     const auto from_ghdl = ghdl({.stall_seed = seed});
     ASSERT_TRUE(from_ghdl) << from_ghdl.error().message;
@@ -328,7 +328,7 @@ TEST_F(Simulators, AHangIsSeen) {
   expect_lanes_fail("hang");
 }
 
-TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
+TEST_F(Simulators, AFaultThatTheHardwareReportsIsDetected) {
   // The fault comes with the last vector's fragment, and a few cycles later when the pipeline is empty.
   for (const char* delay : {"0", "4"}) {
     write_rtl(
@@ -338,7 +338,7 @@ TEST_F(Simulators, AFaultThatTheHardwareTellsIsSeen) {
   }
 }
 
-TEST_F(Simulators, APayloadThatMovesIsSeen) {
+TEST_F(Simulators, APayloadThatChangesIsDetected) {
   write_rtl({.red = "(7 downto 1 => '0') & fragment_ready"});
   // The payload changes only with fragment_ready.
   expect_both_fail("changed while it was not taken", "changed or was withdrawn");
@@ -377,7 +377,7 @@ TEST_F(Simulators, LanesGiveTheExpectedFragmentsInOrder) {
   }
 }
 
-TEST_F(Simulators, BrokenRtlIsToldWithItsLine) {
+TEST_F(Simulators, BrokenRtlIsReportedWithItsLine) {
   write_rtl({.valid = "nonsense"});
   for (const auto& result : {ghdl(), verilator()}) {
     ASSERT_FALSE(result);
@@ -412,7 +412,7 @@ TEST_F(Simulators, ATimeoutEndsTheRun) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }
 
-TEST_F(Simulators, AFullDiskIsToldAndLeavesNoTrace) {
+TEST_F(Simulators, AFullDiskIsReportedAndLeavesNoTrace) {
   const auto runner = GhdlRunner::open(key_, folders_);
   ASSERT_TRUE(runner) << runner.error().message;
   const auto init_file = scratch_->path() / "init.txt";
@@ -426,7 +426,7 @@ TEST_F(Simulators, AFullDiskIsToldAndLeavesNoTrace) {
   EXPECT_FALSE(std::filesystem::exists(trace));
 }
 
-TEST_F(Simulators, MissingToolsAreToldWithTheCommandThatBringsThem) {
+TEST_F(Simulators, MissingToolsAreReportedWithTheCommandThatInstallsThem) {
   const std::string path = ::getenv("PATH");
   ::setenv("PATH", (scratch_->path() / "empty").c_str(), 1);
   const auto from_ghdl = ghdl();

@@ -325,7 +325,7 @@ class ObjReader {
     if (has_textures_) note("textures are left out");
     if (has_curves_) note("curves and surfaces are left out");
     if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
-    if (faces_.without_area() > 0) note(fmt::format("{} faces of no area left out", faces_.without_area()));
+    if (faces_.without_area() > 0) note(fmt::format("{} faces without area left out", faces_.without_area()));
     loaded_.notes.insert(loaded_.notes.end(), notes_.begin(), notes_.end());
   }
 

@@ -206,7 +206,7 @@ TEST(Obj, NotesSayWhatIsLeftOut) {
       "f 1 2 4 2\nf 1 2 3\n");
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->notes, (std::vector<std::string>{
-                               "a.obj: 1 faces of no area left out", "a.obj: 3 points and lines left out",
+                               "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
                                "a.obj: curves and surfaces are left out", "a.obj: textures are left out",
                                "a.obj: vertex colours are left out"}));
 }

@@ -474,7 +474,7 @@ class PlyReader {
     };
     if (has_colours_) note("vertex colours are left out");
     if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
-    if (faces_.without_area() > 0) note(fmt::format("{} faces of no area left out", faces_.without_area()));
+    if (faces_.without_area() > 0) note(fmt::format("{} faces without area left out", faces_.without_area()));
   }
 
   std::string_view bytes_;

@@ -396,9 +396,10 @@ TEST(Ply, NotesSayWhatIsLeftOut) {
                    "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n2 0 0 1 2 3\n3 0 1 2\n2 0 1\n4 0 1 3 1\n5\n",
                "a.ply");
   ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->notes, (std::vector<std::string>{
-                               "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out",
-                               "a.ply: 1 points and lines left out", "a.ply: 1 faces of no area left out"}));
+  EXPECT_EQ(loaded->notes,
+            (std::vector<std::string>{
+                "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out",
+                "a.ply: 1 points and lines left out", "a.ply: 1 faces without area left out"}));
 }
 
 TEST(Ply, MoreTrianglesThanTheLimitAreRefused) {

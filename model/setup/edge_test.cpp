@@ -151,7 +151,7 @@ TEST(Edge, OrderOfThePointsDoesNotMatter) {
   }
 }
 
-TEST(Edge, ATriangleOfNoAreaCoversNothing) {
+TEST(Edge, ATriangleWithoutAreaCoversNothing) {
   std::mt19937 random(11);
   std::uniform_int_distribution<std::int32_t> coordinate(-100, 500), step(-3, 3);
   for (int i = 0; i < 2000; ++i) {

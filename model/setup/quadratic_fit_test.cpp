@@ -461,7 +461,7 @@ TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
 
 // All combinations of zero samples and largest samples. Control points are within -1023 ... 2046, and no
 // value leaves the format. Such a value would be wrong by 2^12 steps, and `draw` would report it.
-TEST(GoldenQuadratic, NoValueLeavesTheFormatWhateverTheSamples) {
+TEST(GoldenQuadratic, NoSamplesMakeAValueLeaveTheFormat) {
   Worst worst;
   RandomTriangles random(9);
   for (int bits = 0; bits < 64; ++bits) {

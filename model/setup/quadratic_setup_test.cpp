@@ -357,7 +357,7 @@ bool is_rounded(std::uint32_t colour, double radiance) {
 }
 
 // Six samples may miss all that a small triangle shows. At its pixels' centres nothing is missed: each
-// fragment has the reference's colour, rounded, whatever threshold and levels.
+// fragment has the reference's colour, rounded, for any threshold and levels.
 TEST(QuadraticSetup, SmallTrianglesHaveTheReferencesColours) {
   std::vector<std::pair<Scene, FrameSize>> cases = {{teapot_scene(), {7, 5}}, {teapot_scene(10), {32, 24}}};
   for (unsigned seed = 0; seed < 100; ++seed) {

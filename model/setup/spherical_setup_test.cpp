@@ -191,7 +191,8 @@ class Specification {
   }
   Term diffuse(const SpanThere& span, const LightOnSpan& on, std::size_t light, int c, int steps) const {
     const Real brightest = strength(on, light, c) * material_.diffuse * material_.colour[c];
-    const Real factor = held(brightest * on.diffuse.amplitude), cosine = std::cos(x(on.diffuse, span, steps));
+    const Real factor = clamped(brightest * on.diffuse.amplitude),
+               cosine = std::cos(x(on.diffuse, span, steps));
     const bool known = on.doubt_diffuse < c_unknown;
     return {factor * std::max<Real>(0, cosine),
             c_factor_rounding +
@@ -201,7 +202,7 @@ class Specification {
   Term specular(const SpanThere& span, const LightOnSpan& on, std::size_t light, int c, int steps) const {
     const Real brightest = strength(on, light, c) * material_.specular * material_.specular_colour[c];
     const Real factor =
-        held(brightest * bell_.gain * std::pow(std::min<Real>(1, on.specular.amplitude), exponent_));
+        clamped(brightest * bell_.gain * std::pow(std::min<Real>(1, on.specular.amplitude), exponent_));
     const Real y = bell_.scale * x(on.specular, span, steps);
     const Real bell = c_exact && std::fabs(y) >= c_pi / 2 ? 0 : std::pow(std::fabs(std::cos(y)), bell_.power);
     Term term{factor * bell, c_factor_rounding + factor * (bell_error_ + drift(steps) * bell_slope_)};
@@ -244,7 +245,7 @@ class Specification {
   }
   // Factors are clamped such that the table's largest entry represents 1.
   static constexpr Real c_limit = c_exact ? 65535 : 1023;
-  Real held(Real steps) const {
+  Real clamped(Real steps) const {
     const Real entries = std::ldexp(1.0L, tables_.data_bits);
     return std::min(steps, c_limit * (entries - 1) / entries);
   }
@@ -994,16 +995,16 @@ TEST(SphericalSetup, TooLargeExponentsAreClampedAndNoted) {
   Scene steep = stage({{{0.003, 0.001, 1}, {-0.003, 0.002, 1}, {0, -0.003, 1}}});
   move_eye_away(steep);
   steep.directional.push_back({{0, 0, 1}, glm::dvec3(0.9)});
-  Scene held = steep;
+  Scene clamped = steep;
   steep.materials[0].exponent = 1e9;
-  held.materials[0].exponent = c_largest_exponent;
+  clamped.materials[0].exponent = c_largest_exponent;
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const SphericalSetupOptions whole{.threshold = 1e9};
     EXPECT_EQ(draw(steep, c_stage_frame, spherical_key(steep, preset), whole).words,
-              draw(held, c_stage_frame, spherical_key(held, preset), whole).words);
+              draw(clamped, c_stage_frame, spherical_key(clamped, preset), whole).words);
   }
-  EXPECT_NE(notes(steep).find("exponent 1e+09 was held at 1e+06"), std::string::npos) << notes(steep);
-  EXPECT_EQ(notes(held).find("exponent"), std::string::npos);
+  EXPECT_NE(notes(steep).find("exponent 1e+09 was clamped to 1e+06"), std::string::npos) << notes(steep);
+  EXPECT_EQ(notes(clamped).find("exponent"), std::string::npos);
 }
 
 TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
@@ -1025,12 +1026,12 @@ TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
   scene.directional[0].intensity = glm::dvec3(10.0);
   EXPECT_NE(notes(scene).find("a light is reflected 5 times as bright as white"), std::string::npos)
       << notes(scene);
-  EXPECT_EQ(notes(scene).find("held"), std::string::npos) << "there is room for this";
-  EXPECT_NE(notes(scene, Preset::published).find("over-exposed more than 4 times and were held there: all"),
+  EXPECT_EQ(notes(scene).find("clamped"), std::string::npos) << "there is room for this";
+  EXPECT_NE(notes(scene, Preset::published).find("exceed 4 times white and were clamped to it"),
             std::string::npos)
       << notes(scene, Preset::published);
   scene.directional[0].intensity = glm::dvec3(1e6);
-  EXPECT_EQ(notes(scene).find("held"), std::string::npos) << "white all the same";
+  EXPECT_EQ(notes(scene).find("clamped"), std::string::npos) << "the pixels are white in both cases";
 }
 
 // A value that is clamped in preset exact would be white without the clamp, too.

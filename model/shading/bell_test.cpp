@@ -320,13 +320,13 @@ TEST(FittedBell, FollowsTheRootOfALargeExponent) {
 
 TEST(Bell, ExponentsOutOfRangeAreClamped) {
   constexpr double c_infinity = std::numeric_limits<double>::infinity();
-  const auto expect_same = [](double n, double held) {
-    const Bell a = fitted_bell(n), b = fitted_bell(held);
+  const auto expect_same = [](double n, double clamped) {
+    const Bell a = fitted_bell(n), b = fitted_bell(clamped);
     ASSERT_EQ(a.power, b.power) << n;
     ASSERT_EQ(a.scale, b.scale) << n;
     ASSERT_EQ(a.gain, b.gain) << n;
-    ASSERT_EQ(published_scale(n), published_scale(held)) << n;
-    EXPECT_EQ(fit_error(n, b), fit_error(held, b)) << n;
+    ASSERT_EQ(published_scale(n), published_scale(clamped)) << n;
+    EXPECT_EQ(fit_error(n, b), fit_error(clamped, b)) << n;
   };
   for (const double n : {0.999, 0.5, 0.0, -1.0, -7.0, -c_infinity, std::nan("")}) expect_same(n, 1.0);
   for (const double n : {2e15, 1e300, c_infinity}) expect_same(n, 1e15);

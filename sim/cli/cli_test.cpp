@@ -146,7 +146,7 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
     const std::string what = fmt::format("{} {} {}: {}", c.shader, c.preset, c.option, outcome.output);
     EXPECT_EQ(outcome.exit_code, c.taken ? 0 : 2) << what;
     EXPECT_EQ(outcome.output.find(c.option + " belongs to the ") == std::string::npos, c.taken) << what;
-    EXPECT_EQ(outcome.output.find(fmt::format("says nothing for the {} shader in preset {}\n", c.shader,
+    EXPECT_EQ(outcome.output.find(fmt::format("does not apply to the {} shader in preset {}\n", c.shader,
                                               c.preset)) == std::string::npos,
               c.taken)
         << what;
@@ -199,7 +199,7 @@ TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
   EXPECT_EQ(run({"sim", folder_->path(), "--out", out()}).exit_code, 2);
 }
 
-TEST_F(CliTest, RenderingTheGoldenModelSaysWhatWasHeld) {
+TEST_F(CliTest, RenderingTheGoldenModelNotesClampedValues) {
   const auto scene = write("bright.toml",
                            "[[directional]]\nto_light = [0, 0, 1]\nintensity = [100, 1, 1]\n[[material]]\n"
                            "name = \"m\"\n[[mesh]]\nkind = \"box\"\nmaterial = \"m\"\n");
@@ -527,7 +527,7 @@ TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
 }
 
 // Printed output is a result, too.
-TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsTold) {
+TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsReported) {
   const auto full = [&](const std::string& arguments) {
     return run_as({"sh", "-c", fmt::format("exec '{}' {} >/dev/full", HALFWAY_PROGRAM, arguments)});
   };
@@ -594,7 +594,7 @@ TEST_F(CliTest, WhyAgreesOnRightHardware) {
 }
 
 // The last fragment is output in the last of the clocks that `sim` counts, for any latency of the shader.
-TEST_F(CliTest, WhyTellsTheFragmentsClock) {
+TEST_F(CliTest, WhyPrintsTheFragmentsClock) {
   const auto mesh = write("one.obj", c_triangle);
   const auto given = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--size", "40x30", "--out", out()});
@@ -700,7 +700,7 @@ TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
 
 // If the hardware does not stop, GHDL's testbench ends the run and reports no cycles.
 using RunawayRtl = WrongRtl;
-TEST_F(RunawayRtl, HasNoCyclesThatNobodyCounted) {
+TEST_F(RunawayRtl, UncountedCyclesAreNull) {
   ASSERT_NO_FATAL_FAILURE(change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;"));
   const Outcome drawn = sim("quadratic", "ghdl");
   EXPECT_EQ(drawn.exit_code, 1) << drawn.output;

@@ -60,10 +60,10 @@ TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
   ASSERT_NE(at, std::string::npos);
   text->replace(at, measured.size(), "\"measured\": \"2.7583\"");
   ASSERT_TRUE(write_file(json, *text));
-  EXPECT_THAT(
-      run({"--source", source.string(), "figures", "--check", "--threads", "2"}),
-      Ends(1, AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
-                    HasSubstr("figures.json is not as it is written"), HasSubstr("run make figures"))));
+  EXPECT_THAT(run({"--source", source.string(), "figures", "--check", "--threads", "2"}),
+              Ends(1, AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
+                            HasSubstr("figures.json differs from the text that make figures writes"),
+                            HasSubstr("run make figures"))));
 }
 
 }  // namespace

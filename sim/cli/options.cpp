@@ -81,7 +81,7 @@ Status check_table_size(const DrawOptions& o) {
 }  // namespace
 
 std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader) {
-  return fmt::format("{} belongs to {}, and says nothing for the {} shader", option, owners,
+  return fmt::format("{} belongs to {}, and does not apply to the {} shader", option, owners,
                      to_string(shader));
 }
 

@@ -98,7 +98,7 @@ void print_effects(const Plan& plan, const std::optional<PlanUnits>& units, cons
     fmt::print("{:<23} {:<4} {:<9} {}{}{}\n", to_string(e.effect), e.called_for ? "yes" : "no", by,
                printable(e.why), done && !e.how.empty() ? "; " : "", done ? e.how : "");
     if (!units || units->effects[i].empty()) continue;
-    const char* there = !e.elaborated ? "left out: " : e.called_for ? "" : "there all the same: ";
+    const char* there = !e.elaborated ? "left out: " : e.called_for ? "" : "not needed, but present: ";
     fmt::print("{:<38} {}{}{}\n", "", there, units_text(units->effects[i]), cells_text(e, plan.key, cells));
   }
 }

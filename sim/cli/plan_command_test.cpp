@@ -51,7 +51,7 @@ TEST_F(PlanCommand, ListsEveryEffectAndWhatIsLeftOut) {
   EXPECT_THAT(all.output,
               AllOf(HasSubstr("all effects    spherical_shader-exact-c3-l4-d-s3-cos1.2.4.8.16-rom9x8\n"),
                     ContainsRegex("\nspecular +no +hardware +every k_s is 0; one slice per light\n"
-                                  " +there all the same: .*4 specular_slice")));
+                                  " +not needed, but present: .*4 specular_slice")));
 }
 
 TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
@@ -140,7 +140,7 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"plan", "matte", "--shader", "spherical", "--lights", "3"}, "--lights goes with --all-effects"},
       {{"plan", "matte", "--all-effects", "--lights", "3"},
-       "--lights belongs to the spherical shader and the processors shader, and says nothing for the "
+       "--lights belongs to the spherical shader and the processors shader, and does not apply to the "
        "quadratic "
        "shader"},
       {{"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "0"}, "0 is not 1 to 16"},
@@ -151,7 +151,7 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
       {{"plan", "matte", "--objects", "0"}, "--objects: 0 is not 1 to 1000"},
       {{"plan", "lights", "--shader", "processors", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
       {{"plan", "matte", "--form", "folded"},
-       "--form belongs to the processors shader, and says nothing for the quadratic shader"},
+       "--form belongs to the processors shader, and does not apply to the quadratic shader"},
       {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take folded or unrolled"},
       {{"plan", "matte", "--objects", "-1"}, "--objects"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},

@@ -111,7 +111,7 @@ Result<Outputs> checked(const ViewCommand& c) {
   if (c.columns) o.columns = static_cast<std::uint32_t>(*c.columns);
   if (o.terminal && !o.columns && isatty(STDOUT_FILENO) == 0)
     return bad_input(
-        "--terminal: standard output is no terminal; with --columns the pictures are written all the same");
+        "--terminal: standard output is no terminal; with --columns the pictures are still written");
   o.colours = colours_of_terminal();
   if (c.colours == "24bit")
     o.colours = TerminalColours::full;

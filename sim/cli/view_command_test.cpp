@@ -269,7 +269,7 @@ TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
     double off = 0;
     for (std::size_t i = 0; i < shown.size(); ++i)
       off += std::abs(static_cast<unsigned char>(shown[i]) - static_cast<unsigned char>(frames[i]));
-    EXPECT_LT(off / static_cast<double>(shown.size()), 6.0) << ending << ": lossy, and near all the same";
+    EXPECT_LT(off / static_cast<double>(shown.size()), 6.0) << ending << ": lossy, but close";
   }
   EXPECT_GT(played, 5);
 }

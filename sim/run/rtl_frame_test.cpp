@@ -89,7 +89,7 @@ TEST(RtlFrame, ComparesWheneverFragmentsCome) {
   }
 }
 
-TEST(RtlFrame, TellsWhatDiffersIsMissingOrTooMany) {
+TEST(RtlFrame, ReportsDifferentMissingAndSuperfluousFragments) {
   const std::vector<std::pair<std::vector<Fragment>, std::string>> cases = {
       {{fragment(0, 10), fragment(1, 21), fragment(2, 30)}, "pixel 1, red: golden 20, Verilator 21"},
       {{fragment(0, 10), fragment(1, 20)}, "pixel 2: golden has it, Verilator ended before"},

@@ -167,8 +167,7 @@ class Simulation {
     if (s_.plan.shader == Shader::spherical)
       note_of_bells();
     else if (n.overexposed != 0)
-      note(
-          fmt::format("{} samples are over-exposed more than four times and were held there", n.overexposed));
+      note(fmt::format("{} samples exceed four times white and were clamped to it", n.overexposed));
   }
 
   void note_of_bells() {
@@ -187,7 +186,7 @@ class Simulation {
       }
       if (!has_specular(m)) continue;
       if (m.exponent > c_largest_exponent)
-        note(fmt::format("material '{}': its exponent {:g} was held at {:g}", m.name, m.exponent,
+        note(fmt::format("material '{}': its exponent {:g} was clamped to {:g}", m.name, m.exponent,
                          c_largest_exponent));
       // At exponent 1 the bell is the cosine itself.
       const double steps =
@@ -200,15 +199,15 @@ class Simulation {
     }
     if (exact && brightest > c_bright)
       note(
-          fmt::format("a light is reflected {:.3g} times as bright as white: where it has faded below white, "
-                      "the errors of bells and tables are as many times larger",
+          fmt::format("a light is reflected {:.3g} times as bright as white: where it is below white, "
+                      "the errors of bells and tables are larger by the same factor",
                       brightest));
-    const std::uint64_t held = summary_.setup.overexposed;
-    if (held == 0 || (exact && key.spherical.tables.data_bits <= c_white_data_bits)) return;
+    const std::uint64_t clamped = summary_.setup.overexposed;
+    if (clamped == 0 || (exact && key.spherical.tables.data_bits <= c_white_data_bits)) return;
     note(fmt::format(
-        "{} factors are over-exposed more than {:.0f} times and were held there: all that they "
-        "light comes out too dark, not only what is beyond white",
-        held, (exact ? c_largest_factor<golden::Exact> : c_largest_factor<golden::Published>) / 255.0));
+        "{} factors exceed {:.0f} times white and were clamped to it: whole lines are too dark, not only "
+        "pixels above white",
+        clamped, (exact ? c_largest_factor<golden::Exact> : c_largest_factor<golden::Published>) / 255.0));
   }
 
   ReferenceImage draw_reference() const {
@@ -247,7 +246,7 @@ class Simulation {
   Status stream() {
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, summary_.plan.key, s_.setup);
     const std::string key = summary_.plan.key.name();
-    for (const std::string& held : setup->notes()) note(held);
+    for (const std::string& text : setup->notes()) note(text);
     auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
     if (!init_file) return init_file.error();
     auto golden_trace = TraceWriter::open(files_.trace("golden"), key);

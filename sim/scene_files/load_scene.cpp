@@ -572,7 +572,7 @@ class SceneReader {
     const std::size_t dropped = drop_zero_area(mesh);
     if (mesh.triangles.empty()) return bad_input(what + ": no triangle of the mesh has any area");
     if (dropped > 0) {
-      scene.notes.push_back(fmt::format("{}: {} triangles of no area left out", what, dropped));
+      scene.notes.push_back(fmt::format("{}: {} triangles without area left out", what, dropped));
     }
     const std::size_t corners = 3 * mesh.triangles.size();
     const std::size_t filled = fill_normals(mesh, crease_degrees, replace_normals);

@@ -433,7 +433,7 @@ TEST_F(LoadScene, AMeshFileGetsCameraLightAndMaterial) {
   EXPECT_GT(glm::dot(scene->directional[0].to_light_world, basis.up_world), 0.0);
   EXPECT_GT(glm::dot(scene->directional[0].to_light_world, basis.backward_world), 0.0);
   ASSERT_EQ(scene->notes.size(), 1u);
-  EXPECT_EQ(scene->notes[0], (folder_ / "tetra.obj").string() + ": 1 triangles of no area left out");
+  EXPECT_EQ(scene->notes[0], (folder_ / "tetra.obj").string() + ": 1 triangles without area left out");
 }
 
 TEST_F(LoadScene, MeshFilesAreRelativeToTheScene) {

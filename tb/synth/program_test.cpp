@@ -96,7 +96,7 @@ class SynthProgram : public StandInTools {
   }
 };
 
-TEST_F(SynthProgram, WritesTheRowAndTellsWhatHasNoEnd) {
+TEST_F(SynthProgram, WritesTheRowAndReportsSeedsWithoutEnd) {
   const Outcome outcome = run({"--seeds", "3", "--evidence", "all", "--page", page().string()});
   EXPECT_EQ(outcome.exit_status, 0) << outcome.errors;
   EXPECT_THAT(outcome.output, HasSubstr("accumulator_24, seed 2: nextpnr does not end"));
@@ -164,7 +164,7 @@ TEST_F(SynthProgram, PinsAndLeavesReadmeWhereItLacksAClock) {
 
 // Measuring takes minutes to hours. Missing or unwritable files are reported before; with --check nothing is
 // measured.
-TEST_F(SynthProgram, TellsWhatCannotBeBeforeItMeasures) {
+TEST_F(SynthProgram, ReportsBadArgumentsBeforeItMeasures) {
   const fs::path missing = root() / "none.md";
   ASSERT_TRUE(write_file(root() / "readme.md", "no such part\n"));
   const std::string readme = (root() / "readme.md").string();
@@ -235,7 +235,7 @@ TEST_F(SynthProgram, ShowsOnATerminalAloneWhatIsUnderWay) {
   EXPECT_GT(terminal.output.find("| design |"), terminal.output.rfind(over));
 }
 
-TEST_F(SynthProgram, TellsABrokenToolOnStderrAndComparesNothing) {
+TEST_F(SynthProgram, ReportsABrokenToolOnStderrAndComparesNothing) {
   put("yosys",
       "#!/bin/sh\n[ \"$1\" = -V ] && echo 'Yosys 0.23' && exit\necho 'ERROR: a broken one' ; exit 1\n");
   const Outcome outcome = run({"--quick", "--cells"});

@@ -42,7 +42,7 @@ void measure_small_triangles(Json& speed) {
             shader == Shader::spherical ? std::uint64_t{all.vectors()} - walk.headers : 0, walk.lines,
             walk.empty_lines})
         row.push_back(fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels)));
-      fmt::print(stderr, "small triangles: {}, {} pixels each: {} clocks a fragment\n", to_string(shader),
+      fmt::print(stderr, "small triangles: {}, {} pixels each: {} clocks per fragment\n", to_string(shader),
                  wanted, row[3].get<std::string>());
       speed["small_triangles"].push_back(row);
     }
