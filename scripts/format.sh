@@ -79,7 +79,7 @@ format_vhdl() {
     xargs -0 ghdl -i --std=08 --workdir="$scratch/work" >"$scratch/errors" 2>&1 || true
   while read -r file; do
     if [ ! -f "$file" ]; then
-      report "$file" "rtl/files.f names it, but it is not there: mend the list"
+      report "$file" "rtl/files.f lists it, but the file does not exist: correct the list"
       continue
     fi
     if ! ghdl -s --std=08 --workdir="$scratch/work" "$file" 2>"$scratch/errors"; then

@@ -5,7 +5,7 @@
 #   scripts/unpack.sh FOLDER PACKAGE...
 #
 # For `make bench`: ghdl-mcode, once installed, would be what `ghdl` means on this machine, for everything.
-# Exit codes: 0 they are there, 2 bad usage, 3 they cannot be had.
+# Exit codes: 0 all packages are unpacked, 2 bad usage, 3 a package is not available.
 set -eu
 [ $# -ge 2 ] || { echo 'usage: scripts/unpack.sh FOLDER PACKAGE...' >&2 && exit 2; }
 folder=$1

@@ -20,7 +20,7 @@ using Colours = std::array<std::uint8_t, 3>;
 template <class Preset>
 class ColourSum {
  public:
-  /// `data_bits`: of a light's sample. A term has so many fraction bits more than a factor.
+  /// `data_bits`: of a light's sample. A term has this number of fraction bits more than a factor.
   ColourSum(int channels, int data_bits) : channels_(channels), data_bits_(data_bits) {}
 
   void add(const ColourTerms& terms) {

@@ -14,7 +14,7 @@ class StreamQueue {
   explicit StreamQueue(int most) : most_(most) {}
 
   bool room() const { return claimed_ < most_; }
-  bool busy() const { return claimed_ > 0; }
+  bool pending() const { return claimed_ > 0; }
   bool out_valid() const { return out_.has_value(); }
   const T& out_data() const { return *out_; }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bound of the difference between a span of the surface and its arcs (arc.hpp), from the two ends alone. Most
-// spans turn by so little that no place between the ends has to be looked at.
+// spans turn so little that no pixel between the ends needs a check.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -22,7 +22,7 @@
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between
 --             the units: terms_pkg
 -- Latency     one clock less than the clocks of the throughput
--- Throughput  1 token per so many clocks, from taking it to handing it on, both included (published, exact):
+-- Throughput  1 token per this number of clocks, the clock of the input and of the output included (published, exact):
 --             load, delete, shadow polygon, object without a light 2, 2; object in a shadow 3, 3; ambient 4, 4; with N
 --             normalized 6, 9; with the view vector too -, 15 (without N 10); directional diffuse 6, 6, specular 7, 20;
 --             positional diffuse 12, 16, specular 13, 30; spot diffuse 18, 22, specular 24, 32. A step waits only for a

@@ -300,7 +300,7 @@ begin
       reset     => reset,
       claim     => span_step,
       room      => room,
-      busy      => queue_busy,
+      pending   => queue_busy,
       in_valid  => pixel_valid,
       in_data   => pixel_word,
       out_valid => fragment_valid,

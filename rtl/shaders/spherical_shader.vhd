@@ -90,7 +90,7 @@ architecture rtl of spherical_shader is
   subtype fragment_t is std_logic_vector(position_t'length + depth_t'length + 3 * c_formats.colour.bits - 1 downto 0);
 
   type reg_t is record
-    filled       : std_logic_vector(1 to c_summed); -- a pixel, so many clocks after the span stage
+    filled       : std_logic_vector(1 to c_summed); -- a pixel, index clocks after the span stage
     line_load    : std_logic;
     line_step    : std_logic;
     line_carry   : std_logic;
@@ -283,7 +283,7 @@ begin
       reset     => reset,
       claim     => span_step,
       room      => room,
-      busy      => queued,
+      pending   => queued,
       in_valid  => pixel_valid,
       in_data   => pixel,
       out_valid => fragment_valid,

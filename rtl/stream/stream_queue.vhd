@@ -4,7 +4,7 @@
 --             pipeline claims a place for each word, and stalls by one register, `room`.
 -- Contract    A place is claimed where claim = '1' at a rising edge; claim is '1' only where room is. Its word comes in a
 --             later clock: in_valid = '1'. Words come in the order of their claims. A word leaves where out_valid and
---             out_ready are both '1'; out_data does not change while out_valid = '1' and out_ready = '0'. busy: a
+--             out_ready are both '1'; out_data does not change while out_valid = '1' and out_ready = '0'. pending: a
 --             place is claimed or a word is in the queue.
 -- Formats     g_bits of any format
 -- Latency     2 clocks from in_valid to out_valid
@@ -27,7 +27,7 @@ entity stream_queue is
     reset     : in  std_logic;
     claim     : in  std_logic;
     room      : out std_logic; -- a register
-    busy      : out std_logic;
+    pending   : out std_logic;
     in_valid  : in  std_logic;
     in_data   : in  std_logic_vector(g_bits - 1 downto 0);
     out_valid : out std_logic;
@@ -38,7 +38,7 @@ end entity;
 
 architecture rtl of stream_queue is
 
-  constant c_words_bits : positive := 64; -- Verilator copies so many bits as one word
+  constant c_words_bits : positive := 64; -- Verilator copies 64 bits as one word
   constant c_words      : positive := (g_bits + c_words_bits - 1) / c_words_bits; -- evaluated at elaboration
 
   subtype index_t is unsigned(g_index_bits - 1 downto 0);
@@ -151,7 +151,7 @@ begin
   end generate;
 
   room      <= r.room;
-  busy      <= '0' when r.claimed = 0 else '1';
+  pending   <= '0' when r.claimed = 0 else '1';
   out_valid <= r.out_valid;
 
 end architecture;

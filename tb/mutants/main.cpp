@@ -36,7 +36,7 @@ struct Options {
   evidence::Mode mode = evidence::Mode::none;
   std::string part;  ///< only netlists and testbenches whose name contains it
   unsigned jobs = 1, seed = 1;
-  unsigned step = 1;      ///< replay one of so many faults of each netlist
+  unsigned step = 1;      ///< replay every step-th fault of each netlist
   std::uint32_t one = 0;  ///< the number of the only fault; 0: all
   bool prove = true, netlists = true, sources = true, quick = false;
 };
@@ -52,7 +52,7 @@ struct Outcome {
 
 struct NetlistResult {
   std::vector<Outcome> outcomes;
-  unsigned step = 1;  ///< one of so many faults was replayed
+  unsigned step = 1;  ///< every step-th fault was replayed
   double seconds = 0;
   std::size_t count(End end) const {
     return static_cast<std::size_t>(
@@ -370,7 +370,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Puts faults into the hardware, which the tests must find", "halfway_mutants"};
   CLI::Option* quick = app.add_flag("--quick", options.quick, "a sample: a few small netlists and sources");
   CLI::Option* seed = app.add_option("--seed", options.seed, "selects other faults")->capture_default_str();
-  CLI::Option* step = app.add_option("--step", options.step, "only every so many faults of a netlist")
+  CLI::Option* step = app.add_option("--step", options.step, "replay only every N-th fault of a netlist")
                           ->check(CLI::PositiveNumber)
                           ->excludes(quick);
   app.add_option("--jobs", options.jobs, "at a time")->check(CLI::PositiveNumber)->capture_default_str();

@@ -261,8 +261,8 @@ Difference replay_rows(const Design& design, const VectorFile& file, Model& mode
 }
 
 struct Pace {
-  unsigned offer = 1;  ///< a vector is offered in one of so many clocks
-  unsigned take = 1;   ///< an output is accepted in one of so many clocks
+  unsigned offer = 1;  ///< a vector is offered in one of this number of clocks
+  unsigned take = 1;   ///< an output is accepted in one of this number of clocks
   std::uint32_t seed = 1;
   unsigned reset_at = 0;  ///< clock of a reset that ends the pass; 0: no reset
   bool full() const { return offer == 1 && take == 1 && reset_at == 0; }

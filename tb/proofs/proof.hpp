@@ -41,7 +41,7 @@ struct Proof {
   std::string property{};  ///< one sentence, for the page
   Method method = Method::induction;
   int clocks = 0;        ///< of induction and bounded proofs
-  int fault_clocks = 0;  ///< a fault must be refuted within so many clocks
+  int fault_clocks = 0;  ///< a fault must be refuted within this number of clocks
   bool quick = false;    ///< takes a few seconds with its faults: `make test` runs it too
   std::vector<std::pair<std::string, std::string>> generics{};
   std::vector<Format> formats{};         ///< narrower formats, where the solver needs them

@@ -80,7 +80,7 @@ Scene wall(const Material& material) {
   return scene;
 }
 
-// Normals that turn about the vertical by so many degrees from one side to the other.
+// Normals that turn about the vertical by this number of degrees from one side to the other.
 Scene bent(const Material& material, double degrees) {
   Scene scene = lit(material);
   const double half = glm::radians(degrees) / 2;

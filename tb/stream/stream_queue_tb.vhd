@@ -22,7 +22,7 @@ architecture sim of stream_queue_run is
   signal reset     : std_logic := '1';
   signal claim     : std_logic := '0';
   signal room      : std_logic;
-  signal busy      : std_logic;
+  signal pending   : std_logic;
   signal in_valid  : std_logic := '0';
   signal in_data   : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
   signal out_valid : std_logic;
@@ -36,7 +36,7 @@ begin
       reset     => reset,
       claim     => claim,
       room      => room,
-      busy      => busy,
+      pending   => pending,
       in_valid  => in_valid,
       in_data   => in_data,
       out_valid => out_valid,
@@ -59,7 +59,7 @@ begin
       vectors.drive(out_ready);
       wait until rising_edge(clk);
       vectors.check_flag_if(checked, "room", room);
-      vectors.check_flag_if(checked, "busy", busy);
+      vectors.check_flag_if(checked, "pending", pending);
       vectors.check_flag_if(checked, "out_valid", out_valid);
       vectors.check_word_if(checked and out_valid, "out_data", out_data);
     end loop;

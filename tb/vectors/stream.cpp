@@ -58,7 +58,8 @@ Status write_stream(const std::filesystem::path& folder) {
   return file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
-// A line: reset, claim, in_valid, in_data, out_ready; room, busy, out_valid, out_data (valid if out_valid).
+// A line: reset, claim, in_valid, in_data, out_ready; room, pending, out_valid, out_data (valid if
+// out_valid).
 template <int Bits, int IndexBits>
 Status write_queue(const std::filesystem::path& folder) {
   Random random(Bits);
@@ -77,7 +78,7 @@ Status write_queue(const std::filesystem::path& folder) {
     const auto data = random_word<Bits>(random);
     file.flag(i > 0).flag(reset).flag(claim).flag(comes && !reset).words_of(data, Bits).flag(out_ready);
     const auto shown = twin.out_valid() ? twin.out_data() : FlatWord<Bits>{};
-    file.flag(twin.room()).flag(twin.busy()).flag(twin.out_valid()).words_of(shown, Bits).end_vector();
+    file.flag(twin.room()).flag(twin.pending()).flag(twin.out_valid()).words_of(shown, Bits).end_vector();
     twin.clock(reset, claim, comes ? std::optional(data) : std::nullopt, out_ready);
     claimed = reset ? 0 : claimed + claim - comes;
     before = {claim && !reset, before.front() && !reset};
