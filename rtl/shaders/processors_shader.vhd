@@ -74,7 +74,7 @@ architecture rtl of processors_shader is
   signal waiting      : std_logic; -- a vector is in the init buffer
   signal taken        : std_logic;
   signal command      : command_t;
-  signal is_load      : std_logic; -- the vector is a load
+  signal load_command : std_logic; -- the vector is a load
   signal load_valid   : std_logic;
   signal load_ready   : std_logic;
   signal draw_valid   : std_logic;
@@ -124,13 +124,14 @@ begin
       );
 
     -- The command has the same position in a request and in a token.
-  command <= command_of(g_exact, init);
-  is_load <= '1' when command = c_new_frame or command = c_define or command = c_redefine or command = c_delete else '0';
+  command      <= command_of(g_exact, init);
+  load_command <= '1' when command = c_new_frame or command = c_define or command = c_redefine or command = c_delete
+    else '0';
 
   -- A load bypasses the rasterizer, which is empty at that time.
-  draw_valid <= waiting and not is_load;
-  load_valid <= waiting and is_load and not drawing and objects_idle;
-  taken      <= load_ready and load_valid when is_load = '1' else draw_ready;
+  draw_valid <= waiting and not load_command;
+  load_valid <= waiting and load_command and not drawing and objects_idle;
+  taken      <= load_ready and load_valid when load_command = '1' else draw_ready;
 
   rasterizer : entity work.token_rasterizer
     generic map (
