@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -93,6 +94,33 @@ double backward_bound() {
   return std::ceil(1000 * std::ldexp(units / 2, -golden::Exact::c_intensity_fraction_bits)) / 1000;
 }
 
+// The number with a space between groups of three digits.
+std::string spaced(std::int64_t number) {
+  std::string digits = std::to_string(number);
+  for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+    digits.insert(static_cast<std::size_t>(at), 1, ' ');
+  return digits;
+}
+
+// The example of docs/results/bounds.md: the bound of `intensity` in preset exact, computed again.
+std::vector<Sourced> bounds_example() {
+  constexpr std::int64_t c_lines = 4095, c_carries = 4095, c_pixels = 4095;
+  constexpr std::int64_t c_k = c_lines + c_carries + c_pixels, c_seconds = c_k * (c_k - 1) / 2;
+  const std::string page = "docs/results/bounds.md", sum = spaced(1 + c_k + c_seconds);
+  constexpr int c_fraction = golden::Exact::c_intensity_fraction_bits;
+  return {{page, fmt::format("| k | lines + steps = lines + carries + pixels: all additions from the first "
+                             "pixel of the triangle to this pixel | at most {} |",
+                             spaced(c_k))},
+          {page, fmt::format("with k = L + K | at most {} |", spaced(c_seconds))},
+          {page, fmt::format("{} fraction bits, so u = 2^-{}, and k = {} + {} = {}.", c_fraction, c_fraction,
+                             c_lines, c_carries + c_pixels, spaced(c_k))},
+          {page,
+           fmt::format("1 + k + k (k - 1) / 2 = 1 + {} + {} = {} {} · 2^-{} / 2 = {} colour steps",
+                       spaced(c_k), spaced(c_seconds), sum, sum, c_fraction, intensity("exact", "derived"))},
+          {page, fmt::format("The stated bound is {}. The largest error found is {},",
+                             number_of(intensity("exact", "bound")), intensity("exact", "found"))}};
+}
+
 // Figures that the test forms from measured rows, pins and constants.
 std::vector<Sourced> formed() {
   const double bound = number_of(intensity("exact", "bound"));
@@ -127,6 +155,7 @@ std::vector<Sourced> formed() {
       {"sim/studies/README.md",
        fmt::format("than {} logic cells, more than {} RAMs,", synth::c_device_cells, synth::c_device_rams)},
   };
+  std::ranges::copy(bounds_example(), std::back_inserter(list));
   // The table of the folded processor's clocks.
   for (const ProcessorClocks& row : c_processor_clocks) {
     const auto cell = [](std::optional<unsigned> clocks) { return clocks ? std::to_string(*clocks) : "–"; };
