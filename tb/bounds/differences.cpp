@@ -169,14 +169,15 @@ Walk only_walk(std::array<ScreenPoint, 3> points, FrameSize frame) {
 
 constexpr FrameSize c_frame{c_side, c_side};
 
-// Holds for any coefficients: the errors of the words in Newton's form.
+// Holds for any coefficients: the errors of the words in Newton's form. L: lines. K: steps of the span; the carries of
+// the edge count with it, against it if spans run backward, so K may be negative.
 std::string quadratic_script(int fraction, double limit, double lines, double steps) {
   return fmt::format(
       "@fx = fixed<-{},ne>;\n"
       "v = fx(V); de = fx(DE); dede = fx(DEDE); dx = fx(DX); dxde = fx(DXDE); dxx = fx(DXX);\n"
       "hardware = v + L * de + S * dede + K * dx + P * dxde + T * dxx;\n"
       "exact = V + L * DE + S * DEDE + K * DX + P * DXDE + T * DXX;\n"
-      "{{ L in [0, {}] /\\ S in [0, {}] /\\ K in [0, {}] /\\ P in [0, {}] /\\ T in [0, {}]\n"
+      "{{ L in [0, {}] /\\ S in [0, {}] /\\ |K| <= {} /\\ |P| <= {} /\\ T in [0, {}]\n"
       "  -> |hardware - exact| <= {} }}\n"
       "hardware - exact -> (v - V) + L * (de - DE) + S * (dede - DEDE) + K * (dx - DX) + P * (dxde - DXDE) + "
       "T * (dxx - DXX);\n",
@@ -188,7 +189,7 @@ std::string plane_script(int fraction, double limit, double lines, double steps)
       "z = fx(Z); de = fx(DE); dx = fx(DX);\n"
       "hardware = z + L * de + K * dx;\n"
       "exact = Z + L * DE + K * DX;\n"
-      "{{ L in [0, {}] /\\ K in [0, {}] -> |hardware - exact| <= {} }}\n"
+      "{{ L in [0, {}] /\\ |K| <= {} -> |hardware - exact| <= {} }}\n"
       "hardware - exact -> (z - Z) + L * (de - DE) + K * (dx - DX);\n",
       fraction, lines, steps, limit);
 }
