@@ -5,15 +5,21 @@
 #include <sstream>
 
 namespace halfway {
-namespace {
 
-// The longest entity name that is a prefix of the module's name.
+std::set<std::string> entities_of(const std::vector<VhdlSource>& sources) {
+  std::set<std::string> entities;
+  for (const VhdlSource& source : sources) entities.insert(std::filesystem::path(source.name).stem());
+  return entities;
+}
+
 std::string entity_of(std::string_view module, const std::set<std::string>& entities) {
   std::string entity;
   for (const std::string& name : entities)
     if ((module == name || module.starts_with(name + "_")) && name.size() > entity.size()) entity = name;
   return entity;
 }
+
+namespace {
 
 bool is_label(std::string_view label, const std::string& name) {
   return label == name || label.starts_with(name + "_");
@@ -103,8 +109,7 @@ Result<UnitCounter> UnitCounter::open(const SimulatorFolders& folders) {
   if (!tool) return tool.error();
   const auto sources = read_rtl_sources(folders.source);
   if (!sources) return sources.error();
-  std::set<std::string> entities;
-  for (const VhdlSource& source : *sources) entities.insert(std::filesystem::path(source.name).stem());
+  std::set<std::string> entities = entities_of(*sources);
   auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
   if (!library) return library.error();
   return UnitCounter(std::move(*library), std::move(entities));

@@ -14,12 +14,18 @@
 
 namespace halfway {
 
+/// The names of the sources: each file of the RTL contains one entity or package of its name.
+std::set<std::string> entities_of(const std::vector<VhdlSource>& sources);
+/// The entity of a module of GHDL's netlist: the longest name of an entity that the module's name is, or
+/// starts with; empty without one. GHDL appends a module's generics to the name of its entity.
+std::string entity_of(std::string_view module, const std::set<std::string>& entities);
+
 using UnitCounts = std::map<std::string, int>;  ///< by entity; every count is at least one
 
 /// The instances in a netlist, as a tree.
 class InstanceTree {
  public:
-  /// `netlist` is GHDL's Verilog. GHDL appends a module's generics to the name of its entity.
+  /// `netlist` is GHDL's Verilog.
   InstanceTree(std::string_view netlist, const std::set<std::string>& entities);
 
   /// All instances below the module `top`.

@@ -4,14 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "sim/formats/made_tables.hpp"
+#include "sim/ghdl/hardware_units.hpp"
 #include "sim/study/pictures.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/system/file.hpp"
@@ -121,7 +124,7 @@ Status add_pinned(const std::filesystem::path& file, PinnedClocks& clocks) {
   const auto tools = synth::pin_versions(file);
   if (!tools) return tools.error();
   for (const auto& [name, pin] : *pins)
-    if (!pin.netlist.empty()) clocks.try_emplace(pin.netlist, PinnedClock{pin, *tools});
+    if (!pin.netlist.empty()) clocks.try_emplace(pin.netlist, PinnedClock{name, pin, *tools});
   return Ok{};
 }
 
@@ -145,19 +148,30 @@ std::string no_placement(const synth::Ice40Cells& cells) {
   return why.empty() ? "too full, or nextpnr does not end" : why;
 }
 
-Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
+// GHDL's library of the RTL, and the names of its entities.
+struct Rtl {
+  GhdlLibrary library;
+  std::set<std::string> entities;
+};
+Result<Rtl> rtl_in(const SimulatorFolders& folders) {
   const auto tool = GhdlTool::find();
   if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(source.folders.source);
+  const auto sources = read_rtl_sources(folders.source);
   if (!sources) return sources.error();
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, source.folders.cache);
+  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
   if (!library) return library.error();
-  const auto hash = synth::netlist_hash(*library, source.design());
+  return Rtl{std::move(*library), entities_of(*sources)};
+}
+
+Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
+  const auto rtl = rtl_in(source.folders);
+  if (!rtl) return rtl.error();
+  const auto hash = synth::netlist_hash(rtl->library, source.design());
   if (!hash) return hash.error();
   figures.netlist = *hash;
   const auto found = clocks.find(*hash);
   if (found == clocks.end()) return Ok{};
-  const auto& [pin, tools] = found->second;
+  const auto& [name, pin, tools] = found->second;
   figures.ice40 = pin.cells;
   if (pin.mhz > 0) {
     figures.mhz = pin.mhz;
@@ -167,6 +181,23 @@ Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, Har
     figures.fits = false;
   }
   if (!tools.empty()) add_tools(figures, "pinned with " + tools);
+  return Ok{};
+}
+
+// For hardware that does not fit: the slowest clock of the parts inside it that are pinned by themselves.
+Status take_slowest_part(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
+  const auto rtl = rtl_in(source.folders);
+  if (!rtl) return rtl.error();
+  const auto parts = synth::part_hashes(rtl->library, source.design(), rtl->entities);
+  if (!parts) return parts.error();
+  for (const std::string& part : *parts) {
+    const auto found = clocks.find(part);
+    if (found == clocks.end()) continue;
+    const auto& [name, pin, tools] = found->second;
+    if (pin.mhz <= 0 || (figures.part_mhz && *figures.part_mhz <= pin.mhz)) continue;
+    figures.part_mhz = pin.mhz;
+    figures.slowest_part = name;
+  }
   return Ok{};
 }
 
@@ -284,7 +315,23 @@ Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const
   for (const Open& each : open) take_size(*each.figures);
   if (options.place)
     if (Status placed = place_all(open, options); !placed) return placed.error();
+  std::vector<Open> too_large;
+  std::ranges::copy_if(open, std::back_inserter(too_large),
+                       [](const Open& each) { return !each.figures->fits; });
+  const Status parts =
+      do_all(too_large.size(), options, "parts of hardware that does not fit", [&](std::size_t at) {
+        return take_slowest_part(too_large[at].source, *clocks, *too_large[at].figures);
+      });
+  if (!parts) return parts.error();
   return table;
+}
+
+Result<HardwareFigures> pinned_figures(const HardwareKey& key, const SimulatorFolders& folders) {
+  const auto clocks = pinned_clocks(folders);
+  if (!clocks) return clocks.error();
+  HardwareFigures figures;
+  if (Status taken = take_pinned({{.key = key}, folders}, *clocks, figures); !taken) return taken.error();
+  return figures;
 }
 
 Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders) {

@@ -63,6 +63,10 @@ struct HardwareFigures {
   std::optional<synth::Ice40Cells> ice40;
   /// False: the hardware is larger than the device, so it has no clock.
   bool fits = true;
+  /// Of hardware that does not fit: the slowest of its parts that are placed by themselves, by its name in
+  /// the pins, and its clock. The clock of the whole is not higher. Empty: no part is placed.
+  std::string slowest_part{};
+  std::optional<double> part_mhz{};
   /// Tool versions for all values, such as `pinned with nextpnr-ice40 0.4, cells by Yosys 0.23`.
   std::string tools{};
   std::string netlist{};  ///< synth::netlist_hash of the hardware
@@ -75,6 +79,7 @@ using HardwareTable = std::map<std::string, HardwareFigures>;
 double cell_count(const Cells& cells);
 
 struct PinnedClock {
+  std::string name;  ///< of the pin
   synth::Pin pin;
   std::string tools;  ///< tools of the placement
 };
@@ -94,6 +99,9 @@ struct FiguresOptions {
 /// hash.
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options);
+
+/// The clock and cells of one hardware, if its netlist is pinned.
+Result<HardwareFigures> pinned_figures(const HardwareKey& key, const SimulatorFolders& folders);
 
 /// Write the clocks of a table made with `place` to synth::c_study_pins, unless synth::c_pins has them. Keep
 /// the file's pins of other hardware with the same flow. Return the number of pins in the file.

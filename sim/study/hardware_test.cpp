@@ -114,6 +114,39 @@ class HardwareFiguresTest : public ::testing::Test {
   std::vector<Record> records_;
 };
 
+// Hardware that does not fit has the clock of the slowest pinned part inside it as an upper bound. The part
+// is found by its netlist.
+TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
+  const auto tool = GhdlTool::find();
+  ASSERT_TRUE(tool) << tool.error().message;
+  const auto sources = read_rtl_sources(c_source);
+  ASSERT_TRUE(sources);
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
+  ASSERT_TRUE(library) << library.error().message;
+  const auto line = [&](const char* entity, std::vector<std::pair<std::string, std::string>> generics,
+                        double mhz) {
+    const auto hash = synth::netlist_hash(*library, {.name = "x", .entity = entity, .generics = generics});
+    EXPECT_TRUE(hash) << hash.error().message;
+    return fmt::format("{}_{:.0f} 1 1 1 0 {:.1f} {}\n", entity, mhz, mhz, *hash);
+  };
+  const std::string saturate =
+      line("saturate", {{"g_value_bits", "32"}, {"g_fraction_bits", "20"}, {"g_result_bits", "8"}}, 90);
+  pin(fmt::format("flow {}\n{}{}{}{}", synth::flow_hash(), saturate,
+                  line("quadratic_interpolator", {{"g_exact", "false"}, {"g_parts", "2"}}, 80),
+                  line("quadratic_interpolator", {{"g_exact", "true"}, {"g_parts", "2"}}, 20),  // not inside
+                  line("dot_product", {{"g_bits", "16"}}, 10)));                                // not inside
+  put_tools("9000", "30", "40");
+  const HardwareFigures bounded = figures(false);
+  EXPECT_FALSE(bounded.fits);
+  EXPECT_FALSE(bounded.mhz);
+  ASSERT_TRUE(bounded.part_mhz);
+  EXPECT_EQ(*bounded.part_mhz, 80.0);
+  EXPECT_EQ(bounded.slowest_part, "quadratic_interpolator_80");
+  // No part is placed.
+  pin("");
+  EXPECT_FALSE(figures(false).part_mhz);
+}
+
 TEST_F(HardwareFiguresTest, APinnedClockIsUsedForTheSameNetlistOnly) {
   const HardwareFigures none = figures(false);
   EXPECT_FALSE(none.mhz);

@@ -11,9 +11,11 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "sim/ghdl/hardware_units.hpp"
 #include "sim/synth/global_buffers.hpp"
 #include "sim/synth/ice40_cells.hpp"
 #include "sim/synth/nameless_netlist.hpp"
+#include "sim/synth/netlist_parts.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
@@ -114,6 +116,10 @@ Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design)
   const auto text = library.synthesize(design.entity, design.generics);
   if (!text) return text.error();
   return mend_netlist(*text);
+}
+
+std::string hash_of(std::string_view entity, std::string_view netlist) {
+  return ContentHash().add("netlist 3").add("flow 2").add(entity).add(nameless(netlist)).hex();
 }
 
 struct Port {
@@ -331,7 +337,18 @@ Result<Packing> read_packing(std::string_view said) {
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
   const auto text = netlist_of(library, design);
   if (!text) return text.error();
-  return ContentHash().add("netlist 3").add("flow 2").add(design.entity).add(nameless(*text)).hex();
+  return hash_of(design.entity, *text);
+}
+
+Result<std::set<std::string>> part_hashes(const GhdlLibrary& library, const Design& design,
+                                          const std::set<std::string>& entities) {
+  const auto text = netlist_of(library, design);
+  if (!text) return text.error();
+  std::set<std::string> hashes;
+  for (const NetlistPart& part : parts_of(*text))
+    if (const std::string entity = entity_of(part.module, entities); !entity.empty())
+      hashes.insert(hash_of(entity, part.netlist));
+  return hashes;
 }
 
 std::string flow_hash() {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -79,6 +80,10 @@ Result<Packing> read_packing(std::string_view said);
 /// Hash of a design's netlist after GHDL, mend_netlist and nameless. Designs with equal hashes are the same
 /// hardware, even if their names differ. With equal flow_hash they have the same clock.
 Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
+/// The hashes of the netlists inside the design, each with all that it contains: the netlist_hash that the
+/// part has if it is synthesized by itself. `entities` are those of the RTL (entities_of).
+Result<std::set<std::string>> part_hashes(const GhdlLibrary& library, const Design& design,
+                                          const std::set<std::string>& entities);
 
 /// Hash of everything else that a clock depends on, except the tools' versions: Yosys's scripts, the wrapper,
 /// the global buffers, nextpnr's options. It is computed from their contents, so that every change changes
