@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "frame/metrics.hpp"
@@ -17,6 +16,7 @@
 #include "sim/bench/outside_model.hpp"
 #include "sim/compare/stream_comparator.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/mesa/mesa_picture.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/stream_files/trace.hpp"
@@ -26,8 +26,6 @@
 
 namespace halfway {
 namespace {
-
-constexpr const char* c_mesa_program = "build/halfway_mesa";
 
 struct Name {
   const char *short_name, *title;
@@ -180,7 +178,7 @@ std::string lacking(Way way, const SimulatorFolders& folders) {
     case Way::ghdl_mcode:
       return std::filesystem::exists(ghdl_mcode(folders)) ? "" : "ghdl-mcode";
     case Way::mesa:
-      return std::filesystem::exists(folders.source / c_mesa_program) ? "" : "libegl-dev, libgles-dev";
+      return mesa_lacks(folders.source);
     default:
       return "";
   }
@@ -192,44 +190,28 @@ std::string ghdl_mcode(const SimulatorFolders& folders) {
                            : installed.string();
 }
 
-Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions) {
-  const std::filesystem::path file = input.scratch / "mesa.rgb";
-  const Command command{
-      .arguments = {(input.folders.source / c_mesa_program).string(), input.scene->name,
-                    fmt::format("{}x{}", input.size.width, input.size.height), std::to_string(repetitions),
-                    file.string()},
-      // Use this thread only, and no graphics card.
-      .environment = {
-          {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "0"}}};
-  const auto end = run_process(command, "make bench");
-  if (!end) return end.error();
-  MesaPicture picture;
-  std::istringstream said(end->output);
-  if (!end->succeeded() || !(said >> picture.seconds))
-    return tool_failed(fmt::format("{}: {}: {}", c_mesa_program, end->how(), end->output));
-  said.ignore();
-  std::getline(said, picture.renderer);
-  const auto rgb = read_file(file);
-  if (!rgb) return rgb.error();
-  Frame frame(input.size);
-  if (rgb->size() != frame.rgb.size()) return tool_failed("Mesa: a frame of another size");
-  std::copy(rgb->begin(), rgb->end(), frame.rgb.begin());
+Result<MesaRun> run_mesa(const WayInput& input, int repetitions) {
+  const auto drawn = draw_by_mesa(
+      {.scene = input.scene->name, .size = input.size, .repetitions = repetitions}, input.folders.source);
+  if (!drawn) return drawn.error();
+  MesaRun run{.seconds = drawn->seconds,
+              .elapsed_seconds = drawn->elapsed_seconds / repetitions,
+              .renderer = drawn->renderer};
   const ReferenceImage reference = reference_of(input, Projector(*input.scene, input.size, {}).project_all());
-  const auto whole = frame_distance(frame, reference.frame, reference.mask);
+  const auto whole = frame_distance(drawn->frame, reference.frame, reference.mask);
   if (!whole) return whole.error();
-  const auto inner = frame_distance(frame, reference.frame, inside(reference.mask, input.size));
+  const auto inner = frame_distance(drawn->frame, reference.frame, inside(reference.mask, input.size));
   if (!inner) return inner.error();
-  picture.outline_off = static_cast<double>(whole->off - inner->off) / static_cast<double>(whole->pixels);
-  picture.psnr_db = inner->psnr_db;
-  picture.max_lsb = inner->max_lsb;
-  if (inner->pixels == 0 || !(picture.psnr_db >= c_mesa_least_psnr_db) ||
-      picture.outline_off > c_mesa_most_off)
+  run.outline_off = static_cast<double>(whole->off - inner->off) / static_cast<double>(whole->pixels);
+  run.psnr_db = inner->psnr_db;
+  run.max_lsb = inner->max_lsb;
+  if (inner->pixels == 0 || !(run.psnr_db >= c_mesa_least_psnr_db) || run.outline_off > c_mesa_most_off)
     return Error{
         ExitCode::differs,
         fmt::format("Mesa draws another picture: {:.1f} dB and {}/255 against the reference, {:.2g} of the "
                     "pixels off on outlines",
-                    picture.psnr_db, picture.max_lsb, picture.outline_off)};
-  return picture;
+                    run.psnr_db, run.max_lsb, run.outline_off)};
+  return run;
 }
 
 Result<Go> make_way(Way way, const WayInput& input) {
@@ -277,9 +259,9 @@ Result<Go> make_way(Way way, const WayInput& input) {
       break;
   }
   return Go([input]() -> Result<double> {
-    const auto picture = draw_by_mesa(input, 3);
-    if (!picture) return picture.error();
-    return picture->seconds;
+    const auto run = run_mesa(input, 3);
+    if (!run) return run.error();
+    return run->seconds;
   });
 }
 

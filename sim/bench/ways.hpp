@@ -63,14 +63,16 @@ Result<Go> make_way(Way way, const WayInput& input);
 /// another subpixel grid for vertices: limit on PSNR. On outlines the grids cover different pixels: limit on
 /// the part of all pixels that differ there by more than 2/255.
 inline constexpr double c_mesa_least_psnr_db = 50.0, c_mesa_most_off = 0.01;
-struct MesaPicture {
-  double seconds = 0.0;
-  double psnr_db = 0.0;      ///< inside outlines
-  unsigned max_lsb = 0;      ///< inside outlines: the largest difference
-  double outline_off = 0.0;  ///< part of the covered pixels that differ on outlines
-  std::string renderer;      ///< the renderer's name
+struct MesaRun {
+  double seconds = 0.0;          ///< processor seconds of the fastest repetition
+  double elapsed_seconds = 0.0;  ///< mean of the repetitions
+  double psnr_db = 0.0;          ///< inside outlines
+  unsigned max_lsb = 0;          ///< inside outlines: the largest difference
+  double outline_off = 0.0;      ///< part of the covered pixels that differ on outlines
+  std::string renderer;          ///< the renderer's name
 };
-Result<MesaPicture> draw_by_mesa(const WayInput& input, int repetitions);
+/// Draw the built-in scene and compare the picture with the reference.
+Result<MesaRun> run_mesa(const WayInput& input, int repetitions);
 
 /// Path of the program `ghdl-mcode`: installed, or unpacked in build/tools by scripts/unpack.sh. The file may
 /// not exist.

@@ -21,9 +21,10 @@ constexpr const char* c_cycles = "cycles";
 
 // Columns of a study's table that the front contains.
 constexpr std::array c_columns = {
-    "scene",  "scene_hash",   "tools",    "point", "method", "preset",     "address_bits",  "data_bits",
-    "form",   "threshold",    "exponent", "width", "height", "angle_bits", "fraction_bits", "seed_bits",
-    "newton", "tessellation", "hardware", c_cells, c_cycles, "rms",        "largest_error", "psnr_db"};
+    "scene",         "scene_hash",    "tools",     "point",          "method",   "preset", "address_bits",
+    "data_bits",     "form",          "threshold", "exponent",       "width",    "height", "angle_bits",
+    "fraction_bits", "seed_bits",     "newton",    "tessellation",   "hardware", c_cells,  c_cycles,
+    "rms",           "largest_error", "psnr_db",   "highlight_test", "span_ends"};
 
 bool is_hardware(const Table& table, std::size_t row) {
   return !table.text(row, "hardware").empty();
@@ -54,7 +55,9 @@ std::string series_of(const Table& table, std::size_t row) {
   const std::string& preset = table.text(row, "preset");
   if (preset.empty()) return method + " (software)";
   const std::string& form = table.text(row, "form");
-  return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "");
+  return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "") +
+         (table.text(row, "highlight_test") == "centroid" ? ", centroid" : "") +
+         (table.text(row, "span_ends") == "slerp" ? ", slerp" : "");
 }
 
 std::string picture_of(const Table& table, std::size_t row) {

@@ -18,8 +18,18 @@ namespace {
 // Colours of medium lightness, for white and dark backgrounds. Shapes distinguish the series without colours.
 constexpr std::array c_colours = {"#767676", "#b8860b", "#0072b2", "#2a9df4", "#009e73", "#d55e00",
                                   "#cc5fa0", "#8a63d2", "#7a9a01", "#c0392b", "#17a2b8", "#a0522d"};
-constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10};
-static_assert(c_colours.size() == c_shapes.size());
+constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10, 3, 14, 15};
+
+// Width and height in gnuplot's form. A long legend takes more room.
+std::string size_of(const Plot& plot) {
+  constexpr std::size_t c_lines = 12, c_line = 35;
+  if (plot.legend.empty()) return "520,390";
+  if (plot.legend.size() <= c_lines) return "800,420";
+  return fmt::format("920,{}", c_line * plot.legend.size());
+}
+
+// Length of the arrow of a least value, as a factor on the logarithmic axis.
+constexpr double c_arrow = 1.2;
 
 // A double-quoted string of a gnuplot script.
 std::string quoted(const std::string& text) {
@@ -102,7 +112,7 @@ PointLook look_of(std::size_t series) {
 Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
   Axis x, y;
   for (const PlotPoint& point : plot.points) {
-    x.add(point.x);
+    x.add(point.x * (point.least_x ? c_arrow : 1.0));
     y.add(point.y);
   }
   for (const PlotLevel& level : plot.levels) y.add(level.y);
@@ -115,8 +125,8 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
       "set xlabel {}\nset ylabel {}\n"
       "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
       "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\n{}\n",
-      plot.legend.empty() ? "520,390" : "800,420", quoted(plot.x_label), quoted(plot.y_label),
-      x.begin() / 1.15, x.most * 1.15, y.begin() / 1.5, y.most * 1.5,
+      size_of(plot), quoted(plot.x_label), quoted(plot.y_label), x.begin() / 1.15, x.most * 1.15,
+      y.begin() / 1.5, y.most * 1.5,
       plot.legend.empty() ? "unset key" : "set key outside right center Left reverse spacing 1.4");
   script += x.ticks("x") + y.ticks("y");
   constexpr const char* c_gap = "nohead linecolor rgb \"#8a8a8a\" linewidth 1";
@@ -137,8 +147,12 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
   blocks += plot.front.empty() ? "NaN NaN\nEND\n$points << END\n" : "END\n$points << END\n";
   std::string legend;
   for (std::size_t at = 0; at < points.size(); ++at) {
-    const auto& [point_x, point_y, series, number, name, aside] = points[at];
+    const auto& [point_x, point_y, series, number, name, aside, least_x] = points[at];
     const PointLook look = look_of(series);
+    if (least_x)
+      script += fmt::format(
+          "set arrow from {0},{1} to {2},{1} head size screen 0.008,25 linecolor rgb \"{3}\" linewidth 1.2\n",
+          x.place(point_x), y.place(point_y), c_arrow * x.place(point_x), look.colour);
     blocks += fmt::format("{} {} {} 0x{}\n", x.place(point_x), y.place(point_y), look.shape, look.colour + 1);
     if (series < plot.legend.size() && (at == 0 || points[at - 1].series != series))
       legend += fmt::format(", NaN with points pointtype {} pointsize 0.8 linecolor rgb \"{}\" title {}",

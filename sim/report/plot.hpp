@@ -19,6 +19,7 @@ struct PlotPoint {
   std::size_t number = 0;  ///< the point links to #point-<number>
   std::string name;        ///< for screen readers and tooltips
   bool aside = false;      ///< has class `aside`: not part of the front's comparison
+  bool least_x = false;    ///< x is a least value: the mark has an arrow to the right
 };
 /// A horizontal line across the plot.
 struct PlotLevel {
@@ -36,7 +37,8 @@ struct Plot {
 /// Number of the series with this name in the legend. Adds a series that is not in it.
 std::size_t series_number(Plot& plot, const std::string& name);
 
-/// Appearance of a series: colour and gnuplot's point type. The first twelve differ.
+/// Appearance of a series: colour and gnuplot's point type. The first twelve differ in both, the first sixty
+/// in one of them.
 struct PointLook {
   const char* colour;
   int shape;  ///< the SVG contains it as an element called gpPt<shape - 1>

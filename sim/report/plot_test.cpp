@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <pugixml.hpp>
+#include <set>
 
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
@@ -59,6 +60,32 @@ TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
   EXPECT_GT(below.second, between.second);
   EXPECT_NEAR(between.first, (below.first + above.first) / 2, 1.0);
   EXPECT_NEAR(between.second, (below.second + above.second) / 2, 1.0);
+}
+
+// An arrow to the right inside the plot, and none at an exact value.
+TEST_F(PlotTest, LeastValuesHaveAnArrow) {
+  Plot plot{.x_label = "ms", .y_label = "error"};
+  plot.points = {{1, 1, 0, 0, "exact"}, {10, 2, 1, 1, "least", true, true}};
+  const auto svg = draw_plot(plot, folder_->path());
+  ASSERT_TRUE(svg) << svg.error().message;
+  plot.points[1].least_x = false;
+  const auto plain = draw_plot(plot, folder_->path());
+  ASSERT_TRUE(plain) << plain.error().message;
+  const auto strokes = [](const std::string& text) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find("<path", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_GT(strokes(*svg), strokes(*plain));
+  // The range contains the arrow, so the mark is farther from the right border.
+  EXPECT_LT(places_in(*svg).at("#point-1 least").first, places_in(*plain).at("#point-1 least").first - 10);
+}
+
+TEST(PlotLooks, AreDistinct) {
+  std::set<std::pair<std::string, int>> looks;
+  for (std::size_t series = 0; series < 60; ++series)
+    looks.emplace(look_of(series).colour, look_of(series).shape);
+  EXPECT_EQ(looks.size(), 60U);
 }
 
 TEST_F(PlotTest, ZeroHasASeparatePosition) {

@@ -18,31 +18,34 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Two pictures. Times in ms: q 1, a 2, s 3 (beaten by a), phong 10.
+// Two pictures. Times in ms: q 1, a 2, s 3 (beaten by a), p at least 1.5, phong 10.
 constexpr const char* c_times =
     "scene_hash,point,design,method,preset,form,tessellation,exponent,width,height,hardware,triangles,"
     "host_ns,host_instructions,words,hardware_ns,overlapped_ns,sequential_ns,bound,rms,largest_error,"
-    "perceived_pixels\n"
-    "7,q at,q,quadratic,published,,1,20,64,48,k,690,2e5,1e6,5,1e6,1e6,1.2e6,hardware,8,9,10\n"
-    "7,s at,s,spherical,exact,,1,20,64,48,k,690,3e6,1e6,5,1e6,3e6,4e6,host,5,9,10\n"
-    "7,a at,a,adaptive,exact,,1,20,64,48,k,690,1e6,1e6,5,2e6,2e6,3e6,hardware,2,3,4\n"
-    "7,p at,phong,phong,,,1,20,64,48,,690,1e7,,,,1e7,1e7,host,0,0,0\n"
-    "7,q large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10\n";
+    "perceived_pixels,clock_mhz,slowest_part\n"
+    "7,q at,q,quadratic,published,,1,20,64,48,k,690,2e5,1e6,5,1e6,1e6,1.2e6,hardware,8,9,10,135.0,\n"
+    "7,s at,s,spherical,exact,,1,20,64,48,k,690,3e6,1e6,5,1e6,3e6,4e6,host,5,9,10,105.0,\n"
+    "7,a at,a,adaptive,exact,,1,20,64,48,k,690,1e6,1e6,5,2e6,2e6,3e6,hardware,2,3,4,105.0,\n"
+    "7,v "
+    "at,v,processors-2,exact,folded,1,20,64,48,k,690,3e5,1e6,5,1.5e6,1.5e6,1.8e6,hardware,1,3,4,40.9,dot\n"
+    "7,p at,phong,phong,,,1,20,64,48,,690,1e7,,,,1e7,1e7,host,0,0,0,,\n"
+    "7,q large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10,135.0,\n";
 
 using TimesTest = TableTest;
 
 TEST_F(TimesTest, EachPictureHasAPlot) {
   const auto pictures = pictures_of(read(c_times));
   ASSERT_EQ(pictures.size(), 2U);
-  EXPECT_EQ(pictures[0].rows.size(), 4U);
+  EXPECT_EQ(pictures[0].rows.size(), 5U);
   EXPECT_EQ(plot_name(pictures[1]), "times-80x60.svg");
   const auto designs = write_times(read(c_times), here() / "out", here());
   ASSERT_TRUE(designs) << designs.error().message;
-  EXPECT_EQ(*designs, 5U);
+  EXPECT_EQ(*designs, 6U);
   const auto svg = read_file(here() / "out/times-64x48.svg");
   ASSERT_TRUE(svg);
   EXPECT_THAT(*svg, AllOf(HasSubstr("aria-label=\"q at\""), HasSubstr("aria-label=\"p at\""),
-                          HasSubstr("milliseconds per frame"), Not(HasSubstr("q large"))));
+                          HasSubstr("milliseconds per frame"), Not(HasSubstr("q large")),
+                          HasSubstr("class=\"aside\""), HasSubstr("aria-label=\"v at, at least\"")));
   EXPECT_TRUE(fs::exists(here() / "out/times-80x60.svg"));
   EXPECT_TRUE(fs::exists(here() / "out/times.csv"));
 }
@@ -56,12 +59,16 @@ TEST_F(TimesTest, SentencesAreOfTheFront) {
             HasSubstr(
                 "- The rms error of a is 4 times smaller than that of q. Its frame takes 2 times as long.\n"),
             HasSubstr("hardware take 3 ms with a, of which the host takes 33 %, and 1.2 ms with q.\n"),
-            HasSubstr("takes 10 ms, 5 times as long as a.\n"), Not(HasSubstr("| s |"))));
+            HasSubstr("(phong) takes 10 ms, 5 times as long as a.\n"), Not(HasSubstr("| s |")),
+            Not(HasSubstr("| v |"))));
   const auto page = page_times(read(c_times));
   ASSERT_TRUE(page) << page.error().message;
-  EXPECT_THAT(*page, AllOf(HasSubstr("| s | 3 | host | 4 | 3 | 1 | 1 | 5 | 5 | 9 | 10 |"),
-                           HasSubstr("times-80x60.svg"),
-                           HasSubstr("| phong | 10 | host | 10 | 10 | – | – | – | 0 | 0 | 0 |")));
+  EXPECT_THAT(*page,
+              AllOf(HasSubstr("| s | 3 | host | 4 | 3 | 1 | 105.0 | 1 | 5 | 5 | 9 | 10 |"),
+                    HasSubstr("| v | ≥ 1.5 | hardware | ≥ 1.8 | 0.3 | ≥ 1.5 | ≤ 40.9 (`dot`) | 1 | 5 | 1 "
+                              "| 3 | 4 |"),
+                    HasSubstr("times-80x60.svg"),
+                    HasSubstr("| phong | 10 | host | 10 | 10 | – | – | – | – | 0 | 0 | 0 |")));
 }
 
 TEST_F(TimesTest, WithoutDesignsThereIsNothingToSay) {

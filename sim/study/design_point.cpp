@@ -25,6 +25,18 @@ struct BadSpace {
   Error error;
 };
 
+// The names of values in a space.
+const char* name_of(Method method) {
+  return to_string(method);
+}
+const char* name_of(Preset preset) {
+  return to_string(preset);
+}
+const char* name_of(ProcessorForm form) {
+  return to_string(form);
+}
+using study::name_of;
+
 // One sweep of the file.
 class Sweep {
  public:
@@ -84,8 +96,8 @@ class Sweep {
   Value name(std::string_view key, const toml::node& node, const std::vector<Value>& known) const {
     std::vector<std::string> all;
     for (const Value value : known) {
-      if (node.value<std::string>() == to_string(value)) return value;
-      all.emplace_back(to_string(value));
+      if (node.value<std::string>() == name_of(value)) return value;
+      all.emplace_back(name_of(value));
     }
     fail(key, fmt::format("takes {}", fmt::join(all, ", ")));
   }
@@ -101,7 +113,8 @@ bool is_processors(Method method) {
 
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
   sweep.allow({"method", "preset", "address_bits", "data_bits", "angle_bits", "fraction_bits", "seed_bits",
-               "newton", "form", "threshold", "tessellation", "exponent", "size", "tile"});
+               "newton", "form", "highlight_test", "span_ends", "threshold", "tessellation", "exponent",
+               "size", "tile"});
   std::vector<DesignPoint> points(1);
   const auto multiply = [&](std::string_view key, const auto& set) { sweep.multiply(points, key, set); };
   const auto numbers = [&](std::string_view key, double least, double largest, const auto& set) {
@@ -176,6 +189,16 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   multiply("form", [&](DesignPoint& p, const toml::node& node) {
     p.form = sweep.name<ProcessorForm>("form", node, {ProcessorForm::folded, ProcessorForm::unrolled});
   });
+  multiply("highlight_test", [&](DesignPoint& p, const toml::node& node) {
+    const HighlightTest test = sweep.name<HighlightTest>(
+        "highlight_test", node, {HighlightTest::conservative, HighlightTest::centroid});
+    if (p.method == Method::adaptive) p.test = test;
+  });
+  multiply("span_ends", [&](DesignPoint& p, const toml::node& node) {
+    const SpanEnds ends =
+        sweep.name<SpanEnds>("span_ends", node, {SpanEnds::on_surface, SpanEnds::slerped_along_edges});
+    if (p.has_ends()) p.ends = ends;
+  });
   // Version I uses the interpolated N without normalization; in preset exact that would be N/w.
   std::erase_if(points, [](const DesignPoint& p) {
     return p.method == Method::processors_1 && p.preset == Preset::exact;
@@ -187,7 +210,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
 }  // namespace
 
 bool DesignPoint::has_threshold() const {
-  return method == Method::adaptive || (method == Method::spherical && preset == Preset::exact);
+  return method == Method::adaptive || (has_ends() && ends == SpanEnds::on_surface);
 }
 
 std::string DesignPoint::picture() const {
@@ -208,6 +231,9 @@ std::string DesignPoint::design() const {
   if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);
   if (words.newton) text += *words.newton ? " with Newton" : " without Newton";
   if (is_processors(method) && form == ProcessorForm::folded) text += " folded";
+  if (method == Method::adaptive && test != HighlightTest::conservative)
+    text += fmt::format(" {}", name_of(test));
+  if (has_ends() && ends != SpanEnds::on_surface) text += fmt::format(" {}", name_of(ends));
   if (has_threshold()) text += fmt::format(", threshold {:g}", threshold);
   return text;
 }
@@ -233,8 +259,9 @@ PlanRequest DesignPoint::plan() const {
 
 SetupOptions DesignPoint::setup() const {
   SetupOptions options;
-  options.quadratic.test = method == Method::adaptive ? HighlightTest::conservative : HighlightTest::none;
+  options.quadratic.test = method == Method::adaptive ? test : HighlightTest::none;
   options.quadratic.threshold = threshold;
+  options.spherical.ends = ends;
   options.spherical.threshold = threshold;
   options.processors.normalize = method == Method::processors_2;
   return options;

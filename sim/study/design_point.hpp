@@ -19,17 +19,19 @@ namespace halfway::study {
 
 /// In the order of c_method_names.
 enum class Method {
-  phong,      ///< per pixel, in software: the reference method
-  gouraud,    ///< in software
-  planes,     ///< this and the following methods are hardware: Gouraud's shading, quadratic of degree 1
-  quadratic,  ///< never split
-  adaptive,   ///< quadratic; triangles with an error above `threshold` are split
+  phong,       ///< per pixel, in software: the reference method
+  gouraud,     ///< in software
+  phong_mesa,  ///< in software: per pixel by OpenGL on Mesa's llvmpipe
+  planes,      ///< this and the following methods are hardware: Gouraud's shading, quadratic of degree 1
+  quadratic,   ///< never split
+  adaptive,    ///< quadratic; triangles with an error above `threshold`, by the test `test`, are split
   spherical,
   processors_1,  ///< the paper's version I: no normalization, only directional lights
   processors_2,  ///< the paper's version II
 };
-inline constexpr std::array c_method_names = {"phong",    "gouraud",   "planes",       "quadratic",
-                                              "adaptive", "spherical", "processors-1", "processors-2"};
+inline constexpr std::array c_method_names = {"phong",     "gouraud",      "phong-mesa",
+                                              "planes",    "quadratic",    "adaptive",
+                                              "spherical", "processors-1", "processors-2"};
 inline const char* to_string(Method method) {
   return c_method_names[static_cast<std::size_t>(method)];
 }
@@ -41,13 +43,24 @@ constexpr bool is_drawn(Method method) {
   return method != Method::phong;
 }
 
+/// Names of HighlightTest and SpanEnds in spaces, as for --highlight-test and --span-ends.
+inline const char* name_of(HighlightTest test) {
+  if (test == HighlightTest::none) return "none";
+  return test == HighlightTest::centroid ? "centroid" : "conservative";
+}
+inline const char* name_of(SpanEnds ends) {
+  return ends == SpanEnds::on_surface ? "surface" : "slerp";
+}
+
 struct DesignPoint {
   Method method = Method::quadratic;
-  Preset preset = Preset::exact;                 ///< of hardware methods
-  std::optional<TableSize> tables;               ///< of spherical; std::nullopt: the preset's tables
-  tables::WordLengths words{};                   ///< of the method; std::nullopt: the preset's lengths
-  ProcessorForm form = ProcessorForm::unrolled;  ///< of processors methods
-  double threshold = 2.0;          ///< colour steps; of adaptive, and of spherical in preset exact
+  Preset preset = Preset::exact;                     ///< of hardware methods
+  std::optional<TableSize> tables;                   ///< of spherical; std::nullopt: the preset's tables
+  tables::WordLengths words{};                       ///< of the method; std::nullopt: the preset's lengths
+  ProcessorForm form = ProcessorForm::unrolled;      ///< of processors methods
+  HighlightTest test = HighlightTest::conservative;  ///< of adaptive
+  SpanEnds ends = SpanEnds::on_surface;              ///< of spherical in preset exact
+  double threshold = 2.0;          ///< colour steps; of adaptive, and of spherical with ends on the surface
   double tessellation = 1.0;       ///< relative to the scene's own meshes, as for load_scene
   std::optional<double> exponent;  ///< of every material; std::nullopt: the scene's exponents
   FrameSize size{320, 240};
@@ -64,6 +77,7 @@ struct DesignPoint {
   /// The tiles of the frame; one tile if the frame is not larger than a tile.
   std::vector<Tile> tiles() const { return tiles_of(size, tile); }
   bool has_threshold() const;
+  bool has_ends() const { return method == Method::spherical && preset == Preset::exact; }
   PlanRequest plan() const;
   SetupOptions setup() const;
 };

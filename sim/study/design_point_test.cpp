@@ -81,6 +81,26 @@ TEST_F(SpaceTest, IgnoresWordLengthsOfOtherMethods) {
               HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
 }
 
+// Tests and ends of other methods are ignored; the conservative test and the surface are the defaults.
+TEST_F(SpaceTest, VariesTestsAndEndsOfTheMethodsThatHaveThem) {
+  const auto points = read(
+      "[[sweep]]\nmethod = [\"phong-mesa\", \"quadratic\", \"adaptive\", \"spherical\"]\n"
+      "preset = [\"exact\", \"published\"]\n"
+      "highlight_test = [\"conservative\", \"centroid\"]\nspan_ends = [\"surface\", \"slerp\"]\n");
+  ASSERT_TRUE(points) << points.error().message;
+  std::vector<std::string> designs;
+  for (const DesignPoint& point : *points) designs.push_back(point.design());
+  EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
+                           "phong-mesa", "quadratic exact", "quadratic published",
+                           "adaptive exact, threshold 2", "adaptive exact centroid, threshold 2",
+                           "adaptive published, threshold 2", "adaptive published centroid, threshold 2",
+                           "spherical exact, threshold 2", "spherical exact slerp", "spherical published"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"adaptive\"\nhighlight_test = \"none\"\n"),
+              HasSubstr("space.toml:3: highlight_test takes conservative, centroid"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\nspan_ends = \"edges\"\n"),
+              HasSubstr("space.toml:3: span_ends takes surface, slerp"));
+}
+
 // The space for queries varies the tables' lengths. The full space varies every parameter of the other
 // spaces, including all word lengths.
 TEST(Spaces, VaryTheExpectedParameters) {
@@ -93,9 +113,10 @@ TEST(Spaces, VaryTheExpectedParameters) {
     return designs;
   };
   const auto asked = designs_of("designs.toml"), full = designs_of("full.toml");
-  EXPECT_THAT(asked,
-              ::testing::IsSupersetOf({"spherical exact 8x7, threshold 8", "spherical exact 6x6, threshold 8",
-                                       "spherical exact, threshold 8", "spherical published 4x4"}));
+  EXPECT_THAT(
+      asked, ::testing::IsSupersetOf({"spherical exact 8x7, threshold 8", "spherical exact 6x6, threshold 8",
+                                      "spherical exact, threshold 8", "spherical published 4x4",
+                                      "planes exact", "adaptive exact centroid, threshold 2", "phong-mesa"}));
   for (const char* file : {"words.toml", "small.toml"})
     for (const std::string& design : designs_of(file))
       EXPECT_TRUE(full.contains(design)) << file << ": " << design;
@@ -126,6 +147,12 @@ TEST(DesignPoint, NameContainsAllParameters) {
   EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");
   point.preset = Preset::published;
   EXPECT_EQ(point.name(), "spherical published 9x8, 320x240, exponent 50");
+  point = {.method = Method::adaptive, .preset = Preset::published, .test = HighlightTest::centroid};
+  EXPECT_EQ(point.name(), "adaptive published centroid, threshold 2, 320x240");
+  EXPECT_EQ(point.setup().quadratic.test, HighlightTest::centroid);
+  point = {.method = Method::spherical, .ends = SpanEnds::slerped_along_edges};
+  EXPECT_EQ(point.name(), "spherical exact slerp, 320x240");
+  EXPECT_EQ(point.setup().spherical.ends, SpanEnds::slerped_along_edges);
   point = {.method = Method::processors_2, .form = ProcessorForm::folded, .tessellation = 0.5};
   EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
 }

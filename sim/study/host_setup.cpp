@@ -25,6 +25,7 @@
 #include "setup/project.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/study/hardware.hpp"
+#include "sim/study/pictures.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/sanitizers.hpp"
 #include "sim/system/subprocess.hpp"
@@ -39,6 +40,7 @@ constexpr std::string_view c_totals = "\ntotals: ";
 // Runs of a measurement of time: at least, at most, and the time after which there are enough.
 constexpr std::size_t c_fewest_runs = 3, c_most_runs = 100;
 constexpr double c_enough_ns = 1e8;
+constexpr int c_mesa_runs = 20;  // milliseconds each
 
 double thread_ns() {
   timespec now{};
@@ -84,7 +86,18 @@ SetupOptions frame_setup(const DesignPoint& point, const Scene& scene) {
   return options;
 }
 
-Result<HostTime> host_time(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders) {
+Result<HostTime> host_time(const DesignPoint& point, const std::string& scene_name,
+                           const SimulatorFolders& folders) {
+  if (point.method == Method::phong_mesa) {
+    MesaRequest request = mesa_request(point, scene_name);
+    request.repetitions = c_mesa_runs;
+    const auto picture = draw_by_mesa(request, folders.source);
+    if (!picture) return picture.error();
+    return HostTime{.ns = 1e9 * picture->seconds, .words = 0};
+  }
+  const auto drawn = drawn_scene(scene_name, folders.source / "sim" / "scenes", point);
+  if (!drawn) return drawn.error();
+  const Scene& scene = *drawn;
   if (in_hardware(point.method)) {
     const auto hardware = drawing_hardware_of(point, scene, folders);
     if (!hardware) return hardware.error();

@@ -37,7 +37,9 @@ SetupOptions frame_setup(const DesignPoint& point, const Scene& scene);
 
 /// The host's time for one frame of the point on one core of this machine: processor time of the thread,
 /// the quickest of several runs. In hardware: set_up_frame. In software: from the scene to the picture.
-Result<HostTime> host_time(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders);
+/// `scene` as for load_scene.
+Result<HostTime> host_time(const DesignPoint& point, const std::string& scene,
+                           const SimulatorFolders& folders);
 
 /// For each line of the file, a name: call `each` in a new process, then print the process id and the name on
 /// standard output. All processes start with the same heap, for any names, because the allocator's

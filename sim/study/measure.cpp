@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/measure.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "sim/pictures/perception.hpp"
@@ -24,12 +26,42 @@ Result<Drawing> draw_in_hardware(const DesignPoint& point, const Scene& scene,
                  drawn->fragments,        drawn->cycles,          drawn->counts};
 }
 
+// The pixels of another colour than the background.
+std::vector<std::uint8_t> mask_of(const Frame& frame, const Scene& scene) {
+  const std::array<std::uint8_t, 3> background{to_byte(scene.background.r), to_byte(scene.background.g),
+                                               to_byte(scene.background.b)};
+  std::vector<std::uint8_t> mask(frame.pixels());
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    mask[i] = !std::equal(background.begin(), background.end(), &frame.rgb[3 * i]);
+  return mask;
+}
+
+Frame cut_tile(const Frame& frame, const Tile& tile) {
+  Frame picture(tile.size);
+  for (std::uint32_t y = 0; y < tile.size.height; ++y)
+    std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(tile.x, tile.y + y)),
+                3 * std::size_t{tile.size.width},
+                picture.rgb.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)));
+  return picture;
+}
+
 }  // namespace
+
+MesaRequest mesa_request(const DesignPoint& point, const std::string& scene) {
+  return {.scene = scene, .size = point.size, .tessellation = point.tessellation, .exponent = point.exponent};
+}
 
 Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const SimulatorFolders& folders,
                      const std::optional<Tile>& tile) {
   if (in_hardware(point.method)) return draw_in_hardware(point, subject.scene, folders, tile);
   Drawing drawing;
+  if (point.method == Method::phong_mesa) {
+    auto picture = draw_by_mesa(mesa_request(point, subject.name), folders.source);
+    if (!picture) return picture.error();
+    drawing.frame = tile ? cut_tile(picture->frame, *tile) : std::move(picture->frame);
+    drawing.mask = mask_of(drawing.frame, subject.scene);
+    return drawing;
+  }
   drawing.frame = render_gouraud(subject.scene, subject.triangles,
                                  {.frame = point.size, .subpixel_bits = 4, .tile = tile})
                       .frame;
@@ -38,7 +70,7 @@ Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const Sim
 
 Result<Measurement> measure(const Pictures& pictures, std::optional<Drawing> drawing) {
   Measurement m;
-  const auto& [scene, triangles] = *pictures.subject;
+  const auto& [name, scene, triangles] = *pictures.subject;
   const Frame& reference = pictures.reference.image.frame;
   m.triangles = scene.triangles.size();
   std::vector<std::uint8_t> mask = pictures.reference.image.mask;

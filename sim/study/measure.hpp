@@ -12,6 +12,7 @@
 #include "frame/metrics.hpp"
 #include "setup/setup.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/mesa/mesa_picture.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/mach_bands.hpp"
 #include "sim/study/pictures.hpp"
@@ -21,7 +22,7 @@ namespace halfway::study {
 /// The picture of a point's design and its cost, for a frame or a tile.
 struct Drawing {
   Frame frame;
-  std::vector<std::uint8_t> mask;  ///< of covered pixels; empty in software: same as the reference's
+  std::vector<std::uint8_t> mask;  ///< of covered pixels; empty: same as the reference's
   std::string hardware;            ///< the key's name; empty in software
   std::uint64_t fragments = 0;     ///< 0 in software
   std::uint64_t cycles = 0;        ///< of the RTL
@@ -50,6 +51,9 @@ struct Measurement {
   /// Not a column of the study's table, because it varies from run to run.
   std::optional<HostTime> host_time{};
 };
+
+/// The picture of phong-mesa.
+MesaRequest mesa_request(const DesignPoint& point, const std::string& scene);
 
 /// Draw the frame or a tile. Hardware is drawn by the RTL in Verilator. If a fragment differs from the golden
 /// model's, the error has the exit code `differs`. The point must be drawn (is_drawn).

@@ -44,6 +44,7 @@ Result<std::shared_ptr<const Subject>> PictureShelf::subject(const DesignPoint& 
     auto scene = drawn_scene(scene_, scenes_folder_, point);
     if (!scene) return scene.error();
     auto made = std::make_shared<Subject>();
+    made->name = scene_;
     made->scene = std::move(*scene);
     made->triangles = Projector(made->scene, point.size, {}).project_all();
     return std::shared_ptr<const Subject>(std::move(made));

@@ -23,6 +23,7 @@ namespace halfway::study {
 
 /// The scene to draw.
 struct Subject {
+  std::string name;  ///< as for load_scene
   Scene scene;
   std::vector<ScreenTriangle> triangles;
 };

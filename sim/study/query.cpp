@@ -165,8 +165,11 @@ std::vector<Knob> knobs_of(const DesignPoint& p) {
       break;
     case Method::phong:
     case Method::gouraud:
+    case Method::phong_mesa:
       break;
   }
+  if (p.method == Method::adaptive) knobs.push_back({"highlight_test", name_of(p.test)});
+  if (p.has_ends()) knobs.push_back({"span_ends", name_of(p.ends)});
   if (p.has_threshold()) knobs.push_back({"threshold", fmt::format("{:g}", p.threshold)});
   return knobs;
 }

@@ -198,7 +198,9 @@ TEST_F(QueryTest, PrintsTheCheapestItsNeighboursAndTheirCost) {
       "  more accurate  processors-2 exact: largest error 1/255, PSNR 59.50 dB, 10000 cells, "
       "1005 cycles, 5000 host instructions per triangle; +8000 cells (+400 %), -5 cycles (-0.495 %), "
       "-13208 host instructions per triangle (-72.5 %)\n"
-      "  looked at      3 points of hardware; varied: method; not varied: preset, fraction_bits, threshold, "
+      "  looked at      3 points of hardware; varied: method; not varied: preset, fraction_bits, "
+      "highlight_test, "
+      "threshold, "
       "form, seed_bits, newton\n"
       "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions per "
       "triangle\n"
@@ -290,8 +292,10 @@ TEST_F(QueryTest, PrintsTheVariedParameters) {
   const auto markets = markets_of(records_, hardware_, {});
   const auto text = ask({.largest_error = 2.0});
   EXPECT_THAT(
-      text, HasSubstr("looked at      6 points of hardware; varied: method, threshold, address_bits, "
-                      "data_bits; not varied: preset, fraction_bits, form, seed_bits, newton, angle_bits\n"));
+      text,
+      HasSubstr("looked at      6 points of hardware; varied: method, threshold, address_bits, "
+                "data_bits; not varied: preset, fraction_bits, highlight_test, form, seed_bits, newton, "
+                "angle_bits, span_ends\n"));
 }
 
 TEST_F(QueryTest, PrintsTheFrontWithoutADemand) {

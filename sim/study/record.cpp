@@ -13,6 +13,7 @@
 
 #include "scene/lights.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/mesa/mesa_picture.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/pictures/image_library.hpp"
 #include "sim/study/figures.hpp"
@@ -143,8 +144,14 @@ Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& fol
     if (!valgrind) return valgrind.error();
     tools += ", " + *valgrind;
   }
-  return Provenance{scene.name, scene_hash(scene), ContentHash().add(*program).add(*images).hex(), *rtl,
-                    tools};
+  ContentHash programs;
+  programs.add(*program).add(*images);
+  if (mesa_lacks(folders.source).empty()) {
+    const auto mesa = read_file(mesa_program(folders.source));
+    if (!mesa) return mesa.error();
+    programs.add(*mesa);
+  }
+  return Provenance{scene.name, scene_hash(scene), programs.hex(), *rtl, tools};
 }
 
 std::string record_name(const Provenance& provenance, const std::string& name) {

@@ -19,7 +19,7 @@ namespace halfway::study {
 struct Provenance {
   std::string scene;       ///< by name
   std::string scene_hash;  ///< over all numbers of the scene
-  std::string program;     ///< hash of this program
+  std::string program;     ///< hash of this program and of halfway_mesa
   std::string rtl;         ///< hash of every file of the RTL
   std::string tools;       ///< versions of the tools that simulate, count and compare
 };

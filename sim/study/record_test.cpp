@@ -205,8 +205,11 @@ TEST_F(RecordsTest, ProvenanceCoversTheProgram) {
   ASSERT_TRUE(provenance) << provenance.error().message;
   EXPECT_THAT(provenance->tools,
               ::testing::ContainsRegex("GHDL .*Verilator .*OpenImageIO [0-9]+[.][0-9]+[.][0-9]+"));
-  EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).hex());
-  EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).hex());
+  const auto mesa = read_file(mesa_program(c_source));
+  ASSERT_TRUE(mesa) << mesa.error().message;
+  EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).add(*mesa).hex());
+  EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).add(*mesa).hex());
+  EXPECT_NE(provenance->program, ContentHash().add(*mine).add(*images).add(*mesa + '\0').hex());
 }
 
 }  // namespace

@@ -213,14 +213,20 @@ Status time_hosts(const StudySettings& settings, const Records& kept, std::vecto
   for (Record& record : records) {
     settings.on_progress(fmt::format("the host's time of {} of {} points", ++done, records.size()));
     if (record.measured.host_time) continue;
-    const auto scene = drawn_scene(settings.scene, settings.folders.source / "sim" / "scenes", record.point);
-    if (!scene) return scene.error();
-    const auto time = host_time(record.point, *scene, settings.folders);
+    const auto time = host_time(record.point, settings.scene, settings.folders);
     if (!time) return time.error();
     record.measured.host_time = *time;
     if (Status added = kept.add(record); !added) return added;
   }
   return Ok{};
+}
+
+// The reason why Mesa does not draw the scene here; empty if it does.
+std::string no_mesa(const Scene& scene, const SimulatorFolders& folders) {
+  if (const std::string lacks = mesa_lacks(folders.source); !lacks.empty())
+    return fmt::format("phong-mesa: halfway_mesa is not built; install {} and run make program", lacks);
+  const Status draws = mesa_draws(scene);
+  return draws ? "" : fmt::format("phong-mesa: {}", draws.error().message);
 }
 
 }  // namespace
@@ -239,6 +245,8 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
     std::string reason;
     if (!drawn)
       reason = drawn.error().message;
+    else if (point.method == Method::phong_mesa)
+      reason = no_mesa(*drawn, folders);
     else if (in_hardware(point.method)) {
       if (const auto made = hardware_of(point, *drawn); !made)
         reason = fmt::format("{}: {}", to_string(point.method), made.error().message);

@@ -356,7 +356,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
   EXPECT_LT(usual.picture.rms, coarse.picture.rms);
   EXPECT_EQ(usual.fragments, coarse.fragments);
   EXPECT_EQ(usual.setup.shaded, coarse.setup.shaded);
-  EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1\n"));
+  EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1,,\n"));
 }
 
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
@@ -398,6 +398,34 @@ TEST_F(StudyTest, OmitsPointsThatCannotDrawTheScene) {
   EXPECT_THAT(some.reasons[0], HasSubstr("processors-1: lights: version I"));
 }
 
+// Mesa's picture of the design's scene, size, tessellation and exponent, whole and in tiles.
+TEST_F(StudyTest, MesaDrawsThePicture) {
+  ASSERT_EQ(mesa_lacks(settings_.folders.source), "");
+  DesignPoint point{.method = Method::phong_mesa, .tessellation = 0.5, .exponent = 5.0, .size = {160, 120}};
+  settings_.points = {point};
+  point.tile = {96, 64};
+  settings_.points.push_back(point);
+  const Study made = study();
+  ASSERT_EQ(made.records.size(), 2U);
+  for (const Record& record : made.records) {
+    const Measurement& m = record.measured;
+    EXPECT_TRUE(m.hardware.empty());
+    // Equal but for outlines: other subpixels.
+    EXPECT_GT(m.picture.psnr_db, 25.0) << record.point.name();
+    EXPECT_LE(m.highlight.max_lsb, 1) << record.point.name();
+    EXPECT_GT(m.highlight.pixels, 100U);
+  }
+  EXPECT_EQ(made.records[0].measured.picture.rms, made.records[1].measured.picture.rms);
+  const auto time = host_time(settings_.points[0], settings_.scene, settings_.folders);
+  ASSERT_TRUE(time) << time.error().message;
+  EXPECT_GT(time->ns, 0);
+  // Scenes that it does not draw are left out.
+  const Drawable shadows = drawable({point}, "shadows", settings_.folders);
+  EXPECT_EQ(shadows.left_out, 1U);
+  ASSERT_EQ(shadows.reasons.size(), 1U);
+  EXPECT_THAT(shadows.reasons[0], HasSubstr("phong-mesa: halfway_mesa draws no shadows"));
+}
+
 TEST_F(StudyTest, TheTableContainsTheFront) {
   settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
   const Study made = study();
@@ -417,16 +445,16 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
       EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
                "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
                "frame_ns,fragment_ns,ice40_luts,ice40_carries,ice40_flip_flops,ice40_rams,"
-               "angle_bits,fraction_bits,seed_bits,newton,tiles"));
+               "angle_bits,fraction_bits,seed_bits,newton,tiles,highlight_test,span_ends"));
   EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
-                                 ",,,,,,,,,,,,,,1"));
+                                 ",,,,,,,,,,,,,,1,,"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
   // The line names the tools that made its figures.
   EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
   EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
              fragments = static_cast<double>(made.records[2].measured.fragments);
-  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,,1", 12.5 * cycles,
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,,1,,", 12.5 * cycles,
                                              12.5 * cycles / fragments)));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {

@@ -100,7 +100,9 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
                      {"fraction_bits", text_of(p.words.fraction_bits)},
                      {"seed_bits", text_of(p.words.seed_bits)},
                      {"newton", text_of(p.words.newton, "{:d}")},
-                     {"tiles", text_of(p.tiles().size())}};
+                     {"tiles", text_of(p.tiles().size())},
+                     {"highlight_test", p.method == Method::adaptive ? name_of(p.test) : ""},
+                     {"span_ends", p.has_ends() ? name_of(p.ends) : ""}};
   line.insert(line.end(), rest.begin(), rest.end());
   return line;
 }

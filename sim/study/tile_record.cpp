@@ -175,7 +175,7 @@ Result<Drawing> TileRecords::drawing(const DesignPoint& point, const Redraw& red
   auto whole = put_together(point, PieceKind::tile, redraw);
   if (!whole) return whole.error();
   Drawing drawing{.frame = std::move(whole->colours)};
-  if (in_hardware(point.method)) drawing.mask = mask_of(whole->masks, 0);
+  if (point.method != Method::gouraud) drawing.mask = mask_of(whole->masks, 0);
   for (const Json& figures : whole->figures) {
     figures.at("hardware").get_to(drawing.hardware);
     for_each_count(

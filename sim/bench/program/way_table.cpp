@@ -50,12 +50,12 @@ bool is_measured(Way way, std::size_t column) {
 Json mesa_note() {
   if (!lacking(Way::mesa, c_folders).empty()) return false;
   const Scene scene = builtin("spheres");
-  const auto picture = draw_by_mesa({.scene = &scene,
-                                     .size = c_hardware[0].size,
-                                     .batches = nullptr,
-                                     .folders = c_folders,
-                                     .scratch = c_scratch},
-                                    1);
+  const auto picture = run_mesa({.scene = &scene,
+                                 .size = c_hardware[0].size,
+                                 .batches = nullptr,
+                                 .folders = c_folders,
+                                 .scratch = c_scratch},
+                                1);
   if (!picture) return false;
   return {{"psnr", fmt::format("{:.1f}", picture->psnr_db)},
           {"max_lsb", picture->max_lsb},

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a scene by OpenGL ES with per-pixel illumination in a fragment shader. `make bench` runs it on Mesa's
-// llvmpipe, which needs no graphics card.
-//   halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME
-// Writes the frame: red, green and blue of each pixel, line by line from the top left. Prints the processor
-// seconds of the fastest drawing, without loading the vertices, and on a second line the renderer's name.
+// Draws a scene by OpenGL ES with per-pixel illumination in a fragment shader. `make bench` and `make study`
+// run it on Mesa's llvmpipe, which needs no graphics card.
+//   halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME [TESSELLATION [EXPONENT]]
+// Writes the frame: red, green and blue of each pixel, line by line from the top left. A drawing starts with
+// the vertices in OpenGL's memory and ends with the picture in the program's memory, four bytes per pixel.
+// Prints the processor seconds of the fastest drawing, the elapsed seconds of all, and on a second line the
+// renderer's name.
 #define EGL_EGLEXT_PROTOTYPES
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -11,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <glm/geometric.hpp>
@@ -23,6 +26,7 @@
 #include "frame/frame.hpp"
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
+#include "sim/mesa/mesa_picture.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
@@ -97,19 +101,9 @@ Result<GLuint> make_shader(GLenum kind, const std::string& text) {
 class Picture {
  public:
   static Result<Picture> make(const Scene& scene, FrameSize size) {
-    if (scene.shadows) return bad_input("halfway_mesa draws no shadows; take a scene without them");
+    if (Status can = mesa_draws(scene); !can) return can.error();
     std::size_t lights = 0;
-    Status drawn = Ok{};
-    for_each_light(scene, [&](const Light& light) {
-      ++lights;
-      if (light.cone)
-        drawn =
-            bad_input(fmt::format("{}: halfway_mesa draws no spot lights; remove it", name_of(light.ref)));
-    });
-    if (!drawn) return drawn.error();
-    for (const Material& m : scene.materials)
-      if (m.brdf != Brdf::blinn)
-        return bad_input(fmt::format("material '{}': halfway_mesa draws highlights of blinn only", m.name));
+    for_each_light(scene, [&](const Light&) { ++lights; });
     Picture picture(scene, size);
     const auto vertex = make_shader(GL_VERTEX_SHADER, c_vertex_shader);
     if (!vertex) return vertex.error();
@@ -148,16 +142,10 @@ class Picture {
     glFinish();
   }
 
-  Frame read() const {
-    Frame frame(size_);
-    std::vector<std::uint8_t> rgba(4 * frame.pixels());
+  /// Copy the picture from OpenGL's memory: red, green, blue and alpha of each pixel, from the bottom left.
+  void read(std::vector<std::uint8_t>& rgba) const {
     glReadPixels(0, 0, static_cast<GLsizei>(size_.width), static_cast<GLsizei>(size_.height), GL_RGBA,
                  GL_UNSIGNED_BYTE, rgba.data());
-    for (std::uint32_t y = 0; y < size_.height; ++y)
-      for (std::uint32_t x = 0; x < size_.width; ++x)
-        std::copy_n(&rgba[4 * (std::size_t{size_.height - 1 - y} * size_.width + x)], 3,
-                    &frame.rgb[frame.offset(x, y)]);
-    return frame;
   }
 
  private:
@@ -263,39 +251,71 @@ class Picture {
   std::vector<Part> parts_;
 };
 
-Status run(const char* name, FrameSize size, int repetitions, const char* file) {
-  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes");
+Frame to_frame(const std::vector<std::uint8_t>& rgba, FrameSize size) {
+  Frame frame(size);
+  for (std::uint32_t y = 0; y < size.height; ++y)
+    for (std::uint32_t x = 0; x < size.width; ++x)
+      std::copy_n(&rgba[4 * (std::size_t{size.height - 1 - y} * size.width + x)], 3,
+                  &frame.rgb[frame.offset(x, y)]);
+  return frame;
+}
+
+struct Request {
+  std::string scene;
+  FrameSize size;
+  int repetitions = 0;
+  std::string file;
+  double tessellation = 1.0, exponent = 0.0;  // exponent 0: the scene's
+};
+
+Status run(const Request& request) {
+  auto scene = load_scene(request.scene, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes",
+                          {.tessellation = request.tessellation});
   if (!scene) return scene.error();
+  if (request.exponent > 0)
+    for (Material& material : scene->materials) material.exponent = request.exponent;
   if (Status made = make_context(); !made) return made;
-  const auto picture = Picture::make(*scene, size);
+  const auto picture = Picture::make(*scene, request.size);
   if (!picture) return picture.error();
-  picture->draw();  // the first drawing compiles the shaders for the processor
-  double best = 1e300;
-  for (int i = 0; i < repetitions; ++i) {
-    const double start = process_seconds();
+  std::vector<std::uint8_t> rgba(4 * Frame(request.size).pixels());
+  const auto draw = [&] {
     picture->draw();
+    picture->read(rgba);
+  };
+  draw();  // the first drawing compiles the shaders for the processor
+  double best = 1e300;
+  const auto first = std::chrono::steady_clock::now();
+  for (int i = 0; i < request.repetitions; ++i) {
+    const double start = process_seconds();
+    draw();
     best = std::min(best, process_seconds() - start);
   }
-  const Frame frame = picture->read();
+  const double elapsed = seconds_since(first);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
     return tool_failed(fmt::format("OpenGL: error {:#x}", error));
-  fmt::print("{:.9f}\n{}\n", best, reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
-  return write_file(file, {reinterpret_cast<const char*>(frame.rgb.data()), frame.rgb.size()});
+  fmt::print("{:.9f} {:.9f}\n{}\n", best, elapsed, reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+  const Frame frame = to_frame(rgba, request.size);
+  return write_file(request.file, {reinterpret_cast<const char*>(frame.rgb.data()), frame.rgb.size()});
 }
 
 }  // namespace
 }  // namespace halfway
 
 int main(int argc, char** argv) {
-  halfway::FrameSize size;
-  int repetitions = 0;
-  if (argc != 5 || std::sscanf(argv[2], "%ux%u", &size.width, &size.height) != 2 ||
-      std::sscanf(argv[3], "%d", &repetitions) != 1 || size.width == 0 || size.height == 0 ||
-      std::max(size.width, size.height) > halfway::c_max_frame_side || repetitions < 1) {
-    fmt::print(stderr, "usage: halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME\n");
+  halfway::Request request;
+  halfway::FrameSize& size = request.size;
+  if (argc < 5 || argc > 7 || std::sscanf(argv[2], "%ux%u", &size.width, &size.height) != 2 ||
+      std::sscanf(argv[3], "%d", &request.repetitions) != 1 || size.width == 0 || size.height == 0 ||
+      std::max(size.width, size.height) > halfway::c_max_frame_side || request.repetitions < 1 ||
+      (argc > 5 && std::sscanf(argv[5], "%lf", &request.tessellation) != 1) ||
+      (argc > 6 && std::sscanf(argv[6], "%lf", &request.exponent) != 1)) {
+    fmt::print(stderr,
+               "usage: halfway_mesa SCENE WIDTHxHEIGHT REPETITIONS FRAME [TESSELLATION [EXPONENT]]\n");
     return 2;
   }
-  if (const halfway::Status done = halfway::run(argv[1], size, repetitions, argv[4]); !done) {
+  request.scene = argv[1];
+  request.file = argv[4];
+  if (const halfway::Status done = halfway::run(request); !done) {
     fmt::print(stderr, "{}\n", done.error().message);
     return static_cast<int>(done.error().code);
   }
