@@ -14,8 +14,13 @@
 #include <tuple>
 
 #include "common/to_integer.hpp"
+#include "frame/assemble.hpp"
+#include "frame/metrics.hpp"
+#include "golden_run/golden_run.hpp"
 #include "plan/processor_clocks.hpp"
 #include "plan/processor_count.hpp"
+#include "reference/renderer.hpp"
+#include "setup/project.hpp"
 #include "setup/setup.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/costs/cells.hpp"
@@ -23,6 +28,7 @@
 #include "sim/ghdl/hardware_units.hpp"
 #include "sim/program/printable.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/study/hardware.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/threads.hpp"
 #include "sim/verilator/shader_netlist.hpp"
@@ -263,30 +269,66 @@ void print_processors(const Scene& scene, const PlanCommand& command, FrameSize 
   print_own_processors(scene, load);
 }
 
-// What setup makes of the scene for the quadratic shader of a degree.
-SetupCounts count_setup(const Scene& scene, FrameSize size, const HardwareKey& key,
-                        const QuadraticSetupOptions& options) {
+// A scene in the quadratic shader of a degree: what setup makes of it, and the golden model's frame.
+struct DegreeFrame {
   SetupCounts counts;
+  FrameDistance error{};  // from the reference, over the pixels that either covers
+};
+Result<DegreeFrame> draw_degree(const Scene& scene, const ReferenceImage& reference, const HardwareKey& key,
+                                const QuadraticSetupOptions& options) {
+  DegreeFrame drawn;
+  const FrameSize size = reference.frame.size;
   const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {.quadratic = options});
+  const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
+  FrameAssembler assembler(size, scene.background);
   std::vector<std::uint32_t> words;
   for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
     words.clear();
-    setup->append(unit, words, counts);
+    setup->append(unit, words, drawn.counts);
+    if (Status added = assembler.add(golden->draw(words)); !added) return added.error();
   }
-  return counts;
+  std::vector<std::uint8_t> mask = assembler.mask();
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= reference.mask[i];
+  const auto error = frame_distance(assembler.frame(), reference.frame, mask);
+  if (!error) return error.error();
+  drawn.error = *error;
+  return drawn;
 }
 
-// Quadratics and planes: for which triangles a plane is enough, and what either costs.
-void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
-                   const CellsByKey& cells) {
+void print_errors(const std::string& which, const FrameDistance& planes, const FrameDistance& quadratics) {
+  print_row("rms error, steps of 1/255, " + which, fmt::format("{:.3g}", planes.rms),
+            fmt::format("{:.3g}", quadratics.rms), "");
+  print_row("largest error, " + which, std::to_string(planes.max_lsb), std::to_string(quadratics.max_lsb),
+            "");
+}
+
+// The clocks of hardware with a pinned netlist, without placement.
+void print_clocks(const HardwareKey& planes, const HardwareKey& quadratics, const SimulatorFolders& folders) {
+  const auto text = [&](const HardwareKey& key) -> std::string {
+    const auto figures = study::pinned_figures(key, folders);
+    return figures && figures->mhz ? fmt::format("{:.1f}", *figures->mhz) : "-";
+  };
+  print_row("clock, MHz on an iCE40 HX8K, as pinned", text(planes), text(quadratics), "");
+}
+
+// Quadratics and planes: for which triangles a plane is enough, what either costs, and their errors.
+Status print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
+                     const CellsByKey& cells, const SimulatorFolders& folders) {
   QuadraticSetupOptions options = draw.setup.quadratic, whole = options;
   if (options.test == HighlightTest::none) options.max_level = 0;
   whole.test = options.test = HighlightTest::conservative;
   whole.max_level = 0;
   const HardwareKey planes = of_degree(key, 1), quadratics = of_degree(key, 2);
-  const SetupCounts unsplit = count_setup(scene, draw.size, planes, whole);
-  const SetupCounts few = count_setup(scene, draw.size, planes, options),
-                    all = count_setup(scene, draw.size, quadratics, options);
+  const ReferenceImage reference = render_reference(scene, Projector(scene, draw.size, {}).project_all(),
+                                                    {.frame = draw.size, .subpixel_bits = 4});
+  const auto whole_planes = draw_degree(scene, reference, planes, whole),
+             whole_quadratics = draw_degree(scene, reference, quadratics, whole),
+             split_planes = draw_degree(scene, reference, planes, options),
+             split_quadratics = draw_degree(scene, reference, quadratics, options);
+  for (const auto* drawn : {&whole_planes, &whole_quadratics, &split_planes, &split_quadratics})
+    if (!*drawn) return drawn->error();
+  const SetupCounts& unsplit = whole_planes->counts;
+  const SetupCounts &few = split_planes->counts, &all = split_quadratics->counts;
   const std::uint64_t enough = unsplit.leaves - unsplit.unresolved;
   fmt::print(
       "\nplanes (--degree 1, Gouraud's shading) at {}x{}: {} of {} triangles are within {} steps, {}\n",
@@ -301,15 +343,19 @@ void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareK
   print_counts("bits of all init vectors", few.vectors * bits(planes), all.vectors * bits(quadratics));
   print_counts("samples shaded", few.shaded, all.shaded);
   print_counts("pieces above the threshold", few.unresolved, all.unresolved);
+  print_errors("never split", whole_planes->error, whole_quadratics->error);
+  print_errors("split", split_planes->error, split_quadratics->error);
+  print_clocks(planes, quadratics, folders);
   const std::uint64_t mixed = enough * bits(planes) + unsplit.unresolved * bits(quadratics);
   fmt::print(
       "A stream of both, a plane where it is enough, has {} fewer bits than quadratics alone, unsplit. It "
       "shades as\n"
       "many samples: the test needs all six. Hardware of degree 2 draws a plane from zeros.\n",
       saved(static_cast<double>(mixed), static_cast<double>(unsplit.leaves * bits(quadratics))));
-  if (cells.empty()) return;
+  if (cells.empty()) return Ok{};
   print_counts("LUTs of 4 inputs", cells.at(planes.name()).luts, cells.at(quadratics.name()).luts);
   print_counts("flip-flops", cells.at(planes.name()).flip_flops, cells.at(quadratics.name()).flip_flops);
+  return Ok{};
 }
 
 int run(const Folders& folders, const PlanCommand& command) {
@@ -379,7 +425,9 @@ int run(const Folders& folders, const PlanCommand& command) {
   const bool same = called_for.frame.rgb == everything.frame.rgb &&
                     (hides_more(plan) || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
-  if (plan.key.shader == Shader::quadratic) print_degrees(*scene, *draw, plan.key, cells);
+  if (plan.key.shader == Shader::quadratic)
+    if (const Status printed = print_degrees(*scene, *draw, plan.key, cells, simulator_folders); !printed)
+      return report(printed.error());
   if (command.objects || command.rate) print_processors(*scene, command, draw->size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }

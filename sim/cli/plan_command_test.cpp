@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <filesystem>
 
 #include "sim/cli/command_test.hpp"
@@ -66,6 +67,22 @@ TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
   EXPECT_THAT(few, AllOf(ContainsRegex("160x120: [1-9][0-9]* of [1-9][0-9]* triangles are within 2 steps"),
                          ContainsRegex("\nbits of an init vector +640 +880 +27 %\n"),
                          ContainsRegex("\nsamples shaded +[0-9]+ +[0-9]+"), Not(HasSubstr("LUTs"))));
+  // The netlists of the default preset and one channel are pinned.
+  EXPECT_THAT(few, ContainsRegex("\nclock, MHz on an iCE40 HX8K, as pinned +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
+  // Splitting makes the error of planes smaller, and that of quadratics is smaller unsplit.
+  const auto figures = [&](const std::string& name) {
+    double planes = 0, quadratics = 0;
+    const std::size_t at = few.find("\n" + name);
+    const char* const numbers = at == std::string::npos ? "" : few.c_str() + at + 1 + name.size();
+    EXPECT_EQ(std::sscanf(numbers, "%lf %lf", &planes, &quadratics), 2) << name;
+    return std::pair(planes, quadratics);
+  };
+  const auto whole = figures("rms error, steps of 1/255, never split"),
+             split = figures("rms error, steps of 1/255, split");
+  EXPECT_GT(whole.first, whole.second);
+  EXPECT_GT(whole.first, 2 * split.first);
+  EXPECT_LE(figures("largest error, split").first, 3);  // the threshold 2, and rounding
+  EXPECT_GT(figures("largest error, never split").first, 3);
   const std::string all = lines({"plan", "matte", "--size", "160x120", "--threshold", "255"});
   EXPECT_THAT(all, HasSubstr(" triangles are within 255 steps, so planes are enough\n"));
   EXPECT_EQ(lines({"plan", "matte", "--shader", "spherical"}), "");
