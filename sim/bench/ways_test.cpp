@@ -101,6 +101,26 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *engine, *batches));
 }
 
+// Each thread draws frames of its own; every frame is compared.
+TEST(BenchWorkload, FramesAreDrawnOnAllThreads) {
+  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  const Scene scene = *load_scene("matte", c_source / "sim/scenes");
+  const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
+  const auto engine = open_engine(EngineKind::verilator, key, folders);
+  ASSERT_TRUE(engine) << engine.error().message;
+  const auto another = (*engine)->another();
+  ASSERT_TRUE(another);
+  const std::vector<std::shared_ptr<Engine>> engines = {*engine, *another};
+  const auto rate = frame_rate(scene, c_size, key, engines, 6);
+  ASSERT_TRUE(rate) << rate.error().message;
+  EXPECT_GT(*rate, 0.0);
+  // Both engines have drawn: the clocks of both have advanced.
+  for (const std::shared_ptr<Engine>& each : engines) EXPECT_GT(each->cycles(), 0U);
+  // The key of other hardware: golden model and set-up differ from the engines.
+  const HardwareKey other = plan_scene(*load_scene("spheres", c_source / "sim/scenes"), {})->key;
+  EXPECT_FALSE(frame_rate(scene, c_size, other, engines, 2));
+}
+
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
   const SimulatorFolders folders{c_source, c_source / "build/cache"};
   for (const Shader shader : c_shaders) {

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <glm/geometric.hpp>
@@ -24,10 +26,12 @@
 #include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
+#include "setup/spherical_setup.hpp"
 #include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
+#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -58,12 +62,20 @@ void forget_peak() {
 // like every frame of `make view` except the first.
 constexpr double c_warm_seconds = 0.25;
 
+/// With what a host computes once per scene: the bells of the spherical shader.
+SetupOptions setup_of(const Scene& scene, const HardwareKey& key) {
+  SetupOptions options;
+  if (key.shader == Shader::spherical && key.preset == Preset::exact)
+    options.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
+  return options;
+}
+
 /// Draws the scene. The memory of `rtl` is used again. Calls `between` between the batches. Stops when the
 /// drawing has taken `most_seconds` of processor time.
-Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, RtlFrame& rtl,
-                  const std::function<void()>& between, double most_seconds, FrameCost& cost) {
+Status draw_scene(const Scene& scene, FrameSize size, const HardwareKey& key, const SetupOptions& options,
+                  RtlFrame& rtl, const std::function<void()>& between, double most_seconds, FrameCost& cost) {
   const double setup_start = thread_seconds();
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {});
+  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, options);
   const double clear_start = thread_seconds();
   cost.setup = clear_start - setup_start;
   rtl.clear();
@@ -112,14 +124,15 @@ Status draw_frame_here(const std::function<Scene()>& make_scene, FrameSize size,
   ::malloc_trim(0);
   forget_peak();
   const std::uint64_t before = resident_bytes();
+  const SetupOptions options = setup_of(scene, key);
   RtlFrame rtl(engine, size, scene.background, {.golden = make_golden_model(key)});
   FrameCost first;
   if (Status status = draw_scene(
-          scene, size, key, rtl, [] {}, c_warm_seconds, first);
+          scene, size, key, options, rtl, [] {}, c_warm_seconds, first);
       !status)
     return status;
-  if (Status status =
-          draw_scene(scene, size, key, rtl, take_pace, std::numeric_limits<double>::infinity(), cost);
+  if (Status status = draw_scene(scene, size, key, options, rtl, take_pace,
+                                 std::numeric_limits<double>::infinity(), cost);
       !status)
     return status;
   cost.triangles = scene.triangles.size();
@@ -240,6 +253,35 @@ Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize
   ::waitpid(child, &status, 0);
   if (!received || status != 0) return tool_failed(fmt::format("{}: a frame was not drawn", key.name()));
   return cost;
+}
+
+Result<double> frame_rate(const Scene& scene, FrameSize size, const HardwareKey& key,
+                          std::span<const std::shared_ptr<Engine>> engines, std::size_t frames) {
+  const SetupOptions options = setup_of(scene, key);
+  std::vector<RtlFrame> pictures;
+  for (const std::shared_ptr<Engine>& engine : engines)
+    pictures.emplace_back(engine, size, scene.background, RtlFrameOptions{.golden = make_golden_model(key)});
+  // Draw `count` frames; each thread takes the next one.
+  const auto draw = [&](std::size_t count) -> Status {
+    std::atomic<std::size_t> next_picture = 0, next_frame = 0;
+    return for_each_on_threads(
+        static_cast<unsigned>(pictures.size()), pictures.size(), [&](std::size_t) -> Status {
+          RtlFrame& rtl = pictures[next_picture++];
+          while (next_frame++ < count) {
+            FrameCost cost;
+            if (Status drawn = draw_scene(
+                    scene, size, key, options, rtl, [] {}, std::numeric_limits<double>::infinity(), cost);
+                !drawn)
+              return drawn;
+            if (cost.mismatches != 0) return Error{ExitCode::differs, key.name() + ": the RTL differs"};
+          }
+          return Ok{};
+        });
+  };
+  if (Status warmed = draw(pictures.size()); !warmed) return warmed.error();
+  const auto start = std::chrono::steady_clock::now();
+  if (Status drawn = draw(frames); !drawn) return drawn.error();
+  return static_cast<double>(frames) / seconds_since(start);
 }
 
 WalkCounts count_walk(const InitBatches& batches) {

@@ -63,6 +63,11 @@ struct FrameCost {
 Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize size, const HardwareKey& key,
                              const std::shared_ptr<Engine>& engine, const InitBatches& pace);
 
+/// Frames per second of elapsed time: whole frames as in draw_frame, each on one thread, on as many threads
+/// as there are engines. Each thread first draws one frame that is not timed.
+Result<double> frame_rate(const Scene& scene, FrameSize size, const HardwareKey& key,
+                          std::span<const std::shared_ptr<Engine>> engines, std::size_t frames);
+
 /// Counts of preset exact's walker for the vectors. They are equal for all shaders with this walker.
 struct WalkCounts {
   std::uint64_t headers = 0, lines = 0, empty_lines = 0, spans = 0, pixels = 0;

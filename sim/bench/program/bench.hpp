@@ -117,6 +117,8 @@ class Growth {
 void measure_small_triangles(Json& speed);
 /// Run `make sim` in an unchanged tree. Returns true if nothing was rebuilt.
 bool measure_make(Json& speed);
+/// Whole frames from scene to picture, ours and Mesa's, in turn.
+void measure_whole_frames(Json& speed);
 /// Frames per second, as printed by `halfway view`.
 void measure_view(Json& speed);
 

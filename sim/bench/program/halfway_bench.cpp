@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_bench [--page FILE] [--jobs N] [--benchmark_…]: measures speed as ratios within one run. It
 // compares all ways to draw a picture with the project's own; growth of time and memory with triangles,
-// pixels and lights; small triangles; cores; and whole runs of `make sim`. --page writes the page. Times are
-// processor times: the median of several repetitions in random order, scaled to the best speed of the run.
-// Absolute times are valid only for the machine that prints them.
+// pixels and lights; whole frames; small triangles; cores; and whole runs of `make sim`. --page writes the
+// page. Times are processor times: the median of several repetitions in random order, scaled to the best
+// speed of the run. Absolute times are valid only for the machine that prints them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -64,7 +64,8 @@ int run(const Options& options) {
   growth.write(speed);
   speed["small_triangles"] = Json::array();
   speed["cores"] = Json::array();
-  speed["make_sim"] = speed["views"] = false;
+  speed["whole_frames"] = speed["make_sim"] = speed["views"] = false;
+  if (is_wanted("whole_frames")) measure_whole_frames(speed);
   if (is_wanted("small_triangles")) measure_small_triangles(speed);
   ways.write_cores(speed);
   const bool unchanged = !is_wanted("make_sim") || measure_make(speed);
