@@ -64,8 +64,9 @@ bool without_avx512(Way way) {
 /// RTL in this process, alone, or with the golden model and a comparison of every field on the same thread.
 Result<Go> in_process(Way way, const WayInput& input) {
   const bool compared = is_compared(way);
-  auto opened = open_engine(in_lanes(way) ? EngineKind::lanes : EngineKind::verilator, input.batches->key,
-                            input.folders, {.fast = input.fast, .avx512 = !without_avx512(way)});
+  auto opened = open_engine(
+      in_lanes(way) ? EngineKind::lanes : EngineKind::verilator, input.batches->key, input.folders,
+      {.fast = input.fast, .vectors = without_avx512(way) ? LaneVectors::avx2 : LaneVectors::avx512});
   if (!opened) return opened.error();
   const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
   return Go([=, engine = *opened, &s = *input.batches]() -> Result<double> {

@@ -168,7 +168,7 @@ class Lanes {
     if (room == lane.room) {
       std::copy(from, from + waiting, lane.fragments.get());
     } else {
-      auto other = room == 0 ? nullptr : std::make_unique_for_overwrite<HalfwayFragment[]>(room);
+      std::unique_ptr<HalfwayFragment[]> other(room == 0 ? nullptr : new HalfwayFragment[room]);
       std::copy(from, from + waiting, other.get());
       lane.fragments = std::move(other);
       lane.room = room;

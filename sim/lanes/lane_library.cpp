@@ -30,6 +30,24 @@ const std::vector<std::string> c_compiler_flags = {
     "-mprefer-vector-width=512",
 #endif
 };
+
+/// The compiler's option for vectors that are not the widest of the processor.
+std::string flag_of(LaneVectors vectors) {
+#ifdef __x86_64__
+  switch (vectors) {
+    case LaneVectors::avx512:
+      return "";
+    case LaneVectors::avx2:
+      return "-mno-avx512f";
+    case LaneVectors::sse:
+      return "-mno-avx";
+    case LaneVectors::none:
+      return "-mno-sse";
+  }
+#endif
+  return "";
+}
+
 /// The sources of the generated library: this folder's, without tests, and the header of the interface.
 Result<std::vector<std::filesystem::path>> generator_sources(const std::filesystem::path& source) {
   std::vector<std::filesystem::path> files = {source / "sim/verilator/harness_api.h"};
@@ -54,9 +72,10 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
   const auto harness = read_file(build.harness);
   if (!harness) return tool_failed(harness.error().message);
 
+  const std::string vectors = flag_of(build.vectors);
   ContentHash hash;
   hash.add("lanes 1").add(*verilator_version).add(compiler->identity).add(build.netlist).add(build.top);
-  hash.add(*harness).add(build.fast ? "-O3" : "-O1").add(build.avx512 ? "" : "no AVX-512");
+  hash.add(*harness).add(build.fast ? "-O3" : "-O1").add(vectors);
   const auto sources = generator_sources(build.source);
   if (!sources) return sources.error();
   for (const std::filesystem::path& file : *sources) {
@@ -92,9 +111,7 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
     auto& arguments = compile.arguments;
     arguments.insert(arguments.end(), c_compiler_flags.begin(), c_compiler_flags.end());
     arguments.emplace_back(build.fast ? "-O3" : "-O1");
-#ifdef __x86_64__
-    if (!build.avx512) arguments.emplace_back("-mno-avx512f");
-#endif
+    if (!vectors.empty()) arguments.push_back(vectors);
     // g++ would share inline variables between all libraries of the process.
     if (compiler->program.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
     for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);

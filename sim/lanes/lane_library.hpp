@@ -12,6 +12,10 @@
 
 namespace halfway {
 
+/// The widest vectors that a library may use, with 16, 8 or 4 lanes; the processor's, if it has none as wide.
+/// `none`: 4 lanes without vector instructions.
+enum class LaneVectors { avx512, avx2, sse, none };
+
 struct LaneBuild {
   std::string name;     ///< prefix of the cached build's folder
   std::string netlist;  ///< after mend_netlist
@@ -21,8 +25,8 @@ struct LaneBuild {
   std::filesystem::path source;          ///< the project's root
   std::vector<std::string> definitions;  ///< NAME=value for the harness
   bool fast = true;                      ///< optimize, which takes long to compile
-  bool avx512 = true;                    ///< false: no instruction of AVX-512
-  std::string compiler;                  ///< empty: clang++ if installed, otherwise g++
+  LaneVectors vectors = LaneVectors::avx512;
+  std::string compiler;  ///< empty: clang++ if installed, otherwise g++
 };
 
 /// Build the library in build/cache/lanes/<name>-<hash>/ unless it exists, and load it.

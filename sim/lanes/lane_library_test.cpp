@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <optional>
 #include <random>
 
@@ -17,7 +18,7 @@ namespace {
 
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 const std::filesystem::path c_cache = c_root / "build" / "cache";
-constexpr unsigned c_lanes = 16, c_stimulus_words = 5, c_response_words = 100;
+constexpr unsigned c_stimulus_words = 5, c_response_words = 100;
 constexpr std::size_t c_vectors = 500;  // per lane
 
 // Same as tb/netlist/netlist_harness.cpp, with different vectors in each lane.
@@ -26,6 +27,7 @@ const char* const c_harness = R"(
 namespace halfway::lanes { namespace {
 #include "lanes.hpp"
 } }
+extern "C" __attribute__((visibility("default"))) unsigned lanes_count() { return halfway::lanes::c_lanes; }
 extern "C" __attribute__((visibility("default"))) void lanes_run(const std::uint32_t* stimuli,
                                                                  std::size_t count, std::uint32_t* responses) {
   using namespace halfway::lanes;
@@ -163,7 +165,7 @@ class Lanes : public testing::Test {
     ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", c_harness));
   }
 
-  Result<SharedLibrary> open(const std::string& body) {
+  Result<SharedLibrary> open(const std::string& body, LaneVectors vectors = LaneVectors::avx512) {
     return open_lanes({.name = "test",
                        .netlist = module_of(body),
                        .top = "m",
@@ -172,6 +174,7 @@ class Lanes : public testing::Test {
                        .source = c_root,
                        .definitions = {},
                        .fast = false,
+                       .vectors = vectors,
                        .compiler = {}},
                       c_cache);
   }
@@ -186,21 +189,43 @@ class Lanes : public testing::Test {
   std::optional<TemporaryFolder> scratch_;
 };
 
-TEST_F(Lanes, EveryOperationGivesVerilatorsResult) {
+/// The number of lanes in the widest vectors of this machine.
+unsigned most_lanes() {
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx512dq") != 0 ? 16 : __builtin_cpu_supports("avx2") != 0 ? 8 : 4;
+#else
+  return 4;
+#endif
+}
+
+struct Vectors {
+  LaneVectors vectors;
+  unsigned lanes;
+};
+class LanesOfVectors : public Lanes, public testing::WithParamInterface<Vectors> {};
+INSTANTIATE_TEST_SUITE_P(All, LanesOfVectors,
+                         testing::Values(Vectors{LaneVectors::avx512, 16}, Vectors{LaneVectors::avx2, 8},
+                                         Vectors{LaneVectors::sse, 4}, Vectors{LaneVectors::none, 4}));
+
+TEST_P(LanesOfVectors, EveryOperationGivesVerilatorsResult) {
   std::string body = c_everything, rom;
   for (unsigned i = 0; i < 64; ++i) rom += fmt::format("    rom[{}] = 8'd{};\n", i, (i * i * 7 + 13) % 256);
   body.replace(body.find("ROM\n"), 4, rom);
   std::mt19937 random(20240229);
-  std::vector<std::uint32_t> stimuli(c_lanes * c_vectors * c_stimulus_words);
+  const auto lanes = open(body, GetParam().vectors);
+  ASSERT_TRUE(lanes) << lanes.error().message;
+  const auto count = lanes->function<unsigned()>("lanes_count");
+  ASSERT_TRUE(count) << count.error().message;
+  const unsigned lane_count = std::min(most_lanes(), GetParam().lanes);
+  ASSERT_EQ((*count)(), lane_count);
+  std::vector<std::uint32_t> stimuli(lane_count * c_vectors * c_stimulus_words);
   for (std::uint32_t& word : stimuli) {
     word = static_cast<std::uint32_t>(random());
     if (random() % 8 == 0) word = random() % 2 == 0 ? 0 : ~0U;
   }
-  const auto lanes = open(body);
-  ASSERT_TRUE(lanes) << lanes.error().message;
   const auto run = lanes->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_run");
   ASSERT_TRUE(run) << run.error().message;
-  std::vector<std::uint32_t> found(c_lanes * c_vectors * c_response_words), expected(found.size());
+  std::vector<std::uint32_t> found(lane_count * c_vectors * c_response_words), expected(found.size());
   (*run)(stimuli.data(), c_vectors, found.data());
 
   std::string verilog = module_of(body);
@@ -218,7 +243,7 @@ TEST_F(Lanes, EveryOperationGivesVerilatorsResult) {
   const auto verilate =
       verilated->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
   ASSERT_TRUE(verilate) << verilate.error().message;
-  for (unsigned lane = 0; lane < c_lanes; ++lane) {
+  for (unsigned lane = 0; lane < lane_count; ++lane) {
     (*verilate)(&stimuli[lane * c_vectors * c_stimulus_words], c_vectors,
                 &expected[lane * c_vectors * c_response_words]);
   }
@@ -284,9 +309,9 @@ TEST_F(Lanes, UnsupportedConstructsAreRefused) {
   };
   expect_refused(respond("{3192'b0, stimulus[7:0] / stimulus[15:8]}"), "do not support 'div'");
   expect_refused(respond("{3199'b0, ^stimulus[7:0]}"), "do not support 'redxor'");
-  expect_refused("  reg [3:0] m[2047:0];\n  always @(posedge clk) m[stimulus[10:0]] <= stimulus[18:15];\n" +
-                     respond("{3196'b0, m[stimulus[30:20]]}"),
-                 "m.m: a memory of 2048 places");
+  expect_refused("  reg [3:0] m[8191:0];\n  always @(posedge clk) m[stimulus[12:0]] <= stimulus[18:15];\n" +
+                     respond("{3196'b0, m[stimulus[32:20]]}"),
+                 "m.m: a memory of 8192 places");
   expect_refused(
       "  reg [3:0] m[1:0], n[1:0];\n"
       "  always @(posedge clk) if (stimulus[6]) m[stimulus[0]] <= n[stimulus[1]];\n"

@@ -12,7 +12,6 @@
 #include "golden_run/golden_run.hpp"
 #include "sim/compare/limits.hpp"
 #include "sim/lanes/lane_api.h"
-#include "sim/lanes/lane_library.hpp"
 #include "sim/system/threads.hpp"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/shader_netlist.hpp"
@@ -254,7 +253,7 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
                         .source = folders.source,
                         .definitions = definitions,
                         .fast = options.fast,
-                        .avx512 = options.avx512,
+                        .vectors = options.vectors,
                         .compiler = options.compiler};
   auto library = open_lanes(build, folders.cache);
   if (!library) return library.error();

@@ -15,6 +15,7 @@
 #include "plan/hardware_key.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/lanes/lane_library.hpp"
 
 namespace halfway {
 
@@ -26,7 +27,7 @@ struct LaneOptions {
   std::uint32_t stall_seed =
       0;                   ///< 0: full speed; otherwise both streams stall at random, separately in each lane
   bool fast = true;        ///< optimize, which takes long to compile
-  bool avx512 = true;      ///< false: no instruction of AVX-512
+  LaneVectors vectors = LaneVectors::avx512;
   std::string compiler{};  ///< empty: clang++ if installed, otherwise g++
 };
 

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vector type of the generated lanes and everything that depends on the processor: V holds a 32-bit
-// number per lane, M a condition per lane. Another processor needs another version of this header only.
-// With AVX-512, M is a mask register. Otherwise the compiler translates the vector extension.
+// The vector types of the generated lanes: V holds a 32-bit number per lane, M a condition per lane. They are
+// written in the vector extension of GCC and Clang; the number of lanes is the only parameter. Its default is
+// what the processor's vectors hold. Without vectors of this width the compiler splits them.
+// A mask is a vector of all ones or zeros per lane. Only AVX-512 has registers for masks; there it is a bit
+// per lane.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
-#ifdef __AVX512F__
+#include <utility>
+#if defined(__x86_64__)
 #include <immintrin.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
 #endif
 
 #define LANE_FUNCTION static inline __attribute__((always_inline))
@@ -15,16 +21,43 @@
 
 namespace halfway::lanes {
 
-constexpr unsigned c_lanes = 16;
+#ifndef HALFWAY_LANES
+#if defined(__AVX512DQ__)
+#define HALFWAY_LANES 16
+#elif defined(__AVX2__)
+#define HALFWAY_LANES 8
+#else
+#define HALFWAY_LANES 4
+#endif
+#endif
+constexpr unsigned c_lanes = HALFWAY_LANES;
+
 using V = std::uint32_t __attribute__((vector_size(4 * c_lanes)));
 using S = std::int32_t __attribute__((vector_size(4 * c_lanes)));
-using M = std::uint16_t;
-constexpr M c_all = 0xffff, c_none = 0;
+// Two lanes as one number, as in a little-endian processor.
+using W = std::uint64_t __attribute__((vector_size(4 * c_lanes)));
+using D = std::int64_t __attribute__((vector_size(4 * c_lanes)));
 
 LANE_FUNCTION V splat(std::uint32_t value) {
   return V{} + value;
 }
-#ifdef __AVX512F__
+LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
+#if HALFWAY_LANES == 16 && defined(__AVX512DQ__)
+  return (V)_mm512_i32gather_epi32((__m512i)address, table, 4);
+#else
+  V data{};
+  for (unsigned i = 0; i < c_lanes; ++i) data[i] = table[address[i]];
+  return data;
+#endif
+}
+LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint32_t value) {
+  reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(&vector)[lane] = value;
+}
+
+#if HALFWAY_LANES == 16 && defined(__AVX512DQ__)
+using M = std::uint16_t;
+constexpr M c_all = 0xffff, c_none = 0;
+
 LANE_FUNCTION V select(M mask, V a, V b) {
   return (V)_mm512_mask_blend_epi32(mask, (__m512i)b, (__m512i)a);
 }
@@ -46,46 +79,55 @@ LANE_FUNCTION M less(V a, V b) {
 LANE_FUNCTION M signed_less(V a, V b) {
   return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
 }
-LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
-  return (V)_mm512_i32gather_epi32((__m512i)address, table, 4);
-}
-#else
-LANE_FUNCTION V spread(M mask) {  // each lane's bit as all ones or zeros
-  V bits{};
-  for (unsigned i = 0; i < c_lanes; ++i) bits[i] = -(std::uint32_t{mask} >> i & 1);
-  return bits;
-}
-LANE_FUNCTION M gather_bits(V bits) {
-  M mask = 0;
-  for (unsigned i = 0; i < c_lanes; ++i) mask |= static_cast<M>((bits[i] & 1) << i);
+LANE_FUNCTION std::uint32_t to_bits(M mask) {
   return mask;
 }
+LANE_FUNCTION M to_mask(std::uint32_t bits) {
+  return static_cast<M>(bits);
+}
+#else
+using M = S;
+const M c_all = M{} - 1, c_none{};
+
 LANE_FUNCTION V select(M mask, V a, V b) {
-  const V m = spread(mask);
-  return (m & a) | (~m & b);
+  return ((V)mask & a) | (~(V)mask & b);
 }
 LANE_FUNCTION V fill(M mask, std::uint32_t value) {
-  return spread(mask) & value;
+  return (V)mask & value;
 }
 LANE_FUNCTION void assign(M mask, V& to, V value) {
   to = select(mask, value, to);
 }
 LANE_FUNCTION M test(V a, std::uint32_t bit) {
-  return gather_bits((V)((a & bit) != 0));
+  return (a & bit) == splat(bit);
 }
 LANE_FUNCTION M equal(V a, V b) {
-  return gather_bits((V)(a == b));
+  return a == b;
 }
 LANE_FUNCTION M less(V a, V b) {
-  return gather_bits((V)(a < b));
+  return a < b;
 }
 LANE_FUNCTION M signed_less(V a, V b) {
-  return gather_bits((V)((S)a < (S)b));
+  return (S)a < (S)b;
 }
-LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
-  V data{};
-  for (unsigned i = 0; i < c_lanes; ++i) data[i] = table[address[i]];
-  return data;
+/// The lanes of a mask as bits: one instruction where the processor has it.
+LANE_FUNCTION std::uint32_t to_bits(M mask) {
+#if HALFWAY_LANES == 8 && defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)mask));
+#elif HALFWAY_LANES == 4 && defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask));
+#elif HALFWAY_LANES == 4 && defined(__wasm_simd128__)
+  return wasm_i32x4_bitmask((v128_t)mask);
+#else
+  std::uint32_t bits = 0;
+  for (unsigned i = 0; i < c_lanes; ++i) bits |= (static_cast<std::uint32_t>(mask[i]) & 1) << i;
+  return bits;
+#endif
+}
+LANE_FUNCTION M to_mask(std::uint32_t bits) {
+  V own{};
+  for (unsigned i = 0; i < c_lanes; ++i) own[i] = 1u << i;
+  return (own & bits) == own;
 }
 #endif
 LANE_FUNCTION M select(M mask, M a, M b) {
@@ -98,20 +140,10 @@ LANE_FUNCTION M invert(M mask) {
   return static_cast<M>(~mask);
 }
 LANE_FUNCTION bool any(M mask) {
-  return mask != 0;
-}
-// The lanes of a mask as bits, and the reverse.
-LANE_FUNCTION std::uint32_t to_bits(M mask) {
-  return mask;
-}
-LANE_FUNCTION M to_mask(std::uint32_t bits) {
-  return static_cast<M>(bits);
-}
-LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint32_t value) {
-  reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(&vector)[lane] = value;
+  return to_bits(mask) != 0;
 }
 LANE_FUNCTION void set_lane(M& mask, unsigned lane, std::uint32_t value) {
-  mask = static_cast<M>((mask & ~(1u << lane)) | value << lane);
+  mask = to_mask((to_bits(mask) & ~(1u << lane)) | value << lane);
 }
 
 /// Four words per lane, one vector per word. Turned, the words of each lane are adjacent: lane 4 q + j is the
@@ -119,19 +151,24 @@ LANE_FUNCTION void set_lane(M& mask, unsigned lane, std::uint32_t value) {
 struct Row {
   V words[4];
 };
-// From each four words of `a` and `b`: words i and j of both, alternating; two of each, from word i on.
-#define LANE_PAIRS(a, b, i, j)                                                                            \
-  __builtin_shufflevector(a, b, i, 16 + i, j, 16 + j, 4 + i, 20 + i, 4 + j, 20 + j, 8 + i, 24 + i, 8 + j, \
-                          24 + j, 12 + i, 28 + i, 12 + j, 28 + j)
-#define LANE_HALVES(a, b, i)                                                                          \
-  __builtin_shufflevector(a, b, i, 1 + i, 16 + i, 17 + i, 4 + i, 5 + i, 20 + i, 21 + i, 8 + i, 9 + i, \
-                          24 + i, 25 + i, 12 + i, 13 + i, 28 + i, 29 + i)
+using LaneNumbers = std::make_index_sequence<c_lanes>;
+/// From each four words of `a` and `b`: words `first` and `first + 1` of both, alternating.
+template <std::size_t first, std::size_t... i>
+LANE_FUNCTION V pairs(V a, V b, std::index_sequence<i...>) {
+  return __builtin_shufflevector(a, b, (i % 2 * c_lanes + i / 4 * 4 + i % 4 / 2 + first)...);
+}
+/// From each four words of `a` and `b`: words `first` and `first + 1` of a, then of b.
+template <std::size_t first, std::size_t... i>
+LANE_FUNCTION V halves(V a, V b, std::index_sequence<i...>) {
+  return __builtin_shufflevector(a, b, (i % 4 / 2 * c_lanes + i / 4 * 4 + i % 2 + first)...);
+}
 LANE_FUNCTION Row turn(const Row& row) {
   const V* w = row.words;
-  const V low[] = {LANE_PAIRS(w[0], w[1], 0, 1), LANE_PAIRS(w[2], w[3], 0, 1)};
-  const V high[] = {LANE_PAIRS(w[0], w[1], 2, 3), LANE_PAIRS(w[2], w[3], 2, 3)};
-  return {LANE_HALVES(low[0], low[1], 0), LANE_HALVES(low[0], low[1], 2), LANE_HALVES(high[0], high[1], 0),
-          LANE_HALVES(high[0], high[1], 2)};
+  constexpr LaneNumbers all;
+  const V low[] = {pairs<0>(w[0], w[1], all), pairs<0>(w[2], w[3], all)};
+  const V high[] = {pairs<2>(w[0], w[1], all), pairs<2>(w[2], w[3], all)};
+  return {halves<0>(low[0], low[1], all), halves<2>(low[0], low[1], all), halves<0>(high[0], high[1], all),
+          halves<2>(high[0], high[1], all)};
 }
 LANE_FUNCTION char* of_lane(Row& turned, unsigned lane) {
   return reinterpret_cast<char*>(&turned.words[lane % 4]) + lane / 4 * 16;

@@ -9,19 +9,6 @@
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
-namespace {
-
-bool has_avx512() {
-#ifdef __x86_64__
-  return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-         __builtin_cpu_supports("avx512vl");
-#else
-  return false;
-#endif
-}
-
-}  // namespace
-
 Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
                                             const SimulatorFolders& folders, const EngineOptions& options) {
   switch (kind) {
@@ -43,11 +30,11 @@ Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& 
                                             .idle_limit = c_idle_limit,
                                             .stall_seed = options.stall_seed,
                                             .fast = options.fast,
-                                            .avx512 = options.avx512}));
+                                            .vectors = options.vectors}));
 }
 
 bool lanes_pay(const HardwareKey& key, double pixels) {
-  return LaneSimulator::refused(key).empty() && has_avx512() && pixels >= c_least_lane_pixels;
+  return LaneSimulator::refused(key).empty() && pixels >= c_least_lane_pixels;
 }
 
 }  // namespace halfway

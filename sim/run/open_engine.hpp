@@ -11,6 +11,7 @@
 #include "plan/hardware_key.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/lanes/lane_library.hpp"
 
 namespace halfway {
 
@@ -18,7 +19,7 @@ struct EngineOptions {
   unsigned threads = 1;          ///< for engines that use several
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
   bool fast = true;              ///< optimize, which takes long to compile
-  bool avx512 = true;            ///< false: lanes without an instruction of AVX-512
+  LaneVectors vectors = LaneVectors::avx512;
   /// Called by engines that draw late, with the number of bytes of trace written so far.
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};
 };
