@@ -4,10 +4,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 
 namespace halfway {
+namespace {
+
+/// The places where pieces end.
+std::set<unsigned> ends_of(const Bits& bits) {
+  std::set<unsigned> ends;
+  unsigned at = 0;
+  for (const Piece& piece : bits) ends.insert(at += piece.width);
+  return ends;
+}
+
+}  // namespace
 
 Bits BitOperations::fail(const std::string& what) {
   if (error_.empty()) error_ = what;
@@ -133,22 +145,62 @@ int BitOperations::to_mask(const Bits& bits) {
   return graph().bit(piece.node, piece.low);
 }
 
-Bits BitOperations::choose(int mask, const Bits& a, const Bits& b) {
-  // Cut both operands where a piece of either ends.
-  const unsigned width = width_of(a);
-  std::set<unsigned> cuts;
-  for (const Bits* bits : {&a, &b}) {
-    unsigned at = 0;
-    for (const Piece& piece : *bits) cuts.insert(at += piece.width);
+/// Whether `a` is `b` at another place, filled up with constants.
+bool BitOperations::is_shifted(const Bits& a, const Bits& b) {
+  std::map<int, unsigned> places;  // of a vector's lowest bit, modulo 2^32
+  unsigned at = 0;
+  for (const Piece& piece : b) {
+    places.try_emplace(piece.node, at - piece.low);
+    at += piece.width;
   }
-  // Select each part.
+  at = 0;
+  bool filled = false, moved = false;
+  for (const Piece& piece : a) {
+    const unsigned place = at - piece.low;
+    at += piece.width;
+    const auto known = places.find(piece.node);
+    if (graph()[piece.node].op == LaneOp::constant)
+      filled = true;
+    else if (is_mask(piece) || known == places.end() || known->second == place)
+      return false;
+    else
+      moved = true;
+  }
+  return filled && moved;
+}
+
+Bits BitOperations::choose(int mask, const Bits& a, const Bits& b) {
+  // Choose number by number: cut where a piece of both operands ends.
+  const std::set<unsigned> ends = ends_of(a), others = ends_of(b);
   Bits chosen;
   unsigned low = 0;
-  for (const unsigned high : cuts) {
-    if (high > width) break;
+  for (const unsigned high : ends) {
+    if (others.count(high) == 0) continue;
     const Bits p = slice(a, low, high - low), q = slice(b, low, high - low);
     low = high;
     if (p.empty() || q.empty()) return {};
+    append(chosen,
+           is_shifted(p, q) || is_shifted(q, p) ? choose_words(mask, p, q) : choose_pieces(mask, p, q));
+  }
+  return chosen;
+}
+
+Bits BitOperations::choose_words(int mask, const Bits& a, const Bits& b) {
+  Words words = to_words(a);
+  const Words others = to_words(b);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = graph().select(mask, words[i], others[i]);
+  return from_words(words, width_of(a));
+}
+
+/// Cut both operands where a piece of either ends, and choose each part.
+Bits BitOperations::choose_pieces(int mask, const Bits& a, const Bits& b) {
+  std::set<unsigned> ends = ends_of(a);
+  ends.merge(ends_of(b));
+  Bits chosen;
+  unsigned low = 0;
+  for (const unsigned high : ends) {
+    const Bits p = slice(a, low, high - low), q = slice(b, low, high - low);
+    low = high;
     const Piece &x = p[0], &y = q[0];
     if (x.width == 1 || (is_mask(x) && is_mask(y))) {
       append(chosen, {graph().mask_select(mask, to_mask(p), to_mask(q)), 0, x.width});
@@ -201,8 +253,29 @@ Bits BitOperations::difference(const Bits& a, const Bits& b) {
   return sum(a, invert(b), graph().mask_constant(true));
 }
 
+/// A bit as a mask, without a note for the layout.
+int BitOperations::bit_of(const Bits& bits, unsigned index) {
+  const Piece piece = slice(bits, index, 1).front();
+  return is_mask(piece) ? piece.node : graph().bit(piece.node, piece.low);
+}
+
+/// The number is the sign extension of this number of its lowest bits.
+unsigned BitOperations::signed_width(const Bits& bits) {
+  unsigned width = width_of(bits);
+  const int sign = bit_of(bits, width - 1);
+  while (width > 1 && bit_of(bits, width - 2) == sign) --width;
+  return width;
+}
+
 Bits BitOperations::product(const Bits& a, const Bits& b) {
   const unsigned width = width_of(a);
+  if (width > c_lane_word && width <= 2 * c_lane_word && signed_width(a) <= c_lane_word &&
+      signed_width(b) <= c_lane_word) {
+    const int x = to_vector(slice(a, 0, c_lane_word)), y = to_vector(slice(b, 0, c_lane_word));
+    return from_words(
+        {graph().operate(LaneOp::multiply, x, y), graph().operate(LaneOp::signed_multiply_high, x, y)},
+        width);
+  }
   const Words x = to_words(a), y = to_words(b);
   Bits total = zeros(width);
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -257,6 +330,16 @@ int BitOperations::compare(LaneOp op, const Bits& a, const Bits& b) {
                : graph().mask_operate(LaneOp::mask_either, graph().compare(here, x[i], y[i]), same);
   }
   return mask;
+}
+
+int BitOperations::any_bit(const Bits& a) {
+  int any = graph().mask_constant(false);
+  for (const Piece& piece : a) {
+    const int own = is_mask(piece) ? piece.node
+                                   : graph().mask_invert(compare(LaneOp::equal, {piece}, zeros(piece.width)));
+    any = graph().mask_operate(LaneOp::mask_either, any, own);
+  }
+  return any;
 }
 
 /// Shifts by a constant.

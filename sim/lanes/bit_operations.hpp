@@ -44,6 +44,7 @@ class BitOperations {
   Bits difference(const Bits& a, const Bits& b);
   Bits product(const Bits& a, const Bits& b);
   int compare(LaneOp op, const Bits& a, const Bits& b);  ///< equal, less or signed_less
+  int any_bit(const Bits& a);
   /// `op`: Verilator's shiftl, shiftr or shiftrs.
   Bits shift(std::string_view op, const Bits& a, const Bits& by);
 
@@ -52,6 +53,11 @@ class BitOperations {
   void note(const Piece& piece, bool arithmetic);
   void note_clean(const Piece& piece);
   std::uint64_t constant_of(const Piece& piece);
+  bool is_shifted(const Bits& a, const Bits& b);
+  Bits choose_words(int mask, const Bits& a, const Bits& b);
+  Bits choose_pieces(int mask, const Bits& a, const Bits& b);
+  int bit_of(const Bits& bits, unsigned index);
+  unsigned signed_width(const Bits& bits);
   Bits sum(const Bits& a, const Bits& b, int carry);
   bool has_constant_one(const Bits& bits);
   Bits sum_with_carry(const Bits& a, const Bits& b);

@@ -24,17 +24,27 @@ class StepEmitter {
       text_ += fmt::format("  const {0} o{1} = s.c{1};\n", type_of(cell), cell);
     emit_nodes(schedule_.always, {});
     emit_outputs();
+    emit_moves();
     in_group_ = true;
     for (const Group& group : schedule_.groups) emit_group(group);
-    return text_ + (delays_.empty() ? "}\n" : "  ++s.clock;\n}\n");
+    for (std::size_t i = 0; i < schedule_.rings.size(); ++i)
+      text_ += fmt::format("  advance(s.ring{0}, moves{0});\n", i);
+    return text_ + "}\n";
   }
 
  private:
   void emit_rings() {
-    if (delays_.empty()) return;
-    text_ += fmt::format("  Late& next = s.late[(s.clock + 1) % {}];\n", c_ring_places);
-    for (unsigned age = 0; age <= c_oldest; ++age)
-      text_ += fmt::format("  const Late& late{0} = s.late[(s.clock - {0}) % {1}];\n", age, c_ring_places);
+    for (std::size_t i = 0; i < schedule_.rings.size(); ++i) {
+      text_ += fmt::format("  Late{0}& next{0} = s.ring{0}.next();\n", i);
+      for (unsigned age = 0; age <= c_oldest; ++age)
+        text_ += fmt::format("  const Late{0}& late{0}_{1} = s.ring{0}.late({1});\n", i, age);
+    }
+  }
+
+  /// The masks of the rings, before a group changes a cell that is one of them.
+  void emit_moves() {
+    for (std::size_t i = 0; i < schedule_.rings.size(); ++i)
+      text_ += fmt::format("  const M moves{} = {};\n", i, reference(schedule_.rings[i]));
   }
 
   void emit_outputs() {
@@ -83,7 +93,9 @@ class StepEmitter {
   void emit_update(const Update& update, std::string mask) {
     const int where = changed_lanes(step_, delays_, update).first;
     if (where >= 0) mask += (mask.empty() ? "" : " & ") + reference(where);
-    const char* const to = delays_.count(update.cell) != 0 ? "next" : "s";
+    const auto delay = delays_.find(update.cell);
+    const std::string to = delay == delays_.end() ? "s" : fmt::format("next{}", delay->second.ring);
+    if (delay != delays_.end()) mask.clear();
     text_ += mask.empty() ? fmt::format("  {1}.c{0} = n{0};\n", update.cell, to)
                           : fmt::format("  assign({1}, s.c{0}, n{0});\n", update.cell, mask);
   }
@@ -126,7 +138,7 @@ class StepEmitter {
     if (cell.input && cell.width == 1 && first && last) return "in." + cell.signal;
     if (cell.input) return fmt::format("in.c{}", number);
     if (const auto delay = delays_.find(number); delay != delays_.end())
-      return fmt::format("late{}.c{}", delay->second.age, delay->second.head);
+      return fmt::format("late{}_{}.c{}", delay->second.ring, delay->second.age, delay->second.head);
     return fmt::format("{}{}", in_group_ && schedule_.saved.count(number) != 0 ? "o" : "s.c", number);
   }
 
@@ -150,6 +162,8 @@ class StepEmitter {
         return infix("*");
       case LaneOp::multiply_high:
         return call("multiply_high");
+      case LaneOp::signed_multiply_high:
+        return call("signed_multiply_high");
       case LaneOp::both:
       case LaneOp::mask_both:
         return infix("&");
@@ -212,11 +226,12 @@ class StateEmitter {
     for (std::size_t i = 0; i < step_.cells.size(); ++i)
       step_.cells[i].input ? add_input(i) : add_register(i);
     add_banks();
-    if (!rings_.empty()) {
-      rings_ = "struct Late {\n" + rings_ + "};\n";
-      masks_ += fmt::format("  Late late[{}];\n  unsigned clock = 0;\n", c_ring_places);
+    std::string rings;
+    for (const auto& [ring, cells] : rings_) {
+      rings += fmt::format("struct Late{} {{\n{}}};\n", ring, cells);
+      masks_ += fmt::format("  Ring<Late{0}, {1}> ring{0};\n", ring, c_ring_places);
     }
-    return rings_ + "struct State {\n" + vectors_ + masks_ + "};\nstruct Inputs {\n" + inputs_ +
+    return rings + "struct State {\n" + vectors_ + masks_ + "};\nstruct Inputs {\n" + inputs_ +
            "};\nstruct Outputs {\n" + outputs() + "};\n" + tables() + setters();
   }
 
@@ -229,7 +244,7 @@ class StateEmitter {
     } else if (delay == hardware_.delays.end()) {
       vectors_ += fmt::format("  V c{}{{}};\n", number);
     } else if (delay->second.age == 0) {
-      rings_ += fmt::format("  V c{}{{}};\n", number);
+      rings_[delay->second.ring] += fmt::format("  V c{}{{}};\n", number);
     }
   }
 
@@ -265,18 +280,12 @@ class StateEmitter {
     return text;
   }
 
-  /// Equal tables are written once, by the number of the first.
   std::string tables() const {
     std::string text;
-    std::size_t number = 0;
-    std::set<std::vector<std::uint64_t>> written;
-    for (const auto& [name, rom] : hardware_.netlist.roms) {
-      if (written.insert(rom.data).second) {
-        text += fmt::format("constexpr std::uint32_t c_rom{}[{}] = {{", number, rom.data.size());
-        for (const std::uint64_t datum : rom.data) text += fmt::format("{}u,", datum);
-        text += "};\n";
-      }
-      ++number;
+    for (std::size_t i = 0; i < hardware_.netlist.tables.size(); ++i) {
+      const std::vector<std::uint32_t>& table = hardware_.netlist.tables[i];
+      text += fmt::format("constexpr std::uint32_t c_rom{}[{}] = {{{}}};\n", i, table.size(),
+                          fmt::join(table, ","));
     }
     return text;
   }
@@ -293,7 +302,8 @@ class StateEmitter {
 
   const EmittedHardware& hardware_;
   const Step& step_;
-  std::string vectors_, masks_, rings_, inputs_;
+  std::string vectors_, masks_, inputs_;
+  std::map<std::size_t, std::string> rings_;    ///< the members of a place
   std::map<std::string, std::string> setters_;  ///< the statements, by input
 };
 

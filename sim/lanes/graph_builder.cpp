@@ -14,7 +14,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::size_t c_most_places = 1024;  ///< of a memory; each lane has its own
+constexpr std::size_t c_most_places = 4096;  ///< of a memory; each lane has its own
 
 class GraphBuilder {
  public:
@@ -141,6 +141,7 @@ class GraphBuilder {
       return bits;
     }
     if (op == "not") return ops_.invert(a);
+    if (op == "redor") return ops_.whole(ops_.any_bit(a), 1);
     if (op == "negate") return ops_.difference(ops_.zeros(width), a);
     if (op == "replicate") {
       const auto count = number(second);
@@ -268,12 +269,13 @@ class GraphBuilder {
     const unsigned width = width_of(address);
     if (width > 16 || rom->second.data.size() != std::size_t{1} << width)
       return fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
-    // Use the first of equal tables.
-    const auto first = std::find_if(netlist_.roms.begin(), netlist_.roms.end(),
-                                    [&](const auto& other) { return other.second.data == rom->second.data; });
-    const auto table = static_cast<std::size_t>(std::distance(netlist_.roms.begin(), first));
-    return ops_.whole(graph().rom(table, graph().clean(ops_.to_vector(address), width), rom->second.width),
-                      rom->second.width);
+    const int index = graph().clean(ops_.to_vector(address), width);
+    Bits bits;
+    for (const std::size_t table : rom->second.tables) {
+      const unsigned more = std::min(rom->second.width - width_of(bits), c_lane_word);
+      ops_.append(bits, ops_.whole(graph().rom(table, index, more), more));
+    }
+    return bits;
   }
 
   /// The address of an element; empty, with an error, if it may lie outside the memory.

@@ -23,6 +23,10 @@ Result<Steps> build_steps(const LaneNetlist& netlist, const LanePorts& ports, Ce
     CellLayout next = layout;
     auto step = build_step(netlist, ports, false, next);
     if (!step) return step.error();
+    if (next != layout) {  // the reset step is built only with a layout that suits the other one
+      layout = std::move(next);
+      continue;
+    }
     auto reset_step = build_step(netlist, ports, true, next);
     if (!reset_step) return reset_step.error();
     note_twins(next, *step, *reset_step);

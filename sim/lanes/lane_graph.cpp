@@ -32,7 +32,10 @@ int LaneGraph::operate(LaneOp op, int a, int b) {
       bits = std::min(c_lane_word, std::max(x.bits, y.bits) + 1);
       break;
     case LaneOp::multiply:
-      bits = std::min(c_lane_word, x.bits + y.bits);
+      bits = x.bits == 0 || y.bits == 0 ? 0 : std::min(c_lane_word, x.bits + y.bits);
+      break;
+    case LaneOp::multiply_high:
+      bits = std::max(c_lane_word, x.bits + y.bits) - c_lane_word;
       break;
     case LaneOp::both:
       bits = std::min(x.bits, y.bits);
@@ -48,7 +51,8 @@ int LaneGraph::operate(LaneOp op, int a, int b) {
       break;
   }
   const bool commutes = op == LaneOp::add || op == LaneOp::multiply || op == LaneOp::multiply_high ||
-                        op == LaneOp::both || op == LaneOp::either || op == LaneOp::differ;
+                        op == LaneOp::signed_multiply_high || op == LaneOp::both || op == LaneOp::either ||
+                        op == LaneOp::differ;
   if (commutes && a > b) std::swap(a, b);
   if (bits == 0) return constant(0);
   if ((op == LaneOp::add || op == LaneOp::either) && (*this)[a].bits == 0) return b;
@@ -151,6 +155,9 @@ int LaneGraph::compare(LaneOp op, int a, int b) {
     const auto p = static_cast<std::int32_t>(x.value), q = static_cast<std::int32_t>(y.value);
     return mask_constant(op == LaneOp::equal ? p == q : op == LaneOp::less ? x.value < y.value : p < q);
   }
+  // Processors without AVX-512 compare signed numbers only.
+  if (op == LaneOp::less && y.bits == 0) return mask_constant(false);
+  if (op == LaneOp::less && x.bits < c_lane_word && y.bits < c_lane_word) op = LaneOp::signed_less;
   if (op == LaneOp::equal && a > b) std::swap(a, b);
   return add({.op = op, .operands = {a, b, -1}});
 }
@@ -161,6 +168,7 @@ int LaneGraph::with_operands(const LaneNode& node, const std::array<int, 3>& x) 
     case LaneOp::subtract:
     case LaneOp::multiply:
     case LaneOp::multiply_high:
+    case LaneOp::signed_multiply_high:
     case LaneOp::both:
     case LaneOp::either:
     case LaneOp::differ:

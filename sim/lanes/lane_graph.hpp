@@ -22,9 +22,10 @@ enum class LaneOp {
   subtract,
   multiply,
   multiply_high,  ///< the product's upper word
-  both,           ///< bitwise and
-  either,         ///< bitwise or
-  differ,         ///< bitwise exclusive or
+  signed_multiply_high,
+  both,    ///< bitwise and
+  either,  ///< bitwise or
+  differ,  ///< bitwise exclusive or
   invert,
   left,  ///< by a constant, `value`
   right,

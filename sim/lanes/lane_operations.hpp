@@ -18,10 +18,44 @@ LANE_FUNCTION V right_by(V a, V distance) {
 LANE_FUNCTION V signed_right_by(V a, V distance) {
   return (V)((S)a >> (S)select(less(distance, splat(31)), distance, splat(31)));
 }
-LANE_FUNCTION V multiply_high(V a, V b) {  // the product's upper word
-  const V al = a & 0xffff, ah = a >> 16, bl = b & 0xffff, bh = b >> 16;
-  const V low = al * bl, left = ah * bl + (low >> 16), right = al * bh + (left & 0xffff);
-  return ah * bh + (left >> 16) + (right >> 16);
+/// The upper words of the products of every second lane, from the first or from the second one on.
+template <class Double>
+LANE_FUNCTION V upper_words(Double even, Double odd) {
+  return (V)((W)even >> 32) | ((V)odd & (V)(W{} + (std::uint64_t{0xffffffff} << 32)));
+}
+LANE_FUNCTION V multiply_high(V a, V b) {
+  const W low = W{} + 0xffffffff, x = (W)a, y = (W)b;
+  return upper_words((x & low) * (y & low), (x >> 32) * (y >> 32));
+}
+LANE_FUNCTION V signed_multiply_high(V a, V b) {
+  const D x = (D)a, y = (D)b;
+  return upper_words((x << 32 >> 32) * (y << 32 >> 32), (x >> 32) * (y >> 32));
+}
+
+/// The values of registers that only delay others, in all lanes at once: one place for each clock.
+template <class Place, unsigned places>
+struct Ring {
+  Place of[places]{};
+  unsigned clock = 0;
+  Place& next() { return of[(clock + 1) % places]; }
+  Place& late(unsigned age) { return of[(clock - age) % places]; }
+};
+/// Copy the values of these lanes to the next younger place, and so undo a move.
+template <class Place, unsigned places>
+__attribute__((noinline)) void undo(Ring<Place, places>& ring, M lanes) {
+  for (unsigned age = 0; age + 1 < places; ++age) {
+    V* const to = reinterpret_cast<V*>(&ring.late(age));
+    const V* const from = reinterpret_cast<V*>(&ring.late(age + 1));
+    for (std::size_t i = 0; i < sizeof(Place) / sizeof(V); ++i) assign(lanes, to[i], from[i]);
+  }
+}
+/// Move the values of these lanes by a clock.
+template <class Place, unsigned places>
+LANE_FUNCTION void advance(Ring<Place, places>& ring, M lanes) {
+  if (!any(lanes)) return;
+  ++ring.clock;
+  const M others = invert(lanes);
+  if (any(others)) undo(ring, others);
 }
 
 /// A memory: each lane's places are adjacent, followed by one place for lanes that write nothing.

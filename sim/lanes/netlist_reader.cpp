@@ -127,7 +127,7 @@ class NetlistReader {
       LaneRom& rom = netlist_.roms[name];
       rom.width = netlist_.type_widths[array->second.first];
       rom.data.resize(array->second.second);
-      if (*index >= rom.data.size() || rom.width > c_lane_word)
+      if (*index >= rom.data.size() || rom.width > 2 * c_lane_word)
         return tool_failed(fmt::format("{}: a table too wide or too small", name));
       rom.data[*index] = *value;
     }
@@ -148,7 +148,20 @@ class NetlistReader {
       if (netlist_.roms.erase(name) != 0)
         return tool_failed(fmt::format("{}: the lanes do not support a memory with an initial value", name));
     }
+    for (auto& [name, rom] : netlist_.roms) make_tables(rom);
     return Ok{};
+  }
+
+  /// One table per word of the data; the same table for equal words.
+  void make_tables(LaneRom& rom) {
+    for (unsigned low = 0; low < rom.width; low += c_lane_word) {
+      std::vector<std::uint32_t> table;
+      for (const std::uint64_t datum : rom.data) table.push_back(static_cast<std::uint32_t>(datum >> low));
+      auto& tables = netlist_.tables;
+      const auto same = std::find(tables.begin(), tables.end(), table);
+      rom.tables.push_back(static_cast<std::size_t>(same - tables.begin()));
+      if (same == tables.end()) tables.push_back(std::move(table));
+    }
   }
 
   LaneNetlist& netlist_;

@@ -20,8 +20,9 @@ namespace halfway {
 
 /// A table that is never written.
 struct LaneRom {
-  unsigned width = 0;  ///< of a datum, in bits
+  unsigned width = 0;  ///< of a datum, in bits: two words at most
   std::vector<std::uint64_t> data;
+  std::vector<std::size_t> tables;  ///< of its words, the least significant first
 };
 
 /// A memory that is written; each lane has its own.
@@ -41,6 +42,7 @@ struct LaneNetlist {
   std::map<std::string, pugi::xml_node> drivers;                      ///< the expression assigned to a wire
   std::vector<pugi::xml_node> clocked;                                ///< the statements of `always` blocks
   std::map<std::string, LaneRom> roms;
+  std::vector<std::vector<std::uint32_t>> tables;  ///< the words of all roms; equal ones exist once
   std::map<std::string, LaneMemory> memories;
 
   /// The width of an expression in bits, 0 if unknown.

@@ -30,21 +30,18 @@ std::map<Guard, std::map<std::size_t, Store>> bank_stores(const Step& step, cons
   return banks;
 }
 
-/// The new value of a cell at each edge in both steps; empty if it depends on a condition.
-std::optional<std::pair<int, int>> unconditional_values(const Step& step, const Step& reset_step,
-                                                        std::size_t cell) {
-  std::array<std::optional<int>, 2> values;
-  for (std::size_t i = 0; i < 2; ++i) {
-    for (const auto& [guard, updates] : (i == 0 ? step : reset_step).updates) {
-      for (const Update& update : updates) {
-        if (update.cell != cell) continue;
-        if (!guard.empty()) return std::nullopt;
-        values[i] = update.value;
-      }
-    }
-  }
-  if (!values[0] || !values[1]) return std::nullopt;
-  return std::pair(*values[0], *values[1]);
+/// The value that a cell takes, and its condition.
+using Load = std::pair<Guard, int>;
+
+/// The loads of all cells that have a single one.
+std::map<std::size_t, Load> single_loads(const Step& step) {
+  std::map<std::size_t, Load> loads;
+  std::set<std::size_t> others;
+  for (const auto& [guard, updates] : step.updates)
+    for (const Update& update : updates)
+      if (!loads.try_emplace(update.cell, guard, update.value).second) others.insert(update.cell);
+  for (const std::size_t cell : others) loads.erase(cell);
+  return loads;
 }
 
 class Scheduler {
@@ -67,8 +64,7 @@ class Scheduler {
   void make_groups(const MemoryWords& memory_words, const CellSet& live) {
     for (const auto& [guard, updates] : step_.updates) {
       Group group{guard, condition_of(guard)};
-      for (const Update& update : updates)
-        if (live.count(update.cell) != 0 && !is_delayed(update.cell)) group.updates.push_back(update);
+      for (const Update& update : updates) add_update(group, update, live);
       put_masks_last(group);
       if (!group.updates.empty()) schedule_.groups.push_back(std::move(group));
     }
@@ -80,6 +76,17 @@ class Scheduler {
     }
   }
 
+  /// A cell of a ring is not written, unless it is the head; the ring moves under the group's condition.
+  void add_update(Group& group, const Update& update, const CellSet& live) {
+    if (live.count(update.cell) == 0) return;
+    const auto delay = delays_.find(update.cell);
+    if (delay != delays_.end()) {
+      schedule_.rings.resize(std::max(schedule_.rings.size(), delay->second.ring + 1));
+      schedule_.rings[delay->second.ring] = group.condition;
+    }
+    if (delay == delays_.end() || delay->second.age == 0) group.updates.push_back(update);
+  }
+
   int condition_of(const Guard& guard) {
     LaneGraph& graph = step_.graph;
     int all = graph.mask_constant(true);
@@ -88,11 +95,6 @@ class Scheduler {
       all = graph.mask_operate(LaneOp::mask_both, all, wanted ? mask : graph.mask_invert(mask));
     }
     return all;
-  }
-
-  bool is_delayed(std::size_t cell) const {
-    const auto delay = delays_.find(cell);
-    return delay != delays_.end() && delay->second.age > 0;
   }
 
   /// The cell that is a group's condition; it is read where the group starts.
@@ -223,33 +225,42 @@ CellSet live_cells(const Step& step, const MemoryWords& memory_words) {
 }
 
 Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live) {
-  // Find the cells that are loaded in every clock, and those that then take another cell's value.
+  // Find the cells with a single load in each step, and those that then take another cell's value under the
+  // same conditions.
+  using Conditions = std::pair<Guard, Guard>;
+  std::map<std::size_t, Conditions> loaded;
+  std::map<std::size_t, std::size_t> sources;
+  const auto loads = single_loads(step), reset_loads = single_loads(reset_step);
+  for (const auto& [cell, load] : loads) {
+    const auto reset_load = reset_loads.find(cell);
+    if (live.count(cell) == 0 || step.cells[cell].mask || reset_load == reset_loads.end()) continue;
+    loaded[cell] = {load.first, reset_load->second.first};
+    const LaneNode &a = step.graph[load.second], &b = reset_step.graph[reset_load->second.second];
+    if (a.op == LaneOp::cell && b.op == LaneOp::cell && a.value == b.value) sources[cell] = a.value;
+  }
   std::map<std::size_t, std::vector<std::size_t>> followers;
-  std::set<std::size_t> loaded;
-  for (const std::size_t cell : live) {
-    if (cell >= c_first_bank || step.cells[cell].input || step.cells[cell].mask) continue;
-    const auto values = unconditional_values(step, reset_step, cell);
-    if (!values) continue;
-    loaded.insert(cell);
-    const LaneNode &a = step.graph[values->first], &b = reset_step.graph[values->second];
-    if (a.op == LaneOp::cell && b.op == LaneOp::cell && a.value == b.value)
-      followers[a.value].push_back(cell);
+  std::set<std::size_t> heads;
+  for (const auto& [cell, conditions] : loaded) {
+    const auto source = sources.find(cell);
+    const auto head = source == sources.end() ? loaded.end() : loaded.find(source->second);
+    if (head != loaded.end() && head->second == conditions)
+      followers[head->first].push_back(cell);
+    else
+      heads.insert(cell);
   }
 
-  // Follow each chain from its first cell; start a new ring where one is too short.
-  std::set<std::size_t> heads = loaded;
-  for (const auto& [source, cells] : followers)
-    if (loaded.count(source) != 0)
-      for (const std::size_t cell : cells) heads.erase(cell);
+  // Follow each chain from its first cell; start a new place where one is too long for the ring.
   Delays delays;
+  std::map<Conditions, std::size_t> rings;
   const std::function<void(std::size_t, Delay)> follow = [&](std::size_t cell, Delay delay) {
-    if (delay.age > c_oldest) delay = {cell, 0};
-    const auto found = followers.find(cell);
-    if (found != followers.end())
-      for (const std::size_t follower : found->second) follow(follower, {delay.head, delay.age + 1});
-    if (delay.age > 0 || found != followers.end()) delays[cell] = delay;
+    if (delay.age > c_oldest) delay = {delay.ring, cell, 0};
+    delays[cell] = delay;
+    if (const auto found = followers.find(cell); found != followers.end())
+      for (const std::size_t next : found->second) follow(next, {delay.ring, delay.head, delay.age + 1});
   };
-  for (const std::size_t head : heads) follow(head, {head, 0});
+  for (const std::size_t head : heads)
+    if (followers.count(head) != 0)
+      follow(head, {rings.try_emplace(loaded.at(head), rings.size()).first->second, head, 0});
   return delays;
 }
 

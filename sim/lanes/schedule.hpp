@@ -24,9 +24,10 @@ constexpr std::size_t c_first_bank = std::size_t{1} << 32;
 using CellSet = std::set<std::size_t>;
 
 /// Registers that only delay another one are not moved: the values of `head` are kept in a ring, one place
-/// per clock, and a delay of `age` clocks reads an older place.
+/// per clock, and a delay of `age` clocks reads an older place. Registers that move under the same condition,
+/// such as the stages of a pipeline, share a ring.
 struct Delay {
-  std::size_t head;
+  std::size_t ring, head;
   unsigned age;
 };
 using Delays = std::map<std::size_t, Delay>;      ///< by cell
@@ -43,6 +44,7 @@ struct Group {
 
 struct Schedule {
   std::vector<bool> always;   ///< nodes calculated in every clock, for outputs and conditions
+  std::vector<int> rings;     ///< masks of the lanes in which each ring moves
   std::vector<Group> groups;  ///< in order
   CellSet saved;              ///< cells whose old values are saved before all groups
 };
