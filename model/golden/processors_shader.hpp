@@ -33,6 +33,19 @@ class ProcessorsShader {
   std::size_t init_words() const { return words_of(init_bits()); }
   /// Every group is one vector: no line records follow.
   std::size_t group(std::span<const std::uint32_t>) const { return 1; }
+  /// Number of vectors that the hardware draws independently of those before, except for loads: a triangle,
+  /// or with shadows the rounds of a line.
+  std::size_t unit(std::span<const std::uint32_t> vectors) const {
+    if (!config_.shadows) return 1;
+    std::size_t count = 1;
+    bool first_round = true;
+    for (auto rest = vectors; rest.size() >= 2 * init_words(); ++count) {
+      first_round = first_round && command_of(rest) == Command::depth;
+      rest = rest.subspan(init_words());
+      if (is_load(rest) || (!first_round && command_of(rest) == Command::depth)) break;
+    }
+    return count;
+  }
   /// True if a count of shadow volumes has exceeded its format. All later fragments are then invalid.
   bool fault() const { return pipeline_.fault(); }
 
@@ -42,7 +55,7 @@ class ProcessorsShader {
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
     assert(vector.size() >= init_words());
-    walk_ = static_cast<Command>(get_bits(vector, RequestAt::command));
+    walk_ = command_of(vector);
     if (walk_ == Command::new_frame) {
       order_.new_frame();
       if (objects_) objects_->clear();
@@ -71,9 +84,7 @@ class ProcessorsShader {
   }
 
   /// True if only the processors use the vector. It then covers no pixel.
-  static bool is_load(std::span<const std::uint32_t> vector) {
-    return is_load(static_cast<Command>(get_bits(vector, RequestAt::command)));
-  }
+  static bool is_load(std::span<const std::uint32_t> vector) { return is_load(command_of(vector)); }
   const TriangleWalker<Exact>& walker() const { return rasterizer_.walker(); }
   TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
     return rasterizer_.walker_of(vector);
@@ -91,6 +102,9 @@ class ProcessorsShader {
 
   static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
 
+  static Command command_of(std::span<const std::uint32_t> vector) {
+    return static_cast<Command>(get_bits(vector, RequestAt::command));
+  }
   static bool is_load(Command command) {
     return command == Command::new_frame || command == Command::define || command == Command::redefine ||
            command == Command::remove;

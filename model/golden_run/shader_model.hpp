@@ -34,6 +34,18 @@ class ShaderModel final : public GoldenModel {
   std::size_t group(std::span<const std::uint32_t> init_words) const override {
     return shader_.group(init_words);
   }
+  bool is_load(std::span<const std::uint32_t> init_words) const override {
+    if constexpr (requires { shader_.is_load(init_words); })
+      return shader_.is_load(init_words);
+    else
+      return false;
+  }
+  std::size_t unit(std::span<const std::uint32_t> init_words) const override {
+    if constexpr (requires { shader_.unit(init_words); })
+      return shader_.unit(init_words);
+    else
+      return group(init_words);
+  }
   bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const override {
     const std::int64_t left = tile.x, right = left + tile.size.width, top = tile.y,
                        bottom = top + tile.size.height;
@@ -48,8 +60,7 @@ class ShaderModel final : public GoldenModel {
     return touched;
   }
   std::uint64_t pixels(std::span<const std::uint32_t> init_words) const override {
-    if constexpr (requires { shader_.is_load(init_words); })
-      if (shader_.is_load(init_words)) return 0;
+    if (is_load(init_words)) return 0;
     std::uint64_t count = 0;
     auto walker = shader_.walker_of(init_words);
     walker.walk([&] {

@@ -127,7 +127,6 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
     EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0002.png").rgb);
 
     for (const std::string threads : {"1", "3"}) {
-      if (shader == "processors") break;
       const Outcome drawn = view({"matte", "--frames", "3", "--shader", shader, "--threads", threads,
                                   "--simulator", "lanes", "--out", "lanes"});
       ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
@@ -164,11 +163,9 @@ TEST_F(ViewCommand, LoadsTheImageLibraryBeforeItDraws) {
   }
 }
 
-TEST_F(ViewCommand, UnavailableLanesAreBadInput) {
+TEST_F(ViewCommand, UnknownEnginesAreBadInput) {
   EXPECT_THAT(view({"matte", "--simulator", "ghdl"}),
               Ends(2, HasSubstr("--simulator: 'ghdl' is none of auto, verilator and lanes")));
-  EXPECT_THAT(view({"matte", "--shader", "processors", "--simulator", "lanes"}),
-              Ends(2, HasSubstr("no lanes for this hardware")));
 }
 
 TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-#define HALFWAY_LANES_VERSION 3
+#define HALFWAY_LANES_VERSION 4
 
 /* Whole triangles. One lane draws them; it is idle before and after. */
 typedef struct {
@@ -19,15 +19,20 @@ typedef struct {
   int ended;
 } HalfwayPart;
 
-/* Parts are numbered in their order. Numbering starts at a run in which no lane has a part. */
+/* Parts are numbered in their order. Numbering starts at a run in which no lane has a part.
+   Loads are vectors that change the state of the hardware. They belong to no part: each lane takes all loads
+   before the vectors of its part, in order. They are numbered from the creation of the lanes on. */
 typedef struct {
   const uint32_t* words;
+  const size_t* loads; /* indices of vectors */
+  size_t first_load, end_load;
   HalfwayPart* parts;
   size_t first, end;    /* number of the first part, and one past the last */
   size_t* next;         /* number of the first part not started; shared by all threads */
   size_t max_fragments; /* limit of fragments drawn and not taken */
   size_t enough;        /* a run also ends after drawing this number of fragments */
-  int more;             /* more parts follow: a run also ends when a lane has no part to start */
+  int more; /* more parts follow: a run also ends when a lane has no part to start; otherwise each such lane
+               takes the remaining loads */
 } HalfwayBatch;
 
 /* Draw parts, each by the first free lane, until all are started. The next run continues unfinished parts.

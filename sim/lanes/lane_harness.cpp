@@ -20,6 +20,7 @@ constexpr std::size_t c_init_words = (HALFWAY_INIT_BITS + 31) / 32;
 constexpr std::size_t c_block = 256;  // clocks between two checks of the room for fragments
 // Room for fragments that is kept between runs. Larger room is released when its fragments are taken.
 constexpr std::size_t c_kept_room = std::size_t{1} << 21;
+constexpr std::size_t c_no_part = SIZE_MAX;
 constexpr int c_reset_clocks = 4, c_late_clocks = 8;  // as in sim/verilator/harness.cpp
 
 #ifdef HALFWAY_STALLS
@@ -135,10 +136,10 @@ class Lanes {
     // fragments of room, taken fragments, index of the part's first fragment, all fragments
     std::size_t room = 0, taken = 0, begun = 0, count = 0;
     HalfwayFragment* next = nullptr;  // address of the lane's next fragment, minus the clocks of this block
-    std::size_t part = 0;             // number of the part
-    const std::uint32_t* words = nullptr;  // the offered vector
-    std::size_t vectors = 0;               // remaining vectors
-    std::uint64_t still = 0;               // clocks without progress
+    std::size_t part = 0;             // number of the part; c_no_part: only loads
+    std::size_t vector = 0, end = 0;  // indices of the next vector, and of the first one after the part
+    std::size_t loads = 0;            // number of loads taken
+    std::uint64_t still = 0;          // clocks without progress
     std::size_t waiting() const { return count - taken; }
   };
 
@@ -181,38 +182,50 @@ class Lanes {
   void begin_part(unsigned i) {
     const std::uint32_t bit = 1u << i;
     active_ &= ~bit;
-    const std::size_t next = __atomic_fetch_add(batch_->next, 1, __ATOMIC_RELAXED);
-    if (next >= batch_->end) {
-      stops_ = batch_->more != 0;
-      return;
-    }
     Lane& lane = lanes_[i];
-    HalfwayPart& part = batch_->parts[next - batch_->first];
-    part.owner = owner_;
-    part.lane = i;
-    lane.part = next;
+    const std::size_t next = __atomic_fetch_add(batch_->next, 1, __ATOMIC_RELAXED);
+    if (next < batch_->end) {
+      HalfwayPart& part = batch_->parts[next - batch_->first];
+      part.owner = owner_;
+      part.lane = i;
+      lane.part = next;
+      lane.vector = part.vector;
+      lane.end = part.vector + part.vectors;
+    } else if (batch_->more != 0) {
+      stops_ = true;
+      return;
+    } else if (lane.loads == batch_->end_load) {
+      return;
+    } else {
+      lane.part = c_no_part;
+      lane.vector = lane.end = SIZE_MAX;
+    }
     lane.begun = lane.count;
-    lane.words = batch_->words + part.vector * c_init_words;
-    lane.vectors = part.vectors;
     lane.still = 0;
     active_ |= bit;
     offer(i);
+  }
+
+  // The lane takes a load that precedes its next vector first.
+  bool takes_load(const Lane& lane) const {
+    return lane.loads < batch_->end_load && batch_->loads[lane.loads - batch_->first_load] < lane.vector;
   }
 
   void offer(unsigned i) {
     const Lane& lane = lanes_[i];
     const std::uint32_t bit = 1u << i;
     waiting_ &= ~bit;
-    if (lane.vectors == 0) return;
+    const bool load = takes_load(lane);
+    if (!load && lane.vector == lane.end) return;
     waiting_ |= bit;
-    set_init_data(in_, i, lane.words);
+    const std::size_t vector = load ? batch_->loads[lane.loads - batch_->first_load] : lane.vector;
+    set_init_data(in_, i, batch_->words + vector * c_init_words);
   }
 
   __attribute__((noinline)) void taken(std::uint32_t take) {
     for (; take != 0; take &= take - 1) {
       const auto i = static_cast<unsigned>(std::countr_zero(take));
-      lanes_[i].words += c_init_words;
-      --lanes_[i].vectors;
+      ++(takes_load(lanes_[i]) ? lanes_[i].loads : lanes_[i].vector);
       offer(i);
     }
   }
@@ -222,9 +235,11 @@ class Lanes {
       const auto i = static_cast<unsigned>(std::countr_zero(idle));
       Lane& lane = lanes_[i];
       count(lane, clocks);
-      HalfwayPart& part = batch_->parts[lane.part - batch_->first];
-      part.fragments = lane.count - lane.begun;
-      part.ended = 1;
+      if (lane.part != c_no_part) {
+        HalfwayPart& part = batch_->parts[lane.part - batch_->first];
+        part.fragments = lane.count - lane.begun;
+        part.ended = 1;
+      }
       begin_part(i);
     }
   }

@@ -25,8 +25,10 @@ constexpr std::size_t c_shortest_part = 100;
 /// Fragments per thread drawn before they are output: they stay in the processor's second-level cache.
 constexpr std::size_t c_batch = 64 * 1024;
 
-struct Triangle {
+/// A triangle, a line of triangles, or a load.
+struct Unit {
   std::size_t vectors, pixels;
+  bool load = false;
   std::size_t work() const { return vectors + pixels; }
 };
 
@@ -57,6 +59,7 @@ struct LaneSimulator::State : Hardware {
   ~State() { destroy_lanes(); }
 
   void create_lanes() {
+    loads = 0;
     for (unsigned i = 0; i < std::max(options.threads, 1U); ++i)
       threads.push_back(create(i, std::max<std::uint64_t>(options.idle_limit, 1), options.stall_seed));
   }
@@ -78,30 +81,33 @@ struct LaneSimulator::State : Hardware {
     return sum;
   }
 
-  /// The triangle at the start of the words.
-  Triangle triangle(std::span<const std::uint32_t> words) const {
+  /// The unit at the start of the words.
+  Unit unit(std::span<const std::uint32_t> words) const {
     const std::size_t vectors =
-        std::clamp<std::size_t>(golden->group(words), 1, words.size() / vector_words());
-    return {vectors, knows_pixels ? static_cast<std::size_t>(golden->pixels(words)) : c_shortest_part};
+        std::clamp<std::size_t>(golden->unit(words), 1, words.size() / vector_words());
+    if (!knows_pixels) return {vectors, c_shortest_part};
+    return {vectors, static_cast<std::size_t>(golden->all_pixels(words.first(vectors * vector_words()))),
+            golden->is_load(words)};
   }
   std::size_t vector_words() const { return (init_bits + 31) / 32; }
 
   std::unique_ptr<GoldenModel>
-      golden;            ///< finds the vectors of a triangle and the number of pixels covered by it
+      golden;            ///< finds loads, the vectors of a unit and the number of pixels covered by it
   bool knows_pixels;     ///< false for hardware that is not one of the shaders
   bool drawing = false;  ///< true after an interruption: lanes are within triangles
   std::uint64_t cycles_before = 0;  ///< of lanes that were replaced
+  std::size_t loads = 0;            ///< number of loads that all lanes have taken
   std::vector<void*> threads;
 };
 
-// The progress of a call's vectors: triangles ahead are grouped into parts, lanes draw the parts, and the
-// complete parts at the front are output.
+// The progress of a call's vectors: units ahead are grouped into parts, lanes draw the parts, and the
+// complete parts at the front are output. Every lane takes every load.
 class LaneSimulator::Passage {
  public:
   Passage(State& state, std::span<const std::uint32_t> init_words, std::uint64_t most)
-      : s_(state), words_(init_words), left_(most) {}
+      : s_(state), words_(init_words), first_load_(state.loads), left_(most) {}
 
-  /// Adds enough parts for a run, unless too many fragments wait. Returns false if no part is left.
+  /// Adds enough parts for a run, unless too many fragments wait. Returns false if nothing is left.
   bool add_parts();
   Status draw();
   Status pass_on(const OnDrawn& on_drawn);
@@ -116,13 +122,15 @@ class LaneSimulator::Passage {
 
   State& s_;
   std::span<const std::uint32_t> words_;
-  std::deque<Triangle> ahead_;  ///< after the last part
+  std::deque<Unit> ahead_;  ///< after the last part
   std::vector<HalfwayPart> parts_;
+  std::vector<std::size_t> loads_;   ///< the vectors before vector_ that are loads
   std::vector<std::size_t> pixels_;  ///< covered by each part
+  std::size_t first_load_;           ///< number of the call's first load
   std::uint64_t left_;               ///< fragments that may still be output
   std::size_t seen_ = 0;             ///< vectors in parts or ahead
   std::size_t vector_ = 0;           ///< first vector after the last part
-  std::size_t work_ahead_ = 0;       ///< of the triangles ahead
+  std::size_t work_ahead_ = 0;       ///< of the units ahead
   std::size_t first_ = 0;            ///< number of the first part
   std::size_t next_ = 0;             ///< number of the first part not yet started
   bool more_ = false;                ///< more parts must be added when all are started
@@ -131,27 +139,33 @@ class LaneSimulator::Passage {
 void LaneSimulator::Passage::look_ahead() {
   const std::size_t words_per_vector = s_.vector_words();
   while (work_ahead_ < c_batch * threads() && seen_ * words_per_vector < words_.size()) {
-    const Triangle triangle = s_.triangle(words_.subspan(seen_ * words_per_vector));
-    ahead_.push_back(triangle);
-    seen_ += triangle.vectors;
-    work_ahead_ += triangle.work();
+    const Unit unit = s_.unit(words_.subspan(seen_ * words_per_vector));
+    ahead_.push_back(unit);
+    seen_ += unit.vectors;
+    work_ahead_ += unit.work();
   }
 }
 
 bool LaneSimulator::Passage::add_parts() {
   std::size_t waiting = 0, work = 0;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const std::size_t own = Triangle{parts_[i].vectors, pixels_[i]}.work();
+    const std::size_t own = Unit{parts_[i].vectors, pixels_[i]}.work();
     waiting += own;
     if (first_ + i >= next_) work += own;
   }
   const auto full = [&] { return waiting != 0 && waiting >= s_.options.most_waiting * threads(); };
   const auto enough = [&] { return work >= c_batch * threads(); };
   for (look_ahead(); !ahead_.empty() && !full() && !enough(); look_ahead()) {
+    if (ahead_.front().load) {
+      loads_.push_back(vector_++);
+      work_ahead_ -= ahead_.front().work();
+      ahead_.pop_front();
+      continue;
+    }
     // Make shorter parts towards the end, so that all lanes end at about the same time.
     const std::size_t wanted = std::max(c_shortest_part, work_ahead_ / (4 * lanes()));
-    Triangle sum{0, 0};
-    for (; !ahead_.empty() && sum.work() < wanted; ahead_.pop_front()) {
+    Unit sum{0, 0};
+    for (; !ahead_.empty() && !ahead_.front().load && sum.work() < wanted; ahead_.pop_front()) {
       sum.vectors += ahead_.front().vectors;
       sum.pixels += ahead_.front().pixels;
     }
@@ -163,7 +177,7 @@ bool LaneSimulator::Passage::add_parts() {
     work += sum.work();
   }
   more_ = !ahead_.empty() && !full();
-  return !parts_.empty();
+  return !parts_.empty() || s_.loads < first_load_ + loads_.size();
 }
 
 Status LaneSimulator::Passage::draw() {
@@ -171,6 +185,9 @@ Status LaneSimulator::Passage::draw() {
   if (s_.knows_pixels)
     limit = std::min(limit, std::accumulate(pixels_.begin(), pixels_.end(), c_most_surplus));
   const HalfwayBatch batch{.words = words_.data(),
+                           .loads = loads_.data(),
+                           .first_load = first_load_,
+                           .end_load = first_load_ + loads_.size(),
                            .parts = parts_.data(),
                            .first = first_,
                            .end = first_ + parts_.size(),
@@ -180,7 +197,7 @@ Status LaneSimulator::Passage::draw() {
                            .more = more_};
   std::atomic<int> worst = HALFWAY_DONE;
   std::atomic<std::size_t> next_thread = 0;
-  work_on_threads(static_cast<unsigned>(std::min(threads(), parts_.size())), [&] {
+  work_on_threads(static_cast<unsigned>(std::min(threads(), std::max<std::size_t>(parts_.size(), 1))), [&] {
     for (std::size_t i; (i = next_thread++) < threads();) {
       const int status = s_.run(s_.threads[i], &batch);
       for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
@@ -188,6 +205,8 @@ Status LaneSimulator::Passage::draw() {
     }
   });
   next_ = std::min(next_, batch.end);  // lanes that found no part have incremented it too
+  // A run without parts ends when each lane has taken all loads.
+  if (parts_.empty()) s_.loads = batch.end_load;
   switch (worst) {
     case HALFWAY_DONE:
       return Ok{};
@@ -223,13 +242,8 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
   return Ok{};
 }
 
-std::string LaneSimulator::refused(const HardwareKey& key) {
-  return key.shader == Shader::processors ? "its lights and counters outlive a triangle" : "";
-}
-
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
                                           const LaneOptions& options) {
-  if (const std::string why = refused(key); !why.empty()) return bad_input(key.name() + ": no lanes: " + why);
   auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");

@@ -25,30 +25,26 @@ struct LaneOptions {
   /// Fragments per thread that wait for an earlier part. At this number no further part is started.
   std::size_t most_waiting = std::size_t{1} << 21;
   std::uint32_t stall_seed =
-      0;                   ///< 0: full speed; otherwise both streams stall at random, separately in each lane
-  bool fast = true;        ///< optimize, which takes long to compile
+      0;             ///< 0: full speed; otherwise both streams stall at random, separately in each lane
+  bool fast = true;  ///< optimize, which takes long to compile
   LaneVectors vectors = LaneVectors::avx512;
   std::string compiler{};  ///< empty: clang++ if installed, otherwise g++
 };
 
 class LaneSimulator final : public Engine {
  public:
-  /// The reason why hardware of this key has no lanes, for any netlist; empty if lanes are possible.
-  static std::string refused(const HardwareKey& key);
-
   /// Builds the lanes, or takes them from the cache, and resets them. Hardware without lanes is an error with
-  /// a message; a caller such as view() with `auto` then uses VerilatorSimulator. Refused are the processors
-  /// shader, whose lights and counters keep their state from triangle to triangle, and netlists with
+  /// a message; a caller such as view() with `auto` then uses VerilatorSimulator. Refused are netlists with
   /// constructs that the generator does not support.
   static Result<LaneSimulator> open(const HardwareKey& key, const SimulatorFolders& folders,
                                     const LaneOptions& options = {});
 
   EngineKind kind() const override { return EngineKind::lanes; }
   Result<std::shared_ptr<Engine>> another() const override;
-  /// Draws all vectors of the call, and outputs fragments part by part in the order of a single stream, for
-  /// any number of lanes and threads. `on_drawn` is called by this thread. It is a fault if the fragments
-  /// exceed the pixels covered by the vectors by more than c_most_surplus. After an error the next call
-  /// starts with reset lanes. Use thousands of vectors per call for speed.
+  /// Draws all vectors of the call, units whole (GoldenModel::unit), and outputs fragments part by part in
+  /// the order of a single stream, for any number of lanes and threads. `on_drawn` is called by this thread.
+  /// It is a fault if the fragments exceed the pixels covered by the vectors by more than c_most_surplus.
+  /// After an error the next call starts with reset lanes. Use thousands of vectors per call for speed.
   ///
   /// A lane that has drawn its part starts the next one. Lanes wait for each other only at the end of a call,
   /// or if `most_waiting` fragments wait. Memory does not depend on the number of vectors: the lanes of a

@@ -94,18 +94,29 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
     ASSERT_FALSE(cut);
     EXPECT_EQ(cut.error().code, ExitCode::bad_input);
 
-    // Again, in batches of no triangle, one, fewer than lanes, and many, appended to the earlier fragments.
+    // Again, in batches of no unit, one, fewer than lanes, and many, appended to the earlier fragments.
     drawn.clear();
     std::span<const std::uint32_t> rest = words_;
     for (std::size_t triangles = 0; !rest.empty(); ++triangles) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
-        count += golden_->group(rest.subspan(count * words_per_vector_));
+        count += golden_->unit(rest.subspan(count * words_per_vector_));
       const Status part = lanes->run(rest.first(count * words_per_vector_), drawn, c_most);
       ASSERT_TRUE(part) << part.error().message;
       rest = rest.subspan(count * words_per_vector_);
     }
     EXPECT_TRUE(drawn == expected_);
+  }
+}
+
+TEST_P(ShadersInLanes, DrawTheSameWithEveryWidth) {
+  for (const LaneVectors vectors : {LaneVectors::avx2, LaneVectors::sse, LaneVectors::none}) {
+    auto lanes = LaneSimulator::open(key_, c_folders, {.fast = false, .vectors = vectors});
+    ASSERT_TRUE(lanes) << lanes.error().message;
+    std::vector<Fragment> drawn;
+    const Status ran = lanes->run(words_, drawn, c_most);
+    ASSERT_TRUE(ran) << ran.error().message;
+    EXPECT_TRUE(drawn == expected_) << static_cast<int>(vectors);
   }
 }
 
@@ -148,15 +159,9 @@ INSTANTIATE_TEST_SUITE_P(All, ShadersInLanes,
                          testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
                                          Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"spheres", Shader::spherical, Preset::exact},
-                                         Case{"lights", Shader::spherical, Preset::published}));
-
-TEST(LaneSimulator, RefusesWhatOutlivesATriangle) {
-  HardwareKey key;
-  key.shader = Shader::processors;
-  const auto processors = LaneSimulator::open(key, c_folders);
-  ASSERT_FALSE(processors);
-  EXPECT_NE(processors.error().message.find("outlive a triangle"), std::string::npos);
-}
+                                         Case{"lights", Shader::spherical, Preset::published},
+                                         Case{"spheres", Shader::processors, Preset::exact},
+                                         Case{"shadows", Shader::processors, Preset::published}));
 
 }  // namespace
 }  // namespace halfway

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/run/open_engine.hpp"
 
-#include <fmt/format.h>
-
 #include "sim/compare/limits.hpp"
 #include "sim/lanes/lane_simulator.hpp"
 #include "sim/run/ghdl_engine.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
+
 Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
                                             const SimulatorFolders& folders, const EngineOptions& options) {
   switch (kind) {
@@ -23,18 +22,12 @@ Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& 
     case EngineKind::lanes:
       break;
   }
-  if (!LaneSimulator::refused(key).empty())
-    return bad_input(fmt::format("{}: no lanes for this hardware; leave --simulator out", key.name()));
   return shared_engine(LaneSimulator::open(key, folders,
                                            {.threads = options.threads,
                                             .idle_limit = c_idle_limit,
                                             .stall_seed = options.stall_seed,
                                             .fast = options.fast,
                                             .vectors = options.vectors}));
-}
-
-bool lanes_pay(const HardwareKey& key, double pixels) {
-  return LaneSimulator::refused(key).empty() && pixels >= c_least_lane_pixels;
 }
 
 }  // namespace halfway

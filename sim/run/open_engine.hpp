@@ -24,16 +24,12 @@ struct EngineOptions {
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};
 };
 
-/// Builds the engine, or takes it from the cache. Returns bad input if it cannot draw the key's hardware.
+/// Builds the engine, or takes it from the cache.
 Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
                                             const SimulatorFolders& folders,
                                             const EngineOptions& options = {});
 
-/// Pixels of all frames from which on lanes save more than the 5 s of their compilation.
+/// Pixels of all frames from which on lanes save more than the seconds of their compilation.
 inline constexpr double c_least_lane_pixels = double(1U << 26);
-
-/// True if lanes draw this number of pixels faster than Verilator: on a processor with AVX-512, for a shader
-/// whose triangles are independent, and for at least c_least_lane_pixels.
-bool lanes_pay(const HardwareKey& key, double pixels);
 
 }  // namespace halfway

@@ -263,7 +263,7 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
   const HardwareKey& key = summary.plan.key;
   const double pixels = double(settings.size.width) * double(settings.size.height) * double(settings.frames);
   summary.engine =
-      settings.engine.value_or(lanes_pay(key, pixels) ? EngineKind::lanes : EngineKind::verilator);
+      settings.engine.value_or(pixels >= c_least_lane_pixels ? EngineKind::lanes : EngineKind::verilator);
   settings.on_build(key.name(), summary.engine);
   auto engine = open_engine(summary.engine, key, settings.folders);
   if (!engine && !settings.engine && summary.engine != EngineKind::verilator) {

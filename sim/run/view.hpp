@@ -81,12 +81,12 @@ struct ViewSummary {
 
 /// Draws the scene from `frames` places around its camera's target. Hardware is planned and built once,
 /// because no effect depends on the camera. Each thread draws whole frames in its own engine, which is not
-/// reset between them. If lanes would save time (lanes_pay) but cannot be built, Verilator draws, with a
-/// note. If a frame of lanes differs or ends with a fault, Verilator draws it again, because it reports more:
-/// the cycle of a fault, and the fragments before it. If Verilator finds no difference, the lanes are wrong:
-/// an error with the exit code `differs`. Memory depends on the threads, the frame size, SceneStream and the
-/// engine, not on the number of frames or triangles. Ends after the first frame that differs, which is not an
-/// error: see ViewSummary::difference.
+/// reset between them. If lanes would save time (c_least_lane_pixels) but cannot be built, Verilator draws,
+/// with a note. If a frame of lanes differs or ends with a fault, Verilator draws it again, because it
+/// reports more: the cycle of a fault, and the fragments before it. If Verilator finds no difference, the
+/// lanes are wrong: an error with the exit code `differs`. Memory depends on the threads, the frame size,
+/// SceneStream and the engine, not on the number of frames or triangles. Ends after the first frame that
+/// differs, which is not an error: see ViewSummary::difference.
 Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
 
 /// Two lines: frames per second and mismatches; the parts of a frame's time.
