@@ -371,7 +371,7 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--colours", command->colours, "with --terminal: 24bit or 256 (default: by COLORTERM)");
   sub->add_option("--simulator", command->engine,
                   "verilator; lanes: many copies of the RTL in one vector, faster, but longer to build; or\n"
-                  "auto: lanes from 2^26 pixels of all frames on, with AVX-512, quadratic and spherical")
+                  "auto: lanes from 2^26 pixels of all frames on")
       ->capture_default_str();
   sub->add_flag("--no-compare", command->no_compare,
                 "do not compare with the golden model: faster, but the frames are not checked");

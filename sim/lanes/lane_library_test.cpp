@@ -11,6 +11,7 @@
 #include <random>
 
 #include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 #include "sim/verilator/verilated_library.hpp"
 
 namespace halfway {
@@ -71,10 +72,31 @@ const char* const c_everything = R"(
   assign k = stimulus[71:0];
   assign l = stimulus[151:80];
   reg [7:0] rom[63:0];
+  reg [39:0] wide_rom[3:0];
 
   initial begin
 ROM
+    wide_rom[0] = 40'h0000000001;
+    wide_rom[1] = 40'h89abcdef01;
+    wide_rom[2] = 40'hff00000000;
+    wide_rom[3] = 40'h7fffffffff;
   end
+  // A delay that moves under a condition, longer than a ring.
+  reg [31:0] slow0, slow1, slow2, slow3, slow4, slow5, slow6, slow7, slow8, slow9;
+  always @(posedge clk)
+    if (e) begin
+      slow0 <= stimulus[31:0]; slow1 <= slow0; slow2 <= slow1; slow3 <= slow2; slow4 <= slow3;
+      slow5 <= slow4; slow6 <= slow5; slow7 <= slow6; slow8 <= slow7; slow9 <= slow8;
+    end
+  // A number shifted step by step, and products of signed and unsigned numbers.
+  wire [39:0] shifted8, shifted4;
+  wire [47:0] long_a, long_b, short_a, short_b;
+  assign shifted8 = g ? {a[31:0], 8'b0} : a;
+  assign shifted4 = h ? shifted8 : {shifted8[35:0], 4'b0};
+  assign long_a = {{24{a[23]}}, a[23:0]};
+  assign long_b = {{16{b[31]}}, b[31:0]};
+  assign short_a = {24'b0, a[23:0]};
+  assign short_b = {16'b0, b[31:0]};
   reg [39:0] p, q, sum;
   reg [99:0] wide;
   reg [18:0] mixed;
@@ -144,7 +166,8 @@ ROM
   always @(posedge clk)
     if (held) begin held <= e; paired <= h; caught <= g ? c : caught; end else begin held <= f; end
   assign response = {
-    774'b0, record, walked, deep, walked_carry, top, masked_top, 1'b0, unset, {2'b0, unset} + n, stored, held, paired, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
+    418'b0, slow3, slow6, slow9, slow9 ^ slow1, wide_rom[n[1:0]], shifted4, |b[12:0], |{e, f}, |{n, a}, 1'b0,
+    long_a * long_b, short_a * long_b, short_a * short_b, record, walked, deep, walked_carry, top, masked_top, 1'b0, unset, {2'b0, unset} + n, stored, held, paired, counted, caught, left, right, k + l, k - l, k * l, -k, k << n, k >> n, $signed(k) >>> n, {k[70:0], 1'b1} + {l[70:0], e},
     k == l, k < l, k >= l, $signed(k) < $signed(l), {a[38:0], 1'b1} + {b[38:0], e}, {b[38:0], f} + {a[38:0], 1'b1}, places[n[4:2]], place, {f, place[68:0]}, c != d ? a : b,
     {40{two}}, {24'b0, c, mixed[18], n, d[3:0]}, one, two, product, read, mixed, wide, q, p, sum,
     a << 5, a >> 7, a << n, a >> n, {52'b0, c} << n, $signed(c) >>> 3, $signed(d) >>> n[3:0],
@@ -256,6 +279,23 @@ TEST_P(LanesOfVectors, EveryOperationGivesVerilatorsResult) {
 std::string text_of(const SharedLibrary& lanes) {
   const auto text = read_file(lanes.file().parent_path() / "lanes.hpp");
   return text ? *text : text.error().message;
+}
+
+// The same text and harness, compiled for WebAssembly's vectors. A browser may run it; here it is compiled
+// only.
+TEST_F(Lanes, TheTextCompilesForWebAssembly) {
+  std::string body = c_everything;
+  body.replace(body.find("ROM\n"), 4, "    rom[63] = 8'd1;\n");
+  const auto lanes = open(body);
+  ASSERT_TRUE(lanes) << lanes.error().message;
+  const auto end =
+      run_process({.arguments = {"clang++", "--target=wasm32-wasi", "-msimd128", "-std=gnu++20", "-O1", "-w",
+                                 "-fno-exceptions", "-I" + c_root.string(), "-c", "harness.cpp", "-o",
+                                 (scratch_->path() / "lanes.wasm").string()},
+                   .working_folder = lanes->file().parent_path()},
+                  "");
+  ASSERT_TRUE(end) << end.error().message;
+  EXPECT_TRUE(end->succeeded()) << end->output;
 }
 
 TEST_F(Lanes, KeepingAValueBecomesACondition) {

@@ -110,7 +110,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
 }
 
 TEST_P(ShadersInLanes, DrawTheSameWithEveryWidth) {
-  for (const LaneVectors vectors : {LaneVectors::avx2, LaneVectors::sse, LaneVectors::none}) {
+  for (const LaneVectors vectors : {LaneVectors::avx2, LaneVectors::sse}) {
     auto lanes = LaneSimulator::open(key_, c_folders, {.fast = false, .vectors = vectors});
     ASSERT_TRUE(lanes) << lanes.error().message;
     std::vector<Fragment> drawn;

@@ -20,7 +20,7 @@ struct Hardware {
 const Hardware c_hardware[] = {
     {"quadratic", "quadratic", {.shader = Shader::quadratic}, true, {1600, 1200}, {160, 120}},
     {"spherical", "spherical", {.shader = Shader::spherical}, true, {1600, 1200}, {160, 120}},
-    {"processors", "processors, unrolled", {.shader = Shader::processors}, false, {800, 600}, {96, 72}},
+    {"processors", "processors, unrolled", {.shader = Shader::processors}, true, {800, 600}, {96, 72}},
     {"folded_processors",
      "folded",
      {.shader = Shader::processors, .form = ProcessorForm::folded},
