@@ -7,7 +7,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 # The variables that each target uses. A variable on the command line that no given target uses is an error:
 # otherwise it would be ignored.
 drawing := SCENE SHADER DEGREE FORM PRESET SIZE ALL_EFFECTS LIGHTS
-takes_sim := $(drawing) SIMULATOR OUT THREADS JOBS
+takes_sim := $(drawing) OWN_TABLES SIMULATOR OUT THREADS JOBS
 takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
 takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
 takes_why := $(drawing) PIXEL OUT JOBS
@@ -46,6 +46,7 @@ about_DEGREE := degree of the quadratic shader: 2, or 1 for planes (Gouraud shad
 about_FORM := folded or unrolled shading processors   (default: unrolled)
 about_PRESET := exact or published   (default: exact; make tables: both, or with a size one of them)
 about_SIZE := WIDTHxHEIGHT in pixels   (default: 640x480)
+about_OWN_TABLES := 1: spherical shader with a table for each exponent of the scene: within one colour step
 about_ALL_EFFECTS := 1: hardware with every effect, whether or not the scene needs it
 about_LIGHTS := with ALL_EFFECTS: the number of lights of the hardware
 about_SIMULATOR := ghdl, verilator or lanes; make view: auto, verilator or lanes   (default: ghdl and verilator; auto)
@@ -115,7 +116,7 @@ sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ni
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
   $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
-sim_options := $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
+sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)

@@ -63,10 +63,15 @@ std::string HardwareKey::name() const {
     text += fmt::format("-l{}", spherical.lights);
     if (spherical.diffuse) text += "-d";
     if (spherical.specular) {
-      text += fmt::format("-s{}-cos", spherical.highlight_channels);
+      text += fmt::format("-s{}-{}", spherical.highlight_channels, spherical.own.empty() ? "cos" : "own");
       for (unsigned i = 0, first = 1; i < 5; ++i)
         if ((spherical.powers >> i & 1) != 0) {
-          text += fmt::format("{}{}", first != 0 ? "" : ".", 1U << i);
+          text += fmt::format(
+              "{}{}",
+              first != 0              ? ""
+              : spherical.own.empty() ? "."
+                                      : "_",
+              spherical.own.empty() ? std::to_string(1U << i) : fmt::format("{}", spherical.own[i - 1]));
           first = 0;
         }
     }

@@ -48,6 +48,8 @@ struct SphericalUnits {
   TableSize tables;
   /// Empty: the tables built into the program. They must outlive the key and all objects that draw with it.
   std::span<const golden::CosineTable> made_tables{};
+  /// Exponents of the own tables, of which made_tables then consists; empty: none (plan/own_bells.hpp).
+  std::vector<double> own{};
   /// True if lines have records, that is, if some light has an effect.
   bool records() const { return lights > 0 && (diffuse || specular); }
 };

@@ -43,6 +43,8 @@ struct PlanRequest {
   /// Tables of a size that the program was not built with. The RTL must have them too (rtl_with_tables of
   /// sim/formats).
   std::span<const golden::CosineTable> made_tables{};
+  /// Preset exact of the spherical shader: the scene's own_exponents, if made_tables are its own tables.
+  std::vector<double> own{};
   /// Elaborate Plan::everything. For effects not in the scene, setup uses coefficients of zero.
   bool all_effects = false;
   /// Number of lights of Plan::everything, for the spherical shader and the processors. Empty: the scene's

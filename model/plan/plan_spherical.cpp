@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "golden/cosine_tables.hpp"
+#include "plan/own_bells.hpp"
 #include "plan/shader_plans.hpp"
 #include "shading/bell.hpp"
 
@@ -44,7 +45,7 @@ Result<TableSize> table_size(const PlanRequest& request) {
 }
 
 // The powers for the exponents in use. Error if a highlight is not a power of a cosine.
-Result<unsigned> powers_of(const Scene& scene, Preset preset) {
+Result<unsigned> powers_of(const Scene& scene, const PlanRequest& request) {
   unsigned powers = 0;
   const std::vector<bool> used = used_materials(scene);
   for (std::size_t i = 0; i < used.size(); ++i) {
@@ -56,15 +57,20 @@ Result<unsigned> powers_of(const Scene& scene, Preset preset) {
           "make it blinn or phong, or use the quadratic shader",
           scene.name, m.name));
     // Each power is a power of two, and so equal to its bit of the mask.
-    powers |= preset == Preset::exact ? static_cast<unsigned>(fitted_bell(m.exponent).power) : c_squared;
+    if (request.preset == Preset::published)
+      powers |= c_squared;
+    else
+      powers |= static_cast<unsigned>(
+          (request.own.empty() ? fitted_bell(m.exponent) : own_bell(request.own, m.exponent)).power);
   }
   return powers;
 }
 
-std::string names(unsigned powers) {
+std::string names(const SphericalUnits& units) {
   std::vector<std::string> list;
-  for (unsigned power = 1; power <= 16; power *= 2)
-    if ((powers & power) != 0) list.push_back(fmt::format("cos^{}", power));
+  for (unsigned power = 1, i = 0; power <= 16; power *= 2, ++i)
+    if ((units.powers & power) != 0)
+      list.push_back(fmt::format("cos^{}", units.own.empty() ? power : units.own[i - 1]));
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
@@ -80,12 +86,17 @@ HardwareKey without_idle_units(HardwareKey key) {
   return key;
 }
 
+unsigned every_power(const HardwareKey& key) {
+  if (!key.spherical.own.empty()) return own_powers(key.spherical.own);
+  return key.preset == Preset::exact ? c_every_power : c_squared;
+}
+
 HardwareKey everything(HardwareKey key, unsigned lights) {
   SphericalUnits& s = key.spherical;
   key.channels = s.highlight_channels = 3;
   s.lights = lights;
   s.diffuse = s.specular = true;
-  s.powers = key.preset == Preset::exact ? c_every_power : c_squared;
+  s.powers = every_power(key);
   return key;
 }
 
@@ -123,11 +134,11 @@ class Planner {
           return planned(calls_, effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
         if (!s.specular) return in_hardware(effect, "");
         const bool several = std::popcount(s.powers) > 1;
-        o.powers = several ? std::bit_floor(s.powers) : c_every_power;
+        o.powers = several ? std::bit_floor(s.powers) : every_power(key_);
         PlannedEffect out = in_hardware(effect, "one table each, and a selection", several, other);
         // One table may serve several exponents.
         out.called_for = std::popcount(called_for_.powers) > 1;
-        if (called_for_.specular) out.why += ": " + names(called_for_.powers);
+        if (called_for_.specular) out.why += ": " + names(called_for_);
         return out;
       }
       case Effect::directional:
@@ -207,12 +218,13 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
   SphericalUnits& units = key.spherical;
   units.tables = *tables;
   units.made_tables = request.made_tables;
+  units.own = request.own;
   units.lights = lights;
   units.diffuse = calls[Effect::diffuse].called_for;
   units.specular = calls[Effect::specular].called_for;
   units.highlight_channels = calls[Effect::highlight_colour].called_for ? key.channels : 1;
   if (units.specular) {
-    const auto powers = powers_of(scene, request.preset);
+    const auto powers = powers_of(scene, request);
     if (!powers) return powers.error();
     units.powers = *powers;
   }

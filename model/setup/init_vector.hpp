@@ -53,6 +53,14 @@ inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits)
   return to_integer<std::int64_t>(std::abs(word) < modulus ? word : std::fmod(word, modulus));
 }
 
+/// The start of a word that adds `slope` at each step. The slope's rounding error accumulates; this start,
+/// not yet rounded, makes it zero in the middle of the steps. Both words rounded, the sum is then off by at
+/// most (1 + steps / 2) * u / 2.
+inline double centred_start(double start, double slope, std::int64_t steps, int fraction_bits) {
+  const double words = std::ldexp(slope, fraction_bits);
+  return start - 0.5 * static_cast<double>(steps) * std::ldexp(std::rint(words) - words, -fraction_bits);
+}
+
 inline constexpr double c_depth_steps = double((1 << golden::Exact::c_depth_bits) - 1);
 
 /// Converts a depth in [0, 1] to steps. The result is at least one step away from both ends, so that rounding

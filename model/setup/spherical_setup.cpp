@@ -92,6 +92,7 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       preset_(key.preset),
       options_(options),
       config_(golden_config(key)),
+      own_tables_(!key.spherical.own.empty()),
       has_records_(key.spherical.records()),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
                                            ? golden::SphericalLayout<Exact>(config_).init_bits()
@@ -100,11 +101,13 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
                                           : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {
   for (const LightRef light : reflected_lights(scene)) lights_.push_back(light_of(scene, light));
-  if (preset_ == Preset::exact && !options_.bells)
+  const std::vector<double>& own = key.spherical.own;
+  if (preset_ == Preset::exact && own.empty() && !options_.bells)
     options_.bells = std::make_shared<const Bells>(fitted_bells(scene));
   for (const Material& m : scene.materials)
-    bells_.push_back(preset_ == Preset::exact ? options_.bells->at(clamped_exponent(m))
-                                              : Bell{2, published_scale(clamped_exponent(m))});
+    bells_.push_back(preset_ == Preset::published ? Bell{2, published_scale(clamped_exponent(m))}
+                     : own.empty()                ? options_.bells->at(clamped_exponent(m))
+                                                  : own_bell(own, m.exponent));
 }
 
 PointVectors SphericalSetup::vectors_at(const Material& material, const SurfacePoint& point) const {
@@ -170,6 +173,7 @@ SpanArcs SphericalSetup::arcs_of(const Material& material, const SpanVectors& sp
   SpanArcs out;
   out.first = span.first;
   out.step = span.step;
+  out.steps = span.steps;
   const bool specular = config_.specular && has_specular(material);
   std::optional<PointVectors> known_middle;
   const auto at_middle = [&]() -> const PointVectors& {
@@ -216,7 +220,9 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
                              double scale, int low) {
     const double start = arc.amplitude > 0.0 ? scale * (span.first * arc.sweep - arc.phase) : c_outside;
     const double step = arc.amplitude > 0.0 ? scale * span.step * arc.sweep : 0.0;
-    record.put(angle, wrapped_word(start, P::c_angle_fraction_bits, P::c_angle_bits), low);
+    const double centred =
+        own_tables_ ? centred_start(start, step, span.steps, P::c_angle_fraction_bits) : start;
+    record.put(angle, wrapped_word(centred, P::c_angle_fraction_bits, P::c_angle_bits), low);
     record.put(slope, wrapped_word(step, P::c_angle_fraction_bits, P::c_angle_bits), low);
   };
 
@@ -307,7 +313,8 @@ class SphericalSetup::ExactTriangle {
   // to write them later.
   struct Line {
     bool empty;
-    double first, step;  ///< as in SpanArcs
+    double first, step;  ///< this and the following as in SpanArcs
+    std::int64_t steps;
   };
   struct Part {
     std::vector<std::vector<std::uint32_t>> headers;
@@ -344,6 +351,7 @@ class SphericalSetup::ExactTriangle {
         if (line->empty) continue;
         arcs.first = line->first;
         arcs.step = line->step;
+        arcs.steps = line->steps;
         std::copy_n(light, setup_.lights_.size(), arcs.light.begin());
         light += static_cast<std::ptrdiff_t>(setup_.lights_.size());
         setup_.put_record<Exact>(record, triangle_.material, arcs, counts_);
@@ -367,7 +375,7 @@ class SphericalSetup::ExactTriangle {
   }
   bool plan(const golden::TriangleWalker<Exact>& line, bool look, Part& part) const {
     if (line.line_empty() || setup_.lights_.empty()) {
-      part.lines.push_back({true, 0.0, 0.0});
+      part.lines.push_back({true, 0.0, 0.0, 0});
       return true;
     }
     const Span at = span_of(line);
@@ -375,7 +383,7 @@ class SphericalSetup::ExactTriangle {
     const SpanArcs arcs = arcs_of(at, ends);
     if (look && !(error_bound(at, ends, arcs) <= setup_.options_.threshold) && !interpolates_well(at, arcs))
       return false;
-    part.lines.push_back({false, arcs.first, arcs.step});
+    part.lines.push_back({false, arcs.first, arcs.step, arcs.steps});
     part.arcs.insert(part.arcs.end(), arcs.light.begin(),
                      arcs.light.begin() + static_cast<std::ptrdiff_t>(setup_.lights_.size()));
     return true;
@@ -426,6 +434,7 @@ class SphericalSetup::ExactTriangle {
   }
   SpanVectors vectors_of(const Span& at) const {
     SpanVectors span;
+    span.steps = at.steps();
     if (setup_.options_.ends == SpanEnds::on_surface) {
       span.begin = vectors(point(2 * at.first + 1, at.y));
       span.end = at.steps() == 0 ? span.begin : vectors(point(2 * at.last + 1, at.y));

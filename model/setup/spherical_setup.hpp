@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "golden/spherical_layout.hpp"
+#include "plan/own_bells.hpp"
 #include "plan/plan.hpp"
 #include "setup/arc.hpp"
 #include "setup/init_vector.hpp"
@@ -17,9 +18,6 @@
 #include "shading/effects.hpp"
 
 namespace halfway {
-
-/// Larger exponents are clamped to this value, because the bell's angle would exceed its format.
-inline constexpr double c_largest_exponent = 1e6;
 
 /// The bells of all materials, for SphericalSetupOptions.
 Bells fitted_bells(const Scene& scene);
@@ -51,6 +49,7 @@ struct PointVectors {
 struct SpanVectors {
   PointVectors begin, end;
   double first = 0.0, step = 0.0;
+  std::int64_t steps = 0;  ///< from the first pixel to the last
 };
 
 /// The hardware's data of a light along a span.
@@ -63,6 +62,7 @@ struct LightArcs {
 struct SpanArcs {
   std::array<LightArcs, c_most_lights> light;  ///< the number of reflected lights is used
   double first, step;                          ///< as in SpanVectors
+  std::int64_t steps;                          ///< as in SpanVectors
 };
 
 class SphericalSetup final : public Setup {
@@ -102,6 +102,7 @@ class SphericalSetup final : public Setup {
   golden::SphericalConfig config_;
   std::vector<Light> lights_;  ///< at most the key's number; further lights of the key stay dark
   std::vector<Bell> bells_;    ///< one per material
+  bool own_tables_;            ///< the tables of the key are the scene's own
   bool has_records_;           ///< with all effects also true without a light
   unsigned init_bits_;
   Projector projector_;

@@ -546,5 +546,95 @@ TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
   std::cout << "colours come as near as " << nearest << " to the bound\n";
 }
 
+// ---- own tables
+
+/// Drift of an angle word whose rounding is centred on a span of 4096 pixels (centred_start), in half bells.
+constexpr double c_own_drift = (1 + 4095 / 2.0) * 0x1p-23;
+
+/// Own tables need no fitted bell. Every part but `drift` and `table` is that of fitted bells.
+Parts own_parts(const tables::CosineTable& table, double steepest_slope) {
+  return {0.0, c_steps * tables::error_bound(table), c_steps * c_own_drift * steepest_slope};
+}
+
+/// The greatest slope of cos^n over an own table, with respect to the table's end.
+double own_steepest(double from, double to) {
+  // For all n in [from, to]: reach and (1 - 1/n)^((n - 1)/2) decrease with n, the root increases.
+  return tables::own_reach(from) * std::sqrt(to) * std::pow(1 - 1 / from, (from - 1) / 2);
+}
+
+/// The greatest slope closer to an own table's end than the drift: cos^n is at most `value` there.
+double own_steepest_at_end(double from, double to, double value) {
+  const double reach = tables::own_reach(from);
+  return to * reach * std::min(1.0, reach) * std::pow(value, 1 - 1 / from);
+}
+
+// For every n from 1 to the largest exponent, not only for the tested ones: the parts depend on n only by
+// slopes, which are bounded on intervals of n. Where the word is beyond the table's end, the colour is 0 and
+// cos^n at most c_own_end plus the drift.
+TEST(OwnTable, EveryExponentIsWithinOneStep) {
+  const auto [address_bits, data_bits] = tables::c_own_size;
+  const double half_word = 0.5 / std::ldexp(1.0, data_bits), half_cell = std::ldexp(0.5, -address_bits);
+  constexpr double c_step = 1.001;
+  double steepest_slope = 0.0, at = 0.0, at_end = 0.0;
+  for (double from = 1.0; from < 1e6; from *= c_step)
+    if (const double slope = own_steepest(from, c_step * from); slope > steepest_slope)
+      steepest_slope = slope, at = from;
+  for (double from = 1.0; from < 1e6; from *= c_step)
+    at_end = std::max(
+        at_end, own_steepest_at_end(from, c_step * from, tables::c_own_end + c_own_drift * steepest_slope));
+  const Parts all{0.0, c_steps * (half_word * (1 + 0x1p-10) + half_cell * steepest_slope),
+                  c_steps * c_own_drift * steepest_slope};
+  EXPECT_LE(all.total(), 1.0) << all << " at n = " << at;
+  EXPECT_LE(c_steps * (tables::c_own_end + c_own_drift * at_end) + all.factor + all.rounding, 1.0);
+  // Diffuse light: the cosine of the same size, with the slope pi/2.
+  const double diffuse =
+      c_steps * (tables::error_bound(tables::cosine_table(true, 1, address_bits, data_bits)) +
+                 c_own_drift * c_pi / 2) +
+      all.factor + all.rounding;
+  EXPECT_NEAR(diffuse, 0.86, 0.005);
+  // docs/accuracy.md lists the parts.
+  EXPECT_NEAR(all.total(), 0.99, 0.005);
+  EXPECT_NEAR(all.table, 0.34, 0.005);
+  EXPECT_NEAR(all.drift, 0.14, 0.005);
+  std::cout << all << ", steepest slope " << steepest_slope << " at n = " << at << "\n";
+}
+
+// The result of the shader's arithmetic with own tables, including drifted angles, at 20 000 angles for each
+// exponent.
+TEST(OwnTable, ColoursStayWithinOneStep) {
+  constexpr int c_fraction = 22;
+  const auto [address_bits, data_bits] = tables::c_own_size;
+  const std::int64_t largest = (1 << data_bits) - 1, unit = std::int64_t{1} << c_fraction;
+  Random random(5);
+  std::vector<double> exponents = {1.0, 1.305, 2.0, 2.65, 3.0, 5.0, 6.0, 16.0, 20.0, 50.0, 1000.0, 1e6};
+  for (int i = 0; i < 30; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
+  double worst = 0.0;
+  for (const double n : exponents) {
+    const double reach = tables::own_reach(n);
+    const tables::CosineTable table = tables::own_table(n, 2, address_bits, data_bits);
+    const Parts bound = own_parts(table, own_steepest(n, n));
+    const std::int64_t factor = std::llround(c_steps * 256.0 * double(largest + 1) / double(largest));
+    for (int i = 0; i < 20000; ++i) {
+      const double x = std::min(c_pi, random.uniform(-1.1, 1.1) * reach);
+      const double drift = c_own_drift * std::clamp(random.uniform(-2.0, 2.0), -1.0, 1.0);
+      const double word_real = (x / reach + drift) * double(unit);
+      const std::int64_t word =
+          static_cast<std::int64_t>(drift < 0 ? std::ceil(word_real) : std::floor(word_real));
+      const std::int64_t magnitude = word < 0 ? ~word : word;
+      const std::int64_t sample =
+          magnitude < unit ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - address_bits))]
+                           : 0;
+      const std::int64_t half = std::int64_t{1} << (7 + data_bits);
+      const std::int64_t colour = std::min<std::int64_t>(255, (half + factor * sample) >> (8 + data_bits));
+      const double error = std::abs(double(colour) - c_steps * lobe(n, std::abs(x)));
+      worst = std::max(worst, error);
+      ASSERT_LE(error, bound.total()) << "n = " << n << ", x = " << x << ", drift " << drift << ": " << bound;
+    }
+  }
+  EXPECT_LE(worst, 1.0);
+  EXPECT_GT(worst, 0.85) << "the bound is far from what is seen";
+  std::cout << "largest error found " << worst << "\n";
+}
+
 }  // namespace
 }  // namespace halfway

@@ -37,16 +37,29 @@ int shift_of_cells(const CosineTable& table) {
   return table.exact ? 0 : table.power == 1 ? 2 : 1;
 }
 
+// cos^exponent x for x in [0, pi/2]. 1 - cos x is computed, because cos x rounds to 1 close to the peak.
+// Error at most 32 epsilon: where the result is not below 2^-12, its logarithm is at most 9 and is off by 3
+// epsilon of it.
+long double highlight(double exponent, long double x) {
+  const long double half_sine = std::sin(x / 2), versine = 2 * half_sine * half_sine;
+  return versine < 1.0L ? std::exp(exponent * std::log1p(-versine)) : 0.0L;
+}
+
 // The table's function, `position` cells from angle 0. Error at most 8 * power * epsilon: 4 epsilon for the
 // cosine, including the rounding of its angle; each squaring doubles the error and rounds once.
 long double bell(const CosineTable& table, long double position) {
   // The number of cells per quarter turn is a power of two, so the quotient is exact.
   const long double cells = std::ldexp(1.0L, table.address_bits - shift_of_cells(table));
   const long double quarters = position / cells;
+  if (table.own > 0.0) return highlight(table.own, std::fabs(quarters) * own_reach(table.own));
   if (std::fabs(quarters) >= 1.0L) return 0.0L;
   long double value = std::cos(std::numbers::pi_v<long double> / 2 * quarters);
   for (int power = table.power; power > 1; power /= 2) value *= value;
   return value;
+}
+
+double exponent_of(const CosineTable& table) {
+  return table.own > 0.0 ? table.own : table.power;
 }
 
 long double largest_word(const CosineTable& table) {
@@ -56,12 +69,12 @@ long double largest_word(const CosineTable& table) {
 std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
   const long double value = largest_word(table) * bell(table, low_of_cell(table, entry) + 0.5L);
   const long double above_tie = value - std::floor(value) - 0.5L;
-  const long double doubt =
-      largest_word(table) * 9 * table.power * std::numeric_limits<long double>::epsilon();
+  const long double doubt = largest_word(table) * (table.own > 0.0 ? 33 : 9 * table.power) *
+                            std::numeric_limits<long double>::epsilon();
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format(
         "cosine table: entry {} of cos^{}, {}/{} bits, is too near a tie to be rounded in long double", entry,
-        table.power, table.address_bits, table.data_bits));
+        exponent_of(table), table.address_bits, table.data_bits));
   return to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
 }
 
@@ -76,25 +89,49 @@ std::string constant_name(const CosineTable& table) {
 
 std::string bound_comment(const CosineTable& table, std::string_view mark) {
   return fmt::format("{} off by at most {:.3g}: half a step, and half a cell where cos^{} is steepest", mark,
-                     error_bound(table), table.power);
+                     error_bound(table), exponent_of(table));
 }
 
 constexpr std::string_view c_notice = "Made by `make tables` from model/tables/cosine.cpp; edit that.";
 
-}  // namespace
-
-CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits) {
+CosineTable made_table(CosineTable table) {
   const auto within = [](int bits, int smallest, int largest) { return bits >= smallest && bits <= largest; };
-  if (std::ranges::find(powers(exact), power) == powers(exact).end() ||
-      !within(address_bits, c_smallest_cosine_size.address_bits, c_largest_cosine_size.address_bits) ||
-      !within(data_bits, c_smallest_cosine_size.data_bits, c_largest_cosine_size.data_bits))
+  if (std::ranges::find(powers(table.exact), table.power) == powers(table.exact).end() ||
+      !within(table.address_bits, c_smallest_cosine_size.address_bits, c_largest_cosine_size.address_bits) ||
+      !within(table.data_bits, c_smallest_cosine_size.data_bits, c_largest_cosine_size.data_bits))
     throw std::invalid_argument(fmt::format("cosine table: there is no {} cos^{} of {}/{} bits",
-                                            preset_name(exact), power, address_bits, data_bits));
-  CosineTable table{exact, power, address_bits, data_bits, {}};
-  const int entries = 1 << address_bits;
+                                            preset_name(table.exact), exponent_of(table), table.address_bits,
+                                            table.data_bits));
+  const int entries = 1 << table.address_bits;
   table.entries.reserve(entries);
   for (int entry = 0; entry < entries; ++entry) table.entries.push_back(correctly_rounded(table, entry));
   return table;
+}
+
+// Preset exact: the cosine, then the own tables instead of the other powers.
+void add_own_tables(const CosineSizes& sizes, const CosineSize& size, std::vector<CosineTable>& tables) {
+  if (sizes.own.size() > c_most_own_tables)
+    throw std::invalid_argument(
+        fmt::format("cosine table: {} own tables, not at most {}", sizes.own.size(), c_most_own_tables));
+  tables.push_back(cosine_table(true, 1, size.address_bits, size.data_bits));
+  for (std::size_t i = 0; i < sizes.own.size(); ++i)
+    tables.push_back(own_table(sizes.own[i], c_exact_powers[i + 1], size.address_bits, size.data_bits));
+}
+
+}  // namespace
+
+double own_reach(double exponent) {
+  // cos x = c_own_end^(1/exponent), by 1 - cos x = 2 sin^2(x/2) without cancellation.
+  return 2.0 * std::asin(std::sqrt(-std::expm1(std::log(c_own_end) / exponent) / 2.0));
+}
+
+CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits) {
+  return made_table({exact, power, address_bits, data_bits, {}});
+}
+
+CosineTable own_table(double exponent, int power, int address_bits, int data_bits) {
+  if (!(exponent >= 1.0)) throw std::invalid_argument(fmt::format("own table: exponent {} < 1", exponent));
+  return made_table({true, power, address_bits, data_bits, {}, exponent});
 }
 
 std::vector<CosineTable> cosine_tables(const CosineSizes& sizes) {
@@ -104,6 +141,10 @@ std::vector<CosineTable> cosine_tables(const CosineSizes& sizes) {
     for (const CosineSize& size : exact ? sizes.exact : sizes.published) {
       if (std::ranges::find(made, size) != made.end()) continue;
       made.push_back(size);
+      if (exact && !sizes.own.empty()) {
+        add_own_tables(sizes, size, tables);
+        continue;
+      }
       for (const int power : powers(exact))
         tables.push_back(cosine_table(exact, power, size.address_bits, size.data_bits));
     }
@@ -125,8 +166,9 @@ double table_error(const CosineTable& table) {
 
 double error_bound(const CosineTable& table) {
   // The slope of cos^m x is greatest where tan^2 x = 1/(m - 1): sqrt(m) (1 - 1/m)^((m - 1)/2).
-  const double m = table.power, steepest = std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
-  const double cell = std::numbers::pi / 2 * std::ldexp(1.0, shift_of_cells(table) - table.address_bits);
+  const double m = exponent_of(table), steepest = std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
+  const double half_bell = table.own > 0.0 ? own_reach(table.own) : std::numbers::pi / 2;
+  const double cell = half_bell * std::ldexp(1.0, shift_of_cells(table) - table.address_bits);
   return 0.5 / static_cast<double>(largest_word(table)) + steepest * cell / 2;
 }
 

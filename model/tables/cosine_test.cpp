@@ -294,5 +294,51 @@ TEST(Cosine, TheCompiledTablesAreTheGeneratedOnes) {
   EXPECT_EQ(golden::c_published_cosine_size.data_bits, 6);
 }
 
+// ---- own tables
+
+// cos^n at this part of an own table's reach.
+long double own_truth(double exponent, double at) {
+  return std::pow(std::cos(static_cast<long double>(at) * own_reach(exponent)),
+                  static_cast<long double>(exponent));
+}
+
+TEST(OwnTable, EndsWhereTheHighlightEnds) {
+  for (const double n : {1.0, 1.5, 2.0, 2.65, 20.0, 1000.0, 1e6})
+    EXPECT_NEAR(std::pow(std::cos(own_reach(n)), n), c_own_end, 1e-9) << "n = " << n;
+}
+
+TEST(OwnTable, EntriesAreTheNearestToTheHighlight) {
+  for (const double n : {1.0, 1.305, 2.65, 20.0, 1000.0})
+    for (const auto& [address_bits, data_bits] : {std::pair{5, 4}, {9, 8}, {11, 11}, {12, 12}}) {
+      const CosineTable table = own_table(n, 4, address_bits, data_bits);
+      const double largest = std::ldexp(1.0, data_bits) - 1;
+      double found = 0.0;
+      for (std::size_t i = 0; i < table.entries.size(); ++i) {
+        const double middle = std::ldexp(static_cast<double>(i) + 0.5, -address_bits);
+        EXPECT_NEAR(table.entries[i], largest * own_truth(n, middle), 0.5 + 1e-6) << "n = " << n;
+        for (const double part : {0.0, 0.5, 1.0}) {
+          const double at = std::ldexp(static_cast<double>(i) + part, -address_bits);
+          found = std::max(found, std::abs(table.entries[i] / largest - double(own_truth(n, at))));
+        }
+      }
+      EXPECT_NEAR(table_error(table), found, 1e-9) << "n = " << n;
+      EXPECT_LE(table_error(table), error_bound(table)) << "n = " << n;
+    }
+}
+
+TEST(OwnTable, TakesThePlaceOfAPower) {
+  CosineSizes sizes;
+  sizes.exact = {c_own_size};
+  sizes.own = {2.65, 20.0};
+  std::vector<std::string> names;
+  for (const CosineTable& table : cosine_tables(sizes))
+    if (table.exact) names.push_back(fmt::format("{} {}", table.power, table.own));
+  EXPECT_THAT(names, ::testing::ElementsAre("1 0", "2 2.65", "4 20"));
+  expect_texts_carry(sizes);
+  sizes.own = {1, 2, 3, 4, 5};
+  EXPECT_THROW(cosine_tables(sizes), std::invalid_argument);
+  EXPECT_THROW(own_table(0.99, 2, 9, 8), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace halfway::tables

@@ -8,11 +8,14 @@
 #include <future>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "common/to_integer.hpp"
+#include "plan/own_bells.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/formats/compiled_sizes.hpp"
+#include "sim/formats/made_tables.hpp"
 #include "sim/program/printable.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/scene_files/load_scene.hpp"
@@ -26,6 +29,7 @@ struct SimOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> simulators;
   std::uint32_t stall_seed = 0;
+  bool own_tables = false;
 };
 
 // The current step of each scene, on one line of a terminal.
@@ -61,11 +65,34 @@ struct Drawn {
 };
 using Outcome = Result<Drawn>;
 
+// Preset exact of the spherical shader, with a table for each exponent of the scene: in memory for the golden
+// model, and in a copy of the RTL in the cache.
+Status take_own_tables(const Scene& scene, SimulateSettings& settings,
+                       std::optional<tables::MadeTables>& made) {
+  auto own = own_exponents(scene);
+  if (!own) return own.error();
+  const TableSize size =
+      settings.plan.tables.value_or(TableSize{tables::c_own_size.address_bits, tables::c_own_size.data_bits});
+  const tables::CosineSize made_size{size.address_bits, size.data_bits};
+  made.emplace(true, made_size, *own);
+  const auto source =
+      tables::rtl_with(true, made_size, {}, settings.folders.source, settings.folders.cache, *own);
+  if (!source) return source.error();
+  settings.plan.tables = size;
+  settings.plan.made_tables = made->tables();
+  settings.plan.own = std::move(*own);
+  settings.folders.source = *source;
+  return Ok{};
+}
+
 Outcome draw_scene(const std::string& name, std::size_t number, const Folders& folders,
-                   SimulateSettings settings, Board& board) {
+                   SimulateSettings settings, bool own_tables, Board& board) {
   board.show(number, "loading");
   const auto scene = load_scene(name, folders.scenes());
   if (!scene) return scene.error();
+  std::optional<tables::MadeTables> made;
+  if (own_tables)
+    if (Status status = take_own_tables(*scene, settings, made); !status) return status.error();
   settings.on_progress = [&](const std::string& what, double done) {
     board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, to_integer<int>(100.0 * done)));
   };
@@ -113,6 +140,8 @@ int run(const Folders& folders, const SimOptions& options) {
   if (!draw) return report(draw.error());
   SimulateSettings settings;
   settings.plan = draw->plan;
+  if (options.own_tables && (draw->plan.shader != Shader::spherical || draw->plan.preset != Preset::exact))
+    return report(bad_input("--own-tables belongs to the spherical shader in preset exact"));
   settings.size = draw->size;
   settings.setup = draw->setup;
   settings.threads = draw->threads;
@@ -155,8 +184,9 @@ int run(const Folders& folders, const SimOptions& options) {
   for (unsigned i = 0; i < workers; ++i)
     pool.emplace_back([&] {
       for (std::size_t n = next++; n < scenes.size(); n = next++) try {
-          outcomes[n].set_value(stop ? Outcome(tool_failed("not run"))
-                                     : draw_scene(scenes[n], n, folders, settings, board));
+          outcomes[n].set_value(stop
+                                    ? Outcome(tool_failed("not run"))
+                                    : draw_scene(scenes[n], n, folders, settings, options.own_tables, board));
         } catch (...) {
           outcomes[n].set_exception(std::current_exception());  // such as out of memory
         }
@@ -195,6 +225,11 @@ void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   command->add_option("--simulator", options->simulators,
                       "ghdl or verilator (default: both), or lanes: many copies of the RTL at once (see\n"
                       "sim/lanes), which report no cycles");
+  command->add_flag(
+      "--own-tables", options->own_tables,
+      fmt::format("spherical, preset exact: a table of cos^n for each exponent n of the scene, up "
+                  "to {},\nof {}/{} address/data bits or the size given: within one colour step",
+                  tables::c_most_own_tables, tables::c_own_size.address_bits, tables::c_own_size.data_bits));
   command
       ->add_option("--stalls", options->stall_seed,
                    "stall both streams at random, with this seed (0: full speed)")

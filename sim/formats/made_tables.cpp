@@ -19,8 +19,9 @@ namespace fs = std::filesystem;
 // Paths relative to rtl/, and the files' contents.
 using Packages = std::map<std::string, std::string>;
 
-CosineSizes sizes_with(bool exact, CosineSize size) {
+CosineSizes sizes_with(bool exact, CosineSize size, const std::vector<double>& own) {
   CosineSizes sizes;
+  sizes.own = own;
   (exact ? sizes.exact : sizes.published) = {size};
   return sizes;
 }
@@ -45,8 +46,8 @@ Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const Packages& pac
 
 }  // namespace
 
-MadeTables::MadeTables(bool exact, CosineSize size) {
-  for (const CosineTable& made : cosine_tables(sizes_with(exact, size))) {
+MadeTables::MadeTables(bool exact, CosineSize size, const std::vector<double>& own) {
+  for (const CosineTable& made : cosine_tables(sizes_with(exact, size, own))) {
     if (made.exact != exact) continue;
     // Entries have at most 12 bits.
     std::vector<std::uint16_t> entries;
@@ -68,12 +69,12 @@ Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& ch
 }
 
 Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
-                          const fs::path& checkout, const fs::path& cache) {
+                          const fs::path& checkout, const fs::path& cache, const std::vector<double>& own) {
   Packages packages;
   std::string name = exact ? "exact" : "published";
   if (size) {
-    packages["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size));
-    name += fmt::format("-{}x{}", size->address_bits, size->data_bits);
+    packages["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size, own));
+    name += fmt::format("-{}x{}{}", size->address_bits, size->data_bits, own.empty() ? "" : "-own");
   }
   if (words.any()) {
     packages["tables/formats_pkg.vhd"] = vhdl_package(preset_formats(exact, words));

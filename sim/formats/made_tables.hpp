@@ -19,8 +19,8 @@ namespace halfway::tables {
 /// Tables of one size for all powers of a preset, made by the generator of the compiled tables.
 class MadeTables {
  public:
-  /// `size` must be one that cosine_table accepts.
-  MadeTables(bool exact, CosineSize size);
+  /// `size` must be one that cosine_table accepts. `own`: as in CosineSizes.
+  MadeTables(bool exact, CosineSize size, const std::vector<double>& own = {});
   MadeTables(const MadeTables&) = delete;
   MadeTables& operator=(const MadeTables&) = delete;
 
@@ -35,10 +35,11 @@ class MadeTables {
 bool compiled_in(bool exact, CosineSize size);
 
 /// A cached copy of the checkout: its sim/ and tb/, and its rtl/ with the given changes to the preset: only
-/// tables of that size, other word lengths.
+/// tables of that size (`own`: as in CosineSizes), other word lengths.
 Result<std::filesystem::path> rtl_with(bool exact, const std::optional<CosineSize>& size,
                                        const WordLengths& words, const std::filesystem::path& checkout,
-                                       const std::filesystem::path& cache);
+                                       const std::filesystem::path& cache,
+                                       const std::vector<double>& own = {});
 
 /// Same as rtl_with, for tables only.
 Result<std::filesystem::path> rtl_with_tables(bool exact, CosineSize size,

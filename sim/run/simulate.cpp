@@ -190,7 +190,7 @@ class Simulation {
                          c_largest_exponent));
       // At exponent 1 the bell is the cosine itself.
       const double steps =
-          exact && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
+          exact && key.spherical.own.empty() && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
       if (steps > 1.0)
         note(fmt::format(
             "material '{}': no bell fits exponents between 1 and 2 well; that of {:g} is off by up "
@@ -403,7 +403,8 @@ std::string unusual_tables(const HardwareKey& key) {
   if (key.shader != Shader::spherical || !key.spherical.records() ||
       size == TableSize{usual.address_bits, usual.data_bits})
     return {};
-  return fmt::format(", tables {}/{}", size.address_bits, size.data_bits);
+  return fmt::format(", {}tables {}/{}", key.spherical.own.empty() ? "" : "own ", size.address_bits,
+                     size.data_bits);
 }
 
 }  // namespace

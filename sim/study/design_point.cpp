@@ -112,9 +112,9 @@ bool is_processors(Method method) {
 }
 
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
-  sweep.allow({"method", "preset", "address_bits", "data_bits", "angle_bits", "fraction_bits", "seed_bits",
-               "newton", "form", "highlight_test", "span_ends", "threshold", "tessellation", "exponent",
-               "size", "tile"});
+  sweep.allow({"method", "preset", "address_bits", "data_bits", "own_tables", "angle_bits", "fraction_bits",
+               "seed_bits", "newton", "form", "highlight_test", "span_ends", "threshold", "tessellation",
+               "exponent", "size", "tile"});
   std::vector<DesignPoint> points(1);
   const auto multiply = [&](std::string_view key, const auto& set) { sweep.multiply(points, key, set); };
   const auto numbers = [&](std::string_view key, double least, double largest, const auto& set) {
@@ -153,6 +153,13 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   });
   if (std::ranges::any_of(points, [](const DesignPoint& p) { return p.tables && p.tables->data_bits == 0; }))
     sweep.fail("data_bits", "is only allowed with address_bits");
+  multiply("own_tables", [&](DesignPoint& p, const toml::node& node) {
+    const auto own = node.value_exact<bool>();
+    if (!own) sweep.fail("own_tables", "takes true or false");
+    if (p.method != Method::spherical || p.preset != Preset::exact) return;
+    if (*own && !p.tables) sweep.fail("own_tables", "is only allowed with address_bits and data_bits");
+    p.own_tables = *own;
+  });
   // A word length applies to some methods only. The preset's own length counts as not given.
   const auto length = [&](std::string_view key, tables::Range range, bool (*has)(Method),
                           std::optional<int> tables::WordLengths::*word, int exact, int published) {
@@ -225,7 +232,7 @@ std::string DesignPoint::design() const {
   std::string text = to_string(method);
   if (in_hardware(method)) text += fmt::format(" {}", to_string(preset));
   if (method == Method::spherical && tables)
-    text += fmt::format(" {}x{}", tables->address_bits, tables->data_bits);
+    text += fmt::format(" {}x{}{}", tables->address_bits, tables->data_bits, own_tables ? " own" : "");
   if (words.angle_bits) text += fmt::format(" angle {}", *words.angle_bits);
   if (words.fraction_bits) text += fmt::format(" fraction {}", *words.fraction_bits);
   if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);

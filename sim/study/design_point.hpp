@@ -56,6 +56,7 @@ struct DesignPoint {
   Method method = Method::quadratic;
   Preset preset = Preset::exact;                     ///< of hardware methods
   std::optional<TableSize> tables;                   ///< of spherical; std::nullopt: the preset's tables
+  bool own_tables = false;                           ///< of spherical in preset exact; then `tables` has a value
   tables::WordLengths words{};                       ///< of the method; std::nullopt: the preset's lengths
   ProcessorForm form = ProcessorForm::unrolled;      ///< of processors methods
   HighlightTest test = HighlightTest::conservative;  ///< of adaptive

@@ -132,6 +132,10 @@ TEST_F(SpaceTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(message_of("[[sweep]]\nexponent = 5\n"), HasSubstr("space.toml:1: method is missing"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = []\n"), HasSubstr("space.toml:2: method is an empty list"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 6\n"), HasSubstr("data_bits"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\nown_tables = true\n"),
+              HasSubstr("space.toml:3: own_tables is only allowed with address_bits and data_bits"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\nown_tables = 1\n"),
+              HasSubstr("space.toml:3: own_tables takes true or false"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"4097x1\"\n"),
               HasSubstr("space.toml:3: size takes WIDTHxHEIGHT in pixels, such as 640x480, each 1 to 4096"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"large\"\n"), HasSubstr("size takes"));
@@ -145,6 +149,9 @@ TEST(DesignPoint, NameContainsAllParameters) {
   DesignPoint point{
       .method = Method::spherical, .tables = TableSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
   EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");
+  point.own_tables = true;
+  EXPECT_EQ(point.name(), "spherical exact 9x8 own, threshold 4, 320x240, exponent 50");
+  point.own_tables = false;
   point.preset = Preset::published;
   EXPECT_EQ(point.name(), "spherical published 9x8, 320x240, exponent 50");
   point = {.method = Method::adaptive, .preset = Preset::published, .test = HighlightTest::centroid};

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "plan/own_bells.hpp"
 #include "sim/formats/made_tables.hpp"
 #include "sim/ghdl/hardware_units.hpp"
 #include "sim/study/pictures.hpp"
@@ -29,17 +30,25 @@ namespace {
 std::optional<tables::CosineSize> made_size(const DesignPoint& point) {
   if (point.method != Method::spherical || !point.tables) return std::nullopt;
   const tables::CosineSize size{point.tables->address_bits, point.tables->data_bits};
-  if (tables::compiled_in(point.preset == Preset::exact, size)) return std::nullopt;
+  if (!point.own_tables && tables::compiled_in(point.preset == Preset::exact, size)) return std::nullopt;
   return size;
+}
+
+Result<std::vector<double>> own_exponents_of(const DesignPoint& point, const Scene& scene) {
+  if (!point.own_tables) return std::vector<double>();
+  return own_exponents(scene);
 }
 
 }  // namespace
 
 Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) {
   PointHardware hardware;
-  if (const auto size = made_size(point))
-    hardware.tables = std::make_shared<tables::MadeTables>(point.preset == Preset::exact, *size);
   PlanRequest request = point.plan();
+  auto own = own_exponents_of(point, scene);
+  if (!own) return own.error();
+  request.own = std::move(*own);
+  if (const auto size = made_size(point))
+    hardware.tables = std::make_shared<tables::MadeTables>(point.preset == Preset::exact, *size, request.own);
   if (hardware.tables) request.made_tables = hardware.tables->tables();
   auto plan = plan_scene(scene, request);
   if (!plan) return plan.error();
@@ -65,11 +74,14 @@ Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene&
   return hardware;
 }
 
-Result<SimulatorFolders> rtl_of(const DesignPoint& point, const SimulatorFolders& folders) {
+Result<SimulatorFolders> rtl_of(const DesignPoint& point, const Scene& scene,
+                                const SimulatorFolders& folders) {
   const auto size = made_size(point);
   if (!size && !point.words.any()) return folders;
+  const auto own = own_exponents_of(point, scene);
+  if (!own) return own.error();
   const auto source =
-      tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source, folders.cache);
+      tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source, folders.cache, *own);
   if (!source) return source.error();
   return SimulatorFolders{*source, folders.cache};
 }
@@ -93,7 +105,7 @@ Result<HardwareSource> source_of(const std::string& scene, const DesignPoint& po
   if (!drawn) return drawn.error();
   auto hardware = hardware_of(point, *drawn);
   if (!hardware) return hardware.error();
-  auto rtl = rtl_of(point, folders);
+  auto rtl = rtl_of(point, *drawn, folders);
   if (!rtl) return rtl.error();
   return HardwareSource{std::move(*hardware), std::move(*rtl)};
 }

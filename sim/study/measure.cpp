@@ -16,7 +16,7 @@ Result<Drawing> draw_in_hardware(const DesignPoint& point, const Scene& scene,
                                  const SimulatorFolders& folders, const std::optional<Tile>& tile) {
   const auto hardware = drawing_hardware_of(point, scene, folders);
   if (!hardware) return hardware.error();
-  const auto rtl_folders = rtl_of(point, folders);
+  const auto rtl_folders = rtl_of(point, scene, folders);
   if (!rtl_folders) return rtl_folders.error();
   const HardwareKey& key = hardware->key;
   auto drawn = draw_in_verilator(scene, point.size, key, point.setup(), *rtl_folders, 1, tile,

@@ -155,6 +155,7 @@ std::vector<Knob> knobs_of(const DesignPoint& p) {
     case Method::spherical:
       knobs.push_back({"address_bits", p.tables ? std::to_string(p.tables->address_bits) : ""});
       knobs.push_back({"data_bits", p.tables ? std::to_string(p.tables->data_bits) : ""});
+      knobs.push_back({"own_tables", p.own_tables ? "true" : ""});
       knobs.push_back({"angle_bits", text_of(p.words.angle_bits)});
       break;
     case Method::processors_1:

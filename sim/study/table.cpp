@@ -102,7 +102,8 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
                      {"newton", text_of(p.words.newton, "{:d}")},
                      {"tiles", text_of(p.tiles().size())},
                      {"highlight_test", p.method == Method::adaptive ? name_of(p.test) : ""},
-                     {"span_ends", p.has_ends() ? name_of(p.ends) : ""}};
+                     {"span_ends", p.has_ends() ? name_of(p.ends) : ""},
+                     {"own_tables", p.own_tables ? "1" : ""}};
   line.insert(line.end(), rest.begin(), rest.end());
   return line;
 }

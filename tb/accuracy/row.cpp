@@ -62,7 +62,7 @@ FrameDistance gouraud_error(const Scene& scene, FrameSize size) {
 }
 
 study::HardwareSource point_hardware(const study::DesignPoint& point, const Scene& scene) {
-  return {must(study::hardware_of(point, scene)), must(study::rtl_of(point, folders()))};
+  return {must(study::hardware_of(point, scene)), must(study::rtl_of(point, scene, folders()))};
 }
 
 Drawn drawn(const study::DesignPoint& point, const Scene& scene) {
@@ -94,6 +94,8 @@ const std::map<std::string, Row>& all_rows() {
     add("quadratic_shader", quadratic_rows());
     add("spherical_shader", spherical_rows());
     add("cosine_tables", cosine_rows());
+    add("fits", fit_rows());
+    add("within_one_step", one_step_rows());
     add("bright_lights", bright_rows());
     add("shading_processors", processors_rows());
     add("root_tables", root_rows());
@@ -117,6 +119,8 @@ TEST_P(Accuracy, Full) {
 INSTANTIATE_TEST_SUITE_P(quadratic_shader, Accuracy, testing::ValuesIn(quadratic_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(spherical_shader, Accuracy, testing::ValuesIn(spherical_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(cosine_tables, Accuracy, testing::ValuesIn(cosine_rows()), id_of);
+INSTANTIATE_TEST_SUITE_P(fits, Accuracy, testing::ValuesIn(fit_rows()), id_of);
+INSTANTIATE_TEST_SUITE_P(within_one_step, Accuracy, testing::ValuesIn(one_step_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(bright_lights, Accuracy, testing::ValuesIn(bright_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(shading_processors, Accuracy, testing::ValuesIn(processors_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(root_tables, Accuracy, testing::ValuesIn(root_rows()), id_of);

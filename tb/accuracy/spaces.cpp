@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of two spaces of sim/studies: address bits of the cosine tables (tables.toml), and the published
-// processors' table of 1/sqrt(x) (roots.toml).
+// Rows of three spaces of sim/studies: address bits of the cosine tables (tables.toml), the spherical shader
+// within one colour step (one_step.toml), and the published processors' table of 1/sqrt(x) (roots.toml).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "accuracy/row.hpp"
 #include "common/to_integer.hpp"
 #include "golden/formats.hpp"
+#include "sim/study/highlight_error.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/system/must.hpp"
 #include "tables/cosine.hpp"
@@ -22,6 +23,7 @@ using study::DesignPoint;
 constexpr const char* c_near = "sim/studies/sphere.toml";
 constexpr const char* c_distant = "sim/studies/distant_eye.toml";
 constexpr const char* c_cosine_space = "sim/studies/tables.toml";
+constexpr const char* c_one_step_space = "sim/studies/one_step.toml";
 constexpr const char* c_root_space = "sim/studies/roots.toml";
 constexpr const char* c_none = "–";
 
@@ -77,6 +79,36 @@ Row cosine_row(const DesignPoint& point) {
           .draws = [=] { return std::vector<study::HardwareSource>{point_hardware(point, loaded(c_near))}; }};
 }
 
+Row one_step_row(const DesignPoint& point) {
+  const TableSize size = *point.tables;
+  const int angle_bits = point.words.angle_bits.value_or(golden::Exact::c_angle_fraction_bits);
+  return {.id = fmt::format("{}_{}x{}_angle_{}", point.own_tables ? "own" : "fitted", size.address_bits,
+                            size.data_bits, angle_bits),
+          .reads = {c_one_step_space, c_near, synth::c_pins, synth::c_study_pins},
+          .measure = [=]() -> Fields {
+            const study::HighlightError e = study::worst_highlight_error(size, point.own_tables, angle_bits);
+            const Drawn d = drawn(point, loaded(c_near));
+            const study::HardwareFigures f = figures_of(point, c_near);
+            return {
+                {"tables", fmt::format("{}, {}×{}", point.own_tables ? "own" : "of powers", size.address_bits,
+                                       size.data_bits)},
+                {"fraction bits of angles", std::to_string(angle_bits)},
+                {"fit", fmt::format("{:.2f}", e.fit)},
+                {"table", fmt::format("{:.2f}", e.table)},
+                {"angle", fmt::format("{:.2f}", e.angle)},
+                {"worst error", fmt::format("{}{:.2f}", e.total() <= 1.0 ? "**" : "", e.total()) +
+                                    (e.total() <= 1.0 ? "**" : "")},
+                {"at exponent", fmt::format("{:.3g}", e.exponent)},
+                {"rms error of the picture", fmt::format("{:.3f}", d.error.rms)},
+                {"cells", cells_text(f)},
+                {"iCE40: LUTs, RAMs", f.ice40 ? fmt::format("{}, {}", f.ice40->luts, f.ice40->rams) : c_none},
+                {"clock, MHz", f.mhz ? fmt::format("{:.1f}", *f.mhz) : c_none},
+                {"ms per frame",
+                 f.mhz ? fmt::format("{:.3f}", static_cast<double>(d.cycles) / *f.mhz / 1e3) : c_none}};
+          },
+          .draws = [=] { return std::vector<study::HardwareSource>{point_hardware(point, loaded(c_near))}; }};
+}
+
 std::string error_text(const DesignPoint& point, const char* scene) {
   const FrameDistance error = drawn(point, loaded(scene)).error;
   return fmt::format("{:.{}f} ({})", error.rms, error.rms < 10 ? 2 : 1, error.max_lsb);
@@ -106,6 +138,10 @@ Row root_row(const DesignPoint& point) {
 
 std::vector<Row> cosine_rows() {
   return rows_of(c_cosine_space, cosine_row);
+}
+
+std::vector<Row> one_step_rows() {
+  return rows_of(c_one_step_space, one_step_row);
 }
 
 std::vector<Row> root_rows() {
