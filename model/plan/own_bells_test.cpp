@@ -71,7 +71,7 @@ TEST(OwnBells, HardwareIsNamedByItsExponents) {
   };
   EXPECT_THAT(names({5.5, 50.0}, false), HasSubstr("-own5.5_50-rom"));
   EXPECT_THAT(names({5.5, 50.0}, true), HasSubstr("-own5.5_50-rom"));
-  EXPECT_THAT(names({}, false), HasSubstr("-cos4.16-rom"));
+  EXPECT_THAT(names({}, false), HasSubstr("-cos8.16-rom"));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ double least_near(std::array<double, 2> at, double step, const std::function<dou
 
 // Two bells with angles and factors of their own: two specular slices.
 double sum_of_two_bells(double n) {
-  constexpr int c_grid = 8;
+  constexpr int c_grid = 14;
   constexpr std::array c_powers = {1, 2, 4, 8, 16};
   const Samples truth = sampled(n, [&](double x) { return cosine(n, x); });
   double least = 1.0;

@@ -53,6 +53,21 @@ inline Enclosure cosine_power(Dyadic x, int power) {
   return {one_side(MPFR_RNDD, MPFR_RNDU), one_side(MPFR_RNDU, MPFR_RNDD)};
 }
 
+/// cos(reach * x)^exponent for x in [0, 1], reach < pi/2, exponent >= 1. Decreases with x.
+inline Enclosure highlight(Dyadic x, double reach, double exponent) {
+  const auto one_side = [&](mpfr_rnd_t outward, mpfr_rnd_t inward) {
+    Real v, power;
+    mpfr_set_d(v, reach, inward);  // exact; a larger angle has a smaller cosine
+    mpfr_mul_si(v, v, x.number, inward);
+    mpfr_div_2si(v, v, x.shift, inward);
+    mpfr_cos(v, v, outward);
+    mpfr_set_d(power, exponent, MPFR_RNDN);  // exact
+    mpfr_pow(v, v, power, outward);
+    return mpfr_get_d(v, outward);
+  };
+  return {one_side(MPFR_RNDD, MPFR_RNDU), one_side(MPFR_RNDU, MPFR_RNDD)};
+}
+
 /// f(x) by a function of MPFR, which rounds correctly.
 template <class Function>
 Enclosure enclosed(Dyadic x, Function&& f) {

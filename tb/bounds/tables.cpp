@@ -49,11 +49,19 @@ void expect_nearest(double value, double unit, Enclosure truth, int index, Table
     finding.failure = fmt::format("value {} is not the nearest", index);
 }
 
+// The table's function at number / 2^shift of a quarter turn, or of an own table's reach.
+Enclosure cosine_at(const CosineTable& table, int number, int shift) {
+  if (table.own > 0.0) return highlight({number, shift}, tables::own_reach(table.own), table.own);
+  if (number >= 1 << shift) return {0, 0};
+  return cosine_power({number, shift}, table.power);
+}
+
 // |entry - cos^power| over the cell of each entry.
 TableFinding cosine_finding(const CosineTable& table) {
   TableFinding finding;
-  finding.table = fmt::format("{} cos^{} {}/{}", table.exact ? "exact" : "published", table.power,
-                              table.address_bits, table.data_bits);
+  finding.table =
+      fmt::format("{}{} cos^{} {}/{}", table.exact ? "exact" : "published", table.own > 0.0 ? " own" : "",
+                  table.own > 0.0 ? table.own : table.power, table.address_bits, table.data_bits);
   finding.bound = finding.derived = tables::error_bound(table);
   const int cells = 1 << table.address_bits, full = (1 << table.data_bits) - 1;
   const int shift = table.address_bits - (table.exact ? 0 : table.power == 1 ? 2 : 1);
@@ -62,17 +70,15 @@ TableFinding cosine_finding(const CosineTable& table) {
     const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
     const double value = static_cast<double>(table.entries[static_cast<std::size_t>(entry)]) / full;
     const int middle = std::abs(2 * low + 1);
-    expect_nearest(value, 1.0 / full,
-                   middle >= 2 * quarter ? Enclosure{0, 0} : cosine_power({middle, shift + 1}, table.power),
-                   entry, finding);
+    expect_nearest(value, 1.0 / full, cosine_at(table, middle, shift + 1), entry, finding);
     for (const int end : {low, low + 1}) {
-      const int away = std::abs(end);
-      const Enclosure truth = away >= quarter ? Enclosure{0, 0} : cosine_power({away, shift}, table.power);
+      const Enclosure truth = cosine_at(table, std::abs(end), shift);
       // The rounding of the quotient is added.
       const double error = farthest(value, truth) + 0x1p-52;
       if (error <= finding.worst) continue;
       finding.worst = error;
-      finding.where = fmt::format("entry {} at {}/{} of a quarter turn", entry, end, quarter);
+      finding.where = fmt::format("entry {} at {}/{} of {}", entry, end, quarter,
+                                  table.own > 0.0 ? "the table's reach" : "a quarter turn");
     }
   }
   return finding;
@@ -198,6 +204,10 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
     findings.push_back(cosine_finding(table));
     ask_sollya(context, table, findings.back());
   }
+  // Own tables, of exponents from the smallest to the largest.
+  for (const double exponent : {1.0, 1.305, 2.65, 20.0, 1000.0, 1e6})
+    findings.push_back(cosine_finding(
+        tables::own_table(exponent, 2, tables::c_own_size.address_bits, tables::c_own_size.data_bits)));
   // All other sizes that `make tables` accepts.
   TableFinding others{.table = "the other sizes, 3/2 to 12/12"};
   double nearest = 0, farthest_away = 1;
