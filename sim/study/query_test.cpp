@@ -295,7 +295,7 @@ TEST_F(QueryTest, PrintsTheVariedParameters) {
       text,
       HasSubstr("looked at      6 points of hardware; varied: method, threshold, address_bits, "
                 "data_bits; not varied: preset, fraction_bits, highlight_test, form, seed_bits, newton, "
-                "angle_bits, span_ends\n"));
+                "own_tables, angle_bits, span_ends\n"));
 }
 
 TEST_F(QueryTest, PrintsTheFrontWithoutADemand) {
