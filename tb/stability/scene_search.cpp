@@ -331,7 +331,6 @@ class SceneSearch final : public Search {
                  "shadows, with near planes that cut triangles. The figure of a scene is that of its worst "
                  "pixel; the bound is that of the errors of the units. A shadow may fall on any pixel here; "
                  "the family `shadows` checks shadows.";
-    a shadow may fall on any pixel here : `shadows` has those.";
   }
   std::span<const Parameter> parameters() const override { return parameters_.all(); }
   std::uint64_t full_count() const override { return 25'000; }

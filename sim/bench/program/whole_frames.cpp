@@ -30,11 +30,11 @@ struct Path {
 std::vector<Path> open_paths(const Scene& scene, unsigned cores) {
   std::vector<Path> paths;
   for (const Shader shader : {Shader::quadratic, Shader::spherical})
-    for (const bool avx512 : {true, false}) {
-      Path path{avx512 ? "this machine's" : "without AVX-512",
+    for (const LaneVectors vectors : {LaneVectors::avx512, LaneVectors::avx2}) {
+      Path path{vectors == LaneVectors::avx512 ? "this machine's" : "without AVX-512",
                 must(plan_scene(scene, {.shader = shader})).key};
       fmt::print(stderr, "building {}, {}\n", path.key.name(), path.vectors);
-      path.engines.push_back(must(open_engine(EngineKind::lanes, path.key, c_folders, {.avx512 = avx512})));
+      path.engines.push_back(must(open_engine(EngineKind::lanes, path.key, c_folders, {.vectors = vectors})));
       while (path.engines.size() < cores) path.engines.push_back(must(path.engines.front()->another()));
       paths.push_back(std::move(path));
     }
