@@ -50,8 +50,8 @@ struct SphericalSetupOptions {
   /// rounding are additional. A span is checked at every pixel unless a bound from its two ends is below the
   /// threshold.
   double threshold = 2.0;
-  /// Preset exact without own tables: the scene's bells (fitted_bells), for a scene that is drawn more than once. Without them
-  /// the setup fits the bells, which takes milliseconds per bell.
+  /// Preset exact without own tables: the scene's bells (fitted_bells), for a scene that is drawn more than
+  /// once. Without them the setup fits the bells, which takes milliseconds per bell.
   std::shared_ptr<const Bells> bells{};
 };
 

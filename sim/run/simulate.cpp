@@ -189,8 +189,9 @@ class Simulation {
         note(fmt::format("material '{}': its exponent {:g} was clamped to {:g}", m.name, m.exponent,
                          c_largest_exponent));
       // At exponent 1 the bell is the cosine itself.
-      const double steps =
-          exact && key.spherical.own.empty() && m.exponent < 2.0 ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent)) : 0.0;
+      const double steps = exact && key.spherical.own.empty() && m.exponent < 2.0
+                               ? 255.0 * fit_error(m.exponent, fitted_bell(m.exponent))
+                               : 0.0;
       if (steps > 1.0)
         note(fmt::format(
             "material '{}': no bell fits exponents between 1 and 2 well; that of {:g} is off by up "

@@ -54,11 +54,11 @@ inline const char* name_of(SpanEnds ends) {
 
 struct DesignPoint {
   Method method = Method::quadratic;
-  Preset preset = Preset::exact;                     ///< of hardware methods
-  std::optional<TableSize> tables;                   ///< of spherical; std::nullopt: the preset's tables
-  bool own_tables = false;                           ///< of spherical in preset exact; then `tables` has a value
-  tables::WordLengths words{};                       ///< of the method; std::nullopt: the preset's lengths
-  ProcessorForm form = ProcessorForm::unrolled;      ///< of processors methods
+  Preset preset = Preset::exact;                 ///< of hardware methods
+  std::optional<TableSize> tables;               ///< of spherical; std::nullopt: the preset's tables
+  bool own_tables = false;                       ///< of spherical in preset exact; then `tables` has a value
+  tables::WordLengths words{};                   ///< of the method; std::nullopt: the preset's lengths
+  ProcessorForm form = ProcessorForm::unrolled;  ///< of processors methods
   HighlightTest test = HighlightTest::conservative;  ///< of adaptive
   SpanEnds ends = SpanEnds::on_surface;              ///< of spherical in preset exact
   double threshold = 2.0;          ///< colour steps; of adaptive, and of spherical with ends on the surface

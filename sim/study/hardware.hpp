@@ -40,8 +40,8 @@ Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene);
 Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene& scene,
                                           const SimulatorFolders& folders);
 
-/// Sources of the RTL with which the point draws the scene: `folders`, or a copy in the cache if its tables or
-/// word lengths are not compiled into the program.
+/// Sources of the RTL with which the point draws the scene: `folders`, or a copy in the cache if its tables
+/// or word lengths are not compiled into the program.
 Result<SimulatorFolders> rtl_of(const DesignPoint& point, const Scene& scene,
                                 const SimulatorFolders& folders);
 

@@ -66,7 +66,8 @@ study::HardwareSource point_hardware(const study::DesignPoint& point, const Scen
 }
 
 Drawn drawn(const study::DesignPoint& point, const Scene& scene) {
-  study::Drawing drawing = must(study::draw(point, {scene, {}}, folders()));
+  study::Drawing drawing =
+      must(study::draw(point, {.name = scene.name, .scene = scene, .triangles = {}}, folders()));
   return {error_of(scene, drawing.frame, std::move(drawing.mask)), drawing.cycles, drawing.setup};
 }
 

@@ -169,8 +169,8 @@ Walk only_walk(std::array<ScreenPoint, 3> points, FrameSize frame) {
 
 constexpr FrameSize c_frame{c_side, c_side};
 
-// Holds for any coefficients: the errors of the words in Newton's form. L: lines. K: steps of the span; the carries of
-// the edge count with it, against it if spans run backward, so K may be negative.
+// Holds for any coefficients: the errors of the words in Newton's form. L: lines. K: steps of the span; the
+// carries of the edge count with it, against it if spans run backward, so K may be negative.
 std::string quadratic_script(int fraction, double limit, double lines, double steps) {
   return fmt::format(
       "@fx = fixed<-{},ne>;\n"
