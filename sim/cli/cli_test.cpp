@@ -154,7 +154,7 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
   const Outcome both = run({"init", mesh, "--shader", s, "--preset", published, "--threshold", "1"});
   EXPECT_THAT(both.output,
               HasSubstr("--threshold belongs to the quadratic shader and the spherical shader in "
-                        "preset exact, and says"));
+                        "preset exact, and does not apply to"));
   const Outcome uncut = run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"});
   EXPECT_EQ(uncut.exit_code, 2) << uncut.output;
   EXPECT_THAT(uncut.output, HasSubstr("--threshold goes with --span-ends surface"));

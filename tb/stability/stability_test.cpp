@@ -136,7 +136,7 @@ TEST(Refutation, ComesFromPublishedFiguresThatAreNotAsExpected) {
   for (const PublishedForm expected : {PublishedForm::breaks, PublishedForm::holds})
     EXPECT_EQ(refutation(expected, ours, {}), "has no figure of the published form");
   EXPECT_EQ(refutation(PublishedForm::silent, ours, within),
-            "has a figure of the published form, and says that there is none");
+            "has a figure of the published form, but is listed without one");
 }
 
 TEST(Trial, KeepsWellConditionedFiguresApart) {
