@@ -31,7 +31,7 @@ Result<std::vector<double>> own_exponents(const Scene& scene) {
 }
 
 Bell own_bell(std::span<const double> own, double exponent) {
-  const auto found = std::ranges::find(own, clamped(exponent));
+  const auto found = std::find(own.begin(), own.end(), clamped(exponent));
   if (found == own.end()) return {1, 1.0, 1.0};
   return {2 << (found - own.begin()), std::numbers::pi / 2 / tables::own_reach(*found), 1.0};
 }

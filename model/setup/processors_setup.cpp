@@ -473,12 +473,12 @@ class ProcessorsSetup final : public Setup {
     if (!scene_.shadows) return;
     volumes_ = make_shadow_volumes(scene_, lights_);
     ProjectionCounts counts;
-    for (ShadowPolygon& polygon : shadow_polygons(scene_, projector_, volumes_, counts)) {
+    for (const ShadowPolygon& polygon : shadow_polygons(scene_, projector_, volumes_, counts)) {
       if (!add_lines(*shadows_by_line_, static_cast<std::uint32_t>(shadows_.size()), polygon.triangle))
         continue;
       const auto& v = polygon.triangle.vertex;
       const bool before_near = v[0].z == 0.0 && v[1].z == 0.0 && v[2].z == 0.0;
-      shadows_.push_back({std::move(polygon), before_near});
+      shadows_.push_back({polygon, before_near});
     }
     whole_frame_.projection.unrepresentable += counts.unrepresentable;
   }

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "golden/triangle_walker.hpp"
 #include "scene/lights.hpp"
@@ -90,7 +91,7 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
     : scene_(&scene),
       frame_(frame),
       preset_(key.preset),
-      options_(options),
+      options_(std::move(options)),
       config_(golden_config(key)),
       own_tables_(!key.spherical.own.empty()),
       has_records_(key.spherical.records()),
@@ -324,7 +325,7 @@ class SphericalSetup::ExactTriangle {
     SetupCounts counts;
   };
 
-  void append(Columns columns, std::vector<Walk> walks) {
+  void append(Columns columns, const std::vector<Walk>& walks) {
     if (walks.empty()) return;
     // With ends interpolated along the edges, splitting changes nothing.
     const bool may_cut = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
@@ -493,7 +494,7 @@ class SphericalSetup::ExactTriangle {
     // Skip the ends if the arcs have the surface's own vectors there.
     const auto lights = std::span(arcs.light).first(setup_.lights_.size());
     const bool exact_at_ends =
-        std::ranges::all_of(lights, [](const LightArcs& light) { return light.exact_at_ends; });
+        std::all_of(lights.begin(), lights.end(), [](const LightArcs& light) { return light.exact_at_ends; });
     const std::int64_t first = exact_at_ends ? 1 : 0;
     for (std::int64_t i = first; i <= steps - first; ++i) {
       ++counts_.shaded;

@@ -364,7 +364,7 @@ std::ostream& operator<<(std::ostream& out, const Figures& f) {
 // Checks every fragment of the triangles that are one piece on the screen.
 template <class P>
 void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey& key,
-                          SphericalSetupOptions options, Figures& figures) {
+                          const SphericalSetupOptions& options, Figures& figures) {
   constexpr bool c_exact = std::is_same_v<P, Exact>;
   const SphericalSetup setup(scene, frame, key, options);
   const Specification<P> specification(scene, key);

@@ -107,7 +107,6 @@ constexpr Site c_sites[] = {
     {"model/setup/init_vector.hpp", 2, "fixed, wrapped_word: Fixed-point words of any real"},
     {"model/setup/processors_setup.cpp", 1, "clamped; Extreme numbers"},
     {"model/setup/project.cpp", 2, "Projector: guard band and snap; Snapped vertices"},
-    {"model/setup/spherical_setup.cpp", 4, "places to look at along a span; Extreme numbers"},
     {"sim/study/design_point.cpp", 2, "bits of tables, in range and whole; design_point_test"},
     {"model/tables/cosine.cpp", 1, "entries, checked sizes; cosine_test"},
     {"model/tables/functions.cpp", 2,
