@@ -302,7 +302,7 @@ class SphericalSetup::ExactTriangle {
     depth_.emplace(corners_, subpixel_bits_, fixed_depths(triangle_));
     if (setup_.options_.ends == SpanEnds::slerped_along_edges)
       for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors(surface_point(triangle_, corner(i)));
-    append(columns, std::move(walks));
+    append(columns, walks);
   }
 
  private:
