@@ -54,7 +54,7 @@ class Cutter {
       const auto& [y, first, pixels] = lines[i];
       for (std::size_t from = 0, until = 0; from < pixels.size(); from = until) {
         while (until < pixels.size() && pixels[until] == pixels[from]) ++until;
-        const auto x = [&](std::size_t pixel) {
+        const auto x = [&, &first = first](std::size_t pixel) {
           return static_cast<long double>(first) + static_cast<long double>(pixel);
         };
         put_one_line(triangle.source, {y, 1, half.start, half.stop, x(from), 0, x(until - 1), 0}, vertex,

@@ -127,7 +127,7 @@ std::vector<std::string> faults(std::span<const Entry> entries) {
       if (text->empty())
         found.push_back(fmt::format("{}: it lacks its number, its caption or what it shows", figure.id));
     for (const Claim& claim : figure.claims) {
-      const auto say = [&](const std::string& what) {
+      const auto say = [&, &figure = figure](const std::string& what) {
         found.push_back(fmt::format("{}: '{}'{}", figure.id, claim.what, what));
       };
       const auto row = std::ranges::find(rows, claim.what, [](const Row& r) { return r.claim.what; });
@@ -205,7 +205,7 @@ Result<std::string> to_page(std::span<const Entry> entries, const std::filesyste
     for (Json& row : figure["rows"]) {
       const std::string verdict = row["verdict"];
       row["differs"] = verdict == to_string(Verdict::differs);
-      row["explained"] = row["reason"] != "";
+      row["explained"] = !row["reason"].get<std::string>().empty();
       ++counts[verdict];
     }
     figures.push_back(std::move(figure));
