@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "accuracy/row.hpp"
@@ -79,29 +80,34 @@ double least_near(std::array<double, 2> at, double step, const std::function<dou
   return least;
 }
 
-// Two bells with angles and factors of their own: two specular slices.
+// Two bells with angles and factors of their own: two specular slices. For each pair of powers the search
+// starts at the best places of a grid of widths.
 double sum_of_two_bells(double n) {
-  constexpr int c_grid = 14;
+  constexpr int c_grid = 16, c_starts = 6;
   constexpr std::array c_powers = {1, 2, 4, 8, 16};
   const Samples truth = sampled(n, [&](double x) { return cosine(n, x); });
+  const auto bell = [&](int power, double width) {
+    return sampled(n, [&](double x) { return cosine(power, width * std::sqrt(n / power) * x); });
+  };
+  const auto width = [](int place) { return 0.6 * std::pow(4.0, place / (c_grid - 1.0)); };
+  struct Start {
+    double error;
+    std::array<double, 2> widths;
+  };
   double least = 1.0;
   for (const int first : c_powers)
     for (const int second : c_powers) {
-      if (second < first) continue;
+      // Much steeper bells than the highlight are of no use.
+      if (second < first || second > 8 * n) continue;
       const auto error = [&](double s, double t) {
-        return two_terms(
-            truth, sampled(n, [&](double x) { return cosine(first, s * std::sqrt(n / first) * x); }),
-            sampled(n, [&](double x) { return cosine(second, t * std::sqrt(n / second) * x); }), true);
+        return two_terms(truth, bell(first, s), bell(second, t), true);
       };
-      std::array<double, 2> best{};
-      double of_grid = 1.0;
+      std::vector<Start> starts;
       for (int i = 0; i < c_grid; ++i)
-        for (int j = 0; j < c_grid; ++j) {
-          const double s = 0.55 * std::pow(3.5, i / (c_grid - 1.0)),
-                       t = 0.55 * std::pow(3.5, j / (c_grid - 1.0));
-          if (const double found = error(s, t); found < of_grid) of_grid = found, best = {s, t};
-        }
-      if (of_grid < 2 * least) least = std::min(least, least_near(best, 0.05, error));
+        for (int j = 0; j < c_grid; ++j) starts.push_back({error(width(i), width(j)), {width(i), width(j)}});
+      std::ranges::sort(starts, {}, &Start::error);
+      for (const Start& start : std::span(starts).first(c_starts))
+        if (start.error < 4 * least) least = std::min(least, least_near(start.widths, 0.06, error));
     }
   return least;
 }
