@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "accuracy/row.hpp"
@@ -40,7 +39,7 @@ Samples sampled(double n, const std::function<double(double)>& f) {
 // Least largest |truth - p a - q b|, in units of 1, by Lawson's iteration: least squares, weighted by the
 // errors of the last round. `positive`: only p, q >= 0.
 double two_terms(const Samples& truth, const Samples& a, const Samples& b, bool positive) {
-  constexpr int c_rounds = 40;
+  constexpr int c_rounds = 25;
   Samples weight;
   weight.fill(1.0);
   double least = 1.0;
@@ -53,7 +52,6 @@ double two_terms(const Samples& truth, const Samples& a, const Samples& b, bool 
     const double determinant = aa * bb - ab * ab;
     if (!(determinant > 1e-12 * aa * bb)) break;
     const double p = (ta * bb - tb * ab) / determinant, q = (tb * aa - ta * ab) / determinant;
-    if (positive && (p < 0 || q < 0)) break;
     double largest = 0, sum = 0;
     for (std::size_t i = 0; i < c_samples; ++i) {
       const double error = std::abs(truth[i] - p * a[i] - q * b[i]);
@@ -61,7 +59,7 @@ double two_terms(const Samples& truth, const Samples& a, const Samples& b, bool 
       sum += weight[i] *= error + 1e-12;
     }
     for (double& w : weight) w *= c_samples / sum;
-    least = std::min(least, largest);
+    if (!positive || (p >= 0 && q >= 0)) least = std::min(least, largest);
   }
   return least;
 }
@@ -80,34 +78,44 @@ double least_near(std::array<double, 2> at, double step, const std::function<dou
   return least;
 }
 
-// Two bells with angles and factors of their own: two specular slices. For each pair of powers the search
-// starts at the best places of a grid of widths.
+// The least of f between two places: at equal steps, then by ternary search between the neighbours of the
+// best.
+template <class Function>
+double least_between(double low, double high, const Function& f) {
+  constexpr int c_steps_between = 14, c_rounds = 14;
+  const double step = (high - low) / c_steps_between;
+  double least = f(low), at = low;
+  for (int i = 1; i <= c_steps_between; ++i)
+    if (const double found = f(low + i * step); found < least) least = found, at = low + i * step;
+  double from = at - step, to = at + step;
+  for (int round = 0; round < c_rounds; ++round) {
+    const double third = (to - from) / 3, left = f(from + third), right = f(to - third);
+    least = std::min({least, left, right});
+    (left < right ? to : from) = left < right ? to - third : from + third;
+  }
+  return least;
+}
+
+// Two bells with angles and factors of their own: two specular slices. The error has a narrow valley along
+// the widths of both, so the best width of one is searched for each width of the other.
 double sum_of_two_bells(double n) {
-  constexpr int c_grid = 16, c_starts = 6;
   constexpr std::array c_powers = {1, 2, 4, 8, 16};
+  constexpr double c_narrowest = 0.6, c_widest = 2.4;  // relative to the bell with the highlight's curvature
   const Samples truth = sampled(n, [&](double x) { return cosine(n, x); });
   const auto bell = [&](int power, double width) {
     return sampled(n, [&](double x) { return cosine(power, width * std::sqrt(n / power) * x); });
-  };
-  const auto width = [](int place) { return 0.6 * std::pow(4.0, place / (c_grid - 1.0)); };
-  struct Start {
-    double error;
-    std::array<double, 2> widths;
   };
   double least = 1.0;
   for (const int first : c_powers)
     for (const int second : c_powers) {
       // Much steeper bells than the highlight are of no use.
       if (second < first || second > 8 * n) continue;
-      const auto error = [&](double s, double t) {
-        return two_terms(truth, bell(first, s), bell(second, t), true);
-      };
-      std::vector<Start> starts;
-      for (int i = 0; i < c_grid; ++i)
-        for (int j = 0; j < c_grid; ++j) starts.push_back({error(width(i), width(j)), {width(i), width(j)}});
-      std::ranges::sort(starts, {}, &Start::error);
-      for (const Start& start : std::span(starts).first(c_starts))
-        if (start.error < 4 * least) least = std::min(least, least_near(start.widths, 0.06, error));
+      const double of_pair = least_between(c_narrowest, c_widest, [&](double t) {
+        const Samples other = bell(second, t);
+        return least_between(c_narrowest, c_widest,
+                             [&](double s) { return two_terms(truth, bell(first, s), other, true); });
+      });
+      least = std::min(least, of_pair);
     }
   return least;
 }
