@@ -505,11 +505,27 @@ TEST(Bell, ExactBellIsWithinFiveSteps) {
   std::cout << text.str() << "; " << tried << " exponents tried\n";
 }
 
+// The colour by the shader's arithmetic: the angle's word, off by the drift and rounded within it, the entry
+// of the table, the product with the factor, and rounding. Angles are in half bells.
+std::int64_t drawn_colour(const tables::CosineTable& table, double half_bells, double drift,
+                          std::int64_t factor) {
+  constexpr int c_fraction = 22;
+  const std::int64_t unit = std::int64_t{1} << c_fraction;
+  const double word_real = (half_bells + drift) * double(unit);
+  const auto word = static_cast<std::int64_t>(drift < 0 ? std::ceil(word_real) : std::floor(word_real));
+  const std::int64_t magnitude = word < 0 ? ~word : word;
+  const std::int64_t sample =
+      magnitude < unit
+          ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - table.address_bits))]
+          : 0;
+  const std::int64_t half = std::int64_t{1} << (7 + table.data_bits);
+  return std::min<std::int64_t>(255, (half + factor * sample) >> (8 + table.data_bits));
+}
+
 // The result of the shader's arithmetic stays within the sum of the parts, including drifted angles.
 TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
-  constexpr int c_fraction = 22;
   const int data_bits = c_size.data_bits, address_bits = c_size.address_bits;
-  const std::int64_t largest = (1 << data_bits) - 1, unit = std::int64_t{1} << c_fraction;
+  const std::int64_t largest = (1 << data_bits) - 1;
   Random random(4);
   std::vector<double> exponents = {1.0, 2.0, 2.5, 2.646, 2.649, 3.0, 5.0, 16.0, 1000.0, 1e6};
   for (int i = 0; i < 40; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
@@ -527,15 +543,7 @@ TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
       const double half_bells = bell.scale * x / (c_pi / 2);
       // Anywhere within the drift, often at its limits.
       const double drift = c_drift * std::clamp(random.uniform(-2.0, 2.0), -1.0, 1.0);
-      const double word_real = (half_bells + drift) * double(unit);
-      const std::int64_t word =
-          static_cast<std::int64_t>(drift < 0 ? std::ceil(word_real) : std::floor(word_real));
-      const std::int64_t magnitude = word < 0 ? ~word : word;
-      const std::int64_t sample =
-          magnitude < unit ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - address_bits))]
-                           : 0;
-      const std::int64_t half = std::int64_t{1} << (7 + data_bits);
-      const std::int64_t colour = std::min<std::int64_t>(255, (half + factor * sample) >> (8 + data_bits));
+      const std::int64_t colour = drawn_colour(table, half_bells, drift, factor);
       const double error = std::abs(double(colour) - c_steps * lobe(n, std::abs(x)));
       worst = std::max(worst, error);
       ASSERT_LE(error, bound.total()) << "n = " << n << ", x = " << x << ", drift " << drift << ": " << bound;
@@ -602,9 +610,8 @@ TEST(OwnTable, EveryExponentIsWithinOneStep) {
 // The result of the shader's arithmetic with own tables, including drifted angles, at 20 000 angles for each
 // exponent.
 TEST(OwnTable, ColoursStayWithinOneStep) {
-  constexpr int c_fraction = 22;
   const auto [address_bits, data_bits] = tables::c_own_size;
-  const std::int64_t largest = (1 << data_bits) - 1, unit = std::int64_t{1} << c_fraction;
+  const std::int64_t largest = (1 << data_bits) - 1;
   Random random(5);
   std::vector<double> exponents = {1.0, 1.305, 2.0, 2.65, 3.0, 5.0, 6.0, 16.0, 20.0, 50.0, 1000.0, 1e6};
   for (int i = 0; i < 30; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
@@ -617,15 +624,7 @@ TEST(OwnTable, ColoursStayWithinOneStep) {
     for (int i = 0; i < 20000; ++i) {
       const double x = std::min(c_pi, random.uniform(-1.1, 1.1) * reach);
       const double drift = c_own_drift * std::clamp(random.uniform(-2.0, 2.0), -1.0, 1.0);
-      const double word_real = (x / reach + drift) * double(unit);
-      const std::int64_t word =
-          static_cast<std::int64_t>(drift < 0 ? std::ceil(word_real) : std::floor(word_real));
-      const std::int64_t magnitude = word < 0 ? ~word : word;
-      const std::int64_t sample =
-          magnitude < unit ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - address_bits))]
-                           : 0;
-      const std::int64_t half = std::int64_t{1} << (7 + data_bits);
-      const std::int64_t colour = std::min<std::int64_t>(255, (half + factor * sample) >> (8 + data_bits));
+      const std::int64_t colour = drawn_colour(table, x / reach, drift, factor);
       const double error = std::abs(double(colour) - c_steps * lobe(n, std::abs(x)));
       worst = std::max(worst, error);
       ASSERT_LE(error, bound.total()) << "n = " << n << ", x = " << x << ", drift " << drift << ": " << bound;

@@ -99,6 +99,13 @@ class HardwareFiguresTest : public ::testing::Test {
     const auto text = read_file(log());
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
   }
+  Result<GhdlLibrary> synthesis_library() const {
+    const auto tool = GhdlTool::find();
+    if (!tool) return tool.error();
+    const auto sources = read_rtl_sources(c_source);
+    if (!sources) return sources.error();
+    return GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
+  }
   HardwareFigures figures(bool place) const {
     const auto table = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
     EXPECT_TRUE(table) << table.error().message;
@@ -117,11 +124,7 @@ class HardwareFiguresTest : public ::testing::Test {
 // Hardware that does not fit has the clock of the slowest pinned part inside it as an upper bound. The part
 // is found by its netlist.
 TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
-  const auto tool = GhdlTool::find();
-  ASSERT_TRUE(tool) << tool.error().message;
-  const auto sources = read_rtl_sources(c_source);
-  ASSERT_TRUE(sources);
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
+  const auto library = synthesis_library();
   ASSERT_TRUE(library) << library.error().message;
   const auto line = [&](const char* entity, std::vector<std::pair<std::string, std::string>> generics,
                         double mhz) {
@@ -151,11 +154,7 @@ TEST_F(HardwareFiguresTest, APinnedClockIsUsedForTheSameNetlistOnly) {
   const HardwareFigures none = figures(false);
   EXPECT_FALSE(none.mhz);
   EXPECT_EQ(none.clock, "not placed");
-  const auto tool = GhdlTool::find();
-  ASSERT_TRUE(tool) << tool.error().message;
-  const auto sources = read_rtl_sources(c_source);
-  ASSERT_TRUE(sources);
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
+  const auto library = synthesis_library();
   ASSERT_TRUE(library) << library.error().message;
   const auto hash = synth::netlist_hash(
       *library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()});
