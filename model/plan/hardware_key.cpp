@@ -63,17 +63,13 @@ std::string HardwareKey::name() const {
     text += fmt::format("-l{}", spherical.lights);
     if (spherical.diffuse) text += "-d";
     if (spherical.specular) {
-      text += fmt::format("-s{}-{}", spherical.highlight_channels, spherical.own.empty() ? "cos" : "own");
-      for (unsigned i = 0, first = 1; i < 5; ++i)
-        if ((spherical.powers >> i & 1) != 0) {
-          text += fmt::format(
-              "{}{}",
-              first != 0              ? ""
-              : spherical.own.empty() ? "."
-                                      : "_",
-              spherical.own.empty() ? std::to_string(1U << i) : fmt::format("{}", spherical.own[i - 1]));
-          first = 0;
-        }
+      const bool own = !spherical.own.empty();
+      std::vector<std::string> tables;
+      for (unsigned i = 0; i < 5; ++i)
+        if ((spherical.powers >> i & 1) != 0)
+          tables.push_back(own ? fmt::format("{}", spherical.own[i - 1]) : std::to_string(1U << i));
+      text += fmt::format("-s{}-{}{}", spherical.highlight_channels, own ? "own" : "cos",
+                          fmt::join(tables, own ? "_" : "."));
     }
     if (spherical.records())
       text += fmt::format("-rom{}x{}", spherical.tables.address_bits, spherical.tables.data_bits);

@@ -315,7 +315,8 @@ TEST(OwnTable, EntriesAreTheNearestToTheHighlight) {
       double found = 0.0;
       for (std::size_t i = 0; i < table.entries.size(); ++i) {
         const double middle = std::ldexp(static_cast<double>(i) + 0.5, -address_bits);
-        EXPECT_NEAR(table.entries[i], largest * own_truth(n, middle), 0.5 + 1e-6) << "n = " << n;
+        EXPECT_NEAR(table.entries[i], static_cast<double>(largest * own_truth(n, middle)), 0.5 + 1e-6)
+            << "n = " << n;
         for (const double part : {0.0, 0.5, 1.0}) {
           const double at = std::ldexp(static_cast<double>(i) + part, -address_bits);
           found = std::max(found, std::abs(table.entries[i] / largest - double(own_truth(n, at))));
