@@ -41,8 +41,8 @@ double own_reach(double exponent);
 /// Preset exact: entry k is for the cell [k, k + 1] / 2^address_bits of half a bell (pi/2), powers 1, 2, 4,
 /// 8, 16. Preset published: the address is signed and covers a full period. Power 2: cells of 1 /
 /// 2^(address_bits - 1) of half a bell. Power 1: cells of the same fraction of half a turn (pi), and zero
-/// where the cosine is negative. An own table has cos^own in place of cos^power, and cells of own_reach in
-/// place of half a bell.
+/// where the cosine is negative. An own table has cos^own instead of cos^power, and cells of own_reach
+/// instead of half a bell.
 struct CosineTable {
   bool exact;
   int power;
@@ -57,7 +57,7 @@ struct CosineTable {
 /// Throws std::invalid_argument for sizes and powers not listed above.
 CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits);
 
-/// The own table of an exponent, at least 1, in place of cos^power. Throws as cosine_table.
+/// The own table of an exponent, at least 1, instead of cos^power. Throws as cosine_table.
 CosineTable own_table(double exponent, int power, int address_bits, int data_bits);
 
 /// Every table of these sizes once: preset exact first, then by size, then by power.

@@ -11,6 +11,7 @@
 #include "sim/system/subprocess.hpp"
 
 namespace halfway {
+
 Status mesa_draws(const Scene& scene) {
   if (scene.shadows) return bad_input("halfway_mesa draws no shadows; take a scene without them");
   Status drawn = Ok{};

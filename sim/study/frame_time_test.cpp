@@ -90,7 +90,7 @@ TEST_F(FrameTimes, HardwareThatDoesNotFitHasALeastTime) {
               AllOf(HasSubstr("the front of 1 points"),
                     HasSubstr("     >=0.5       >=0.6       0.1     >=0.5  hardware       0.5        0  "
                               "processors-2 exact\n")));
-  // No clock is assumed in place of the part's.
+  // No clock is assumed instead of the part's.
   EXPECT_DOUBLE_EQ(*frame_times_of(records_, hardware_, {.mhz = 50.0})[0].times[1].mhz, 40.0);
 }
 
