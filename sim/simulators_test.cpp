@@ -132,7 +132,7 @@ end architecture;
 )";
 
 struct Parts {
-  std::string last = "is_last", fault = "", valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
+  std::string last = "is_last", fault, valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
   std::string alarm = "'0'", delay = "0";
 };
 

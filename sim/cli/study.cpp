@@ -107,7 +107,7 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
 Status leave_out(study::StudySettings& settings, const std::string& space, bool place) {
   if (const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes"); !scene)
     return scene.error();
-  study::Drawable drawable = study::drawable(std::move(settings.points), settings.scene, settings.folders);
+  study::Drawable drawable = study::drawable(settings.points, settings.scene, settings.folders);
   settings.points = std::move(drawable.points);
   if (place) settings.placed = std::move(drawable.hardware);
   if (settings.points.empty())

@@ -357,7 +357,7 @@ TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
   const std::filesystem::path copy = copy_checkout();
   spoil(copy / "sim/lanes/lane_harness.cpp", "      const std::uint32_t moved = block();\n",
         "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
-        "      if (!broken) {\n        broken = true;\n        return HALFWAY_HANG;\n      }\n");
+        "      if (!broken) {\n        broken = true;\n        return halfway_hang;\n      }\n");
   for (const bool compare : {true, false}) {
     std::vector<std::string> arguments = {"--source",  copy,       "view",  "matte",       "--size",
                                           "320x240",   "--frames", "3",     "--simulator", "lanes",
@@ -394,7 +394,8 @@ TEST_F(ViewCommand, MemoryDoesNotGrowWithTheMesh) {
                         y + side, z, vertices + 1, vertices + 2, vertices + 3);
     vertices += 3;
   };
-  for (int i = 0; i < 10'000; ++i) add(-0.9 + 0.018 * (i % 100), -0.9 + 0.018 * (i / 100), 1.0, 0.004);
+  for (int row = 0; row < 100; ++row)
+    for (int column = 0; column < 100; ++column) add(-0.9 + 0.018 * column, -0.9 + 0.018 * row, 1.0, 0.004);
   for (int i = 0; i < 50; ++i) add(-3.0, -3.0, -0.001 * i, 12.0);
   ASSERT_TRUE(write_file(at("layers.obj"), text));
   ASSERT_TRUE(write_file(at("layers.toml"),

@@ -17,8 +17,8 @@ namespace halfway::figures {
 using golden::Published;
 
 const HardwareKey& figure7_key() {
-  static const HardwareKey key{.preset = Preset::published, .channels = 1};
-  return key;
+  static const HardwareKey c_key{.preset = Preset::published, .channels = 1};
+  return c_key;
 }
 
 Result<Figure7> read_figure7(const std::filesystem::path& file) {

@@ -33,7 +33,7 @@ using Kind = Criterion::Kind;
 const std::filesystem::path c_source = HALFWAY_SOURCE_DIR, c_folder = c_source / "docs/results/figures";
 
 TEST(Figures, ACriterionHoldsUpToItsLimit) {
-  const auto holds = [](Criterion criterion, double value) { return criterion.holds(value); };
+  const auto holds = [](const Criterion& criterion, double value) { return criterion.holds(value); };
   EXPECT_TRUE(holds({Kind::within, 1.45, 0.005}, 1.4502));
   EXPECT_FALSE(holds({Kind::within, 1.46, 0.005}, 1.4502));
   EXPECT_TRUE(holds({Kind::within, 60}, 60));

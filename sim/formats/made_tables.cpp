@@ -39,7 +39,7 @@ Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const Packages& pac
     auto text = read_file(rtl / path);
     if (!text) return text.error();
     const auto made = packages.find(path.string());
-    sources.push_back({path, made != packages.end() ? made->second : std::move(*text)});
+    sources.push_back({path, made != packages.end() ? made->second : *text});
   }
   return sources;
 }

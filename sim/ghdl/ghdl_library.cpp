@@ -32,8 +32,8 @@ Result<std::string> run_ghdl(Command command, const std::string& doing) {
 /// GHDL 2.0.0 omits the VHDL's `when others` in a Verilog `case`, and the Verilog does not show it. GHDL's
 /// VHDL netlist does: accept only "X...X when others" after a full list of choices.
 Status check_choices(const std::string& entity, std::string_view vhdl) {
-  constexpr std::string_view mark = " when others;";
-  for (std::size_t at = vhdl.find(mark); at != std::string_view::npos; at = vhdl.find(mark, at + 1)) {
+  constexpr std::string_view c_mark = " when others;";
+  for (std::size_t at = vhdl.find(c_mark); at != std::string_view::npos; at = vhdl.find(c_mark, at + 1)) {
     const std::size_t begin = vhdl.rfind('\n', at) + 1;
     const std::string_view value = vhdl.substr(begin, at - begin);
     if (value.find_first_not_of(" \"'X") == std::string_view::npos) continue;
@@ -130,9 +130,9 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
     const auto rtl = open(tool, {sources.begin(), first_testbench}, "", cache);
     if (!rtl) return rtl.error();
     std::error_code error;
-    constexpr auto whole =
+    constexpr auto c_whole =
         std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing;
-    std::filesystem::copy(rtl->folder(), fresh->path(), whole, error);
+    std::filesystem::copy(rtl->folder(), fresh->path(), c_whole, error);
     if (error)
       return tool_failed(fmt::format("{}: cannot be copied: {}", rtl->folder().string(), error.message()));
     first = first_testbench;
@@ -179,7 +179,8 @@ Result<std::string> GhdlLibrary::synthesize(
     Command command{.arguments = {tool_.program, "--synth", "--std=08", "--no-formal", "--out=" + language},
                     .working_folder = folder_,
                     .standard_output = scratch->path() / "netlist"};
-    for (const auto& [name, value] : generics) command.arguments.push_back("-g" + name + '=' + value);
+    for (const auto& [name, value] : generics)
+      command.arguments.push_back(fmt::format("-g{}={}", name, value));
     command.arguments.insert(command.arguments.end(), to_read_.begin(), to_read_.end());
     if (!to_read_.empty()) command.arguments.emplace_back("-e");
     command.arguments.push_back(entity);

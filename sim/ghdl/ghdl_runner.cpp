@@ -60,11 +60,12 @@ std::optional<GhdlRun> read_trailer(const std::filesystem::path& trace_file) {
   const char* const end = tail.data() + tail.size();
   GhdlRun run;
   auto parsed = std::from_chars(at, end, run.cycles);
-  constexpr std::string_view between = "\nend ";
-  if (parsed.ec != std::errc() || std::string_view(parsed.ptr, end).substr(0, between.size()) != between) {
+  constexpr std::string_view c_between = "\nend ";
+  if (parsed.ec != std::errc() ||
+      std::string_view(parsed.ptr, end).substr(0, c_between.size()) != c_between) {
     return std::nullopt;
   }
-  parsed = std::from_chars(parsed.ptr + between.size(), end, run.fragments);
+  parsed = std::from_chars(parsed.ptr + c_between.size(), end, run.fragments);
   if (parsed.ec != std::errc() || std::string_view(parsed.ptr, end) != "\n") return std::nullopt;
   return run;
 }
@@ -87,10 +88,10 @@ std::string wave_options(const std::vector<std::string>& signals) {
 
 /// The testbench's message, without the lines that GHDL adds. Empty if there is no message.
 std::string reported_failure(const std::string& output) {
-  constexpr std::string_view mark = "(report failure): ";
-  const std::size_t at = output.find(mark);
+  constexpr std::string_view c_mark = "(report failure): ";
+  const std::size_t at = output.find(c_mark);
   if (at == std::string::npos) return {};
-  const std::size_t from = at + mark.size();
+  const std::size_t from = at + c_mark.size();
   return output.substr(from, output.find('\n', from) - from);
 }
 

@@ -207,11 +207,11 @@ class GraphBuilder {
     const unsigned width = netlist_.width_of(node), operand = width_of(a);
     if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return ops_.shift(op, a, b);
     if (operand != width_of(b)) return fail(fmt::format("{}: '{}' on different widths", line_of(node), op));
-    static const std::map<std::string_view, std::pair<LaneOp, LaneOp>> bitwise = {
+    static const std::map<std::string_view, std::pair<LaneOp, LaneOp>> c_bitwise = {
         {"and", {LaneOp::both, LaneOp::mask_both}},
         {"or", {LaneOp::either, LaneOp::mask_either}},
         {"xor", {LaneOp::differ, LaneOp::mask_differ}}};
-    if (const auto found = bitwise.find(op); found != bitwise.end()) {
+    if (const auto found = c_bitwise.find(op); found != c_bitwise.end()) {
       if (width == 1) {
         const int x = ops_.to_mask(a), y = ops_.to_mask(b);
         if (op == "and") {
@@ -234,14 +234,14 @@ class GraphBuilder {
       LaneOp op;
       bool swap, invert;
     };
-    static const std::map<std::string_view, Order> orders = {
+    static const std::map<std::string_view, Order> c_orders = {
         {"eq", {LaneOp::equal, false, false}},        {"neq", {LaneOp::equal, false, true}},
         {"lt", {LaneOp::less, false, false}},         {"gt", {LaneOp::less, true, false}},
         {"lte", {LaneOp::less, true, true}},          {"gte", {LaneOp::less, false, true}},
         {"lts", {LaneOp::signed_less, false, false}}, {"gts", {LaneOp::signed_less, true, false}},
         {"ltes", {LaneOp::signed_less, true, true}},  {"gtes", {LaneOp::signed_less, false, true}}};
-    const auto found = orders.find(op);
-    if (found == orders.end())
+    const auto found = c_orders.find(op);
+    if (found == c_orders.end())
       return fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
     const Order order = found->second;
     int mask = 0;

@@ -100,8 +100,8 @@ class Lanes {
       if ((active_ >> i & 1) == 0) begin_part(i);
     while (goes()) {
       const std::size_t now = waiting();
-      if (now > batch.max_fragments) return HALFWAY_BUFFER_FULL;
-      if (now - before >= batch.enough) return HALFWAY_DONE;
+      if (now > batch.max_fragments) return halfway_buffer_full;
+      if (now - before >= batch.enough) return halfway_done;
       for (Lane& lane : lanes_) {
         if (lane.room < lane.count + c_block + 1) move(lane, 2 * lane.waiting() + 4 * c_block);
         lane.next = lane.fragments.get() + lane.count;
@@ -110,16 +110,16 @@ class Lanes {
       for (unsigned i = 0; i < c_lanes; ++i) {
         Lane& lane = lanes_[i];
         lane.still = (moved >> i & 1) != 0 ? 0 : lane.still + c_block;
-        if ((active_ >> i & 1) != 0 && lane.still >= idle_limit_ + c_block) return HALFWAY_HANG;
+        if ((active_ >> i & 1) != 0 && lane.still >= idle_limit_ + c_block) return halfway_hang;
       }
-      if (faults_ != 0) return HALFWAY_FAULT;
+      if (faults_ != 0) return halfway_fault;
     }
     Outputs out;
     for (int i = 0; active_ == 0 && i < c_late_clocks; ++i) {
       step(state_, in_, out);
       faults_ |= to_bits(out.fault);
     }
-    return faults_ != 0 ? HALFWAY_FAULT : HALFWAY_DONE;
+    return faults_ != 0 ? halfway_fault : halfway_done;
   }
 
   const HalfwayFragment* take(std::uint32_t number, std::size_t count) {

@@ -79,10 +79,10 @@ LANE_FUNCTION Row load(const Memory<places>& memory, V address) {
 /// `width` bits, 32 at most, of an array of words from bit `low` up; reads no word but those they lie in.
 template <unsigned low, unsigned width>
 LANE_FUNCTION std::uint32_t field(const std::uint32_t* words) {
-  constexpr unsigned first = low / 32, shift = low % 32;
-  std::uint64_t value = words[first];
-  if constexpr (shift + width > 32) value |= static_cast<std::uint64_t>(words[first + 1]) << 32;
-  return static_cast<std::uint32_t>(value >> shift & ((std::uint64_t{1} << width) - 1));
+  constexpr unsigned c_first = low / 32, c_shift = low % 32;
+  std::uint64_t value = words[c_first];
+  if constexpr (c_shift + width > 32) value |= static_cast<std::uint64_t>(words[c_first + 1]) << 32;
+  return static_cast<std::uint32_t>(value >> c_shift & ((std::uint64_t{1} << width) - 1));
 }
 
 }  // namespace halfway::lanes

@@ -195,7 +195,7 @@ Status LaneSimulator::Passage::draw() {
                            .max_fragments = limit,
                            .enough = c_batch,
                            .more = more_};
-  std::atomic<int> worst = HALFWAY_DONE;
+  std::atomic<int> worst = halfway_done;
   std::atomic<std::size_t> next_thread = 0;
   work_on_threads(static_cast<unsigned>(std::min(threads(), std::max<std::size_t>(parts_.size(), 1))), [&] {
     for (std::size_t i; (i = next_thread++) < threads();) {
@@ -208,16 +208,16 @@ Status LaneSimulator::Passage::draw() {
   // A run without parts ends when each lane has taken all loads.
   if (parts_.empty()) s_.loads = batch.end_load;
   switch (worst) {
-    case HALFWAY_DONE:
+    case halfway_done:
       return Ok{};
-    case HALFWAY_BUFFER_FULL:
+    case halfway_buffer_full:
       return too_many(limit);
-    case HALFWAY_HANG:
+    case halfway_hang:
       return Error{ExitCode::differs,
                    fmt::format("{} in lanes: hang: no progress in a lane within the idle limit, after {} "
                                "cycles of all lanes",
                                s_.key.name(), s_.cycles_of_all())};
-    case HALFWAY_FAULT:
+    case halfway_fault:
       return Error{ExitCode::differs,
                    fmt::format("{} in lanes: the hardware reports a fault", s_.key.name())};
     default:

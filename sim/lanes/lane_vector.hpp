@@ -164,11 +164,11 @@ LANE_FUNCTION V halves(V a, V b, std::index_sequence<i...>) {
 }
 LANE_FUNCTION Row turn(const Row& row) {
   const V* w = row.words;
-  constexpr LaneNumbers all;
-  const V low[] = {pairs<0>(w[0], w[1], all), pairs<0>(w[2], w[3], all)};
-  const V high[] = {pairs<2>(w[0], w[1], all), pairs<2>(w[2], w[3], all)};
-  return {halves<0>(low[0], low[1], all), halves<2>(low[0], low[1], all), halves<0>(high[0], high[1], all),
-          halves<2>(high[0], high[1], all)};
+  constexpr LaneNumbers c_all;
+  const V low[] = {pairs<0>(w[0], w[1], c_all), pairs<0>(w[2], w[3], c_all)};
+  const V high[] = {pairs<2>(w[0], w[1], c_all), pairs<2>(w[2], w[3], c_all)};
+  return {halves<0>(low[0], low[1], c_all), halves<2>(low[0], low[1], c_all),
+          halves<0>(high[0], high[1], c_all), halves<2>(high[0], high[1], c_all)};
 }
 LANE_FUNCTION char* of_lane(Row& turned, unsigned lane) {
   return reinterpret_cast<char*>(&turned.words[lane % 4]) + lane / 4 * 16;

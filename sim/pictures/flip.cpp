@@ -106,8 +106,8 @@ Plane filtered_down(const Plane& in, FrameSize size, const Kernel& kernel) {
   const int height = static_cast<int>(size.height), radius = kernel.radius();
   Plane out(in.size());
   for (int y = 0; y < height; ++y)
-    for (int offset = -radius; offset <= radius; ++offset) {
-      const double tap = kernel.taps[static_cast<std::size_t>(offset + radius)];
+    for (int offset = -radius, at = 0; offset <= radius; ++offset, ++at) {
+      const double tap = kernel.taps[static_cast<std::size_t>(at)];
       const double* from = &in[static_cast<std::size_t>(std::clamp(y + offset, 0, height - 1)) * width];
       double* to = &out[static_cast<std::size_t>(y) * width];
       for (std::size_t x = 0; x < width; ++x) to[x] += tap * from[x];

@@ -79,7 +79,7 @@ TEST_P(Diagram, LinksConnectItsNodes) {
 TEST_P(Diagram, IsDrawnFromItsText) {
   const std::string svg = text_of(c_rtl / "diagrams" / (name_ + ".svg"));
   // Check each line of a label, in the label formats of all Graphviz versions.
-  for (std::string label : found(dot_, R"re(label="([^"]*)")re"))
+  for (const std::string& label : found(dot_, R"re(label="([^"]*)")re"))
     for (std::size_t at = 0; at != std::string::npos;) {
       const std::size_t end = label.find("\\n", at);
       std::string line = label.substr(at, end == std::string::npos ? end : end - at);

@@ -95,9 +95,9 @@ Result<std::string> inline_svg(const std::string& svg, const std::string& prefix
     const std::string_view key = attribute.name();
     std::string value = attribute.value();
     if (key == "id")
-      value = prefix + value;
+      value.insert(0, prefix);
     else if (key.ends_with("href") && value.starts_with('#') && !value.starts_with("#point-"))
-      value = "#" + prefix + value.substr(1);
+      value.insert(1, prefix);
     else
       replace_all(value, "url(#", "url(#" + prefix);
     // Replace black and white by the page's text and background colours.

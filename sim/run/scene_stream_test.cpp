@@ -125,7 +125,8 @@ TEST(SceneStream, LargeTrianglesAfterSmallOnesEndTheirBatch) {
                           {at, at + glm::dvec3(side, 0.0, 0.0), at + glm::dvec3(0.0, side, 0.0)});
     mesh.triangles.push_back({.position = {first, first + 1, first + 2}});
   };
-  for (int i = 0; i < 3000; ++i) add({-0.9 + 0.018 * (i % 100), -0.9 + 0.018 * (i / 100), 1.0}, 0.004);
+  for (int row = 0; row < 30; ++row)
+    for (int column = 0; column < 100; ++column) add({-0.9 + 0.018 * column, -0.9 + 0.018 * row, 1.0}, 0.004);
   for (int i = 0; i < c_layers; ++i) add({-3.0, -3.0, -0.001 * i}, 12.0);
   add_mesh(scene, mesh);
   scene.camera = {.eye_world = {0.0, 0.0, 8.0}, .target_world = {}, .vertical_fov_degrees = 24.0};

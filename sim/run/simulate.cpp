@@ -9,7 +9,6 @@
 #include <cmath>
 #include <future>
 #include <nlohmann/json.hpp>
-#include <ranges>
 
 #include "frame/assemble.hpp"
 #include "reference/renderer.hpp"
@@ -70,8 +69,8 @@ class Simulation {
     if (Status status = count_units(); !status) return status.error();
     if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status.error();
     if (Status status = compare_with(reference.get()); !status) return status.error();
-    for (Drawing& drawing : drawings_ | std::views::reverse) {
-      auto run = keep(drawing);
+    for (auto drawing = drawings_.rbegin(); drawing != drawings_.rend(); ++drawing) {
+      auto run = keep(*drawing);
       if (!run) return run.error();
       summary_.runs.insert(summary_.runs.begin(), std::move(*run));
     }

@@ -126,7 +126,7 @@ class HardwareFiguresTest : public ::testing::Test {
 TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
   const auto library = synthesis_library();
   ASSERT_TRUE(library) << library.error().message;
-  const auto line = [&](const char* entity, std::vector<std::pair<std::string, std::string>> generics,
+  const auto line = [&](const char* entity, const std::vector<std::pair<std::string, std::string>>& generics,
                         double mhz) {
     const auto hash = synth::netlist_hash(*library, {.name = "x", .entity = entity, .generics = generics});
     EXPECT_TRUE(hash) << hash.error().message;

@@ -231,13 +231,13 @@ std::string no_mesa(const Scene& scene, const SimulatorFolders& folders) {
 
 }  // namespace
 
-Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
+Drawable drawable(const std::vector<DesignPoint>& points, const std::string& scene,
                   const SimulatorFolders& folders) {
   Drawable found;
   std::optional<std::string> picture;
   std::set<std::string> hardware;
   Result<Scene> drawn = Scene{};
-  for (DesignPoint& point : points) {
+  for (const DesignPoint& point : points) {
     if (picture != point.picture()) {
       picture = point.picture();
       drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
@@ -254,7 +254,7 @@ Drawable drawable(std::vector<DesignPoint> points, const std::string& scene,
         found.hardware.push_back(point);
     }
     if (reason.empty()) {
-      found.points.push_back(std::move(point));
+      found.points.push_back(point);
       continue;
     }
     ++found.left_out;

@@ -50,7 +50,8 @@ struct Drawable {
   std::size_t left_out = 0;
   std::vector<std::string> reasons;
 };
-Drawable drawable(std::vector<DesignPoint> points, const std::string& scene, const SimulatorFolders& folders);
+Drawable drawable(const std::vector<DesignPoint>& points, const std::string& scene,
+                  const SimulatorFolders& folders);
 
 /// Largest useful number of parts: the number of pieces or of placements.
 std::size_t most_parts(const StudySettings& settings);

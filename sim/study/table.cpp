@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <optional>
-#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -49,7 +48,8 @@ std::string ratio(std::uint64_t part, std::uint64_t whole) {
 }
 
 // A line's values with the names of their columns.
-using Line = std::vector<std::pair<std::string, std::string>>;
+using Column = std::pair<std::string, std::string>;  // name and value
+using Line = std::vector<Column>;
 
 Line line_of(const Provenance& provenance, const Record& record, const HardwareFigures* known,
              const std::optional<bool>& on_front) {
@@ -108,18 +108,25 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
   return line;
 }
 
+/// The names or the values of all columns, with commas.
+std::string joined(const Line& line, std::string Column::*part) {
+  std::vector<std::string_view> parts;
+  for (const Column& column : line) parts.push_back(column.*part);
+  return fmt::format("{}", fmt::join(parts, ","));
+}
+
 }  // namespace
 
 std::string to_csv(const Provenance& provenance, std::span<const Record> records,
                    const HardwareTable& hardware, std::span<const Market> markets) {
   const auto on_front = on_fronts(records.size(), markets);
   const Line head = line_of(provenance, {}, nullptr, {});
-  std::string text = fmt::format("{}\n", fmt::join(std::views::keys(head), ","));
+  std::string text = fmt::format("{}\n", joined(head, &Column::first));
   for (std::size_t at = 0; at < records.size(); ++at) {
     const auto found = hardware.find(records[at].measured.hardware);
     const Line line =
         line_of(provenance, records[at], found == hardware.end() ? nullptr : &found->second, on_front[at]);
-    text += fmt::format("{}\n", fmt::join(std::views::values(line), ","));
+    text += fmt::format("{}\n", joined(line, &Column::second));
   }
   return text;
 }

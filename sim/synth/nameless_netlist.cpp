@@ -150,11 +150,9 @@ void append_nameless(std::string_view module, const Numbers& modules, bool is_to
     at += word.size();
     // GHDL connects the ports of an instance in the order of their declaration.
     if (before == '.' && at < module.size() && module[at] == '(') continue;
-    if (before == '\'')
-      text += word;
-    else if (const auto number = modules.find(word); number != modules.end())
+    if (const auto number = modules.find(word); before != '\'' && number != modules.end())
       text += fmt::format("module${}", number->second);
-    else if (names.contains(word) || is_numbered(word))
+    else if (before != '\'' && (names.contains(word) || is_numbered(word)))
       text += fmt::format("n${}", nets.try_emplace(word, nets.size()).first->second);
     else
       text += word;

@@ -137,9 +137,9 @@ Status make_folders(const std::filesystem::path& folder) {
 }
 
 void ContentHash::add_bytes(const void* bytes, std::size_t count) {
-  constexpr unsigned __int128 prime = (static_cast<unsigned __int128>(0x0000000001000000) << 64) | 0x13b;
+  constexpr unsigned __int128 c_prime = (static_cast<unsigned __int128>(0x0000000001000000) << 64) | 0x13b;
   const auto* byte = static_cast<const unsigned char*>(bytes);
-  for (std::size_t i = 0; i < count; ++i) state_ = (state_ ^ byte[i]) * prime;
+  for (std::size_t i = 0; i < count; ++i) state_ = (state_ ^ byte[i]) * c_prime;
 }
 
 ContentHash& ContentHash::add(std::string_view field) {

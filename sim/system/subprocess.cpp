@@ -16,8 +16,6 @@
 #include <cstring>
 #include <string_view>
 
-extern char** environ;
-
 namespace halfway {
 namespace {
 

@@ -194,17 +194,17 @@ class Model {
   template <bool stall>
   int loop(HalfwayStreams& streams, bool drain) {
     std::uint64_t cycle = cycle_, last_move = last_move_;
-    int status = HALFWAY_DONE;
+    int status = halfway_done;
     if (!drain && streams.vectors == 0) return status;
     if (!stall || drive_due_) drive<stall>(streams);
     while (true) {
       drive_due_ = false;
       if (streams.count == streams.capacity) {
-        status = HALFWAY_BUFFER_FULL;
+        status = halfway_buffer_full;
         break;
       }
       if (shader_->fault) {
-        status = HALFWAY_FAULT;
+        status = halfway_fault;
         break;
       }
       const bool take = offered_ && shader_->init_ready;
@@ -217,7 +217,7 @@ class Model {
       if constexpr (stall) {
         const HalfwayFragment now = fragment();
         if (holding_ && (!valid || std::memcmp(&now, &held_, sizeof now) != 0)) {
-          status = HALFWAY_CHANGED;
+          status = halfway_changed;
           break;
         }
         held_ = now;
@@ -231,11 +231,11 @@ class Model {
         last_move = cycle;
       } else {
         if (drain && !valid && !shader_->busy) {
-          if (faults_late()) status = HALFWAY_FAULT;
+          if (faults_late()) status = halfway_fault;
           break;
         }
         if (cycle - last_move >= options_.idle_limit) {
-          status = HALFWAY_HANG;
+          status = halfway_hang;
           break;
         }
       }

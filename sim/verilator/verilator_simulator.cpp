@@ -153,24 +153,24 @@ Status VerilatorSimulator::advance(std::span<const std::uint32_t> init_words, bo
     const int status = drain ? s.drain(s.model, &streams) : s.run(s.model, &streams);
     if (streams.count != 0) on_drawn(std::span(s.chunk).first(streams.count));
     switch (status) {
-      case HALFWAY_DONE:
+      case halfway_done:
         if (streams.count <= left) return Ok{};
         break;
-      case HALFWAY_BUFFER_FULL:
+      case halfway_buffer_full:
         break;
-      case HALFWAY_HANG:
+      case halfway_hang:
         return Error{
             ExitCode::differs,
             fmt::format("{} in Verilator: hang: nothing moved for {} cycles after {} cycles, with {} vectors "
                         "still to be taken",
                         s.name, s.options.idle_limit, s.cycles(s.model), streams.vectors)};
-      case HALFWAY_CHANGED:
+      case halfway_changed:
         return Error{
             ExitCode::differs,
             fmt::format("{} in Verilator: a fragment changed or was withdrawn while it was not taken, after "
                         "{} cycles",
                         s.name, s.cycles(s.model))};
-      case HALFWAY_FAULT:
+      case halfway_fault:
         return Error{ExitCode::differs,
                      fmt::format("{} in Verilator: a shadow counter left its range, by cycle {}", s.name,
                                  s.cycles(s.model))};

@@ -41,8 +41,8 @@ auto with_context(bool quick, Run&& run) {
 }
 
 const std::vector<tables::PresetFormats>& presets() {
-  static const auto presets = tables::preset_formats();
-  return presets;
+  static const auto c_presets = tables::preset_formats();
+  return c_presets;
 }
 
 std::vector<Check> all_checks() {
@@ -66,6 +66,8 @@ struct StatedBound {
   const tables::Format* format;
   const tables::Bound* bound;
   Check check;  ///< without `run` nothing checks the bound
+
+  Finding find(const Context& context) const { return check.run(context, *preset, *format, *bound); }
 
   friend void PrintTo(const StatedBound& b, std::ostream* out) {
     *out << b.format->name << ' ' << b.bound->of;
@@ -99,8 +101,7 @@ class FormatBounds : public testing::TestWithParam<StatedBound> {
   void check(bool quick) {
     const auto& [preset, format, bound, check] = GetParam();
     ASSERT_TRUE(check.run) << "nothing checks the bound";
-    const Finding finding =
-        with_context(quick, [&](const Context& c) { return check.run(c, *preset, *format, *bound); });
+    const Finding finding = with_context(quick, [&](const Context& c) { return GetParam().find(c); });
     EXPECT_EQ(finding.failure, "");
     const double derived = tables::derived(*preset, *format, *bound);
     const double most = bound->value * (1 + c_rounding), worst = std::max(finding.worst, 0.0);
@@ -235,9 +236,9 @@ Rows rows_of_drift(const Context& /*context*/) {
 }
 
 const std::vector<std::string>& table_columns() {
-  static const std::vector<std::string> columns = {"table",        "bound",  "found",
-                                                   "of the bound", "Sollya", "where"};
-  return columns;
+  static const std::vector<std::string> c_columns = {"table",        "bound",  "found",
+                                                     "of the bound", "Sollya", "where"};
+  return c_columns;
 }
 
 INSTANTIATE_TEST_SUITE_P(Cosine_tables, TableBounds,

@@ -236,6 +236,7 @@ Finding exact_intensity(const Context& context, const tables::PresetFormats&, co
 template <int FractionBits>
 struct Narrow {
   static constexpr int c_intensity_bits = 12 + FractionBits;
+  // NOLINTBEGIN(readability-identifier-naming): the names of the generated formats
   struct init_channel_at {
     static constexpr golden::Field field(int i) {
       return {"", i * c_intensity_bits, c_intensity_bits, true, FractionBits};
@@ -247,6 +248,7 @@ struct Narrow {
     static constexpr golden::Field dxe0 = {"", 4 * c_intensity_bits, c_intensity_bits, true, FractionBits};
     static constexpr golden::Field de0e0 = {"", 5 * c_intensity_bits, c_intensity_bits, true, FractionBits};
   };
+  // NOLINTEND(readability-identifier-naming)
 };
 
 struct Drawn {

@@ -17,7 +17,7 @@ namespace halfway::bounds {
 namespace {
 
 // The largest number is a limit that other code defines by name.
-Check limit(std::string_view preset, std::string_view name, double largest, std::string where,
+Check limit(std::string_view preset, std::string_view name, double largest, const std::string& where,
             std::string_view roomy = {}) {
   return {preset,
           name,

@@ -20,7 +20,7 @@
 namespace halfway::bounds {
 namespace {
 
-using golden::Exact, golden::Function, golden::Power, golden::Published, golden::SpotCone;
+using golden::Exact, golden::Power, golden::Published, golden::SpotCone;
 
 template <class P>
 double power_error(std::uint32_t base, std::uint32_t exponent) {

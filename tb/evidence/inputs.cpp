@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ranges>
+#include <sstream>
 
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
@@ -72,8 +72,8 @@ std::string bare_cpp(std::string_view text) {
 Result<std::string> sources_hash(const std::filesystem::path& root, std::string_view folders) {
   ContentHash hash;
   std::size_t count = 0;
-  for (const auto part : folders | std::views::split(':')) {
-    const std::string folder(part.begin(), part.end());
+  std::istringstream list{std::string(folders)};
+  for (std::string folder; std::getline(list, folder, ':');) {
     std::error_code error;
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(root / folder, error))

@@ -13,12 +13,12 @@
 namespace halfway::fuzz {
 
 const std::filesystem::path& folder() {
-  static const TemporaryFolder temporary = [] {
+  static const TemporaryFolder c_temporary = [] {
     auto made = TemporaryFolder::make(std::filesystem::temp_directory_path());
     if (!made) demand(false, made.error().message);
     return std::move(*made);
   }();
-  return temporary.path();
+  return c_temporary.path();
 }
 
 std::filesystem::path write_input(std::string_view name, std::string_view bytes) {

@@ -60,8 +60,8 @@ std::vector<HardwareKey> make_keys() {
 }
 
 const std::vector<HardwareKey>& keys() {
-  static const std::vector<HardwareKey> all = make_keys();
-  return all;
+  static const std::vector<HardwareKey> c_all = make_keys();
+  return c_all;
 }
 
 void cut_lines(std::span<std::uint32_t> vector, const HardwareKey& key) {

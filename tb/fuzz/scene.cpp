@@ -44,12 +44,12 @@ bool is_small_and_here(const toml::table& scene) {
 
 /// Writes a mesh to which `file = "triangle.obj"` can refer.
 void write_meshes() {
-  static const bool written = [] {
+  static const bool c_written = [] {
     write_input("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n");
     write_input("broken.ply", "ply\nformat ascii 1.0\n");
     return true;
   }();
-  (void)written;
+  (void)c_written;
 }
 
 }  // namespace

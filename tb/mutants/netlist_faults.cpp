@@ -67,8 +67,9 @@ Fault read_fault(const std::string& line, const std::vector<std::string>& netlis
               fmt::format("{}[{}]", option(line, "wire"), option(line, "wirebit")),
               {}};
   // The line of the statement itself, or of the instance that contains it.
-  static const std::regex source(R"( -src netlist\.v:(\d+)\.)");
-  for (auto at = std::sregex_iterator(line.begin(), line.end(), source); at != std::sregex_iterator(); ++at) {
+  static const std::regex c_source(R"( -src netlist\.v:(\d+)\.)");
+  for (auto at = std::sregex_iterator(line.begin(), line.end(), c_source); at != std::sregex_iterator();
+       ++at) {
     const std::size_t number = std::stoul((*at)[1]) - 1;
     if (number >= places.size() || places[number].empty()) continue;
     const std::string& text = netlist_lines[number];
@@ -150,17 +151,17 @@ std::string select_fault(const std::string& text, std::uint32_t number) {
 }  // namespace
 
 std::vector<std::string> vhdl_places(const std::string& printed) {
-  static const std::regex place(R"(/\* (\S+\.vhd):(\d+):\d+ )");
-  static const std::regex comment(R"(/\*.*?\*/|//.*)");
+  static const std::regex c_place(R"(/\* (\S+\.vhd):(\d+):\d+ )");
+  static const std::regex c_comment(R"(/\*.*?\*/|//.*)");
   std::vector<std::string> places;
   std::string last;
   for (const std::string& line : lines_of(printed)) {
-    if (std::smatch found; std::regex_search(line, found, place)) {
+    if (std::smatch found; std::regex_search(line, found, c_place)) {
       const std::string file = found[1];
       last = fmt::format("{}:{}", file.substr(file.starts_with("rtl/") ? 4 : 0), found[2].str());
     }
     // Lines with only comments are not in the mended netlist.
-    if (std::regex_replace(line, comment, "").find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (std::regex_replace(line, c_comment, "").find_first_not_of(" \t\r") == std::string::npos) continue;
     places.push_back(last);
     // A comment belongs to the next statement, which ends with a semicolon.
     if (line.find(';') != std::string::npos && !line.starts_with("    ")) last.clear();
@@ -197,9 +198,9 @@ Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrar
     netlist.faults.push_back(read_fault(line, netlist_lines, places));
   const auto mutated = read_file(netlist.folder / "mutated.v");
   if (!mutated) return mutated.error();
-  static const std::regex declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
+  static const std::regex c_declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
   for (const std::string& line : lines_of(*mutated))
-    if (std::smatch found; std::regex_match(line, found, declaration) && found[3] != "mutsel")
+    if (std::smatch found; std::regex_match(line, found, c_declaration) && found[3] != "mutsel")
       netlist.ports.push_back({found[3],
                                found[2].matched ? static_cast<std::uint32_t>(std::stoul(found[2])) + 1 : 1,
                                found[1] == "input"});

@@ -45,9 +45,9 @@ Status add_files(const std::filesystem::path& folder, ContentHash& hash) {
 // The named source and all that it uses by `work.NAME`, each once.
 void add_used(const std::string& text, const std::map<std::string, const VhdlSource*>& units,
               std::set<std::string>& added, ContentHash& hash) {
-  static const std::regex use(R"(\bwork\.(\w+))");
+  static const std::regex c_use(R"(\bwork\.(\w+))");
   hash.add(text);
-  for (std::sregex_iterator at(text.begin(), text.end(), use), last; at != last; ++at) {
+  for (std::sregex_iterator at(text.begin(), text.end(), c_use), last; at != last; ++at) {
     const auto unit = units.find((*at)[1]);
     if (unit != units.end() && added.insert(unit->second->name).second)
       add_used(bare_vhdl(unit->second->content), units, added, hash);
@@ -120,10 +120,11 @@ Result<std::string> testbench_hash(const std::string& test, std::span<const Sour
                                    const RowFolders& folders, std::string_view programs) {
   const auto sources = all_sources(folders.source);
   if (!sources) return sources.error();
-  static const std::regex unit(R"((?:^|\n)(?:entity|package)\s+(\w+)\s+is)");
+  static const std::regex c_unit(R"((?:^|\n)(?:entity|package)\s+(\w+)\s+is)");
   std::map<std::string, const VhdlSource*> units;
   for (const VhdlSource& source : *sources)
-    for (std::sregex_iterator at(source.content.begin(), source.content.end(), unit), last; at != last; ++at)
+    for (std::sregex_iterator at(source.content.begin(), source.content.end(), c_unit), last; at != last;
+         ++at)
       units[(*at)[1]] = &source;
   const auto testbench = units.find(test + "_tb");
   if (testbench == units.end())

@@ -59,8 +59,8 @@ Result<std::string> with_fault(const SourceFault& fault, const std::string& text
   if (at >= text.size())
     return bad_input(fmt::format("{}: has no word {} in line {}; correct tb/mutants/source_faults.toml",
                                  fault.file, fault.word, fault.line));
-  static const std::string digits = "0123456789ABCDEF";
-  changed[at - 1] = digits[digits.find(text[at - 1]) ^ 1U];
+  static const std::string c_digits = "0123456789ABCDEF";
+  changed[at - 1] = c_digits[c_digits.find(text[at - 1]) ^ 1U];
   return changed;
 }
 

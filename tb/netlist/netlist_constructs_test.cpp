@@ -39,11 +39,11 @@ std::string to_hex(std::span<const std::uint32_t> words, unsigned bits) {
 /// operands, small values.
 std::vector<std::uint32_t> make_stimuli() {
   std::mt19937 random(20240229);
-  constexpr std::size_t words = c_stimulus_bits / 32;
-  std::vector<std::uint32_t> stimuli(c_vectors * words);
+  constexpr std::size_t c_words = c_stimulus_bits / 32;
+  std::vector<std::uint32_t> stimuli(c_vectors * c_words);
   for (std::size_t i = 0; i < c_vectors; ++i) {
-    std::uint32_t* vector = &stimuli[i * words];
-    for (std::size_t w = 0; w < words; ++w) vector[w] = static_cast<std::uint32_t>(random());
+    std::uint32_t* vector = &stimuli[i * c_words];
+    for (std::size_t w = 0; w < c_words; ++w) vector[w] = static_cast<std::uint32_t>(random());
     const auto set_bit = [&](unsigned bit, bool value) {
       vector[bit / 32] = (vector[bit / 32] & ~(1U << bit % 32)) | (std::uint32_t{value} << bit % 32);
     };
@@ -167,11 +167,11 @@ class NetlistConstructs : public testing::Test {
   static std::string differences(const std::vector<std::string>& ghdl,
                                  const std::vector<std::string>& verilator) {
     std::string found;
-    constexpr std::size_t digits = c_lane_bits / 4;
+    constexpr std::size_t c_digits = c_lane_bits / 4;
     for (std::size_t lane = 0; lane < c_lanes; ++lane) {
-      const std::size_t at = (c_lanes - 1 - lane) * digits;
+      const std::size_t at = (c_lanes - 1 - lane) * c_digits;
       for (std::size_t i = 0; i < ghdl.size(); ++i) {
-        const std::string a = ghdl[i].substr(at, digits), b = verilator[i].substr(at, digits);
+        const std::string a = ghdl[i].substr(at, c_digits), b = verilator[i].substr(at, c_digits);
         if (a == b) continue;
         found += fmt::format("lane {}, vector {}: GHDL {}, Verilator {}\n", lane, i, a, b);
         break;
@@ -211,8 +211,8 @@ TEST_F(NetlistConstructs, TheShadingArithmeticIsEqual) {
   const auto found = verilate("netlist_shading", {}, Netlist::mended);
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(differences(expected, *found), "");
-  constexpr std::size_t used_lanes = 24;
-  for (std::size_t lane = 0; lane < used_lanes; ++lane) {
+  constexpr std::size_t c_used_lanes = 24;
+  for (std::size_t lane = 0; lane < c_used_lanes; ++lane) {
     const std::size_t at = (c_lanes - 1 - lane) * c_lane_bits / 4;
     std::set<std::string> values;
     for (const std::string& line : expected) values.insert(line.substr(at, c_lane_bits / 4));

@@ -57,7 +57,7 @@ constexpr std::array<std::string_view, 3> c_directives = {"translate_off", "synt
 
 std::vector<std::string> faults_in(const std::string& name, std::string_view text) {
   // Reserved in Verilog or SystemVerilog, but not in VHDL. GHDL writes them unchanged.
-  constexpr std::array<std::string_view, 96> verilog_words = {
+  constexpr std::array<std::string_view, 96> c_verilog_words = {
       "always",   "and2",    "assume",   "automatic", "bind",    "bins",      "bit_",     "bufif0",
       "byte",     "casex",   "casez",    "cell",      "chandle", "checker",   "class",    "clocking",
       "cmos",     "config",  "const",    "cover",     "cross",   "deassign",  "defparam", "design",
@@ -101,7 +101,7 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
     // Functions and their parameters have no names in the netlist.
     if (colon != std::string::npos && code.substr(colon, 2) != ":=" && !has_word(code, "function")) {
       std::string_view names = std::string_view(code).substr(0, colon);
-      for (const std::string_view word : verilog_words) {
+      for (const std::string_view word : c_verilog_words) {
         if (has_word(names, word)) fault(fmt::format("{}: a word of Verilog's as a name", word));
       }
     }

@@ -399,14 +399,14 @@ class OracleFault : public ::testing::TestWithParam<int> {};
 
 // A fault in the oracle is equivalent to the same fault in everything that is compared with it.
 TEST_P(OracleFault, IsFound) {
-  static const std::vector<Case> cases = random_cases(1);
+  static const std::vector<Case> c_cases = random_cases(1);
   const auto fault = static_cast<Fault>(GetParam());
-  for (const Case& one : cases) {
+  for (const Case& one : c_cases) {
     const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
     if (compare_picture(*one.scene, one.size, oracle).wrong != 0) return;
   }
   // Compare depth, which the picture does not show.
-  for (const Case& one : cases) {
+  for (const Case& one : c_cases) {
     const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
     if (compare_fragments(*one.scene, one.size, oracle, Shader::quadratic).wrong != 0) return;
   }

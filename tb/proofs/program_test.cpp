@@ -27,9 +27,9 @@ class ProofProgram : public ::testing::Test {
     ASSERT_TRUE(folder) << folder.error().message;
     folder_.emplace(std::move(*folder));
     std::filesystem::create_directories(source() / "tb");
-    constexpr auto all = std::filesystem::copy_options::recursive;
-    std::filesystem::copy(c_source / "rtl", source() / "rtl", all);
-    std::filesystem::copy(c_source / "tb/proofs", source() / "tb/proofs", all);
+    constexpr auto c_all = std::filesystem::copy_options::recursive;
+    std::filesystem::copy(c_source / "rtl", source() / "rtl", c_all);
+    std::filesystem::copy(c_source / "tb/proofs", source() / "tb/proofs", c_all);
     std::filesystem::create_directories(source() / "docs/results");
     std::filesystem::copy(c_source / "docs/results/proofs.md", page());
   }

@@ -118,17 +118,17 @@ class ProofFile {
   }
 
   const toml::table& table(Where node, std::string_view key) {
-    static const toml::table empty;
+    static const toml::table c_empty;
     if (node->is_table()) return *node->as_table();
     fail(node, "{} must be a table", key);
-    return empty;
+    return c_empty;
   }
 
   const toml::array& list(Where node, std::string_view key) {
-    static const toml::array empty;
+    static const toml::array c_empty;
     if (node->is_array() && !node->as_array()->empty()) return *node->as_array();
     fail(node, "{} must be a list with one element or more", key);
-    return empty;
+    return c_empty;
   }
 
   // ---- The file

@@ -338,8 +338,8 @@ Result<std::string> netlist_hash(const Folders& folders, const Proof& proof, con
   if (!netlist) return netlist.error();
   ContentHash hash;
   hash.add(synth::nameless(*netlist));
-  static const std::regex connected(R"(\bdut_\w+)");
-  for (std::sregex_iterator at(unit->text.begin(), unit->text.end(), connected), last; at != last; ++at)
+  static const std::regex c_connected(R"(\bdut_\w+)");
+  for (std::sregex_iterator at(unit->text.begin(), unit->text.end(), c_connected), last; at != last; ++at)
     hash.add(at->str());
   if (auto made = make_folders(kept.parent_path()); !made) return made.error();
   if (auto written = write_file(kept, hash.hex()); !written) return written.error();

@@ -22,19 +22,26 @@ Pieces::Pieces(const Scene& scene, FrameSize frame, int subpixel_bits)
   std::ranges::stable_sort(pieces_, {}, &ScreenTriangle::source);
 }
 
+std::span<const ScreenTriangle> Pieces::pieces_of(std::uint32_t source) const {
+  return {std::ranges::lower_bound(pieces_, source, {}, &ScreenTriangle::source),
+          std::ranges::upper_bound(pieces_, source, {}, &ScreenTriangle::source)};
+}
+
 const ScreenTriangle* Pieces::covering(std::uint32_t source, std::int64_t x, std::int64_t y) const {
-  for (const ScreenTriangle& t : std::ranges::equal_range(pieces_, source, {}, &ScreenTriangle::source))
+  for (const ScreenTriangle& t : pieces_of(source))
     if (covers(screen_points(t), subpixel_bits_, x, y)) return &t;
   return nullptr;
 }
 
 const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const {
-  return *std::ranges::max_element(
-      std::ranges::equal_range(pieces_, source, {}, &ScreenTriangle::source), {},
-      [&](const ScreenTriangle& t) {
-        return std::ranges::min(
-            barycentric(screen_points(t), centre(x, subpixel_bits_), centre(y, subpixel_bits_)).real());
-      });
+  const auto least = [&](const ScreenTriangle& t) {
+    return std::ranges::min(
+        barycentric(screen_points(t), centre(x, subpixel_bits_), centre(y, subpixel_bits_)).real());
+  };
+  const auto pieces = pieces_of(source);
+  return *std::max_element(
+      pieces.begin(), pieces.end(),
+      [&](const ScreenTriangle& a, const ScreenTriangle& b) { return least(a) < least(b); });
 }
 
 void measure_shading(Trial& trial, Preset preset, const Scene& scene, FrameSize frame,

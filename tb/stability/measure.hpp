@@ -44,6 +44,8 @@ class Pieces {
   const ScreenTriangle& nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const;
 
  private:
+  std::span<const ScreenTriangle> pieces_of(std::uint32_t source) const;
+
   int subpixel_bits_;
   std::vector<ScreenTriangle> pieces_;  ///< in order of their sources
 };

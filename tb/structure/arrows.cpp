@@ -78,7 +78,7 @@ std::vector<std::string> wrong_arrows(const Sources& sources) {
       const auto name = included_name(line);
       const auto target = name ? included_file(sources, file, *name) : std::nullopt;
       if (!target) continue;
-      const auto say = [&](std::string_view what) {
+      const auto say = [&, &file = file](std::string_view what) {
         wrong.push_back(fmt::format("{}:{}: includes {}: {}", file, number, *target, what));
       };
       if (target->ends_with(".cpp")) say("share a header instead of a source file");

@@ -25,7 +25,7 @@ struct Section {
   std::vector<int> figures, tables, equations;
 };
 const std::map<std::string, std::vector<Section>, std::less<>>& papers() {
-  static const std::map<std::string, std::vector<Section>, std::less<>> all = {
+  static const std::map<std::string, std::vector<Section>, std::less<>> c_all = {
       {"spherical",
        {{"1", {1}, {}, {1, 2}},
         {"2", {2, 3}, {}, {3, 4, 5, 6, 7, 8}},
@@ -53,7 +53,7 @@ const std::map<std::string, std::vector<Section>, std::less<>>& papers() {
         {"3.3", {2}, {}, {}},
         {"4", {}, {4, 5}, {}},
         {"5", {}, {}, {}}}}};
-  return all;
+  return c_all;
 }
 
 // What is found in one place only: a citation before these words must name one of the places.
@@ -62,13 +62,13 @@ struct Subject {
   std::set<Place> places;
 };
 const std::vector<Subject>& subjects() {
-  static const std::vector<Subject> all = {
+  static const std::vector<Subject> c_all = {
       {"spherical", "L + V", {{"equation", "6"}}},
       {"spherical", "L = −V", {{"equation", "6"}}},
       {"processors", "power by a table", {{"section", "3.1"}, {"figure", "1"}}},
       {"processors", "1/sqrt", {{"section", "3.3"}, {"figure", "2"}}},
   };
-  return all;
+  return c_all;
 }
 
 // The section in which a figure, table or equation is printed; a section's own number; empty if there is
@@ -128,8 +128,8 @@ struct Citation {
 // Appends the places of "figures 9 to 11" or "sections 3, 5 and 6".
 void add_places(std::string kind, const std::string& numbers, std::vector<Place>& places) {
   std::ranges::transform(kind, kind.begin(), [](unsigned char c) { return std::tolower(c); });
-  static const std::regex one(R"((to )?(\d+(?:\.\d+)?))");
-  for (std::sregex_iterator it(numbers.begin(), numbers.end(), one), last; it != last; ++it) {
+  static const std::regex c_one(R"((to )?(\d+(?:\.\d+)?))");
+  for (std::sregex_iterator it(numbers.begin(), numbers.end(), c_one), last; it != last; ++it) {
     if ((*it)[1].matched)
       for (int n = std::stoi(places.back().number) + 1; n < std::stoi((*it)[2]); ++n)
         places.push_back({kind, std::to_string(n)});
@@ -143,9 +143,9 @@ const std::string c_kind = "([Ss]ection|[Ff]igure|[Tt]able|[Ee]quation)s?",
 std::vector<Citation> citations_of(const Flat& flat) {
   const std::string& text = flat.text;
   constexpr std::size_t c_longest = 160;
-  static const std::regex first("^(?: paper)?(?:'s)?,? " + c_kind + ' ' + c_numbers),
-      next(R"(^(?: \([^)]*\))?(?:,| and|;) )" + c_kind + ' ' + c_numbers),
-      before(c_kind + ' ' + c_numbers + " of the $");
+  static const std::regex c_first("^(?: paper)?(?:'s)?,? " + c_kind + ' ' + c_numbers),
+      c_next(R"(^(?: \([^)]*\))?(?:,| and|;) )" + c_kind + ' ' + c_numbers),
+      c_before(c_kind + ' ' + c_numbers + " of the $");
   std::vector<Citation> found;
   for (const auto& [paper, sections] : papers())
     for (std::size_t at = 0; (at = text.find(paper, at)) != text.npos; at += paper.size()) {
@@ -158,14 +158,14 @@ std::vector<Citation> citations_of(const Flat& flat) {
         citation.end += static_cast<std::size_t>(match.length());
         return true;
       };
-      if (take(first)) {
-        while (take(next)) {
+      if (take(c_first)) {
+        while (take(c_next)) {
         }
       } else if (text.compare(citation.end, 6, " paper") == 0) {
         const std::size_t begin = at > c_longest ? at - c_longest : 0;
         const std::string earlier = text.substr(begin, at - begin);
         std::smatch match;
-        if (std::regex_search(earlier, match, before)) add_places(match[1], match[2], citation.places);
+        if (std::regex_search(earlier, match, c_before)) add_places(match[1], match[2], citation.places);
       }
       if (!citation.places.empty()) found.push_back(std::move(citation));
     }

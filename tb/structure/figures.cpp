@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <ranges>
 #include <span>
+#include <sstream>
 
 namespace halfway {
 namespace {
@@ -111,8 +111,9 @@ HandWritten::HandWritten(std::string_view page) {
   std::string end_of_part;  // the comment that ends the part written by a command
   bool comment = false, code = false, transcript = false;
   std::size_t number = 0;
-  for (const auto range : std::views::split(page, '\n')) {
-    std::string_view line(range.begin(), range.end());
+  std::istringstream lines{std::string(page)};
+  for (std::string text; std::getline(lines, text);) {
+    std::string_view line = text;
     ++number;
     // Skip parts that commands write, and comments.
     if (!end_of_part.empty()) {
@@ -156,9 +157,8 @@ std::size_t HandWritten::line_at(std::size_t position) const {
 }
 
 void HandWritten::add_words(std::string_view line, std::size_t number, bool code) {
-  for (const auto range : std::views::split(line, ' ')) {
-    const std::string_view word(range.begin(), range.end());
-    if (word.empty()) continue;
+  std::istringstream words{std::string(line)};
+  for (std::string word; words >> word;) {
     if (!text_.empty()) text_ += ' ';
     words_.push_back({.position = text_.size(), .line = number, .code = code, .given = false, .cell = false});
     text_ += word;
@@ -177,8 +177,8 @@ void HandWritten::add_row(std::string_view line, std::size_t number) {
     // Find out whether the head says that the numbers describe the hardware, or only number the rows.
     const std::string& head = head_[column];
     bool given = head == "clock" || (head.empty() && column == 0);
-    for (const auto part : std::views::split(head, ' '))
-      given = given || among(c_given, bare(std::string_view(part.begin(), part.end())));
+    std::istringstream words(head);
+    for (std::string word; words >> word;) given = given || among(c_given, bare(word));
     for (std::size_t i = first; i < words_.size(); ++i) words_[i].given = given;
     words_[first].cell = is_numeric(cells[column]);
   }

@@ -88,10 +88,10 @@ struct Sourced {
 
 // The bound of spans to smaller x on the largest frame, rounded up to three decimals.
 double backward_bound() {
-  constexpr double lines = 4095, steps = 4095;
-  constexpr double units =
-      1 + lines + steps + lines * (lines - 1) / 2 + lines * steps + steps * (steps + 1) / 2;
-  return std::ceil(1000 * std::ldexp(units / 2, -golden::Exact::c_intensity_fraction_bits)) / 1000;
+  constexpr double c_lines = 4095, c_steps = 4095;
+  constexpr double c_units =
+      1 + c_lines + c_steps + c_lines * (c_lines - 1) / 2 + c_lines * c_steps + c_steps * (c_steps + 1) / 2;
+  return std::ceil(1000 * std::ldexp(c_units / 2, -golden::Exact::c_intensity_fraction_bits)) / 1000;
 }
 
 // The number with a space between groups of three digits.
@@ -244,7 +244,7 @@ std::vector<Sourced> quoted() {
 
 // Pages that commands write from this heading on, as docs/README.md lists them; empty: the whole page.
 const std::map<std::string, std::string>& written_from() {
-  static const std::map<std::string, std::string> headings = {
+  static const std::map<std::string, std::string> c_headings = {
       {"CHANGELOG.md", ""},  // history: measured at the time
       {"docs/results/bounds.md", "## Formats of preset exact"},
       {"docs/results/figures/README.md", ""},  // its template is tested
@@ -255,7 +255,7 @@ const std::map<std::string, std::string>& written_from() {
       {"docs/results/synthesis.md", "## Figures"},
       {"docs/rtl/init-vectors.md", ""},
   };
-  return headings;
+  return c_headings;
 }
 
 // What a person writes of each page and each template of a page.
@@ -295,7 +295,7 @@ TEST(Pages, FiguresHaveASource) {
   // Every other figure fails.
   for (const auto& [page, written] : pages) {
     for (const HandWritten::Figure& found : written.figures()) {
-      const auto covers = [&](const Sourced& figure) {
+      const auto covers = [&, &page = page, &written = written](const Sourced& figure) {
         const std::string& text = written.text();
         for (std::size_t at = 0;
              figure.page == page && (at = text.find(figure.sentence, at)) != std::string::npos; ++at)

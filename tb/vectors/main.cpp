@@ -13,7 +13,7 @@
 int main(int argc, char** argv) {
   using namespace halfway;
   using namespace halfway::vectors;
-  constexpr std::array entities = {
+  constexpr std::array c_entities = {
       std::pair{"cosine_rom", &write_cosine_rom},
       std::pair{"saturate", &write_saturate},
       std::pair{"multiplier", &write_multiplier},
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
       std::pair{"processors_shader", &write_processors_shader},
   };
   bool found = false;
-  for (const auto& [name, write] : entities) {
+  for (const auto& [name, write] : c_entities) {
     if (argc != 3 || (argv[1] != std::string_view("all") && argv[1] != std::string_view(name))) continue;
     found = true;
     if (const Status written = write(std::filesystem::path(argv[2]) / name); !written) {
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   }
   if (found) return static_cast<int>(ExitCode::equal);
   fmt::print(stderr, "usage: halfway_vectors ENTITY|all FOLDER\nentities:");
-  for (const auto& entity : entities) fmt::print(stderr, " {}", entity.first);
+  for (const auto& entity : c_entities) fmt::print(stderr, " {}", entity.first);
   fmt::print(stderr, "\n");
   return static_cast<int>(ExitCode::bad_input);
 }

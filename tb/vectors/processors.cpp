@@ -59,8 +59,8 @@ Status write_processors(const std::filesystem::path& folder, int tokens) {
 
 // Tokens for the parts of a processor: one configuration with several lights.
 const ProcessorsConfig& part_config() {
-  static const ProcessorsConfig config{3, 1, 1, 1, true, true, true, true};
-  return config;
+  static const ProcessorsConfig c_config{3, 1, 1, 1, true, true, true, true};
+  return c_config;
 }
 constexpr int c_light_tokens = 60, c_lights = 30;
 
