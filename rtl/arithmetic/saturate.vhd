@@ -6,7 +6,7 @@
 -- Formats     value: signed, g_value_bits with g_fraction_bits of fraction; result: unsigned, g_result_bits
 -- Latency     0 (combinational)
 -- Throughput  1 result per clock
--- Error       [0, 1) below the value inside the range
+-- Error       inside the range, the result is 0 to 1 (exclusive) below the value
 -- Source      quadratic paper, section 5 (0.5 is added, then the fraction is dropped); that the start value has the 0.5 is
 --             ours
 -- Golden twin model/golden/saturate.hpp

@@ -8,7 +8,7 @@
 --             unsigned, g_result_bits
 -- Latency     1 clock from terms with enable to their result
 -- Throughput  1 result per clock
--- Error       [0, 1) below the sum inside the range
+-- Error       inside the range, the result is 0 to 1 (exclusive) below the sum
 -- Source      spherical paper, figure 12 (the adders of red, green and blue)
 -- Golden twin model/golden/saturating_sum.hpp
 

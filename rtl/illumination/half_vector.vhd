@@ -2,9 +2,10 @@
 --
 -- Purpose     H, the unit vector halfway between the directions to the light and to the eye.
 --               preset exact      H = (L + V) / |L + V|
---               preset published  H = (E + (P_p - P)) / |E + (P_p - P)| as printed for a positional light; the
---                                 constant of its registers for a directional one
+--               preset published  H = (E + (P_p - P)) / |E + (P_p - P)| as printed for a positional light;
+--                                 for a directional light, the constant H from the light's registers
 --
+--                                                              | clocks
 --               to_light + to_eye     sum of the vectors         | 1
 --                 / length            unit_vector                | unit_vector_latency
 --

@@ -3,6 +3,7 @@
 -- Purpose     L, the unit vector from a point of a surface to the light. Of a positional light it is
 --             (P_p - P) / |P_p - P|; of a directional light it is the direction in the light's registers.
 --
+--                                                              | clocks
 --               place * distance      position of the light, on the scale of the point (preset exact)
 --                 - point             vector to the light        | 1, exact 2
 --                 / length            unit_vector                | unit_vector_latency

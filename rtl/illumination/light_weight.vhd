@@ -2,16 +2,17 @@
 --
 -- Purpose     The weight of a light at a point: (N.A)**x; for a spot, times the share of its cone.
 --
+--                                                              | clocks
 --               L . axis              dot_product                | 1
 --               share of the cone     spot_cone                  | 4
 --                 * (N.A)**x          product, cut               | 1
 --
 --             g_lead is the number of clocks from to_light to its cosine. The earlier one of cosine and share is delayed
---             to the other.
+--             to align with the other.
 -- Contract    spot, axis, outer and slope must not change while a point is in the stages
 -- Formats     to_light, axis: direction, three components, x lowest; outer: direction; slope: spot_slope; cosine,
 --             weight: weight
--- Latency     from cosine light_weight_latency of terms_pkg, clocks with enable: 0 without g_spot
+-- Latency     0 without g_spot, otherwise light_weight_latency of terms_pkg, from cosine, in clocks with enable
 -- Throughput  1 per clock
 -- Error       that of spot_cone, and (-1, 0] steps of weight: the product is cut
 -- Source      ours: the processors paper has no spot lights

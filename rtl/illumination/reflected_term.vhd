@@ -3,7 +3,7 @@
 -- Purpose     k I (N.A)**x: the light that a surface reflects, one product per channel.
 --
 --               clock 1  k * I                    vector_multiply
---                        rounded half up, clamped below 2**reflected
+--                        rounded half up, clamped to the largest value of the format reflected
 --               clock 2  (k I) * weight           vector_multiply, only with g_weighted
 --
 --             Without g_weighted the weight is 1: the ambient term, where x is 0.

@@ -14,11 +14,11 @@
 --
 -- Contract    A token moves where valid and ready are both '1' at a rising edge; out_token does not change while it
 --             waits. Every token is output, in order. define, redefine and delete of g_light act on the tokens after
---             them; after reset the light is not defined. An object leaves with a new I, from the
---             ambient processor also with new N and view vector. I is unchanged if the light is not defined or does not
---             reach the point (shadow volumes). With shadows, in_ready is '0' after reset and after new_frame until
---             shadow_counter is ready. fault: a counter of shadow volumes exceeded its format; it stays '1', at the latest
---             from the clock after the counting token has left.
+--             them; after reset the light is not defined. An object leaves with a new colour,
+--             from the ambient processor also with new N and view vector. The colour is unchanged if the light is not
+--             defined or does not reach the point (shadow volumes). With shadows, in_ready is '0' after reset and after
+--             new_frame until shadow_counter is ready. fault: a counter of shadow volumes exceeded its format; it stays
+--             '1', at the latest from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between
 --             the units: terms_pkg
 -- Latency     one clock less than the clocks of the throughput

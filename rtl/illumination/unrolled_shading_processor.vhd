@@ -11,11 +11,11 @@
 --                          +-- delay_line       the token             v
 --                                                 +------------- radiance_sum -- out_token
 --
---             A token is in stage s s clocks after the clock in which it is taken. Its term is valid in stage c_at.term,
---             its sum in stage c_at.leave = c_at.term + 1.
--- Contract    as shading_processor, with other clocks. All stages stall together while out_token waits. A token that
---             defines, changes or deletes the light is taken only when the stages are empty. fault stays '1', at
---             the latest from the clock after the counting token has left.
+--             A token is taken in clock 0. After n clocks it is in stage n. Its term is valid in stage c_at.term, its
+--             sum in stage c_at.leave = c_at.term + 1.
+-- Contract    as shading_processor, except for latency and throughput. All stages stall together while out_token waits.
+--             A token that defines, changes or deletes the light is taken only when the stages are empty. fault stays
+--             '1', at the latest from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between the steps: terms_pkg
 -- Latency     times of terms_pkg: leave (published, exact): ambient 2, 2; with N normalized or the view vector 6, 9;
 --             directional diffuse 4, 4, specular 5, 18; positional diffuse 10, 14, specular 11, 28; spot diffuse 14, 18,
@@ -92,7 +92,7 @@ architecture rtl of unrolled_shading_processor is
   signal object     : std_logic;
   signal terms      : std_logic_vector(g_channels * product_bits(g_exact) - 1 downto 0);
   signal reached    : std_logic; -- by the light
-  signal ready_token : token_t;  -- as it leaves, but for the colour
+  signal ready_token : token_t;  -- output token without its new colour
 
   signal leaving  : token_t;
   signal radiance : radiance_t;

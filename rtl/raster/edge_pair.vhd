@@ -4,8 +4,8 @@
 --             spans run.
 --             preset exact: the start edge is the triangle's long one, the stop edge has an upper and a lower section.
 --             preset published: both edges are one line of real slope, and spans are inclusive at both ends.
--- Contract    load and section_change stay '1' until step is: then both edges take init, or the stop edge takes its
---             lower section. Where load is '1', section_change is ignored.
+-- Contract    load or section_change stays '1' until a clock with step = '1'. In that clock, with load, both edges load
+--             init; with section_change, the stop edge loads its lower section. load has priority.
 -- Formats     formats_pkg: the header of init; start and stop span_x
 -- Latency     1 clock from step
 -- Throughput  1 line per clock

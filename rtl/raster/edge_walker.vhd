@@ -6,7 +6,7 @@
 --             1/divisor pixels.
 --             The register `reduced` is the error of the next line minus the remainder: its sign is the result of that
 --             comparison, and the carry of the next step is a register.
--- Contract    load stays '1' until step is; where both are '1', the edge is loaded
+-- Contract    load stays '1' until a clock with step = '1'; in that clock the edge loads init
 -- Formats     formats_pkg: x and quotient span_x; error, remainder and divisor edge_error
 -- Latency     1 clock from a step to x and carry
 -- Throughput  1 line per clock

@@ -1,11 +1,11 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Counts the lines of a triangle and loads the next init vector after the last one. It controls the edge
---             stage: `step` moves both edges to another line, `load` says that this is the first line of an init vector,
---             `section_change` that the stop edge takes its lower section there.
+--             stage: `step` moves both edges to another line. `load`: this is the first line of an init vector.
+--             `section_change`: on this line the stop edge loads its lower section.
 --             A triangle has upper_lines lines and then lower_lines lines; 0 upper lines count as 2**bits.
--- Contract    init is taken where init_valid and init_ready are '1'. It stays unchanged from init_valid = '1' until
---             it is taken, and may stay longer, until its first line advances: no other one is taken before.
+-- Contract    init is taken where init_valid and init_ready are '1'. It must not change until it is taken. It may stay
+--             unchanged until its first line advances; no other vector is taken before.
 --             advance = '1': the line stage takes the line, if valid = '1'.
 -- Formats     formats_pkg: the header of init; y pixel_y, remaining lines
 -- Latency     1 clock from init taken to its first line, 1 from advance to the next line

@@ -3,7 +3,7 @@
 -- Purpose     An edge by its real slope, line by line: the whole part of a sum of slopes. The fraction is summed one line
 --             ahead of x. Its carry into the next step is a register, so no sum is longer than the longer of both parts.
 --             g_complement: x is the complement, so that its reader subtracts it without an inverter in front of the sum.
--- Contract    load stays '1' until step is; where both are '1', the edge is loaded
+-- Contract    load stays '1' until a clock with step = '1'; in that clock the edge loads init
 -- Formats     formats_pkg, preset published: edge_x, and x span_x; sums wrap
 -- Latency     1 clock from a step to x
 -- Throughput  1 line per clock

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Draws the pixels of a span, from the start of a line to the pixel before its stop.
--- Contract    enable = '0' stalls the stage. load is '1' only where enable is, in a clock for which last_next was '1'
---             in the clock before; line is not empty then.
+-- Contract    enable = '0' stalls the stage. Assert load only together with enable, one clock after last_next = '1',
+--             and only for a line that is not empty.
 -- Formats     line_pkg
 -- Latency     1 clock from load to the first pixel
 -- Throughput  1 pixel per clock, without a bubble between spans

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Walks triangles: lines down the start edge, pixels from the start edge to the stop edge. It tells the
---             interpolators when to load and when to step. Three stages overlap:
+-- Purpose     Walks triangles: lines down the start edge, pixels from the start edge to the stop edge. It outputs the
+--             load and step enables of the interpolators. Three stages overlap:
 --
 --                        edge stage                line stage            span stage
 --                     +--------------+
@@ -19,16 +19,18 @@
 --               span stage                   A0   A0   A0   B0   B0
 --               x                            0    1    2    0    1
 --
---             The edge stage is one line ahead of the line stage, and that one line ahead of the span stage. So the
---             next line, or triangle, is ready when a span ends, and an empty line is skipped while a span is drawn.
--- Init        preset exact: the start edge is the one that spans all lines of the triangle, spans run away from it (backward: to smaller x);
---             the stop edge has an upper and a lower section. preset published: a horizontal-sided triangle, both
---             edges stepped by a real slope, lines and spans inclusive at both ends.
+--             The edge stage is one line ahead of the line stage. The line stage is one line ahead of the span stage.
+--             The next line, or triangle, is therefore ready when a span ends, and an empty line is skipped while a
+--             span is drawn.
+--             preset exact: the start edge spans all lines of the triangle. Spans run away from it (backward: to
+--             smaller x). The stop edge has an upper and a lower section.
+--             preset published: a triangle with a horizontal side. Both edges are stepped by a real slope. Lines and
+--             spans are inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
 --             fragment_ready are. fragment_ready = '0' stalls all stages that hold anything: x, y and triangle do not
---             change. init does not change from init_valid = '1' until it is taken. It may stay unchanged after that, at
---             most until line_load: the walker takes no other vector before. A line leaves the line stage only in a clock with
---             line_ready = '1': everything else that the line needs, such as its line record, has arrived.
+--             change. init must not change until it is taken. It may stay unchanged until line_load; no other vector is
+--             taken before. A line leaves the line stage only in a clock with line_ready = '1': everything else that
+--             the line needs, such as its line record, has arrived.
 --             line_held: the line stage contains a line.
 -- Formats     formats_pkg: the header of init; x span_x, y pixel_y
 -- Latency     3 clocks from init taken to the triangle's first fragment, 2 from line_load

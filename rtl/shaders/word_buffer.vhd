@@ -1,14 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The second place of a triangle's init vector, from which the interpolators load their words. They load after the
---             walker has started the triangle, part by part; meanwhile the init buffer takes the next vector.
+-- Purpose     A second buffer for a triangle's init vector, from which the interpolators load their words. They load
+--             after the walker has started the triangle, part by part; meanwhile the init buffer takes the next vector.
 --
 --               init buffer --+--> header --> triangle_walker --> start, strobes --+
 --                             |                                                    v
 --                             +--> words ---> word_buffer ----> words -----> interpolators
 --
 -- Contract    in_valid is '1' while in_data is a vector. A vector is stable and stays for 2 clocks or more. It leaves
---             before its triangle starts, or in the clock of start, and at least 2 clocks after the start of the
+--             before its triangle starts, or in the clock of start. At least 2 clocks pass after the start of the
 --             previous triangle. start is '1' in the clock in which the walker starts the triangle. The interpolators
 --             load one clock later. The depth words and the channels' words of out_data are skewed words (skew_pkg);
 --             the rest of the header is zero

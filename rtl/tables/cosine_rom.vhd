@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     A table of a power of the cosine. Preset exact: entry k is
---             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, for half of the bell, from the top on; an own table has
---             in its place a highlight of the scene, cos(reach * (k + 1/2) / 2**address_bits) ** exponent. Preset
+--             cos(pi/2 * (k + 1/2) / 2**address_bits) ** power, for half of the bell, from the top on. An own table
+--             instead contains a highlight of the scene, cos(reach * (k + 1/2) / 2**address_bits) ** exponent. Preset
 --             published: the address is signed and wraps. The table is cos**2 over half bells, or cos over whole bells
 --             with 0 for negative values.
 -- Formats     sample: unsigned, in units of 1 / (2**g_data_bits - 1); table: cosine_pkg
