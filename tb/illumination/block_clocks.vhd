@@ -98,7 +98,8 @@ architecture sim of block_clocks is
     print_step("terms");
   end procedure;
 
-  type block_t is (term, dot_product, power, multiplication, addition, adder, shift, square, root, horizon, cone);
+  type block_t is (term, dot_product, power, reflection, multiplication, addition, adder, shift, square, root, scale,
+    horizon, cone, distance);
 
   -- The specular processor of a positional light, or of a spot for `cone`. The steps of a unit vector are those of L,
   -- then those of H.
@@ -122,6 +123,7 @@ architecture sim of block_clocks is
       when term           => return from_to(0, c_at.leave);
       when dot_product    => return from_to(c_at.cosine, c_dot_product_latency);
       when power          => return from_to(c_at.cosine + c_dot_product_latency, power_latency(exact));
+      when reflection     => return from_to(c_at.weight - c_vector_multiply_latency, c_vector_multiply_latency);
       when multiplication => return from_to(c_at.weight, c_at.term - c_at.weight);
       when addition       => return from_to(c_at.term, c_at.leave - c_at.term);
       when adder          =>
@@ -132,6 +134,9 @@ architecture sim of block_clocks is
       when shift          => return both(0, c_vector_shift_latency);
       when square         => return both(c_vector_shift_latency, c_dot_product_latency);
       when root           => return both(c_vector_shift_latency + c_dot_product_latency, c_root);
+      when scale          =>
+        return both(c_vector_shift_latency + c_dot_product_latency + c_root, unit_vector_latency(exact)
+          - c_vector_shift_latency - c_dot_product_latency - c_root);
       when horizon        =>
         if exact then
           return from_to(c_at.to_light, c_dot_product_latency);
@@ -139,6 +144,11 @@ architecture sim of block_clocks is
         return "-";
       when cone           =>
         return from_to(times(of_preset(exact), c_specular, c_spot).to_light + c_dot_product_latency, c_spot_cone_latency);
+      when distance       =>
+        if exact then
+          return from_to(c_l - 1 - c_vector_multiply_latency, c_vector_multiply_latency);
+        end if;
+        return "-";
     end case;
   end function;
 
@@ -150,7 +160,7 @@ architecture sim of block_clocks is
     function both (first_1, valid_1, first_2, valid_2 : natural) return string is
       constant c_second : string := from_to(first_2, valid_2 - first_2);
     begin
-      if valid_1 > 0 then
+      if first_1 > 0 then
         return from_to(first_1, valid_1 - first_1) & ", " & c_second;
       end if;
       return c_second;
@@ -160,18 +170,25 @@ architecture sim of block_clocks is
       when term           => return from_to(0, c_at.leave);
       when dot_product    => return from_to(c_at.cosine, c_at.angle - c_at.cosine);
       when power          => return from_to(c_at.angle, c_at.weigh_in - c_at.angle);
+      when reflection     => return from_to(c_at.weigh - c_vector_multiply_latency, c_vector_multiply_latency);
       when multiplication => return from_to(c_at.weigh, c_at.add - c_at.weigh);
       when addition       => return from_to(c_at.add, c_at.leave - c_at.add);
       when adder          => return both(c_at.sum_1, c_at.shift_1, c_at.sum_2, c_at.shift_2);
       when shift          => return both(c_at.shift_1, c_at.square_1, c_at.shift_2, c_at.square_2);
       when square         => return both(c_at.square_1, c_at.root_1, c_at.square_2, c_at.root_2);
       when root           => return both(c_at.root_1, c_at.scale_1, c_at.root_2, c_at.scale_2);
+      when scale          => return both(c_at.scale_1, c_at.round_1 + 1, c_at.scale_2, c_at.round_2 + 1);
       when horizon        =>
         if exact then
           return from_to(c_at.horizon - c_dot_product_latency, c_dot_product_latency);
         end if;
         return "-";
       when cone           => return from_to(c_far.cone, c_far.factor - c_far.cone);
+      when distance       =>
+        if exact then
+          return from_to(c_at.sum_1 - c_vector_multiply_latency, c_vector_multiply_latency);
+        end if;
+        return "-";
     end case;
   end function;
 
@@ -189,11 +206,14 @@ begin
     print_block("processor of one term (1, 2)", term);
     print_block("dot product (1)", dot_product);
     print_block("power table (1)", power);
-    print_block("vector multiplication (1)", multiplication);
+    print_block("vector multiplication, k times I (1)", reflection);
+    print_block("vector multiplication, k I times weight (1)", multiplication);
     print_block("vector addition (1)", addition);
     print_block("second vector adder (2)", adder);
     print_block("1/sqrt(x) table (2)", root);
     print_block("split dot product (2)", square);
+    print_block("vector times 1/sqrt(x), rounded (2)", scale);
+    print_block("ours: position times distance", distance);
     print_block("ours: horizon", horizon);
     print_block("ours: spots", cone);
     print_block("ours: block shift", shift);
