@@ -4,7 +4,7 @@
 --             stage: `step` moves both edges to another line. `load`: this is the first line of an init vector.
 --             `section_change`: on this line the stop edge loads its lower section.
 --             A triangle has upper_lines lines and then lower_lines lines; 0 upper lines count as 2**bits.
--- Contract    init is taken where init_valid and init_ready are '1'. It must not change until it is taken. It may stay
+-- Contract    init is taken where init_valid and init_ready are '1'. It must not change while it waits. It may stay
 --             unchanged until its first line advances; no other vector is taken before.
 --             advance = '1': the line stage takes the line, if valid = '1'.
 -- Formats     formats_pkg: the header of init; y pixel_y, remaining lines

@@ -28,7 +28,7 @@
 --             spans are inclusive at both ends.
 -- Contract    init is taken where init_valid and init_ready are '1', a fragment where fragment_valid and
 --             fragment_ready are. fragment_ready = '0' stalls all stages that hold anything: x, y and triangle do not
---             change. init must not change until it is taken. It may stay unchanged until line_load; no other vector is
+--             change. init must not change while it waits. It may stay unchanged until line_load; no other vector is
 --             taken before. A line leaves the line stage only in a clock with line_ready = '1': everything else that
 --             the line needs, such as its line record, has arrived.
 --             line_held: the line stage contains a line.

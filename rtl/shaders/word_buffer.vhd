@@ -8,10 +8,10 @@
 --                             +--> words ---> word_buffer ----> words -----> interpolators
 --
 -- Contract    in_valid is '1' while in_data is a vector. A vector is stable and stays for 2 clocks or more. It leaves
---             before its triangle starts, or in the clock of start. At least 2 clocks pass after the start of the
---             previous triangle. start is '1' in the clock in which the walker starts the triangle. The interpolators
---             load one clock later. The depth words and the channels' words of out_data are skewed words (skew_pkg);
---             the rest of the header is zero
+--             before its triangle starts, or in the clock of start. It leaves at least 2 clocks after the start of the
+--             previous triangle. start is '1' in the clock in which the walker starts the triangle. The
+--             interpolators load one clock later. The depth words and the channels' words of out_data are skewed words
+--             (skew_pkg); the rest of the header is zero
 -- Formats     formats_pkg: init
 -- Latency     1 clock from a vector in an empty buffer to part 0 of its words
 -- Throughput  1 vector in 2 clocks
