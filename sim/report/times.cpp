@@ -19,7 +19,7 @@ constexpr double c_ms = 1e-6;  // ns to ms
 double ms(const Table& table, std::size_t row, const char* column) {
   return c_ms * table.number(row, column).value_or(0.0);
 }
-// The clock is that of a part, an upper bound: the times of the hardware and the frame are least times.
+// The clock is that of a part, an upper bound: the times of the hardware and the frame are lower bounds.
 bool is_least(const Table& table, std::size_t row) {
   return !table.text(row, "slowest_part").empty();
 }
@@ -122,7 +122,7 @@ std::string sentences(const Table& picture, const std::vector<std::size_t>& fron
   std::string text = fmt::format(
       "- The rms error of {0} is {2:.2g} times smaller than that of {1}. Its frame takes {3:.3g} times as "
       "long.\n"
-      "- One after the other, host and hardware take {4} ms with {0}, of which the host takes {5:.0f} %, and "
+      "- In sequence, host and hardware take {4} ms with {0}, of which the host takes {5:.0f} %, and "
       "{6} ms with {1}.\n",
       picture.text(best, "design"), picture.text(quick, "design"), rms(picture, quick) / rms(picture, best),
       times_as_long(best, quick), ms_text(picture, best, "sequential_ns"),
@@ -177,14 +177,15 @@ Result<std::string> readme_times(const Table& times) {
   if (hardware.size() < 2) return bad_input("times: fewer than two designs of hardware to compare");
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
-      "*{0} designs draw one sphere of {2} triangles at {3}. The time of a frame is that of the host's "
-      "set-up on one core or of the hardware at its clock on an iCE40, whichever is longer. On the dashed "
-      "line, no other design is both quicker and more accurate. With an arrow: at least this time; the whole "
-      "does not fit the iCE40, and the clock is that of its slowest placed part. phong: the "
+      "*{0} designs draw one sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
+      "host's "
+      "set-up on one core, and the hardware at its clock on an iCE40. On the dashed line, no other design is "
+      "both quicker and more accurate. An arrow marks a lower bound of the time: the design does not fit the "
+      "iCE40, and its clock is that of its slowest placed part. phong: the "
       "reference, per pixel in double precision. phong-mesa: per pixel by OpenGL on Mesa's llvmpipe. planes: "
       "Gouraud's shading in hardware. adaptive: quadratic, with triangles split until the error is below the "
       "threshold, in colour steps; quadratic: never split.*\n\n"
-      "| design | ms per frame | bound by | host, then hardware: ms | rms error, 1/255 | largest |\n"
+      "| design | ms per frame, overlapped | bound by | in sequence | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",
       picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture));
   for (const std::size_t row : front)

@@ -126,13 +126,14 @@ std::vector<Sourced> formed() {
   const double bound = number_of(intensity("exact", "bound"));
   std::vector<Sourced> list = {
       {"README.md",
-       fmt::format("| 2 additions per channel | {:.0f} MHz | {}/255, triangles split where needed |",
-                   pinned_mhz("quadratic_shader_grey_exact"),
-                   accuracy("quadratic_shader/conservative_test"))},
+       fmt::format(
+           "| 2 additions per channel | {:.0f} MHz | {}/255 (`adaptive`: triangles split where needed) |",
+           pinned_mhz("quadratic_shader_grey_exact"), accuracy("quadratic_shader/conservative_test"))},
       {"README.md",
        fmt::format("1 to 3 products per light and term | {:.0f} MHz | {}/255 |",
                    pinned_mhz("spherical_shader_grey_exact"), accuracy("spherical_shader/ends_on_surface"))},
-      {"README.md", fmt::format("does not fit the iCE40 | {}/255 |", accuracy("shading_processors/exact"))},
+      {"README.md",
+       fmt::format("does not fit the FPGA (iCE40 HX8K) | {}/255 |", accuracy("shading_processors/exact"))},
       {"docs/accuracy.md", fmt::format("`--threshold` (default {} colour steps) sets the limit. A triangle "
                                        "is split up to {} times (`--max-level`).",
                                        QuadraticSetupOptions{}.threshold, QuadraticSetupOptions{}.max_level)},
@@ -171,7 +172,8 @@ std::vector<Sourced> quoted() {
   return {
       // Measured by hand. The job runs both commands on a bare machine.
       {"README.md",
-       "On a bare machine with two cores `make sim` takes 5 to 7 minutes, most of it set-up and build, and "
+       "On a new installation with two cores `make sim` takes 5 to 7 minutes, most of it set-up and build, "
+       "and "
        "`make test` 24 to 43 minutes.",
        ".github/workflows/ci.yml", "- run: make sim - run: make test"},
       // Bounds and limits that other tests check.
