@@ -85,7 +85,7 @@ begin
       reciprocal => root
       );
 
-  beside_root : entity work.delay_line
+  align_shifted : entity work.delay_line
     generic map (
       g_bits  => shifted'length,
       g_depth => c_dot_product_latency + reciprocal_root_latency(g_exact)

@@ -92,7 +92,7 @@ begin
       in_range => lit
       );
 
-  beside_sample : entity work.parameter_register
+  sample_stage_register : entity work.parameter_register
     generic map (
       g_bits => carried'length
       )

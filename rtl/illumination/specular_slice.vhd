@@ -90,7 +90,7 @@ architecture rtl of specular_slice is
 
   signal slope, angle  : std_logic_vector(c_angle_bits - 1 downto 0);
   signal address       : std_logic_vector(g_address_bits - 1 downto 0);
-  signal near          : std_logic; -- inside the bell
+  signal in_bell       : std_logic; -- inside the bell
   signal carried_in    : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
   signal carried       : std_logic_vector(carried_in'range);
   signal in_range      : std_logic;
@@ -150,10 +150,10 @@ begin
     port map (
       angle    => angle,
       address  => address,
-      in_range => near
+      in_range => in_bell
       );
 
-  beside_sample : entity work.parameter_register
+  sample_stage_register : entity work.parameter_register
     generic map (
       g_bits => carried'length
       )
@@ -164,7 +164,7 @@ begin
       value => carried
       );
 
-  carried_in(0) <= near and lit;
+  carried_in(0) <= in_bell and lit;
   in_range      <= carried(0);
 
   roms : for power in 0 to c_largest_power generate
