@@ -35,7 +35,8 @@ struct ScreenPoint {
 /// First line whose pixel centres are at or below y. Top rule: a centre on the edge belongs to the triangle
 /// below.
 constexpr std::int64_t first_line(std::int32_t y, int unit_bits) {
-  return ceil_divide(2 * std::int64_t{y} - (std::int64_t{1} << unit_bits), std::int64_t{2} << unit_bits);
+  const std::int64_t unit = std::int64_t{1} << unit_bits;
+  return (2 * std::int64_t{y} + unit - 1) >> (unit_bits + 1);  // rounded up
 }
 
 /// An edge stepped from top to bottom. For a line y it gives the first pixel whose centre is at or right of

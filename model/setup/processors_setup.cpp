@@ -198,7 +198,7 @@ class ProcessorsSetup final : public Setup {
     projector_.project(unit, on_screen, counts.projection);
     for (const ScreenTriangle& t : on_screen) {
       ++counts.triangles;
-      const std::vector<Walk> walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
+      const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
       if (walks.empty()) continue;
       ++counts.leaves;
       const Surface surface = surface_of(t);
@@ -484,7 +484,7 @@ class ProcessorsSetup final : public Setup {
   }
 
   bool add_lines(ByLine& by_line, std::uint32_t item, const ScreenTriangle& t) const {
-    const std::vector<Walk> walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
+    const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
     if (walks.empty()) return false;
     by_line.add(item, walks.front().y,
                 walks.back().y + walks.back().upper_lines + walks.back().lower_lines - 1);

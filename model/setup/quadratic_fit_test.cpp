@@ -103,7 +103,7 @@ TEST(QuadraticFit, EachWordIsTheRationalRoundedOnce) {
       RandomTriangles random(static_cast<unsigned>(10 * unit_bits + static_cast<int>(kind)));
       for (int round = 0, done = 0; round < 400 && done < 8; ++round) {
         const Points p = random.next(kind, unit_bits, c_frame, unit_bits - 4);
-        const std::vector<Walk> walks = plan_walks(p, unit_bits, c_frame);
+        const Walks walks = plan_walks(p, unit_bits, c_frame);
         if (walks.empty()) continue;
         ++done;
         const SixSamples samples = random_samples(random, done + 7 * unit_bits);
@@ -232,7 +232,7 @@ TEST(PixelFit, EachPixelHasItsColourExactly) {
     const int left = random.within(-side, 5 * side / 2), top = random.within(-side, 5 * side / 2);
     Points p;
     for (ScreenPoint& q : p) q = {left + random.within(0, side), top + random.within(0, side)};
-    const std::vector<Walk> walks = plan_walks(p, unit_bits, c_small_frame);
+    const Walks walks = plan_walks(p, unit_bits, c_small_frame);
     const std::vector<Pixel> pixels = covered_pixels(p, unit_bits, c_small_frame);
     ASSERT_EQ(walks.empty(), pixels.empty());
     if (walks.empty()) continue;
@@ -378,7 +378,7 @@ Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& sa
            const std::array<std::int64_t, 3>& z) {
   using Shader = golden::QuadraticShader<Exact, 1>;
   using At = Exact::init_header_at;
-  const std::vector<Walk> walks = plan_walks(p, unit_bits, frame);
+  const Walks walks = plan_walks(p, unit_bits, frame);
   if (walks.empty()) return {};
   const QuadraticFit fit(p, unit_bits);
   const DepthFit depth(p, unit_bits, z);

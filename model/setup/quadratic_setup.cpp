@@ -338,42 +338,43 @@ class QuadraticSetup::ExactTriangle {
 
   void append() const {
     // A triangle that covers no pixel needs no samples; a small one only those at its pixels.
-    if (plan_walks(corners_, subpixel_bits_, setup_.frame_).empty()) return;
+    const Walks walks = walks_of(corners_, 0);
+    if (walks.empty()) return;
     if (is_by_pixel(corners_, 0)) {
       ++counts_.leaves;
-      append_pixels(corners_, 0);
+      append_pixels(corners_, 0, walks);
       return;
     }
     subdivide(whole(triangle_, sampler_, setup_.needs_midpoints()), sampler_, setup_.options_, setup_.degree_,
               subpixel_bits_, setup_.small_by_pixel_, counts_, [&](const Piece& piece) {
                 const std::array<ScreenPoint, 3> points = screen_points(piece);
+                const Walks of_piece = piece.level == 0 ? walks : walks_of(points, piece.level);
+                if (of_piece.empty()) return;
                 if (is_by_pixel(points, piece.level))
-                  append_pixels(points, piece.level);
+                  append_pixels(points, piece.level, of_piece);
                 else
-                  append_quadratic(points, piece);
+                  append_quadratic(points, piece, of_piece);
               });
   }
 
  private:
+  Walks walks_of(const std::array<ScreenPoint, 3>& points, int level) const {
+    return plan_walks(points, subpixel_bits_ + level, setup_.frame_);
+  }
   bool is_by_pixel(const std::array<ScreenPoint, 3>& points, int level) const {
     return setup_.small_by_pixel_ && is_small(points, subpixel_bits_ + level);
   }
 
-  void append_quadratic(const std::array<ScreenPoint, 3>& points, const Piece& piece) const {
-    const int unit_bits = subpixel_bits_ + piece.level;
-    const std::vector<Walk> walks = plan_walks(points, unit_bits, setup_.frame_);
-    if (walks.empty()) return;
-    append_vectors(words_, setup_.channels_, triangle_.source, walks, points, unit_bits,
+  void append_quadratic(const std::array<ScreenPoint, 3>& points, const Piece& piece,
+                        const Walks& walks) const {
+    append_vectors(words_, setup_.channels_, triangle_.source, walks, points, subpixel_bits_ + piece.level,
                    depth_fit(piece.level), held_samples(piece, setup_.channels_, setup_.degree_, counts_),
                    setup_.degree_);
     counts_.vectors += walks.size();
   }
 
-  void append_pixels(const std::array<ScreenPoint, 3>& points, int level) const {
-    const int unit_bits = subpixel_bits_ + level;
-    const std::vector<Walk> walks = plan_walks(points, unit_bits, setup_.frame_);
-    if (walks.empty()) return;
-    const std::vector<Pixel> pixels = covered_pixels(points, unit_bits, setup_.frame_);
+  void append_pixels(const std::array<ScreenPoint, 3>& points, int level, const Walks& walks) const {
+    const std::vector<Pixel> pixels = covered_pixels(points, subpixel_bits_ + level, setup_.frame_);
     std::array<std::vector<std::int64_t>, 3> colour;
     for (const Pixel pixel : pixels) {
       const glm::dvec3 radiance = sampler_.at_centre(pixel, subpixel_bits_);

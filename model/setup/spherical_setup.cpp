@@ -296,7 +296,7 @@ class SphericalSetup::ExactTriangle {
     const Columns columns{std::max<std::int64_t>(0, floor_divide(left, unit).quotient),
                           std::min<std::int64_t>(setup_.frame_.width, ceil_divide(right, unit) + 1)};
     if (columns.width() <= 0) return;
-    std::vector<Walk> walks = walks_of(columns);
+    Walks walks = walks_of(columns);
     // A triangle that covers no pixel needs no vector.
     if (walks.empty()) return;
     depth_.emplace(corners_, subpixel_bits_, fixed_depths(triangle_));
@@ -306,7 +306,7 @@ class SphericalSetup::ExactTriangle {
   }
 
  private:
-  std::vector<Walk> walks_of(Columns columns) const {
+  Walks walks_of(Columns columns) const {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
   }
 
@@ -325,7 +325,7 @@ class SphericalSetup::ExactTriangle {
     SetupCounts counts;
   };
 
-  void append(Columns columns, const std::vector<Walk>& walks) {
+  void append(Columns columns, const Walks& walks) {
     if (walks.empty()) return;
     // With ends interpolated along the edges, splitting changes nothing.
     const bool may_cut = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
@@ -361,7 +361,7 @@ class SphericalSetup::ExactTriangle {
   }
 
   // Fills `part`. Returns false if a line must be split. Checks errors only if `look` is true.
-  bool plan(const std::vector<Walk>& walks, bool look, Part& part) const {
+  bool plan(const Walks& walks, bool look, Part& part) const {
     for (const Walk& walk : walks) {
       part.headers.push_back(header_of(walk, part.counts));
       bool well = true;

@@ -30,10 +30,12 @@ std::int64_t first_where(std::int64_t begin, std::int64_t end, Holds&& holds) {
   return begin;
 }
 
+// Up to three intervals of each of two edges.
+using Intervals = FixedVector<Interval, 6>;
+
 // Splits the lines [begin, end) of an edge by its position. The pixel moves in one direction only, so there
 // are at most three parts.
-void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t width,
-           std::vector<Interval>& out) {
+void split(const Edge& edge, std::int64_t begin, std::int64_t end, std::int64_t width, Intervals& out) {
   const bool to_right = edge.dx() >= 0;
   const auto left = [&](std::int64_t y) { return edge.pixel(y) < 0; };
   const auto right = [&](std::int64_t y) { return edge.pixel(y) > width; };
@@ -83,7 +85,7 @@ struct Run {
 
 }  // namespace
 
-std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame) {
+Walks plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameSize frame) {
   if (p[1].y < p[0].y) std::swap(p[0], p[1]);
   if (p[2].y < p[0].y) std::swap(p[0], p[2]);
   if (p[2].y < p[1].y) std::swap(p[1], p[2]);
@@ -91,7 +93,7 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
   std::int64_t begin = std::clamp(first_line(p[0].y, unit_bits), std::int64_t{0}, height);
   std::int64_t end = std::clamp(first_line(p[2].y, unit_bits), std::int64_t{0}, height);
   const std::int64_t middle = std::clamp(first_line(p[1].y, unit_bits), begin, end);
-  std::vector<Walk> walks;
+  Walks walks;
   if (begin >= end) return walks;
 
   // If the middle vertex is to the right of the long edge, spans run forward.
@@ -112,12 +114,22 @@ std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> p, int unit_bits, FrameS
   while (begin < end && !covers(begin)) ++begin;
   while (begin < end && !covers(end - 1)) --end;
 
-  std::vector<Interval> starts, stops;
-  split(edge_long, begin, end, width, starts);
-  if (begin < middle) split(edge_upper, begin, std::min(middle, end), width, stops);
-  if (middle < end) split(edge_lower, std::max(middle, begin), end, width, stops);
+  // No edge of a triangle between the frame's sides is split.
+  const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+  const bool inside = left >= 0 && right <= width << unit_bits;
+  Intervals starts, stops;
+  const auto add = [&](const Edge& edge, std::int64_t first, std::int64_t last, Intervals& out) {
+    if (first >= last) return;
+    if (inside)
+      out.push_back({first, last, Clamped::no, &edge});
+    else
+      split(edge, first, last, width, out);
+  };
+  add(edge_long, begin, end, starts);
+  add(edge_upper, begin, std::min(middle, end), stops);
+  add(edge_lower, std::max(middle, begin), end, stops);
 
-  std::vector<Run> runs;
+  FixedVector<Run, 8> runs;  // each ends with an interval: at most 3 + 6, and the last ends with two
   for (std::size_t i = 0, j = 0; i < starts.size() && j < stops.size();) {
     const std::int64_t run_begin = std::max(starts[i].begin, stops[j].begin);
     const std::int64_t run_end = std::min(starts[i].end, stops[j].end);
@@ -168,11 +180,9 @@ WalkLine line_of(const Walk& walk, std::int64_t y) {
   return line;
 }
 
-std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns,
-                             std::uint32_t height) {
+Walks plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns, std::uint32_t height) {
   for (ScreenPoint& p : points) p.x -= static_cast<std::int32_t>(columns.begin << unit_bits);
-  std::vector<Walk> walks =
-      plan_walks(points, unit_bits, FrameSize{static_cast<std::uint32_t>(columns.width()), height});
+  Walks walks = plan_walks(points, unit_bits, FrameSize{static_cast<std::uint32_t>(columns.width()), height});
   for (Walk& walk : walks)
     for (EdgeSection* section : {&walk.start, &walk.upper, &walk.lower}) section->pixel += columns.begin;
   return walks;

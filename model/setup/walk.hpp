@@ -4,9 +4,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "common/fixed_vector.hpp"
 #include "setup/edge.hpp"
 
 namespace halfway {
@@ -30,10 +31,14 @@ struct Walk {
   EdgeSection upper, lower;  ///< stop edge: its pixel is the one after the last of the span
 };
 
+/// The walks of a triangle.
+inline constexpr std::size_t c_most_walks = 3;
+using Walks = FixedVector<Walk, c_most_walks>;
+
 /// The walks of a triangle: none if it covers no pixel, one if it crosses neither side of the frame, at most
 /// three. Outside the frame an edge is clamped to the frame's side. A walk contains one section of the start
 /// edge and up to two of the stop edge. Points may be in either orientation, in 1/2^unit_bits pixels.
-std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, FrameSize frame);
+Walks plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, FrameSize frame);
 
 /// One line of a walk, and the steps of the start edge before it: `steps` lines, `carries` of them with an
 /// extra pixel.
@@ -53,7 +58,6 @@ struct Columns {
 };
 
 /// The same for the part of the triangle in some columns.
-std::vector<Walk> plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns,
-                             std::uint32_t height);
+Walks plan_walks(std::array<ScreenPoint, 3> points, int unit_bits, Columns columns, std::uint32_t height);
 
 }  // namespace halfway

@@ -62,7 +62,7 @@ void expect_walks(const Points& p, int unit_bits, FrameSize frame, Seen& seen) {
   SCOPED_TRACE(::testing::Message() << '(' << p[0].x << ',' << p[0].y << ") (" << p[1].x << ',' << p[1].y
                                     << ") (" << p[2].x << ',' << p[2].y << ") unit_bits " << unit_bits
                                     << " frame " << frame.width << 'x' << frame.height);
-  const std::vector<Walk> walks = plan_walks(p, unit_bits, frame);
+  const Walks walks = plan_walks(p, unit_bits, frame);
   std::vector<Span> drawn;
   for (const Walk& walk : walks) {
     EXPECT_GE(walk.upper_lines, 1);
@@ -144,7 +144,7 @@ TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
             span.end = std::min(span.end, columns.end);
             if (span.begin < span.end) expected.push_back(span);
           }
-          const std::vector<Walk> walks = plan_walks(p, 4, columns, frame.height);
+          const Walks walks = plan_walks(p, 4, columns, frame.height);
           EXPECT_LE(walks.size(), 3u);
           for (const Walk& walk : walks) append_walk(walk, drawn);
           ASSERT_EQ(drawn, expected) << "columns [" << columns.begin << ", " << columns.end << ')';

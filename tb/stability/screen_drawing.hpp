@@ -35,7 +35,7 @@ std::string name_of(const Points& points, int unit_bits);
 /// Appends the piece's vectors for the preset. `tag` is the triangle's number.
 inline void append_exact(const ScreenPiece& piece, std::uint32_t tag, FrameSize frame,
                          std::vector<std::uint32_t>& words) {
-  const std::vector<Walk> walks = plan_walks(piece.points, piece.unit_bits, frame);
+  const Walks walks = plan_walks(piece.points, piece.unit_bits, frame);
   if (walks.empty()) return;
   const auto depth = [&](std::size_t i) {
     return fixed(piece.depth[i], golden::Exact::c_depth_sum_fraction_bits);

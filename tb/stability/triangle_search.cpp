@@ -111,7 +111,7 @@ Subject subject_of(const Input& input) {
 }
 
 void append(const Subject& s, std::uint32_t triangle, std::vector<std::uint32_t>& words) {
-  const std::vector<Walk> walks = plan_walks(s.piece, s.unit_bits, s.frame);
+  const Walks walks = plan_walks(s.piece, s.unit_bits, s.frame);
   if (walks.empty()) return;
   append_vectors(words, static_cast<int>(s.channels), triangle, walks, s.piece, s.unit_bits,
                  DepthFit(s.whole, s.unit_bits, s.depth), s.sample);

@@ -39,7 +39,7 @@ InitVector random_vector(Random& random, int bits) {
   return vector;
 }
 
-std::vector<Walk> random_walks(Random& random) {
+Walks random_walks(Random& random) {
   constexpr FrameSize c_frames[] = {{64, 48}, {64, 48}, {64, 48}, {9, 700}, {4096, 4096}};
   const FrameSize frame = c_frames[random.between(0, 4)];
   const int level = random.one_in(3) ? static_cast<int>(random.between(1, 5)) : 0;
@@ -107,7 +107,7 @@ InitVector random_triangle<Exact>(Random& random, Mix mix, int init_bits) {
     put_garbage_lines(init, random);
     return init;
   }
-  std::vector<Walk> walks;
+  Walks walks;
   while (walks.empty()) walks = random_walks(random);
   put_walk(init,
            walks[static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(walks.size()) - 1))]);

@@ -22,7 +22,7 @@ InitVector random_vector(Random& random, int bits);
 
 /// Walks of one random triangle: ordinary, sliver, one pixel, one horizontal side, subdivided or cut by the
 /// frame.
-std::vector<Walk> random_walks(Random& random);
+Walks random_walks(Random& random);
 
 /// Writes the walk to the header of `init`. Other bits do not change.
 void put_walk(InitVector& init, const Walk& walk);
