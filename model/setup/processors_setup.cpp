@@ -201,12 +201,9 @@ class ProcessorsSetup final : public Setup {
       const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
       if (walks.empty()) continue;
       ++counts.leaves;
+      const PlaneFit fit = plane_fit(t);
       const Surface surface = surface_of(t);
-      for (const Walk& walk : walks) {
-        InitVector init = request(words, Command::draw, counts);
-        put_header(init, t.source, walk, depth_words(t, walk), layout_.walk_low());
-        put_surface(init, t, surface, walk, {walk, 0, 0});
-      }
+      for (const Walk& walk : walks) draw(t, fit, surface, walk, {walk, 0, 0}, words, counts);
     }
   }
 
@@ -369,9 +366,14 @@ class ProcessorsSetup final : public Setup {
     }
   }
 
-  DepthWords depth_words(const ScreenTriangle& t, const Walk& walk) const {
-    return DepthFit(screen_points(t), subpixel_bits(), fixed_depths(t))
-        .words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits));
+  PlaneFit plane_fit(const ScreenTriangle& t) const { return PlaneFit(screen_points(t), subpixel_bits()); }
+
+  static DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const BarycentricStart& start) {
+    return fit.words(fixed_depths(t), start, half(Exact::c_depth_sum_fraction_bits));
+  }
+  DepthWords depth_on_line(const ScreenTriangle& t, const Walk& walk, const WalkLine& line) const {
+    const PlaneFit fit = plane_fit(t);
+    return on_line(depth_words(fit, t, fit.at(difference_start(walk))), line);
   }
 
   bool has_one_normal(const ScreenTriangle& t) const {
@@ -431,21 +433,22 @@ class ProcessorsSetup final : public Setup {
     return std::isnan(v) ? 0 : fixed(std::clamp(v, -c_most, c_most), P::c_plane_sum_fraction_bits);
   }
 
-  // Writes the words at the start of a walk, or at one of its lines.
-  void put_surface(InitVector& init, const ScreenTriangle& t, const Surface& surface, const Walk& walk,
-                   const WalkLine& line) const {
+  // Appends the vector that draws a walk, or one of its lines.
+  void draw(const ScreenTriangle& t, const PlaneFit& fit, const Surface& surface, const Walk& walk,
+            const WalkLine& line, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+    const BarycentricStart start = fit.at(difference_start(walk));
+    InitVector init = request(words, Command::draw, counts);
+    put_header(init, t.source, line.walk, on_line(depth_words(fit, t, start), line), layout_.walk_low());
     init.put(Request::normalize, surface.normalize);
     for (int plane = 0; plane < layout_.planes(); ++plane) {
       // Without positions the layout has only the planes of N.
-      const DepthWords words =
-          on_line(DepthFit(screen_points(t), subpixel_bits(), surface.planes[static_cast<std::size_t>(plane)])
-                      .words(difference_start(walk), c_half_vector),
-                  line);
+      const DepthWords of_plane =
+          on_line(fit.words(surface.planes[static_cast<std::size_t>(plane)], start, c_half_vector), line);
       const int low = layout_.plane_low(plane);
-      init.put(Plane::value, words.value, low);
-      init.put(Plane::dx, words.dx, low);
-      init.put(Plane::de0, words.de0, low);
-      init.put(Plane::de1, words.de1, low);
+      init.put(Plane::value, of_plane.value, low);
+      init.put(Plane::dx, of_plane.dx, low);
+      init.put(Plane::de0, of_plane.de0, low);
+      init.put(Plane::de1, of_plane.de1, low);
     }
     put_material(init, materials_[t.material]);
   }
@@ -506,14 +509,12 @@ class ProcessorsSetup final : public Setup {
     for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
       any = true;
       InitVector init = request(words, Command::depth, counts);
-      put_header(init, t.source, line.walk, on_line(depth_words(t, walk), line), layout_.walk_low());
+      put_header(init, t.source, line.walk, depth_on_line(t, walk, line), layout_.walk_low());
     });
     if (!any) return;  // no surface to cast a shadow on
     for (const bool opens : {true, false}) append_shadows(y, opens, words, counts);
     for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
-      InitVector init = request(words, Command::draw, counts);
-      put_header(init, t.source, line.walk, on_line(depth_words(t, walk), line), layout_.walk_low());
-      put_surface(init, t, surface_of(t), walk, line);
+      draw(t, plane_fit(t), surface_of(t), walk, line, words, counts);
     });
   }
 
@@ -538,7 +539,7 @@ class ProcessorsSetup final : public Setup {
         InitVector init = request(words, Command::shadow, counts, static_cast<int>(polygon.light) + 1);
         init.put(Request::opens, opens);
         const DepthWords depth =
-            before_near ? DepthWords{0, 0, 0, 0} : on_line(depth_words(polygon.triangle, walk), line);
+            before_near ? DepthWords{0, 0, 0, 0} : depth_on_line(polygon.triangle, walk, line);
         put_header(init, polygon.triangle.source, line.walk, depth, layout_.walk_low());
       });
     }

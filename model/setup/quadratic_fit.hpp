@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,26 +34,69 @@ struct QuadraticWords {
   Int128 value, dx, de0, de1, dxx, dxe0, dxe1, de0e0, de0e1, de1e1;
 };
 
-/// I(u, v) = I1 + (t2 u + t1 v)/D + (t5 u^2 + t4 uv + t3 v^2)/D^2, (u, v) relative to vertex 1 in
-/// 1/2^unit_bits pixels (quadratic paper, equation 4; the paper's T are these values divided by D or D^2).
-/// D^2 is the only divisor.
-class QuadraticFit {
- public:
-  /// D is twice the area and must not be zero. Points are within 2^13 pixels at unit_bits 4. Each level of
-  /// subdivision doubles the units and halves the triangle. Samples are below 2^39 in magnitude. No sum here
-  /// then exceeds 2^118.
-  QuadraticFit(std::array<ScreenPoint, 3> points, int unit_bits);
+/// Barycentric coordinates times D, twice the triangle's area: of a point, or their change along a step.
+using Barycentric = std::array<std::int64_t, 3>;
 
-  /// The words for the samples of one channel. `half` is added to the value: 0.5 in the unit of the samples,
-  /// for rounding.
-  QuadraticWords words(const SixSamples& samples, const DifferenceStart& start, std::int64_t half) const;
+/// Where the forward differences of a walk start, and their two steps, in a triangle's coordinates.
+struct BarycentricStart {
+  Barycentric at, right, e0;
+  bool backward;
+};
+
+/// The triangle's own coordinates. Points are within 2^13 pixels at unit_bits 4. Each level of subdivision
+/// doubles the units and halves the triangle. No coordinate exceeds 2^37 in magnitude.
+class TriangleCoordinates {
+ public:
+  TriangleCoordinates(const std::array<ScreenPoint, 3>& points, int unit_bits);
+  BarycentricStart start(const DifferenceStart& start) const;
+  std::int64_t twice_area() const { return x2_ * y3_ - y2_ * x3_; }
 
  private:
-  std::array<ScreenPoint, 3> points_;
+  /// (u, v) is relative to vertex 1. The coordinates of a point and of a step differ in vertex 1 alone.
+  Barycentric step(std::int64_t u, std::int64_t v) const;
+
+  ScreenPoint origin_;
   int unit_bits_;
   std::int64_t x2_, y2_, x3_, y3_;
-  Int128 d_;
+};
+
+/// The words of any channel at one start: weighted sums of its samples.
+class QuadraticStart {
+ public:
+  QuadraticStart(const BarycentricStart& start, std::int64_t d);
+
+  /// `half` is added to the value: 0.5 in the unit of the samples, for rounding. Samples are below 2^39 in
+  /// magnitude. No sum here then exceeds 2^118.
+  QuadraticWords words(const SixSamples& samples, std::int64_t half) const;
+
+  /// Weights times D^2 of all samples but the first. The first has the rest: all weights of a value sum up to
+  /// D^2, those of a difference to 0.
+  using Weights = std::array<Int128, 5>;
+
+ private:
+  template <class Integer>
+  QuadraticWords words_by(const SixSamples& samples, std::int64_t half) const;
+
+  Weights value_, x_, e0_, xx_, xe0_, e0e0_;
+  bool narrow_;  ///< the weights fit 64 bits
+  bool backward_;
   ExactDivider divider_;
+};
+
+/// The quadratic through six samples of a triangle (quadratic paper, equation 4). With barycentric
+/// coordinates l, the weight of the sample at vertex i is l_i (2 l_i - 1), at the midpoint of edge i-j it is
+/// 4 l_i l_j. D^2 is the only divisor of the words.
+class QuadraticFit {
+ public:
+  /// D must not be zero.
+  QuadraticFit(const std::array<ScreenPoint, 3>& points, int unit_bits) : coordinates_(points, unit_bits) {}
+
+  QuadraticStart at(const DifferenceStart& start) const {
+    return QuadraticStart(coordinates_.start(start), coordinates_.twice_area());
+  }
+
+ private:
+  TriangleCoordinates coordinates_;
 };
 
 /// The plane through the colours at the pixels of a small triangle. It is exact: on the grid of pixels its
@@ -77,18 +121,35 @@ struct DepthWords {
   Int128 value, dx, de0, de1;
 };
 
-/// The plane z(u, v) through three depths at three points, or through a channel's three samples.
-class DepthFit {
+/// Planes through three values at three points, such as the depths or the samples of a channel.
+class PlaneFit {
  public:
-  DepthFit(std::array<ScreenPoint, 3> points, int unit_bits, std::array<std::int64_t, 3> depths);
-  DepthWords words(const DifferenceStart& start, std::int64_t half) const;
+  /// Twice the triangle's area must not be zero.
+  PlaneFit(const std::array<ScreenPoint, 3>& points, int unit_bits)
+      : coordinates_(points, unit_bits), divider_(std::abs(coordinates_.twice_area())) {}
+
+  BarycentricStart at(const DifferenceStart& start) const { return coordinates_.start(start); }
+  /// Values are below 2^53 in magnitude. `half` is added to the value, for rounding.
+  DepthWords words(const std::array<std::int64_t, 3>& values, const BarycentricStart& start,
+                   std::int64_t half) const;
 
  private:
-  ScreenPoint origin_;
-  int unit_bits_;
-  std::int64_t depth_;
-  Int128 d_, zu_, zv_;
+  TriangleCoordinates coordinates_;
   ExactDivider divider_;
+};
+
+/// The plane through three depths.
+class DepthFit {
+ public:
+  DepthFit(const std::array<ScreenPoint, 3>& points, int unit_bits, const std::array<std::int64_t, 3>& depths)
+      : plane_(points, unit_bits), depths_(depths) {}
+  DepthWords words(const DifferenceStart& start, std::int64_t half) const {
+    return plane_.words(depths_, plane_.at(start), half);
+  }
+
+ private:
+  PlaneFit plane_;
+  std::array<std::int64_t, 3> depths_;
 };
 
 }  // namespace halfway

@@ -113,7 +113,7 @@ TEST(QuadraticFit, EachWordIsTheRationalRoundedOnce) {
           backward += walk.backward;
           const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
           const std::int64_t half = std::int64_t{1} << (c_fraction - 1);
-          const QuadraticWords w = QuadraticFit(p, unit_bits).words(samples, start, half);
+          const QuadraticWords w = QuadraticFit(p, unit_bits).at(start).words(samples, half);
           // Forward differences by definition: differences of the quadratic at pixels from the first one on.
           const auto at = [&](std::int64_t dx, std::int64_t dy) {
             return quadratic.at(static_cast<long>(centre(start.x + dx, p[0].x, unit_bits)),
@@ -395,7 +395,7 @@ Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& sa
     put(At::z_dx, dw.dx);
     put(At::z_de0, dw.de0);
     put(At::z_de1, dw.de1);
-    const QuadraticWords qw = fit.words(samples, start, std::int64_t{1} << (c_fraction - 1));
+    const QuadraticWords qw = fit.at(start).words(samples, std::int64_t{1} << (c_fraction - 1));
     put_words(init, qw);
     comparison.begin(walk);
     Shader shader;

@@ -211,17 +211,19 @@ ChannelSamples held_samples(const Piece& piece, int channels, int degree, SetupC
 
 constexpr int c_exact_fraction = Exact::c_intensity_fraction_bits;
 
-// Appends one vector of preset exact per walk. channel_words(c, start) returns the words of channel c.
-template <class ChannelWords>
+// Appends one vector of preset exact per walk. words_at(start) returns a function, which returns the words of
+// channel c.
+template <class WordsAt>
 void append_walks(std::vector<std::uint32_t>& words, int degree, int channels, std::uint32_t triangle,
-                  std::span<const Walk> walks, const DepthFit& depth, ChannelWords&& channel_words) {
+                  std::span<const Walk> walks, const DepthFit& depth, WordsAt&& words_at) {
   using ChannelAt = Exact::init_channel_at;
   for (const Walk& walk : walks) {
     InitVector init(words, vector_bits<Exact>(degree, channels));
     const DifferenceStart start = difference_start(walk);
     put_header(init, triangle, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
+    const auto channel_words = words_at(start);
     for (int c = 0; c < channels; ++c) {
-      const QuadraticWords w = channel_words(static_cast<std::size_t>(c), start);
+      const QuadraticWords w = channel_words(static_cast<std::size_t>(c));
       const int low = channel_low<Exact>(degree, c);
       init.put(ChannelAt::value, w.value, low);
       init.put(ChannelAt::dx, w.dx, low);
@@ -245,22 +247,23 @@ void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32
                     const DepthFit& depth, const ChannelSamples& samples, int degree) {
   const auto sample = [&](std::size_t c, std::size_t i) { return fixed(samples[c][i], c_exact_fraction); };
   if (degree == 1) {
-    std::vector<DepthFit> planes;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
-      planes.emplace_back(points, unit_bits, std::array{sample(c, 0), sample(c, 1), sample(c, 2)});
-    append_walks(words, 1, channels, triangle, walks, depth,
-                 [&](std::size_t c, const DifferenceStart& start) {
-                   const DepthWords w = planes[c].words(start, half(c_exact_fraction));
-                   return QuadraticWords{.value = w.value, .dx = w.dx, .de0 = w.de0, .de1 = w.de1};
-                 });
+    const PlaneFit plane(points, unit_bits);
+    append_walks(words, 1, channels, triangle, walks, depth, [&](const DifferenceStart& walk_start) {
+      return [&, start = plane.at(walk_start)](std::size_t c) {
+        const DepthWords w =
+            plane.words({sample(c, 0), sample(c, 1), sample(c, 2)}, start, half(c_exact_fraction));
+        return QuadraticWords{.value = w.value, .dx = w.dx, .de0 = w.de0, .de1 = w.de1};
+      };
+    });
     return;
   }
   const QuadraticFit fit(points, unit_bits);
-  std::array<SixSamples, 3> channel;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
-    channel[c] = {{sample(c, 0), sample(c, 1), sample(c, 2)}, sample(c, 3), sample(c, 4), sample(c, 5)};
-  append_walks(words, 2, channels, triangle, walks, depth, [&](std::size_t c, const DifferenceStart& start) {
-    return fit.words(channel[c], start, half(c_exact_fraction));
+  append_walks(words, 2, channels, triangle, walks, depth, [&](const DifferenceStart& walk_start) {
+    return [&, start = fit.at(walk_start)](std::size_t c) {
+      return start.words(
+          {{sample(c, 0), sample(c, 1), sample(c, 2)}, sample(c, 3), sample(c, 4), sample(c, 5)},
+          half(c_exact_fraction));
+    };
   });
 }
 
@@ -384,8 +387,10 @@ class QuadraticSetup::ExactTriangle {
     }
     const PixelFit fit(pixels);
     append_walks(words_, setup_.degree_, setup_.channels_, triangle_.source, walks, depth_fit(level),
-                 [&](std::size_t c, const DifferenceStart& start) {
-                   return fit.words(colour[c], start, half(c_exact_fraction));
+                 [&](const DifferenceStart& start) {
+                   return [&, start](std::size_t c) {
+                     return fit.words(colour[c], start, half(c_exact_fraction));
+                   };
                  });
     counts_.vectors += walks.size();
   }

@@ -137,8 +137,7 @@ std::string text_of(const SixSamples& s, int fraction_bits) {
 // `sample_bits`: fraction bits of the samples. Few bits make the samples easy to read.
 Case worst_case(std::array<ScreenPoint, 3> points, const Walk& walk, int fraction_bits, int sample_bits,
                 int tries, std::uint64_t seed, const WalkLine& line, std::int64_t steps) {
-  const QuadraticFit fit(points, c_unit_bits);
-  const DifferenceStart start = difference_start(walk);
+  const QuadraticStart start = QuadraticFit(points, c_unit_bits).at(difference_start(walk));
   std::mt19937_64 random(seed);
   Case best;
   for (int i = 0; i < tries; ++i) {
@@ -147,7 +146,7 @@ Case worst_case(std::array<ScreenPoint, 3> points, const Walk& walk, int fractio
              << (fraction_bits - sample_bits);
     };
     SixSamples s{{sample(), sample(), sample()}, sample(), sample(), sample()};
-    const QuadraticWords w = fit.words(s, start, 0);
+    const QuadraticWords w = start.words(s, 0);
     // Newton's form: L lines, C of them with a carry, and K steps of a span.
     const Int128 l = line.steps, c = line.carries, k = steps, way = walk.backward ? -1 : 1;
     const Int128 xx = w.dxx, xe = way * w.dxe0, dx_right = walk.backward ? w.dxx - w.dx : w.dx;

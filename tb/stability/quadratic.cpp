@@ -116,8 +116,9 @@ int hold_words(const ScreenPiece& piece, FrameSize frame, std::vector<std::uint3
   const auto sample = [&](std::size_t i) { return fixed(piece.sample[i], Exact::c_intensity_fraction_bits); };
   for (const Walk& walk : plan_walks(piece.points, piece.unit_bits, frame)) {
     const QuadraticWords w = QuadraticFit(piece.points, piece.unit_bits)
+                                 .at(difference_start(walk))
                                  .words({{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)},
-                                        difference_start(walk), half(Exact::c_intensity_fraction_bits));
+                                        half(Exact::c_intensity_fraction_bits));
     for (std::size_t i = 0; i < c_words.size(); ++i) {
       const Int128 word = w.*c_words[i], kept = std::clamp(word, -c_most, c_most - 1);
       clamped += kept != word;
