@@ -19,8 +19,9 @@ void put_section(InitVector& init, const EdgeSection& s, const golden::Field& x,
 
 }  // namespace
 
-void put_header(InitVector& init, std::uint32_t triangle, const Walk& walk, const DepthWords& depth,
-                int low) {
+// Inline all, so that the places of the fields are constants.
+[[gnu::flatten]] void put_header(InitVector& init, std::uint32_t triangle, const Walk& walk,
+                                 const DepthWords& depth, int low) {
   init.put(At::triangle, triangle, low);
   init.put(At::y, walk.y, low);
   init.put(At::upper_lines, walk.upper_lines, low);

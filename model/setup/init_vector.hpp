@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,13 +24,18 @@ class InitVector {
  public:
   InitVector(std::vector<std::uint32_t>& words, unsigned bits) {
     const std::size_t begin = words.size(), count = (bits + 31) / 32;
-    words.resize(begin + count, 0);
+    words.resize(begin + count);
     words_ = std::span(words).subspan(begin, count);
   }
   /// Writes the value modulo 2^bits of the field, in the block that starts at bit `block_low`. The hardware's
-  /// sums wrap, so a start word may wrap too.
+  /// sums wrap, so a start word may wrap too. Each field is written at most once: its bits are still zero.
   void put(const golden::Field& field, Int128 value, int block_low = 0) {
-    golden::set_bits(words_, field, static_cast<std::uint64_t>(value), block_low);
+    const std::uint64_t bits = golden::low_bits(static_cast<std::uint64_t>(value), field.bits);
+    const int low = block_low + field.low, shift = low % 32;
+    auto word = words_.begin() + low / 32;
+    *word |= static_cast<std::uint32_t>(bits << shift);
+    for (int done = 32 - shift; done < field.bits; done += 32)
+      *++word |= static_cast<std::uint32_t>(bits >> done);
   }
   std::span<const std::uint32_t> words() const { return words_; }
 
@@ -37,9 +43,16 @@ class InitVector {
   std::span<std::uint32_t> words_;
 };
 
+/// The nearest integer; a half rounds away from zero.
+inline std::int64_t nearest(double value) {
+  // The greatest number below 1/2: 1/2 itself would round up that number too.
+  constexpr double c_below_half = 0x1.fffffffffffffp-2;
+  return to_integer<std::int64_t>(value + std::copysign(c_below_half, value));
+}
+
 /// value * 2^fraction_bits, rounded.
 inline std::int64_t fixed(double value, int fraction_bits) {
-  return to_integer<std::int64_t>(std::round(value * static_cast<double>(std::int64_t{1} << fraction_bits)));
+  return nearest(value * static_cast<double>(std::int64_t{1} << fraction_bits));
 }
 
 constexpr std::int64_t half(int fraction_bits) {
@@ -47,9 +60,10 @@ constexpr std::int64_t half(int fraction_bits) {
 }
 
 /// A real number as a word modulo 2^bits. Differences of a sliver may exceed the range of any integer type.
-inline std::int64_t wrapped_word(long double value, int fraction_bits, int bits) {
-  const auto modulus = static_cast<long double>(std::int64_t{1} << bits);
-  const long double word = std::rint(value * static_cast<long double>(std::int64_t{1} << fraction_bits));
+template <std::floating_point Real>
+std::int64_t wrapped_word(Real value, int fraction_bits, int bits) {
+  const auto modulus = static_cast<Real>(std::int64_t{1} << bits);
+  const Real word = std::rint(value * static_cast<Real>(std::int64_t{1} << fraction_bits));
   return to_integer<std::int64_t>(std::abs(word) < modulus ? word : std::fmod(word, modulus));
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The drift of a word along a span whose start is centred.
+// Rounding, places of fields, and the drift of a word along a span whose start is centred.
 #include "setup/init_vector.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <vector>
 
 namespace halfway {
 namespace {
@@ -43,6 +45,46 @@ TEST(CentredStart, HalvesTheDrift) {
 
 TEST(CentredStart, IsTheStartOfASinglePixel) {
   EXPECT_EQ(centred_start(0.3, 0.1, 0, c_fraction), 0.3);
+}
+
+TEST(InitVector, NearestRoundsAsTheLibraryDoes) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> size(-3.0, 17.5), sign(-1.0, 1.0);
+  const auto expect_same = [](double value) {
+    ASSERT_EQ(nearest(value), to_integer<std::int64_t>(std::round(value))) << value;
+  };
+  for (int i = 0; i < 1'000'000; ++i) {
+    const double value = std::copysign(std::pow(10.0, size(random)), sign(random));
+    expect_same(value);
+    for (const double half : {std::trunc(value) + 0.5, std::trunc(value) - 0.5})
+      for (const double towards : {-1e300, 0.0, 1e300}) {
+        expect_same(half);
+        expect_same(std::nextafter(half, towards));
+      }
+  }
+  for (const double value :
+       {0.0, -0.0, 0x1p51 + 0.5, 0x1p52 + 1.0, 0x1p53, 1e300, -1e300, std::numeric_limits<double>::infinity(),
+        std::numeric_limits<double>::quiet_NaN()})
+    expect_same(value);
+}
+
+// Fields of 1 to 64 bits one after the other, from any bit on, against golden::set_bits.
+TEST(InitVector, PutsFieldsWhereTheGoldenModelReadsThem) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 2'000; ++i) {
+    std::vector<std::uint32_t> words;
+    constexpr unsigned c_bits = 1024;
+    InitVector init(words, c_bits);
+    std::vector<std::uint32_t> expected(c_bits / 32);
+    for (int low = static_cast<int>(random() % 40); low + 64 < static_cast<int>(c_bits);) {
+      const golden::Field field{"", 7, static_cast<int>(1 + random() % 64), false, 0};
+      const std::uint64_t value = random();
+      init.put(field, static_cast<std::int64_t>(value), low - 7);
+      golden::set_bits(expected, field, value, low - 7);
+      low += field.bits;
+    }
+    ASSERT_EQ(words, expected);
+  }
 }
 
 }  // namespace
