@@ -46,14 +46,15 @@ BoundingSphere bounding_sphere(const Scene& scene) {
       high = glm::max(high, scene.positions_world[index]);
     }
   }
-  BoundingSphere sphere{0.5 * (low + high), 0.0};
+  const glm::dvec3 centre = 0.5 * (low + high);
+  double radius2 = 0.0;
   for (const SceneTriangle& triangle : scene.triangles) {
     for (const std::uint32_t index : triangle.position) {
-      sphere.radius =
-          std::max(sphere.radius, glm::length(scene.positions_world[index] - sphere.centre_world));
+      const glm::dvec3 from_centre = scene.positions_world[index] - centre;
+      radius2 = std::max(radius2, glm::dot(from_centre, from_centre));
     }
   }
-  return sphere;
+  return {centre, std::sqrt(radius2)};
 }
 
 DepthRange depth_range(const Camera& camera, const BoundingSphere& sphere) {

@@ -85,4 +85,10 @@ Light light_of(const Scene& scene, LightRef ref) {
   std::abort();
 }
 
+std::vector<Light> lights_of(const Scene& scene) {
+  std::vector<Light> lights;
+  for_each_light(scene, [&](const Light& light) { lights.push_back(light); });
+  return lights;
+}
+
 }  // namespace halfway

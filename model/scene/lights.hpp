@@ -71,6 +71,9 @@ std::size_t light_count(const Scene& scene, LightKind kind);
 std::size_t light_count(const Scene& scene);
 Light light_of(const Scene& scene, LightRef ref);
 
+/// Every light, in the order of for_each_light.
+std::vector<Light> lights_of(const Scene& scene);
+
 /// Calls visit(Light) for every light: by kind in the order of c_light_kinds, within a kind in the scene's
 /// order.
 template <class Visit>

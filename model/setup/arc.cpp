@@ -84,6 +84,7 @@ CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v, const ArcMiddle
 
 CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2, const ArcMiddle& middle) {
   if (!is_direction(u1) || !is_direction(u2) || !is_direction(v1) || !is_direction(v2)) return c_dark;
+  if (v1 == v2 && !is_direction(middle.u)) return arc_seen_from(v1, u1, turn_between(u1, u2, middle.u));
   // The rotation v1 -> v2 moves the frame (v1, ahead, axis) to (v2, ahead rotated, axis). Rotate x back: take
   // its coordinates in the second frame and use them in the first. This avoids a division by 1 + cos of the
   // angle.

@@ -55,8 +55,13 @@ ScreenPoint middle(ScreenPoint a, ScreenPoint b) {
 
 class Sampler {
  public:
-  Sampler(const Scene& scene, const ScreenTriangle& triangle, SetupCounts& counts)
-      : scene_(scene), triangle_(triangle), material_(scene.materials[triangle.material]), counts_(counts) {}
+  Sampler(const Scene& scene, std::span<const Light> lights, const ScreenTriangle& triangle,
+          SetupCounts& counts)
+      : scene_(scene),
+        lights_(lights),
+        triangle_(triangle),
+        material_(scene.materials[triangle.material]),
+        counts_(counts) {}
 
   Sample at(const Corner& corner) const {
     const SurfacePoint surface = surface_point(triangle_, corner.barycentric);
@@ -77,10 +82,11 @@ class Sampler {
  private:
   glm::dvec3 shaded(const SurfacePoint& surface) const {
     ++counts_.shaded;
-    return radiance(scene_, material_, surface.position_world, surface.normal_world);
+    return radiance(scene_, lights_, material_, surface.position_world, surface.normal_world);
   }
 
   const Scene& scene_;
+  std::span<const Light> lights_;
   const ScreenTriangle& triangle_;
   const Material& material_;
   SetupCounts& counts_;
@@ -313,6 +319,7 @@ std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std:
 QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                QuadraticSetupOptions options)
     : scene_(&scene),
+      lights_(lights_of(scene)),
       frame_(frame),
       preset_(key.preset),
       channels_(static_cast<int>(key.channels)),
@@ -337,7 +344,7 @@ class QuadraticSetup::ExactTriangle {
         subpixel_bits_(setup.projector_.options().subpixel_bits),
         corners_(screen_points(triangle)),
         depths_(fixed_depths(triangle)),
-        sampler_(*setup.scene_, triangle, counts) {}
+        sampler_(*setup.scene_, setup.lights_, triangle, counts) {}
 
   void append() const {
     // A triangle that covers no pixel needs no samples; a small one only those at its pixels.
@@ -427,7 +434,7 @@ void QuadraticSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& 
 
 void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                                       SetupCounts& counts) const {
-  const Sampler sampler(*scene_, triangle, counts);
+  const Sampler sampler(*scene_, lights_, triangle, counts);
   subdivide(whole(triangle, sampler, needs_midpoints()), sampler, options_, degree_, 0, small_by_pixel_,
             counts, [&](const Piece& piece) {
               const auto vertex = [&](std::size_t i) {

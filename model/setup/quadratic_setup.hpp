@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plan/hardware_key.hpp"
+#include "scene/lights.hpp"
 #include "scene/scene.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/project.hpp"
@@ -54,6 +55,7 @@ class QuadraticSetup final : public Setup {
                         SetupCounts& counts) const;
 
   const Scene* scene_;
+  std::vector<Light> lights_;
   FrameSize frame_;
   Preset preset_;
   int channels_, degree_;

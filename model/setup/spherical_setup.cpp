@@ -89,6 +89,7 @@ Bells fitted_bells(const Scene& scene) {
 SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                SphericalSetupOptions options)
     : scene_(&scene),
+      scene_lights_(lights_of(scene)),
       frame_(frame),
       preset_(key.preset),
       options_(std::move(options)),
@@ -269,7 +270,8 @@ double SphericalSetup::interpolation_error(const Material& material, const SpanA
            (cosine * material.diffuse * material.colour +
             highlight * material.specular * material.specular_colour);
   }
-  const glm::dvec3 truth = radiance(*scene_, material, there.position_world, there.normal_world);
+  const glm::dvec3 truth =
+      radiance(*scene_, scene_lights_, material, there.position_world, there.normal_world);
   double largest = 0.0;
   for (int c = 0; c < 3; ++c)
     largest = std::max(largest, std::abs(std::min(sum[c], 1.0) - std::min(truth[c], 1.0)));

@@ -96,6 +96,7 @@ class SphericalSetup final : public Setup {
   std::int64_t factor_word(double steps, SetupCounts& counts) const;
 
   const Scene* scene_;
+  std::vector<Light> scene_lights_;
   FrameSize frame_;
   Preset preset_;
   SphericalSetupOptions options_;

@@ -62,8 +62,12 @@ double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 t
                  c_largest_specular);
 }
 
-glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
-                    glm::dvec3 normal_world, const LightFilter& reaches) {
+namespace {
+
+// each_light(visit) calls visit(light) for each light.
+template <class EachLight>
+glm::dvec3 sum_of_lights(const Scene& scene, const Material& material, glm::dvec3 position_world,
+                         glm::dvec3 normal_world, const LightFilter& reaches, EachLight&& each_light) {
   const glm::dvec3 to_eye = [&] {
     const glm::dvec3 v = direction(position_world, scene.camera.eye_world);
     return v == glm::dvec3(0.0) ? normal_world : v;
@@ -72,7 +76,7 @@ glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 pos
   const glm::dvec3 specular_colour = material.specular * material.specular_colour;
 
   glm::dvec3 sum = scene.ambient * (material.ambient * material.colour);
-  for_each_light(scene, [&](const Light& light) {
+  each_light([&](const Light& light) {
     const glm::dvec3 to_light = direction_to(light, position_world);
     const double share = cone_share(light, to_light), n_dot_l = glm::dot(normal_world, to_light);
     if (!(share > 0) || !(n_dot_l > 0) || (reaches && !reaches(light.ref))) return;
@@ -82,6 +86,21 @@ glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 pos
   });
   for (int i = 0; i < 3; ++i) sum[i] = bounded(sum[i], c_largest_radiance);
   return sum;
+}
+
+}  // namespace
+
+glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
+                    glm::dvec3 normal_world, const LightFilter& reaches) {
+  return sum_of_lights(scene, material, position_world, normal_world, reaches,
+                       [&](const auto& visit) { for_each_light(scene, visit); });
+}
+
+glm::dvec3 radiance(const Scene& scene, std::span<const Light> lights, const Material& material,
+                    glm::dvec3 position_world, glm::dvec3 normal_world) {
+  return sum_of_lights(scene, material, position_world, normal_world, {}, [&](const auto& visit) {
+    for (const Light& light : lights) visit(light);
+  });
 }
 
 }  // namespace halfway

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "scene/lights.hpp"
 #include "scene/scene.hpp"
@@ -48,5 +49,9 @@ using LightFilter = std::function<bool(LightRef)>;
 /// normal is used as the direction to the eye. A light for which `reaches` is false contributes nothing.
 glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
                     glm::dvec3 normal_world, const LightFilter& reaches = {});
+
+/// The same, sooner: `lights` are lights_of(scene).
+glm::dvec3 radiance(const Scene& scene, std::span<const Light> lights, const Material& material,
+                    glm::dvec3 position_world, glm::dvec3 normal_world);
 
 }  // namespace halfway
