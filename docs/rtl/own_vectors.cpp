@@ -52,8 +52,7 @@ std::vector<std::uint32_t> from_scene(const Scene& scene) {
   std::vector<std::uint32_t> words;
   SetupCounts counts;
   setup->append_prologue(words, counts);
-  for (std::uint32_t triangle = 0; triangle < setup->units(); ++triangle)
-    setup->append(triangle, words, counts);
+  setup->append_all(words, counts);
   return words;
 }
 

@@ -189,25 +189,42 @@ class ProcessorsSetup final : public Setup {
     }
   }
 
-  void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) const override {
-    if (config_.shadows) {
-      append_line(unit, words, counts);
-      return;
-    }
-    std::vector<ScreenTriangle> on_screen;
-    projector_.project(unit, on_screen, counts.projection);
-    for (const ScreenTriangle& t : on_screen) {
-      ++counts.triangles;
-      const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
-      if (walks.empty()) continue;
-      ++counts.leaves;
-      const PlaneFit fit = plane_fit(t);
-      const Surface surface = surface_of(t);
-      for (const Walk& walk : walks) draw(t, fit, surface, walk, {walk, 0, 0}, words, counts);
-    }
-  }
+  std::unique_ptr<SetupWorker> worker() const override { return std::make_unique<Worker>(*this); }
 
  private:
+  class Worker final : public SetupWorker {
+   public:
+    explicit Worker(const ProcessorsSetup& setup) : setup_(setup) {}
+
+    void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) override {
+      if (setup_.config_.shadows) {
+        setup_.append_line(unit, words, counts);
+        return;
+      }
+      on_screen_.clear();
+      setup_.projector_.project(unit, on_screen_, counts.projection, vertices_);
+      for (const ScreenTriangle& t : on_screen_) {
+        ++counts.triangles;
+        setup_.append_triangle(t, words, counts);
+      }
+    }
+
+   private:
+    const ProcessorsSetup& setup_;
+    std::vector<ScreenTriangle> on_screen_;
+    RecentVertices vertices_;
+  };
+
+  void append_triangle(const ScreenTriangle& t, std::vector<std::uint32_t>& words,
+                       SetupCounts& counts) const {
+    const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
+    if (walks.empty()) return;
+    ++counts.leaves;
+    const PlaneFit fit = plane_fit(t);
+    const Surface surface = surface_of(t);
+    for (const Walk& walk : walks) draw(t, fit, surface, walk, {walk, 0, 0}, words, counts);
+  }
+
   using Request = typename P::request_header_at;
   using Axes = typename P::light_axes_header_at;
   using Axis = typename P::light_axes_channel_at;

@@ -59,7 +59,7 @@ Drawn draw(const Scene& scene, const HardwareKey& key, FrameSize size = c_frame)
   const auto setup = make_setup(scene, size, key, {});
   Drawn out;
   setup->append_prologue(out.words, out.counts);
-  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, out.words, out.counts);
+  setup->append_all(out.words, out.counts);
   const auto golden = make_golden_model(key);
   EXPECT_EQ(golden->init_bits(), setup->init_bits());
   golden->draw(out.words, out.fragments);

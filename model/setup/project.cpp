@@ -28,6 +28,12 @@ constexpr double c_shortest_normal = 1e-8;
 // In pixels: enlargement of a triangle by rounding to whole pixels and by an edge's rounded slope.
 constexpr std::int32_t c_reach_margin = 2;
 
+// The sign of the volume spanned by eye and triangle distinguishes front from back without a division.
+template <class Vertex>
+bool faces_away(const Vertex& a, const Vertex& b, const Vertex& c) {
+  return a.x * (b.y * c.w - b.w * c.y) + a.y * (b.w * c.x - b.x * c.w) + a.w * (b.x * c.y - b.y * c.x) > 0;
+}
+
 bool representable(double v) {
   return std::abs(v) <= c_largest_coordinate;
 }  // false for NaN
@@ -149,6 +155,33 @@ bool Projector::is_representable(const ClipVertex& v) const {
   return usable_ && representable(v.x) && representable(v.y) && representable(v.w);
 }
 
+bool Projector::is_inside(const ClipVertex& v) const {
+  return v.w >= depth_range_.near && v.w <= depth_range_.far &&
+         std::all_of(planes_.begin(), planes_.end(),
+                     [&](const Plane& plane) { return plane.distance(v) >= 0; });
+}
+
+ProjectedVertex Projector::project_vertex(const VertexKey& vertex) const {
+  const ClipVertex v =
+      transform(scene_->positions_world[vertex.position], scene_->normals_world[vertex.normal]);
+  ProjectedVertex projected{v.x, v.y, v.w, is_representable(v) && is_inside(v), {}};
+  if (projected.is_inside) projected.screen = snap(v, depth_range_.near);
+  return projected;
+}
+
+bool Projector::is_outside_frame(std::span<const ScreenVertex> corners) const {
+  std::int32_t left = corners[0].x, right = left, top = corners[0].y, bottom = top;
+  for (const ScreenVertex& corner : corners.subspan(1)) {
+    left = std::min(left, corner.x);
+    right = std::max(right, corner.x);
+    top = std::min(top, corner.y);
+    bottom = std::max(bottom, corner.y);
+  }
+  const std::int32_t unit = 1 << options_.subpixel_bits;
+  return right < 0 || bottom < 0 || left > std::int64_t{frame_.width} * unit ||
+         top > std::int64_t{frame_.height} * unit;
+}
+
 std::vector<ScreenVertex> Projector::clip_and_snap(std::vector<ClipVertex>& polygon, const DepthRange& slice,
                                                    ProjectionCounts& counts) const {
   std::vector<ClipVertex> scratch;
@@ -176,17 +209,9 @@ std::vector<ScreenVertex> Projector::clip_and_snap(std::vector<ClipVertex>& poly
   std::vector<ScreenVertex> corner;
   corner.reserve(polygon.size());
   for (const ClipVertex& v : polygon) corner.push_back(snap(v, slice.near));
-  const auto [left, right] = std::minmax_element(corner.begin(), corner.end(),
-                                                 [](const auto& p, const auto& q) { return p.x < q.x; });
-  const auto [top, bottom] = std::minmax_element(corner.begin(), corner.end(),
-                                                 [](const auto& p, const auto& q) { return p.y < q.y; });
-  const std::int32_t unit = 1 << options_.subpixel_bits;
-  if (right->x < 0 || bottom->y < 0 || left->x > std::int64_t{frame_.width} * unit ||
-      top->y > std::int64_t{frame_.height} * unit) {
-    ++counts.outside;
-    return {};
-  }
-  return corner;
+  if (!is_outside_frame(corner)) return corner;
+  ++counts.outside;
+  return {};
 }
 
 void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out,
@@ -201,20 +226,14 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     ++counts.unrepresentable;
     return;
   }
-  // The sign of the volume spanned by eye and triangle distinguishes front from back without a division.
-  const auto& a = polygon[0];
-  const auto& b = polygon[1];
-  const auto& c = polygon[2];
-  const bool faces_away =
-      a.x * (b.y * c.w - b.w * c.y) + a.y * (b.w * c.x - b.x * c.w) + a.w * (b.x * c.y - b.y * c.x) > 0;
-
+  const bool away = faces_away(polygon[0], polygon[1], polygon[2]);
   const std::vector<ScreenVertex> corner = clip_and_snap(polygon, depth_range_, counts);
   if (corner.empty()) return;
   // The snapped area alone decides the orientation of a triangle. If snapping reversed a triangle, its
   // neighbours, which share the moved vertices, cover its pixels.
   bool any = false;
   for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
-    const ScreenTriangle piece{triangle, source.material, {corner[0], corner[i + 1], corner[i]}};
+    const ScreenTriangle piece{triangle, source.material, {corner[0], corner[i + 1], corner[i]}, false};
     if (piece.twice_area() <= 0) continue;
     out.push_back(piece);
     any = true;
@@ -222,7 +241,28 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
   if (any)
     ++counts.visible;
   else
-    ++(faces_away ? counts.back_facing : counts.degenerate);
+    ++(away ? counts.back_facing : counts.degenerate);
+}
+
+void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts,
+                        RecentVertices& recent) const {
+  const SceneTriangle& source = scene_->triangles[triangle];
+  std::array<ProjectedVertex, 3> corner;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const VertexKey key = vertex_key(source, i);
+    corner[i] = recent.get(key, [&] { return project_vertex(key); });
+    if (!corner[i].is_inside) return project(triangle, out, counts);
+  }
+  const ScreenTriangle whole{
+      triangle, source.material, {corner[0].screen, corner[2].screen, corner[1].screen}, true};
+  if (is_outside_frame(whole.vertex)) {
+    ++counts.outside;
+  } else if (whole.twice_area() > 0) {
+    out.push_back(whole);
+    ++counts.visible;
+  } else {
+    ++(faces_away(corner[0], corner[1], corner[2]) ? counts.back_facing : counts.degenerate);
+  }
 }
 
 Tile Projector::reach(std::uint32_t triangle) const {
@@ -269,8 +309,8 @@ void Projector::project_two_sided(const std::array<glm::dvec3, 3>& corners_world
     for (ScreenVertex& v : corner) v.z = 0.0;
   bool any = false;
   for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
-    const ScreenTriangle front{source, 0, {corner[0], corner[i + 1], corner[i]}};
-    const ScreenTriangle back{source, 0, {corner[0], corner[i], corner[i + 1]}};
+    const ScreenTriangle front{source, 0, {corner[0], corner[i + 1], corner[i]}, false};
+    const ScreenTriangle back{source, 0, {corner[0], corner[i], corner[i + 1]}, false};
     if (front.twice_area() == 0) continue;
     const bool faces_eye = front.twice_area() > 0;
     out.push_back({faces_eye ? front : back, faces_eye});
@@ -287,7 +327,8 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
 std::vector<ScreenTriangle> Projector::project_all(ProjectionCounts* counts) const {
   std::vector<ScreenTriangle> out;
   ProjectionCounts all;
-  for (std::uint32_t i = 0; i < scene_->triangles.size(); ++i) project(i, out, all);
+  RecentVertices recent;
+  for (std::uint32_t i = 0; i < scene_->triangles.size(); ++i) project(i, out, all, recent);
   if (counts != nullptr) *counts += all;
   return out;
 }
@@ -316,9 +357,10 @@ SurfacePoint surface_point(const ScreenTriangle& triangle, glm::dvec3 barycentri
   weight /= weight.x + weight.y + weight.z;
   const glm::dvec3 normal = weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world;
   const double length = glm::length(normal);
+  const bool is_smooth = length > c_shortest_normal;
   return {weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world,
-          length > c_shortest_normal ? normal / length : geometric_normal_world(triangle),
-          glm::dot(barycentric_screen, glm::dvec3(a.z, b.z, c.z))};
+          is_smooth ? normal / length : geometric_normal_world(triangle),
+          glm::dot(barycentric_screen, glm::dvec3(a.z, b.z, c.z)), is_smooth};
 }
 
 }  // namespace halfway

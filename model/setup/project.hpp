@@ -8,8 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
+#include <span>
 #include <vector>
 
+#include "common/recent_values.hpp"
 #include "frame/tile.hpp"
 #include "scene/camera.hpp"
 #include "scene/scene.hpp"
@@ -54,6 +57,27 @@ struct ProjectionCounts {
   ProjectionCounts& operator+=(const ProjectionCounts& other);
 };
 
+/// Names a corner of the scene's triangles: a position with a normal.
+struct VertexKey {
+  std::uint32_t position = std::numeric_limits<std::uint32_t>::max(), normal = position;
+  std::size_t hash() const { return position ^ (std::size_t{normal} << 5); }
+  friend auto operator<=>(const VertexKey&, const VertexKey&) = default;
+};
+
+/// The key of a corner, 0 to 2.
+inline VertexKey vertex_key(const SceneTriangle& triangle, std::size_t corner) {
+  return {triangle.position[corner], triangle.normal[corner]};
+}
+
+/// A corner in homogeneous coordinates and on the screen.
+struct ProjectedVertex {
+  double x, y, w;
+  bool is_inside;       ///< of all planes: not clipped
+  ScreenVertex screen;  ///< if it is inside
+};
+/// Projected vertices for the next triangles of the mesh, which share most of them.
+using RecentVertices = RecentValues<VertexKey, ProjectedVertex, 1024>;
+
 /// Projects triangle by triangle. A vertex or part of an edge that two triangles share has the same screen
 /// coordinates in both. A closed mesh therefore has neither gaps nor double pixels along its edges.
 class Projector {
@@ -64,6 +88,9 @@ class Projector {
   /// Appends the visible part of the triangle: nothing, one screen triangle, or the fan of a clipped polygon.
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts) const;
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out) const;
+  /// The same result, sooner. `recent` must be used with this projector only.
+  void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts,
+               RecentVertices& recent) const;
 
   /// A part of the frame that contains every pixel of the visible part of the triangle, and of any piece cut
   /// at the midpoints of its edges, rounded to whole pixels or not. Empty if nothing is visible.
@@ -100,6 +127,10 @@ class Projector {
   /// Returns false if the whole polygon is inside.
   static bool clip(std::vector<ClipVertex>& polygon, std::vector<ClipVertex>& scratch, const Plane& plane);
   bool is_representable(const ClipVertex& v) const;
+  /// True if no plane clips the vertex.
+  bool is_inside(const ClipVertex& v) const;
+  ProjectedVertex project_vertex(const VertexKey& vertex) const;
+  bool is_outside_frame(std::span<const ScreenVertex> corners) const;
   /// The polygon's corners on the screen, in its order. Empty if it is outside the frame or the slice; the
   /// counts then include it.
   std::vector<ScreenVertex> clip_and_snap(std::vector<ClipVertex>& polygon, const DepthRange& slice,
@@ -133,6 +164,8 @@ struct SurfacePoint {
   glm::dvec3 position_world;
   glm::dvec3 normal_world;  ///< always unit
   double z;                 ///< as ScreenVertex::z
+  /// False if the interpolated normal is zero: the normal is the triangle's own.
+  bool is_smooth = true;
 };
 
 /// The surface at a point of the screen, perspective-correct. If the interpolated normal is zero (opposite

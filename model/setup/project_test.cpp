@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "scene/builtin_meshes.hpp"
+
 namespace halfway {
 namespace {
 
@@ -300,6 +302,52 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   // The scenes must contain enough such cases for the test to be meaningful.
   EXPECT_GT(clipped_at_guard, 100);
   EXPECT_GT(clipped_at_near, 100);
+}
+
+// Vertices that neighbours share are projected once. Frame, near plane and guard band cut some triangles.
+TEST(Project, RecentVerticesChangeNothing) {
+  Scene scene = one_triangle({});
+  const Mesh mesh = make_uv_sphere(60, 30, 1.0);
+  scene.positions_world = mesh.positions;
+  scene.normals_world = mesh.normals;
+  scene.triangles = mesh.triangles;
+  for (SceneTriangle& t : scene.triangles) t.material = 0;
+  scene.camera.eye_world = {0.0, 0.0, 2.0};
+  std::size_t whole = 0, pieces = 0;
+  for (const double near : {0.1, 1.05, 1.2})
+    for (const ProjectionOptions options : {ProjectionOptions{4, false}, ProjectionOptions{0, true}}) {
+      scene.camera.near = near;
+      const Projector projector(scene, {97, 61}, options);
+      RecentVertices recent;
+      ProjectionCounts counts, expected_counts;
+      for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        std::vector<ScreenTriangle> triangles, expected;
+        projector.project(i, triangles, counts, recent);
+        projector.project(i, expected, expected_counts);
+        ASSERT_EQ(triangles.size(), expected.size());
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+          const ScreenTriangle &got = triangles[k], &want = expected[k];
+          whole += got.is_whole;
+          ++pieces;
+          ASSERT_EQ(got.source, want.source);
+          for (std::size_t v = 0; v < 3; ++v) {
+            const ScreenVertex &a = got.vertex[v], &b = want.vertex[v];
+            ASSERT_EQ(std::tuple(a.x, a.y, a.z, a.inverse_w), std::tuple(b.x, b.y, b.z, b.inverse_w));
+            ASSERT_EQ(a.position_world, b.position_world);
+            ASSERT_EQ(a.normal_world, b.normal_world);
+            const std::uint32_t corner = scene.triangles[i].position[(3 - v) % 3];
+            if (got.is_whole) ASSERT_EQ(a.position_world, scene.positions_world[corner]);
+          }
+        }
+      }
+      const auto all = [](const ProjectionCounts& n) {
+        return std::tuple(n.visible, n.back_facing, n.behind_near, n.outside, n.degenerate, n.unrepresentable);
+      };
+      EXPECT_EQ(all(counts), all(expected_counts));
+      EXPECT_GT(counts.back_facing, 0U);
+    }
+  EXPECT_GT(whole, 500U);
+  EXPECT_GT(pieces, whole + 100);
 }
 
 TEST(Project, TwoSidedAddsTheBackFaces) {

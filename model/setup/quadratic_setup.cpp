@@ -419,17 +419,30 @@ class QuadraticSetup::ExactTriangle {
   Sampler sampler_;
 };
 
-void QuadraticSetup::append(std::uint32_t triangle, std::vector<std::uint32_t>& words,
-                            SetupCounts& counts) const {
-  std::vector<ScreenTriangle> on_screen;
-  projector_.project(triangle, on_screen, counts.projection);
-  for (const ScreenTriangle& t : on_screen) {
-    ++counts.triangles;
-    if (preset_ == Preset::exact)
-      ExactTriangle(*this, t, words, counts).append();
-    else
-      append_published(t, words, counts);
+class QuadraticSetup::Worker final : public SetupWorker {
+ public:
+  explicit Worker(const QuadraticSetup& setup) : setup_(setup) {}
+
+  void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) override {
+    on_screen_.clear();
+    setup_.projector_.project(triangle, on_screen_, counts.projection, vertices_);
+    for (const ScreenTriangle& t : on_screen_) {
+      ++counts.triangles;
+      if (setup_.preset_ == Preset::exact)
+        ExactTriangle(setup_, t, words, counts).append();
+      else
+        setup_.append_published(t, words, counts);
+    }
   }
+
+ private:
+  const QuadraticSetup& setup_;
+  std::vector<ScreenTriangle> on_screen_;
+  RecentVertices vertices_;
+};
+
+std::unique_ptr<SetupWorker> QuadraticSetup::worker() const {
+  return std::make_unique<Worker>(*this);
 }
 
 void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,

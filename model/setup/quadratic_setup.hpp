@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,9 +47,10 @@ class QuadraticSetup final : public Setup {
   unsigned init_bits() const override { return init_bits_; }
   std::uint32_t units() const override { return static_cast<std::uint32_t>(scene_->triangles.size()); }
   Tile reach(std::uint32_t triangle) const override { return projector_.reach(triangle); }
-  void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
+  std::unique_ptr<SetupWorker> worker() const override;
 
  private:
+  class Worker;
   class ExactTriangle;
   bool needs_midpoints() const { return degree_ == 2 || options_.test != HighlightTest::none; }
   void append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,

@@ -90,7 +90,7 @@ Drawn draw(const Scene& scene, FrameSize frame, QuadraticSetupOptions options, P
   const QuadraticSetup setup(scene, frame, {.preset = preset, .channels = channels}, options);
   Drawn drawn;
   drawn.words_per_vector = (setup.init_bits() + 31) / 32;
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) setup.append(t, drawn.words, drawn.counts);
+  setup.append_all(drawn.words, drawn.counts);
   EXPECT_EQ(drawn.words.size(), drawn.counts.vectors * drawn.words_per_vector);
   if (preset == Preset::exact)
     channels == 3 ? draw_words<golden::Exact, 3>(drawn) : draw_words<golden::Exact, 1>(drawn);
@@ -107,7 +107,7 @@ Drawn draw_planes(const Scene& scene, FrameSize frame, QuadraticSetupOptions opt
   const QuadraticSetup setup(scene, frame, key, options);
   Drawn drawn;
   drawn.words_per_vector = (setup.init_bits() + 31) / 32;
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) setup.append(t, drawn.words, drawn.counts);
+  setup.append_all(drawn.words, drawn.counts);
   draw_words<Formats, Channels, 1>(drawn);
   return drawn;
 }

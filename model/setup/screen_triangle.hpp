@@ -23,6 +23,8 @@ struct ScreenTriangle {
   std::uint32_t source;    ///< number of the scene's triangle
   std::uint32_t material;  ///< index into Scene::materials
   std::array<ScreenVertex, 3> vertex;
+  /// True if the vertices are the corners 0, 2, 1 of the scene's triangle. False if it may have been clipped.
+  bool is_whole = false;
 
   /// (x2-x1)(y3-y1) - (y2-y1)(x3-x1), in squared subpixels.
   std::int64_t twice_area() const {

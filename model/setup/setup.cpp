@@ -24,6 +24,11 @@ SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
   return *this;
 }
 
+void Setup::append_all(std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+  const std::unique_ptr<SetupWorker> one = worker();
+  for (std::uint32_t unit = 0; unit < units(); ++unit) one->append(unit, words, counts);
+}
+
 std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                   const SetupOptions& options) {
   if (key.shader == Shader::spherical)

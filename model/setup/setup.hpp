@@ -96,6 +96,15 @@ inline constexpr double c_largest_sample = 1023.0;
 /// Greatest absolute value of a shadow counter.
 inline constexpr std::uint64_t c_most_shadows = (1U << (golden::Exact::c_shadow_count_bits - 1)) - 1;
 
+/// Appends the vectors of units, for one thread. It keeps what the next units may use again, because
+/// neighbours in the mesh share vertices and edges. The result does not depend on the units before.
+class SetupWorker {
+ public:
+  virtual ~SetupWorker() = default;
+  /// Appends the vectors of one unit.
+  virtual void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) = 0;
+};
+
 /// Makes a stream of vectors, (init_bits() + 31)/32 words each: a prologue, then unit by unit. After the
 /// prologue the hardware draws each unit independently of the units before it. The units may therefore be
 /// distributed over several golden models.
@@ -113,8 +122,14 @@ class Setup {
   virtual Tile reach(std::uint32_t unit) const = 0;
   /// Appends the vectors that the hardware needs once.
   virtual void append_prologue(std::vector<std::uint32_t>& /*words*/, SetupCounts& /*counts*/) const {}
-  /// Appends the vectors of one unit.
-  virtual void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) const = 0;
+  /// A worker for one thread. The setup must outlive it.
+  virtual std::unique_ptr<SetupWorker> worker() const = 0;
+  /// Appends the vectors of one unit, by a worker of its own.
+  void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+    worker()->append(unit, words, counts);
+  }
+  /// Appends the vectors of all units.
+  void append_all(std::vector<std::uint32_t>& words, SetupCounts& counts) const;
   /// Parts of the scene that exceed the hardware's number formats, one sentence each.
   virtual std::vector<std::string> notes() const { return {}; }
 };

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "golden/spherical_layout.hpp"
@@ -72,11 +73,12 @@ class SphericalSetup final : public Setup {
   unsigned init_bits() const override { return init_bits_; }
   std::uint32_t units() const override { return static_cast<std::uint32_t>(scene_->triangles.size()); }
   Tile reach(std::uint32_t triangle) const override { return projector_.reach(triangle); }
-  void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
+  std::unique_ptr<SetupWorker> worker() const override;
 
   PointVectors vectors_at(const Material& material, const SurfacePoint& point) const;
 
  private:
+  class Worker;
   class ExactTriangle;
   void append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
                         SetupCounts& counts) const;

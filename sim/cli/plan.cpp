@@ -282,9 +282,10 @@ Result<DegreeFrame> draw_degree(const Scene& scene, const ReferenceImage& refere
   const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
   FrameAssembler assembler(size, scene.background);
   std::vector<std::uint32_t> words;
+  const std::unique_ptr<SetupWorker> worker = setup->worker();
   for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
     words.clear();
-    setup->append(unit, words, drawn.counts);
+    worker->append(unit, words, drawn.counts);
     if (Status added = assembler.add(golden->draw(words)); !added) return added.error();
   }
   std::vector<std::uint8_t> mask = assembler.mask();

@@ -168,9 +168,10 @@ CutLines draw_with_cut_lines(const Scene& scene, FrameSize size) {
   FrameAssembler assembler(size, scene.background);
   CutLines drawn;
   SetupCounts counts;
+  const std::unique_ptr<SetupWorker> worker = setup.worker();
   for (std::uint32_t unit = 0; unit < setup.units(); ++unit) {
     Words uncut, cut;
-    setup.append(unit, uncut, counts);
+    worker->append(unit, uncut, counts);
     WordSpan rest(uncut);
     std::vector<ScreenTriangle> on_screen;
     projector.project(unit, on_screen);

@@ -99,6 +99,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
   const auto work = [&] {
     const std::unique_ptr<GoldenModel> golden =
         options_.golden ? make_golden_model(key_, options_.formats) : nullptr;
+    const std::unique_ptr<SetupWorker> setup = setup_.worker();
     std::vector<Fragment> none;
     if (golden) golden->draw(prologue_, none);
     while (const auto chunk = take()) {
@@ -112,7 +113,7 @@ SceneStream::Work SceneStream::make(std::uint32_t begin, std::uint32_t end, Batc
       std::size_t holds = chunk->held;
       for (part.end = first; part.end < last && holds <= c_batch_bytes; ++part.end) {
         const std::size_t begins = part.batch.init_words.size();
-        setup_.append(part.end, part.batch.init_words, part.counts);
+        setup->append(part.end, part.batch.init_words, part.counts);
         const auto words = std::span(part.batch.init_words).subspan(begins);
         holds += words.size_bytes();
         if (golden) holds += static_cast<std::size_t>(golden->all_pixels(words)) * sizeof(Fragment);

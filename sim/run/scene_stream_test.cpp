@@ -37,7 +37,7 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
       SetupCounts counts;
       setup->append_prologue(words, counts);
       EXPECT_EQ(!words.empty(), shader == Shader::processors);
-      for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+      setup->append_all(words, counts);
       const auto golden = make_golden_model(key);
       std::vector<Fragment> fragments;
       golden->draw(words, fragments);
@@ -72,7 +72,7 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
 
 std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts) {
   std::vector<std::uint32_t> words;
-  for (std::uint32_t unit = 0; unit < setup.units(); ++unit) setup.append(unit, words, counts);
+  setup.append_all(words, counts);
   return words;
 }
 

@@ -31,7 +31,7 @@ TEST_P(Threshold, EveryPixelOfABuiltInSceneIsWithinIt) {
     const auto setup = make_setup(*scene, frame, key, options);
     std::vector<std::uint32_t> words;
     SetupCounts counts;
-    for (std::uint32_t unit = 0; unit < setup->units(); ++unit) setup->append(unit, words, counts);
+    setup->append_all(words, counts);
     EXPECT_EQ(counts.unresolved, 0u);
     FrameAssembler drawn(frame, scene->background);
     ASSERT_TRUE(drawn.add(make_golden_model(key)->draw(words)));

@@ -20,21 +20,35 @@ void TileSetup::append_prologue(std::vector<std::uint32_t>& words, SetupCounts& 
   if (is_counted({})) counted += of_frame;
 }
 
-void TileSetup::append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counted) const {
-  const Tile reach = this->reach(unit);
-  std::vector<std::uint32_t> all;
-  SetupCounts of_unit;
-  frame_.append(units_[unit], all, of_unit);
-  if (is_counted(reach))
-    counted += of_unit;
-  else  // every tile needs this value
-    counted.deepest_shadow = std::max(counted.deepest_shadow, of_unit.deepest_shadow);
-  const std::size_t words_per_vector = (init_bits() + 31) / 32;
-  for (std::span<const std::uint32_t> rest = all; !rest.empty();) {
-    const auto triangle = rest.first(golden_->group(rest) * words_per_vector);
-    if (golden_->touches(triangle, tile_)) words.insert(words.end(), triangle.begin(), triangle.end());
-    rest = rest.subspan(triangle.size());
+class TileSetup::Worker final : public SetupWorker {
+ public:
+  explicit Worker(const TileSetup& setup) : setup_(setup), frame_(setup.frame_.worker()) {}
+
+  void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counted) override {
+    all_.clear();
+    SetupCounts of_unit;
+    frame_->append(setup_.units_[unit], all_, of_unit);
+    if (setup_.is_counted(setup_.reach(unit)))
+      counted += of_unit;
+    else  // every tile needs this value
+      counted.deepest_shadow = std::max(counted.deepest_shadow, of_unit.deepest_shadow);
+    const std::size_t words_per_vector = (setup_.init_bits() + 31) / 32;
+    for (std::span<const std::uint32_t> rest = all_; !rest.empty();) {
+      const auto triangle = rest.first(setup_.golden_->group(rest) * words_per_vector);
+      if (setup_.golden_->touches(triangle, setup_.tile_))
+        words.insert(words.end(), triangle.begin(), triangle.end());
+      rest = rest.subspan(triangle.size());
+    }
   }
+
+ private:
+  const TileSetup& setup_;
+  std::unique_ptr<SetupWorker> frame_;
+  std::vector<std::uint32_t> all_;  // the unit's vectors for the whole frame
+};
+
+std::unique_ptr<SetupWorker> TileSetup::worker() const {
+  return std::make_unique<Worker>(*this);
 }
 
 }  // namespace halfway

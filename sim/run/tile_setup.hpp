@@ -30,10 +30,11 @@ class TileSetup final : public Setup {
   bool units_are_lines() const override { return frame_.units_are_lines(); }
   Tile reach(std::uint32_t unit) const override { return frame_.reach(units_[unit]); }
   void append_prologue(std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
-  void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
+  std::unique_ptr<SetupWorker> worker() const override;
   std::vector<std::string> notes() const override { return frame_.notes(); }
 
  private:
+  class Worker;
   bool is_counted(const Tile& reach) const { return tile_.holds(reach.x, reach.y); }
 
   const Setup& frame_;

@@ -71,9 +71,10 @@ HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key
   std::vector<std::uint32_t> words;
   setup->append_prologue(words, work.counts);
   work.words = words.size();
+  const std::unique_ptr<SetupWorker> worker = setup->worker();
   for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
     words.clear();
-    setup->append(unit, words, work.counts);
+    worker->append(unit, words, work.counts);
     work.words += words.size();
   }
   return work;

@@ -75,7 +75,7 @@ std::vector<std::uint32_t> Stream::words() const {
 Stream stream_of(const Setup& setup) {
   Stream stream{.init_bits = setup.init_bits()};
   setup.append_prologue(stream.prologue, stream.counts);
-  for (std::uint32_t unit = 0; unit < setup.units(); ++unit) setup.append(unit, stream.units, stream.counts);
+  setup.append_all(stream.units, stream.counts);
   return stream;
 }
 

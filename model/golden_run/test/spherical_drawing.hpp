@@ -71,7 +71,7 @@ inline Drawn draw(const Scene& scene, FrameSize frame, const HardwareKey& key,
   EXPECT_EQ(setup.init_bits(), model->init_bits());
   Drawn drawn;
   drawn.vector_words = (setup.init_bits() + 31) / 32;
-  for (std::uint32_t t = 0; t < scene.triangles.size(); ++t) setup.append(t, drawn.words, drawn.counts);
+  setup.append_all(drawn.words, drawn.counts);
   EXPECT_EQ(drawn.words.size(), (drawn.counts.vectors + drawn.counts.records) * drawn.vector_words);
   model->draw(drawn.words, drawn.fragments);
   return drawn;
