@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "common/recent_values.hpp"
 #include "golden/quadratic_layout.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "setup/half_triangle.hpp"
@@ -53,56 +54,93 @@ ScreenPoint middle(ScreenPoint a, ScreenPoint b) {
   return {a.x + b.x, a.y + b.y};
 }
 
+// Names a vertex of the mesh (both ends are the same), or the middle of an edge.
+struct SampleKey {
+  VertexKey a, b;  // the lesser one first
+  std::uint32_t material = 0;
+
+  std::size_t hash() const { return 3 * a.hash() + 5 * b.hash(); }
+  friend bool operator==(const SampleKey&, const SampleKey&) = default;
+};
+
+// The surface and its radiance. On a smooth surface it does not depend on the triangle.
+struct ShadedPoint {
+  SurfacePoint surface;
+  glm::dvec3 radiance;
+};
+using RecentSamples = RecentValues<SampleKey, ShadedPoint, 2048>;
+
+// Samples a triangle. Triangles of the mesh share the samples at their vertices and in the middles of their
+// edges: the values are the same in both, because a sum of two terms does not depend on their order.
 class Sampler {
  public:
   Sampler(const Scene& scene, std::span<const Light> lights, const ScreenTriangle& triangle,
-          SetupCounts& counts)
+          RecentSamples& recent, SetupCounts& counts)
       : scene_(scene),
         lights_(lights),
         triangle_(triangle),
         material_(scene.materials[triangle.material]),
+        recent_(recent),
         counts_(counts) {}
 
-  Sample at(const Corner& corner) const {
-    const SurfacePoint surface = surface_point(triangle_, corner.barycentric);
-    return {corner, surface, shaded(surface)};
+  Sample at(const Corner& corner) const { return sample(corner, shaded(corner.barycentric)); }
+  Sample at_vertex(std::size_t i) const {
+    const ScreenVertex& v = triangle_.vertex[i];
+    glm::dvec3 barycentric(0.0);
+    barycentric[static_cast<int>(i)] = 1.0;
+    return shared({{v.x, v.y}, barycentric}, i, i);
   }
-  /// The radiance at the centre of a pixel.
-  glm::dvec3 at_centre(Pixel pixel, int subpixel_bits) const {
-    return shaded(
-        surface_point(triangle_, barycentric_at_centre(triangle_, subpixel_bits, pixel.x, pixel.y)));
+  /// In the middle of the edge between vertices i and j, which are the samples a and b.
+  Sample at_edge(const Sample& a, std::size_t i, const Sample& b, std::size_t j) const {
+    return shared(middle_of(a, b), i, j);
   }
   /// `a` and `b` are in units of one level, the sample's point in units of the next.
-  Sample between(const Sample& a, const Sample& b) const {
-    return at({middle(a.corner.point, b.corner.point), (a.corner.barycentric + b.corner.barycentric) * 0.5});
+  Sample between(const Sample& a, const Sample& b) const { return at(middle_of(a, b)); }
+  /// The radiance at the centre of a pixel.
+  glm::dvec3 at_centre(Pixel pixel, int subpixel_bits) const {
+    ++counts_.shaded;
+    return shaded(barycentric_at_centre(triangle_, subpixel_bits, pixel.x, pixel.y)).radiance;
   }
   const Material& material() const { return material_; }
   const Scene& scene() const { return scene_; }
 
  private:
-  glm::dvec3 shaded(const SurfacePoint& surface) const {
+  static Corner middle_of(const Sample& a, const Sample& b) {
+    return {middle(a.corner.point, b.corner.point), (a.corner.barycentric + b.corner.barycentric) * 0.5};
+  }
+  Sample sample(const Corner& corner, const ShadedPoint& point) const {
     ++counts_.shaded;
-    return radiance(scene_, lights_, material_, surface.position_world, surface.normal_world);
+    return {corner, point.surface, point.radiance};
+  }
+  // The sample in the middle between vertices i and j.
+  Sample shared(const Corner& corner, std::size_t i, std::size_t j) const {
+    if (!triangle_.is_whole) return at(corner);
+    const VertexKey a = key_of(i), b = key_of(j);
+    const ShadedPoint& point = recent_.get({std::min(a, b), std::max(a, b), triangle_.material},
+                                           [&] { return shaded(corner.barycentric); });
+    return point.surface.is_smooth ? sample(corner, point) : at(corner);
+  }
+  VertexKey key_of(std::size_t vertex) const {
+    return vertex_key(scene_.triangles[triangle_.source], (3 - vertex) % 3);
+  }
+  ShadedPoint shaded(const glm::dvec3& barycentric) const {
+    const SurfacePoint surface = surface_point(triangle_, barycentric);
+    return {surface, radiance(scene_, lights_, material_, surface.position_world, surface.normal_world)};
   }
 
   const Scene& scene_;
   std::span<const Light> lights_;
   const ScreenTriangle& triangle_;
   const Material& material_;
+  RecentSamples& recent_;
   SetupCounts& counts_;
 };
 
 // A plane that is never tested needs no samples at midpoints.
-Piece whole(const ScreenTriangle& t, const Sampler& sampler, bool midpoints) {
-  std::array<Sample, 3> v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    glm::dvec3 barycentric(0.0);
-    barycentric[static_cast<int>(i)] = 1.0;
-    v[i] = sampler.at({{t.vertex[i].x, t.vertex[i].y}, barycentric});
-  }
-  if (!midpoints) return {{v[0], v[1], v[2]}, 0};
-  return {{v[0], v[1], v[2], sampler.between(v[0], v[1]), sampler.between(v[0], v[2]),
-           sampler.between(v[1], v[2])},
+Piece whole(const Sampler& sampler, bool midpoints) {
+  const Sample a = sampler.at_vertex(0), b = sampler.at_vertex(1), c = sampler.at_vertex(2);
+  if (!midpoints) return {{a, b, c}, 0};
+  return {{a, b, c, sampler.at_edge(a, 0, b, 1), sampler.at_edge(a, 0, c, 2), sampler.at_edge(b, 1, c, 2)},
           0};
 }
 
@@ -335,7 +373,7 @@ QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const Hardwa
 // One triangle of preset exact.
 class QuadraticSetup::ExactTriangle {
  public:
-  ExactTriangle(const QuadraticSetup& setup, const ScreenTriangle& triangle,
+  ExactTriangle(const QuadraticSetup& setup, const ScreenTriangle& triangle, const Sampler& sampler,
                 std::vector<std::uint32_t>& words, SetupCounts& counts)
       : setup_(setup),
         triangle_(triangle),
@@ -344,7 +382,7 @@ class QuadraticSetup::ExactTriangle {
         subpixel_bits_(setup.projector_.options().subpixel_bits),
         corners_(screen_points(triangle)),
         depths_(fixed_depths(triangle)),
-        sampler_(*setup.scene_, setup.lights_, triangle, counts) {}
+        sampler_(sampler) {}
 
   void append() const {
     // A triangle that covers no pixel needs no samples; a small one only those at its pixels.
@@ -355,7 +393,7 @@ class QuadraticSetup::ExactTriangle {
       append_pixels(corners_, 0, walks);
       return;
     }
-    subdivide(whole(triangle_, sampler_, setup_.needs_midpoints()), sampler_, setup_.options_, setup_.degree_,
+    subdivide(whole(sampler_, setup_.needs_midpoints()), sampler_, setup_.options_, setup_.degree_,
               subpixel_bits_, setup_.small_by_pixel_, counts_, [&](const Piece& piece) {
                 const std::array<ScreenPoint, 3> points = screen_points(piece);
                 const Walks of_piece = piece.level == 0 ? walks : walks_of(points, piece.level);
@@ -416,7 +454,7 @@ class QuadraticSetup::ExactTriangle {
   int subpixel_bits_;
   std::array<ScreenPoint, 3> corners_;
   std::array<std::int64_t, 3> depths_;
-  Sampler sampler_;
+  const Sampler& sampler_;
 };
 
 class QuadraticSetup::Worker final : public SetupWorker {
@@ -428,36 +466,38 @@ class QuadraticSetup::Worker final : public SetupWorker {
     setup_.projector_.project(triangle, on_screen_, counts.projection, vertices_);
     for (const ScreenTriangle& t : on_screen_) {
       ++counts.triangles;
+      const Sampler sampler(*setup_.scene_, setup_.lights_, t, samples_, counts);
       if (setup_.preset_ == Preset::exact)
-        ExactTriangle(setup_, t, words, counts).append();
+        ExactTriangle(setup_, t, sampler, words, counts).append();
       else
-        setup_.append_published(t, words, counts);
+        append_published(t, sampler, words, counts);
     }
   }
 
  private:
+  void append_published(const ScreenTriangle& triangle, const Sampler& sampler,
+                        std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+    const int channels = setup_.channels_, degree = setup_.degree_;
+    subdivide(whole(sampler, setup_.needs_midpoints()), sampler, setup_.options_, degree, 0,
+              setup_.small_by_pixel_, counts, [&](const Piece& piece) {
+                const auto vertex = [&](std::size_t i) {
+                  const Sample& sample = piece.samples[i];
+                  return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));
+                };
+                counts.vectors +=
+                    append_vectors(words, channels, triangle.source, {vertex(0), vertex(1), vertex(2)},
+                                   held_samples(piece, channels, degree, counts), degree);
+              });
+  }
+
   const QuadraticSetup& setup_;
   std::vector<ScreenTriangle> on_screen_;
   RecentVertices vertices_;
+  RecentSamples samples_;
 };
 
 std::unique_ptr<SetupWorker> QuadraticSetup::worker() const {
   return std::make_unique<Worker>(*this);
-}
-
-void QuadraticSetup::append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
-                                      SetupCounts& counts) const {
-  const Sampler sampler(*scene_, lights_, triangle, counts);
-  subdivide(whole(triangle, sampler, needs_midpoints()), sampler, options_, degree_, 0, small_by_pixel_,
-            counts, [&](const Piece& piece) {
-              const auto vertex = [&](std::size_t i) {
-                const Sample& sample = piece.samples[i];
-                return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));
-              };
-              counts.vectors +=
-                  append_vectors(words, channels_, triangle.source, {vertex(0), vertex(1), vertex(2)},
-                                 held_samples(piece, channels_, degree_, counts), degree_);
-            });
 }
 
 }  // namespace halfway

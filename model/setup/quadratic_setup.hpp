@@ -53,8 +53,6 @@ class QuadraticSetup final : public Setup {
   class Worker;
   class ExactTriangle;
   bool needs_midpoints() const { return degree_ == 2 || options_.test != HighlightTest::none; }
-  void append_published(const ScreenTriangle& triangle, std::vector<std::uint32_t>& words,
-                        SetupCounts& counts) const;
 
   const Scene* scene_;
   std::vector<Light> lights_;

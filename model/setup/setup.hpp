@@ -79,7 +79,7 @@ struct SetupCounts {
   std::uint64_t leaves = 0;       ///< triangles or columns after subdivision
   std::uint64_t vectors = 0;      ///< init vectors that start a triangle
   std::uint64_t records = 0;      ///< line records that follow them
-  std::uint64_t shaded = 0;       ///< evaluations of the illumination model; spherical: of the vectors
+  std::uint64_t shaded = 0;       ///< samples of the illumination model; spherical: of the vectors
   std::uint64_t overexposed = 0;  ///< samples clamped at c_largest_sample, or factors at their limit
   std::uint64_t unresolved = 0;   ///< leaves above the threshold: small, or at the last level
   std::uint64_t shadows = 0;      ///< init vectors of shadow polygons
