@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -230,13 +231,20 @@ double missed_bends(const Material& m, const SampledTriangle& t, const ViewedTri
   return std::min(std::pow(r.most, m.exponent), c_bend * std::pow(r.width(), m.exponent));
 }
 
+double diffuse_amplitude(const Material& m, const LightOnTriangle& light) {
+  return m.diffuse * largest(m.colour * light.intensity) * c_steps;
+}
+double specular_amplitude(const Material& m, const LightOnTriangle& light) {
+  return m.specular * largest(m.specular_colour * light.intensity) * c_steps;
+}
+
 // Greatest error of one light's highlight between the samples, and its greatest value, in colour steps.
 struct Missed {
   double steps = 0.0, greatest = 0.0;
 };
 Missed missed_specular(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                        const LightOnTriangle& light, bool terminator) {
-  const double amplitude = m.specular * largest(m.specular_colour * light.intensity) * c_steps;
+  const double amplitude = specular_amplitude(m, light);
   if (amplitude <= 0.0) return {};
   const auto anything = [&] {
     const double greatest = amplitude * factor_bound(m, 0.0, c_pi, 0.0);
@@ -269,40 +277,67 @@ Missed missed_specular(const Material& m, const SampledTriangle& t, const Viewed
   return {std::min(greatest, smooth + bends), greatest};
 }
 
+// N.L at the samples.
+struct DiffuseCosines {
+  std::array<double, 6> at_sample;
+  Range range;
+
+  DiffuseCosines(const SampledTriangle& t, const LightOnTriangle& light) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      at_sample[i] = glm::dot(t.surface[i].normal_world, light.to_light_world[i]);
+      range.take(at_sample[i]);
+    }
+  }
+  // Between the samples N.L may exceed its sampled range by the sag of the edges and a small margin.
+  Range between_samples() const {
+    double slack = c_overshoot * range.width();
+    for (const auto& [a, b, middle] : c_edges)
+      slack += c_sag * std::abs(at_sample[middle] - 0.5 * (at_sample[a] + at_sample[b]));
+    return {range.least - slack, range.most + slack};
+  }
+};
+
+bool is_terminator(const Range& between_samples) {
+  return between_samples.least < 0.0 && between_samples.most > 0.0;
+}
+// max(0, N.L) has a bend at the terminator.
+double bend_at_terminator(const Range& between_samples, const Range& at_samples) {
+  return std::min({between_samples.most, -between_samples.least, c_bend * at_samples.width()});
+}
+
+// Normal minus direction to the light, at the samples.
+std::array<glm::dvec3, 6> off_light(const SampledTriangle& t, const LightOnTriangle& light) {
+  std::array<glm::dvec3, 6> w;
+  for (std::size_t i = 0; i < 6; ++i) w[i] = t.surface[i].normal_world - light.to_light_world[i];
+  return w;
+}
+
+// The part of the diffuse term's amplitude that six samples may miss without a terminator.
+double smooth_diffuse_miss(const Extent& e) {
+  return std::min(1.0, c_diffuse / c_third_derivative * smooth_miss({e.width, 0.0, e.uneven}, 1.0));
+}
+
 // The same including the diffuse term, for a light that shines on the whole triangle.
 Missed missed_light(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                     const LightOnTriangle& light) {
-  std::array<double, 6> cosine;
-  std::array<glm::dvec3, 6> w;
-  Range n_dot_l;
-  for (std::size_t i = 0; i < 6; ++i) {
-    cosine[i] = glm::dot(t.surface[i].normal_world, light.to_light_world[i]);
-    n_dot_l.take(cosine[i]);
-    w[i] = t.surface[i].normal_world - light.to_light_world[i];
-  }
-  const double amplitude = m.diffuse * largest(m.colour * light.intensity) * c_steps;
+  DiffuseCosines n_dot_l(t, light);
+  const double amplitude = diffuse_amplitude(m, light);
   double diffuse = amplitude;
   if (view.normals && light.to_light) {
     const double between = angle_between(view.normals->axis, light.to_light->axis);
     const double around = view.normals->angle + light.to_light->angle;
     if (between - around > c_pi / 2) return {};  // all normals face away from the light
     if (around > c_wide) {
-      n_dot_l.take(std::cos(std::min(c_pi, between + around)));
-      n_dot_l.take(std::cos(std::max(0.0, between - around)));
+      n_dot_l.range.take(std::cos(std::min(c_pi, between + around)));
+      n_dot_l.range.take(std::cos(std::max(0.0, between - around)));
     }
-    const Extent e = extent(w);
-    diffuse *= std::min(1.0, c_diffuse / c_third_derivative * smooth_miss({e.width, 0.0, e.uneven}, 1.0));
+    diffuse *= smooth_diffuse_miss(extent(off_light(t, light)));
   }
-  // Between the samples N.L may exceed its sampled range by the sag of the edges and a small margin.
-  double slack = c_overshoot * n_dot_l.width();
-  for (const auto& [a, b, middle] : c_edges)
-    slack += c_sag * std::abs(cosine[middle] - 0.5 * (cosine[a] + cosine[b]));
-  const double least = n_dot_l.least - slack, most = n_dot_l.most + slack;
-  const bool terminator = least < 0.0 && most > 0.0;
-  // max(0, N.L) has a bend at the terminator.
-  if (terminator) diffuse += amplitude * std::min({most, -least, c_bend * n_dot_l.width()});
+  const Range between_samples = n_dot_l.between_samples();
+  const bool terminator = is_terminator(between_samples);
+  if (terminator) diffuse += amplitude * bend_at_terminator(between_samples, n_dot_l.range);
   const Missed specular = missed_specular(m, t, view, light, terminator);
-  return {diffuse + specular.steps, amplitude * std::max(0.0, n_dot_l.most) + specular.greatest};
+  return {diffuse + specular.steps, amplitude * std::max(0.0, n_dot_l.range.most) + specular.greatest};
 }
 
 // A spot's cone on the triangle: its greatest share, and the error at its edge that six samples may miss.
@@ -338,6 +373,90 @@ SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>
   return {greatest, std::min(fall, c_spot_edge * turn * turn)};
 }
 
+// Directions at the vertices whose differences are at most this long span cones that are narrower than 1.05
+// times this. Then no cone is too wide for the samples, if light and eye are at most 120 degrees apart.
+constexpr double c_narrow_normals = 0.35;
+constexpr double c_narrow_directions = 0.1;
+
+bool is_narrow(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double most) {
+  const auto length2 = [](const glm::dvec3& v) { return glm::dot(v, v); };
+  if (length2(a) == 0.0) return false;  // no direction
+  return std::max({length2(a - b), length2(b - c), length2(c - a)}) <= most * most;
+}
+
+// The extent of a field by a few square roots, up to rounding: the same width and unevenness, and a smaller
+// lower bound.
+Extent quick_extent(const std::array<glm::dvec3, 6>& w) {
+  const auto length2 = [](const glm::dvec3& v) { return glm::dot(v, v); };
+  double half_edge2 = 0.0, uneven2 = 0.0, sag2 = 0.0, nearest2 = length2(w[0]);
+  for (const glm::dvec3& v : w) nearest2 = std::min(nearest2, length2(v));
+  for (const auto& [a, b, middle] : c_edges) {
+    half_edge2 = std::max({half_edge2, length2(w[middle] - w[a]), length2(w[middle] - w[b])});
+    const glm::dvec3 off = w[middle] - 0.5 * (w[a] + w[b]), along = w[b] - w[a];
+    sag2 += length2(off);
+    const double off_along = glm::dot(off, along), along2 = length2(along);
+    if (along2 > 0.0) uneven2 = std::max(uneven2, off_along * off_along / along2);
+  }
+  // No point of the four flat triangles is farther from a sample than a half edge and the sags. The sum of
+  // three sags is at most the root of three times the sum of their squares.
+  const double half_edge = std::sqrt(half_edge2), sag = std::sqrt(3.0 * sag2);
+  return {2.0 * half_edge, std::max(0.0, std::sqrt(nearest2) - half_edge - (1.0 + c_sag) * sag),
+          std::sqrt(uneven2)};
+}
+
+// An upper bound of missed_light without cones. Infinite for wide triangles, for Cook-Torrance and for spots.
+double quick_bound(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
+                   const LightOnTriangle& light) {
+  constexpr double c_unknown = std::numeric_limits<double>::infinity();
+  const auto& to_light = light.to_light_world;
+  if (!is_narrow(to_light[0], to_light[1], to_light[2], c_narrow_directions)) return c_unknown;
+  const DiffuseCosines n_dot_l(t, light);
+  const Range between_samples = n_dot_l.between_samples();
+  const bool terminator = is_terminator(between_samples);
+  double diffuse = smooth_diffuse_miss(quick_extent(off_light(t, light)));
+  if (terminator) diffuse += bend_at_terminator(between_samples, n_dot_l.range);
+  diffuse *= diffuse_amplitude(m, light);
+  const double amplitude = specular_amplitude(m, light);
+  if (amplitude <= 0.0) return diffuse;
+  const glm::dvec3 l_plus_v = to_light[0] + view.to_eye_world[0];
+  if (m.brdf == Brdf::cook_torrance || !(glm::dot(l_plus_v, l_plus_v) >= 1.0)) return c_unknown;
+  const std::array<glm::dvec3, 6> w = off_peak(m, t, view, light);
+  const Extent e = quick_extent(w);
+  if (terminator) return diffuse + amplitude * factor_bound(m, e.least, c_pi, 0.0);
+  return diffuse +
+         amplitude * (smooth_miss({e.width, 0.0, e.uneven}, m.exponent) + missed_bends(m, t, view, light, w));
+}
+
+std::array<glm::dvec3, 6> directions_to(const SampledTriangle& t, const glm::dvec3& point_world) {
+  std::array<glm::dvec3, 6> d;
+  for (std::size_t i = 0; i < 6; ++i) d[i] = direction(t.surface[i].position_world, point_world);
+  return d;
+}
+
+// At the samples; without a cone.
+LightOnTriangle light_at_samples(const Light& light, const SampledTriangle& t) {
+  LightOnTriangle on_triangle{{}, {}, light.intensity};
+  if (light.point.w == 0.0)
+    on_triangle.to_light_world.fill(light.point.xyz_world);
+  else
+    on_triangle.to_light_world = directions_to(t, light.point.xyz_world);
+  return on_triangle;
+}
+
+double quick_bound(const Scene& scene, const Material& m, const SampledTriangle& t) {
+  constexpr double c_unknown = std::numeric_limits<double>::infinity();
+  const auto& s = t.surface;
+  if (!is_narrow(s[0].normal_world, s[1].normal_world, s[2].normal_world, c_narrow_normals)) return c_unknown;
+  const ViewedTriangle view{{}, {}, directions_to(t, scene.camera.eye_world)};
+  const auto& to_eye = view.to_eye_world;
+  if (!is_narrow(to_eye[0], to_eye[1], to_eye[2], c_narrow_directions)) return c_unknown;
+  double sum = 0.0;
+  for_each_light(scene, [&](const Light& light) {
+    sum += light.cone ? c_unknown : quick_bound(m, t, view, light_at_samples(light, t));
+  });
+  return sum;
+}
+
 }  // namespace
 
 double centroid_error(const SampledTriangle& t, const glm::dvec3& centroid_radiance) {
@@ -349,25 +468,14 @@ double centroid_error(const SampledTriangle& t, const glm::dvec3& centroid_radia
 }
 
 double missed_highlight_bound(const Scene& scene, const Material& m, const SampledTriangle& t) {
-  const auto directions_to = [&](const glm::dvec3& point_world) {
-    std::array<glm::dvec3, 6> d;
-    for (std::size_t i = 0; i < 6; ++i) d[i] = direction(t.surface[i].position_world, point_world);
-    return d;
-  };
   const ViewedTriangle view{
       cone_around({t.surface[0].normal_world, t.surface[1].normal_world, t.surface[2].normal_world}),
-      cone_to(t, scene.camera.eye_world), directions_to(scene.camera.eye_world)};
+      cone_to(t, scene.camera.eye_world), directions_to(t, scene.camera.eye_world)};
   double missed = 0.0;
   for_each_light(scene, [&](const Light& light) {
+    LightOnTriangle on_triangle = light_at_samples(light, t);
     const glm::dvec3& from = light.point.xyz_world;
-    LightOnTriangle on_triangle{{}, {}, light.intensity};
-    if (light.point.w == 0.0) {
-      on_triangle.to_light = Cone{from, 0.0};
-      on_triangle.to_light_world.fill(from);
-    } else {
-      on_triangle.to_light = cone_to(t, from);
-      on_triangle.to_light_world = directions_to(from);
-    }
+    on_triangle.to_light = light.point.w == 0.0 ? Cone{from, 0.0} : cone_to(t, from);
     const Missed whole = missed_light(m, t, view, on_triangle);
     if (!light.cone) {
       missed += whole.steps;
@@ -378,6 +486,11 @@ double missed_highlight_bound(const Scene& scene, const Material& m, const Sampl
     missed += whole.steps * spot.greatest + whole.greatest * spot.missed;
   });
   return missed;
+}
+
+bool may_miss_highlight(const Scene& scene, const Material& m, const SampledTriangle& t, double steps) {
+  constexpr double c_margin = 1.001;  // for rounding
+  return !(c_margin * quick_bound(scene, m, t) <= steps) && missed_highlight_bound(scene, m, t) > steps;
 }
 
 }  // namespace halfway

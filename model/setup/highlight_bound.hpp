@@ -32,4 +32,8 @@ double centroid_error(const SampledTriangle& triangle, const glm::dvec3& centroi
 /// (highlight_bound_test.cpp draws them).
 double missed_highlight_bound(const Scene& scene, const Material& material, const SampledTriangle& triangle);
 
+/// missed_highlight_bound(...) > steps. For most triangles a simpler bound decides.
+bool may_miss_highlight(const Scene& scene, const Material& material, const SampledTriangle& triangle,
+                        double steps);
+
 }  // namespace halfway

@@ -387,6 +387,26 @@ TEST(HighlightTest, CentroidErrorIsTheQuadraticsAgainstTheRadiance) {
   EXPECT_EQ(centroid_error(t, glm::dvec3(7.0)), 0.0) << "over-exposed is over-exposed";
 }
 
+// The simpler bound decides as the whole one, and decides often.
+TEST(HighlightTest, MayMissHighlightComparesTheBound) {
+  RandomCases random(31);
+  int above = 0, cases = 0;
+  for (int i = 0; i < 60'000; ++i) {
+    const Case c = random.next(i % 3 == 0 ? Brdf::phong : Brdf::blinn);
+    const SampledTriangle t = sampled(c, c_whole);
+    const double bound = missed_highlight_bound(c.scene, c.scene.materials[0], t);
+    for (const double steps : {0.25, 1.0, 2.0, 8.0, 0.999 * bound, bound}) {
+      const bool is_above = bound > steps;
+      ASSERT_EQ(may_miss_highlight(c.scene, c.scene.materials[0], t, steps), is_above)
+          << "case " << i << ", bound " << bound << ", steps " << steps;
+      above += is_above;
+      ++cases;
+    }
+  }
+  EXPECT_GT(above, cases / 10);
+  EXPECT_LT(above, 9 * cases / 10);
+}
+
 TEST(HighlightTest, BoundIsZeroWithoutLightAndInTheDark) {
   Case c = sphere_patch(20, 100, {0.3, 0.5, 0.2});
   const SampledTriangle t = sampled(c, c_whole);

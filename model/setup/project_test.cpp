@@ -341,7 +341,8 @@ TEST(Project, RecentVerticesChangeNothing) {
         }
       }
       const auto all = [](const ProjectionCounts& n) {
-        return std::tuple(n.visible, n.back_facing, n.behind_near, n.outside, n.degenerate, n.unrepresentable);
+        return std::tuple(n.visible, n.back_facing, n.behind_near, n.outside, n.degenerate,
+                          n.unrepresentable);
       };
       EXPECT_EQ(all(counts), all(expected_counts));
       EXPECT_GT(counts.back_facing, 0U);

@@ -188,7 +188,7 @@ bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticS
     t.radiance[i] = p.samples[i].radiance;
   }
   if (options.test == HighlightTest::conservative &&
-      missed_highlight_bound(sampler.scene(), sampler.material(), t) > options.threshold)
+      may_miss_highlight(sampler.scene(), sampler.material(), t, options.threshold))
     return true;
   if (degree == 1 && flatten(t) > options.threshold) return true;
   const glm::dvec3 centroid =
