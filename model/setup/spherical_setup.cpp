@@ -171,11 +171,8 @@ void SphericalSetup::put_ambient(InitVector& init, const Material& material, Set
 }
 
 template <class Middle>
-SpanArcs SphericalSetup::arcs_of(const Material& material, const SpanVectors& span, Middle&& middle) const {
-  SpanArcs out;
-  out.first = span.first;
-  out.step = span.step;
-  out.steps = span.steps;
+void SphericalSetup::set_arcs(const Material& material, const SpanVectors& span, Middle&& middle,
+                              std::span<LightArcs> out) const {
   const bool specular = config_.specular && has_specular(material);
   std::optional<PointVectors> known_middle;
   const auto at_middle = [&]() -> const PointVectors& {
@@ -184,7 +181,7 @@ SpanArcs SphericalSetup::arcs_of(const Material& material, const SpanVectors& sp
   };
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const LightVectors &a = span.begin.light[i], &b = span.end.light[i];
-    LightArcs& arcs = out.light[i];
+    LightArcs& arcs = out[i];
     ArcMiddle hint;
     if (nearly_opposed(span.begin.normal, span.end.normal) || nearly_opposed(a.to_light, b.to_light))
       hint = {at_middle().normal, at_middle().light[i].to_light};
@@ -200,7 +197,6 @@ SpanArcs SphericalSetup::arcs_of(const Material& material, const SpanVectors& sp
     arcs.exact_at_ends =
         a.spot == b.spot && is_there(a.to_light) == is_there(b.to_light) && is_there(a.v) == is_there(b.v);
   }
-  return out;
 }
 
 template <class P>
@@ -281,11 +277,36 @@ double SphericalSetup::interpolation_error(const Material& material, const SpanA
 // Divides one triangle of preset exact into columns.
 class SphericalSetup::ExactTriangle {
  public:
-  ExactTriangle(const SphericalSetup& setup, const ScreenTriangle& triangle,
+  // The part of a triangle as it is drawn. The arcs take most of the setup's time. Keep them after the check
+  // to write them later.
+  struct Line {
+    bool empty;
+    double first, step;  ///< this and the following as in SpanArcs
+    std::int64_t steps;
+  };
+  struct Part {
+    std::vector<std::uint32_t> headers;
+    std::vector<std::size_t> ends;  ///< end of each header's lines
+    std::vector<Line> lines;
+    std::vector<LightArcs> arcs;  ///< of all lights, for each line that is not empty
+    SetupCounts counts;
+
+    void clear() {
+      headers.clear();
+      ends.clear();
+      lines.clear();
+      arcs.clear();
+      counts = {};
+    }
+  };
+
+  // `part` is memory that the next triangles use again.
+  ExactTriangle(const SphericalSetup& setup, const ScreenTriangle& triangle, Part& part,
                 std::vector<std::uint32_t>& words, SetupCounts& counts)
       : setup_(setup),
         triangle_(triangle),
         material_(setup.scene_->materials[triangle.material]),
+        part_(part),
         words_(words),
         counts_(counts),
         subpixel_bits_(setup.projector_.options().subpixel_bits) {
@@ -304,6 +325,7 @@ class SphericalSetup::ExactTriangle {
     depth_.emplace(corners_, subpixel_bits_, fixed_depths(triangle_));
     if (setup_.options_.ends == SpanEnds::slerped_along_edges)
       for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors(surface_point(triangle_, corner(i)));
+    may_cut_ = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
     append(columns, walks);
   }
 
@@ -312,27 +334,10 @@ class SphericalSetup::ExactTriangle {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
   }
 
-  // The part of a triangle as it is drawn. The arcs take most of the setup's time. Keep them after the check
-  // to write them later.
-  struct Line {
-    bool empty;
-    double first, step;  ///< this and the following as in SpanArcs
-    std::int64_t steps;
-  };
-  struct Part {
-    std::vector<std::vector<std::uint32_t>> headers;
-    std::vector<std::size_t> ends;  ///< end of each header's lines
-    std::vector<Line> lines;
-    std::vector<LightArcs> arcs;  ///< of all lights, for each line that is not empty
-    SetupCounts counts;
-  };
-
   void append(Columns columns, const Walks& walks) {
     if (walks.empty()) return;
-    // With ends interpolated along the edges, splitting changes nothing.
-    const bool may_cut = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
-    Part part;
-    if (!plan(walks, may_cut && columns.width() > 1, part)) {
+    part_.clear();
+    if (!plan(walks, may_cut_ && columns.width() > 1)) {
       if (!split_) ++counts_.subdivided;
       split_ = true;
       const std::int64_t middle = columns.begin + columns.width() / 2;
@@ -341,64 +346,63 @@ class SphericalSetup::ExactTriangle {
       return;
     }
     ++counts_.leaves;
-    counts_ += part.counts;
-    SpanArcs arcs;
-    auto line = part.lines.begin();
-    auto light = part.arcs.begin();
-    for (std::size_t i = 0; i < part.headers.size(); ++i) {
+    counts_ += part_.counts;
+    const std::size_t lights = setup_.lights_.size(), header_words = part_.headers.size() / walks.size();
+    std::span<const LightArcs> arcs = part_.arcs;
+    std::size_t line = 0;
+    for (std::size_t i = 0; i < walks.size(); ++i) {
       ++counts_.vectors;
-      words_.insert(words_.end(), part.headers[i].begin(), part.headers[i].end());
-      for (; line != part.lines.begin() + static_cast<std::ptrdiff_t>(part.ends[i]); ++line) {
+      const auto header = part_.headers.begin() + static_cast<std::ptrdiff_t>(i * header_words);
+      words_.insert(words_.end(), header, header + static_cast<std::ptrdiff_t>(header_words));
+      for (; line < part_.ends[i]; ++line) {
         ++counts_.records;
         InitVector record(words_, setup_.init_bits_);
-        if (line->empty) continue;
-        arcs.first = line->first;
-        arcs.step = line->step;
-        arcs.steps = line->steps;
-        std::copy_n(light, setup_.lights_.size(), arcs.light.begin());
-        light += static_cast<std::ptrdiff_t>(setup_.lights_.size());
-        setup_.put_record<Exact>(record, triangle_.material, arcs, counts_);
+        const Line& at = part_.lines[line];
+        if (at.empty) continue;
+        setup_.put_record<Exact>(record, triangle_.material,
+                                 {arcs.first(lights), at.first, at.step, at.steps}, counts_);
+        arcs = arcs.subspan(lights);
       }
     }
   }
 
-  // Fills `part`. Returns false if a line must be split. Checks errors only if `look` is true.
-  bool plan(const Walks& walks, bool look, Part& part) const {
+  // Fills the part. Returns false if a line must be split. Checks errors only if `look` is true.
+  bool plan(const Walks& walks, bool look) const {
     for (const Walk& walk : walks) {
-      part.headers.push_back(header_of(walk, part.counts));
+      const std::span<const std::uint32_t> header = append_header(walk);
       bool well = true;
       if (setup_.has_records_)
-        walk_lines<Exact>(part.headers.back(), [&](const golden::TriangleWalker<Exact>& walker) {
-          well = well && plan(walker, look, part);
-        });
+        walk_lines<Exact>(
+            header, [&](const golden::TriangleWalker<Exact>& walker) { well = well && plan(walker, look); });
       if (!well) return false;
-      part.ends.push_back(part.lines.size());
+      part_.ends.push_back(part_.lines.size());
     }
     return true;
   }
-  bool plan(const golden::TriangleWalker<Exact>& line, bool look, Part& part) const {
+  bool plan(const golden::TriangleWalker<Exact>& line, bool look) const {
     if (line.line_empty() || setup_.lights_.empty()) {
-      part.lines.push_back({true, 0.0, 0.0, 0});
+      part_.lines.push_back({true, 0.0, 0.0, 0});
       return true;
     }
     const Span at = span_of(line);
     const SpanVectors ends = vectors_of(at);
-    const SpanArcs arcs = arcs_of(at, ends);
+    const std::size_t begin = part_.arcs.size();
+    part_.arcs.resize(begin + setup_.lights_.size());
+    const std::span<LightArcs> of_line = std::span(part_.arcs).subspan(begin);
+    set_arcs(at, ends, of_line);
+    const SpanArcs arcs{of_line, ends.first, ends.step, ends.steps};
     if (look && !(error_bound(at, ends, arcs) <= setup_.options_.threshold) && !interpolates_well(at, arcs))
       return false;
-    part.lines.push_back({false, arcs.first, arcs.step, arcs.steps});
-    part.arcs.insert(part.arcs.end(), arcs.light.begin(),
-                     arcs.light.begin() + static_cast<std::ptrdiff_t>(setup_.lights_.size()));
+    part_.lines.push_back({false, arcs.first, arcs.step, arcs.steps});
     return true;
   }
 
-  std::vector<std::uint32_t> header_of(const Walk& walk, SetupCounts& counts) const {
-    std::vector<std::uint32_t> words;
-    InitVector header(words, setup_.init_bits_);
+  std::span<const std::uint32_t> append_header(const Walk& walk) const {
+    InitVector header(part_.headers, setup_.init_bits_);
     put_header(header, triangle_.source, walk,
                depth_->words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits)));
-    setup_.put_ambient(header, material_, counts);
-    return words;
+    setup_.put_ambient(header, material_, part_.counts);
+    return header.words();
   }
 
   // First and last pixel, in the order of the walker.
@@ -432,18 +436,22 @@ class SphericalSetup::ExactTriangle {
     return setup_.vectors_at(material_, surface);
   }
 
-  SpanArcs arcs_of(const Span& at, const SpanVectors& ends) const {
-    return setup_.arcs_of(material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); });
+  void set_arcs(const Span& at, const SpanVectors& ends, std::span<LightArcs> arcs) const {
+    setup_.set_arcs(
+        material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); }, arcs);
   }
   SpanVectors vectors_of(const Span& at) const {
+    // Form the vectors in place: they are large.
+    if (setup_.options_.ends == SpanEnds::on_surface) {
+      const auto centre = [&](std::int64_t x) { return vectors(point(2 * x + 1, at.y)); };
+      if (at.steps() > 0)
+        return {centre(at.first), centre(at.last), 0.0, 1.0 / static_cast<double>(at.steps()), at.steps()};
+      SpanVectors pixel{centre(at.first), {}};
+      pixel.end = pixel.begin;
+      return pixel;
+    }
     SpanVectors span;
     span.steps = at.steps();
-    if (setup_.options_.ends == SpanEnds::on_surface) {
-      span.begin = vectors(point(2 * at.first + 1, at.y));
-      span.end = at.steps() == 0 ? span.begin : vectors(point(2 * at.last + 1, at.y));
-      span.step = at.steps() == 0 ? 0.0 : 1.0 / static_cast<double>(at.steps());
-      return span;
-    }
     // Left to right. A span drawn from right to left has negative steps.
     const auto [from, to] = crossings(triangle_, subpixel_bits_, at.y);
     span.begin = setup_.slerped(vertex_[from.top], vertex_[from.bottom], from.t);
@@ -494,9 +502,8 @@ class SphericalSetup::ExactTriangle {
     const std::int64_t steps = at.steps();
     if (steps == 0) return true;
     // Skip the ends if the arcs have the surface's own vectors there.
-    const auto lights = std::span(arcs.light).first(setup_.lights_.size());
-    const bool exact_at_ends =
-        std::all_of(lights.begin(), lights.end(), [](const LightArcs& light) { return light.exact_at_ends; });
+    const bool exact_at_ends = std::all_of(arcs.light.begin(), arcs.light.end(),
+                                           [](const LightArcs& light) { return light.exact_at_ends; });
     const std::int64_t first = exact_at_ends ? 1 : 0;
     for (std::int64_t i = first; i <= steps - first; ++i) {
       ++counts_.shaded;
@@ -517,6 +524,7 @@ class SphericalSetup::ExactTriangle {
   const SphericalSetup& setup_;
   const ScreenTriangle& triangle_;
   const Material& material_;
+  Part& part_;
   std::vector<std::uint32_t>& words_;
   SetupCounts& counts_;
   int subpixel_bits_;
@@ -524,6 +532,7 @@ class SphericalSetup::ExactTriangle {
   std::array<PointVectors, 3> vertex_;
   std::optional<DepthFit> depth_;
   double steepest_slope_ = steepest_slope(material_.exponent);
+  bool may_cut_ = false;  // with ends interpolated along the edges, splitting changes nothing
   bool split_ = false;
 };
 
@@ -537,7 +546,7 @@ class SphericalSetup::Worker final : public SetupWorker {
     for (const ScreenTriangle& t : on_screen_) {
       ++counts.triangles;
       if (setup_.preset_ == Preset::exact)
-        ExactTriangle(setup_, t, words, counts).append();
+        ExactTriangle(setup_, t, part_, words, counts).append();
       else
         setup_.append_published(t, words, counts);
     }
@@ -547,6 +556,7 @@ class SphericalSetup::Worker final : public SetupWorker {
   const SphericalSetup& setup_;
   std::vector<ScreenTriangle> on_screen_;
   RecentVertices vertices_;
+  ExactTriangle::Part part_;
 };
 
 std::unique_ptr<SetupWorker> SphericalSetup::worker() const {
@@ -594,9 +604,11 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
         span.end = span.begin;
       else
         span.step = 1.0 / static_cast<double>(steps);
-      put_record<Published>(record, triangle.material,
-                            arcs_of(material, span, [&] { return slerped(span.begin, span.end, 0.5); }),
-                            counts);
+      std::array<LightArcs, c_most_lights> arcs;
+      const std::span<LightArcs> of_line = std::span(arcs).first(lights_.size());
+      set_arcs(
+          material, span, [&] { return slerped(span.begin, span.end, 0.5); }, of_line);
+      put_record<Published>(record, triangle.material, {of_line, span.first, span.step, span.steps}, counts);
     });
   }
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "golden/spherical_layout.hpp"
@@ -61,9 +62,9 @@ struct LightArcs {
   bool exact_at_ends;  ///< for a span from t = 0 to t = 1
 };
 struct SpanArcs {
-  std::array<LightArcs, c_most_lights> light;  ///< the number of reflected lights is used
-  double first, step;                          ///< as in SpanVectors
-  std::int64_t steps;                          ///< as in SpanVectors
+  std::span<const LightArcs> light;  ///< one per reflected light
+  double first, step;                ///< this and the following as in SpanVectors
+  std::int64_t steps;
 };
 
 class SphericalSetup final : public Setup {
@@ -84,9 +85,11 @@ class SphericalSetup final : public Setup {
                         SetupCounts& counts) const;
   PointVectors slerped(const PointVectors& a, const PointVectors& b, double t) const;
   void put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const;
-  /// `middle` returns the vectors at the span's middle. It is called only if the ends are nearly opposite.
+  /// Sets the arcs of each light. `middle` returns the vectors at the span's middle. It is called only if the
+  /// ends are nearly opposite.
   template <class Middle>
-  SpanArcs arcs_of(const Material& material, const SpanVectors& span, Middle&& middle) const;
+  void set_arcs(const Material& material, const SpanVectors& span, Middle&& middle,
+                std::span<LightArcs> arcs) const;
   template <class Preset>
   void put_record(InitVector& record, std::uint32_t material, const SpanArcs& span,
                   SetupCounts& counts) const;
