@@ -250,7 +250,7 @@ class ProcessorsSetup final : public Setup {
   int subpixel_bits() const { return projector_.options().subpixel_bits; }
 
   void set_scales() {
-    const DepthRange range = depth_range(scene_.camera, bounding_sphere(scene_));
+    const DepthRange& range = projector_.range();
     double nearest = range.far, extent = 0.0;
     for (const SceneTriangle& t : scene_.triangles)
       for (const std::uint32_t corner : t.position) {

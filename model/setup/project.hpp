@@ -108,6 +108,7 @@ class Projector {
 
   const ProjectionOptions& options() const { return options_; }
   FrameSize frame() const { return frame_; }
+  const DepthRange& range() const { return depth_range_; }
 
  private:
   /// Homogeneous screen space: pixels are (x/w, y/w), w is the distance along the viewing axis.
