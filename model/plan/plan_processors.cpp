@@ -207,7 +207,8 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   key.channels = calls[Effect::colour].called_for ? 3 : 1;
   ProcessorUnits& units = key.processors;
   for (const LightKind kind : c_light_kinds)
-    light_units(units, kind) = static_cast<unsigned>(calls.count(kind));
+    if (const auto count = calls.count(kind); count > 0)
+      light_units(units, kind) += static_cast<unsigned>(count);
   units.diffuse = calls[Effect::diffuse].called_for;
   units.specular = calls[Effect::specular].called_for;
   units.normalize = normalize.called_for;
