@@ -54,14 +54,13 @@ constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Fie
 
 constexpr void set_bits(std::span<std::uint32_t> words, const Field& field, std::uint64_t value,
                         int block_low = 0) {
-  for (int done = 0; done < field.bits;) {
-    const int low = block_low + field.low + done;
-    const int shift = low % 32;
-    const int count = 32 - shift < field.bits - done ? 32 - shift : field.bits - done;
-    const std::uint32_t mask = static_cast<std::uint32_t>(low_bits(~std::uint64_t{0}, count) << shift);
-    std::uint32_t& word = words[static_cast<std::size_t>(low / 32)];
-    word = (word & ~mask) | (static_cast<std::uint32_t>((value >> done) << shift) & mask);
-    done += count;
+  const std::uint64_t mask = low_bits(~std::uint64_t{0}, field.bits), bits = value & mask;
+  const int low = block_low + field.low, shift = low % 32;
+  auto word = words.begin() + low / 32;
+  *word = (*word & ~static_cast<std::uint32_t>(mask << shift)) | static_cast<std::uint32_t>(bits << shift);
+  for (int done = 32 - shift; done < field.bits; done += 32) {
+    ++word;
+    *word = (*word & ~static_cast<std::uint32_t>(mask >> done)) | static_cast<std::uint32_t>(bits >> done);
   }
 }
 

@@ -28,14 +28,9 @@ class InitVector {
     words_ = std::span(words).subspan(begin, count);
   }
   /// Writes the value modulo 2^bits of the field, in the block that starts at bit `block_low`. The hardware's
-  /// sums wrap, so a start word may wrap too. Each field is written at most once: its bits are still zero.
+  /// sums wrap, so a start word may wrap too.
   void put(const golden::Field& field, Int128 value, int block_low = 0) {
-    const std::uint64_t bits = golden::low_bits(static_cast<std::uint64_t>(value), field.bits);
-    const int low = block_low + field.low, shift = low % 32;
-    auto word = words_.begin() + low / 32;
-    *word |= static_cast<std::uint32_t>(bits << shift);
-    for (int done = 32 - shift; done < field.bits; done += 32)
-      *++word |= static_cast<std::uint32_t>(bits >> done);
+    golden::set_bits(words_, field, static_cast<std::uint64_t>(value), block_low);
   }
   std::span<const std::uint32_t> words() const { return words_; }
 
