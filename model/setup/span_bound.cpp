@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 namespace halfway {
 namespace {
@@ -75,11 +74,6 @@ std::optional<ArcBounds> arc_bounds(const SurfaceEnd& begin, const SurfaceEnd& e
   const Turning halfway = turning_sum(*to_light.turn, *eye.turn, least_sum);
   if (halfway.angle > c_largest_turn) return std::nullopt;
   return ArcBounds{angle_bound(*normal.turn, *to_light.turn), angle_bound(*normal.turn, halfway)};
-}
-
-double steepest_slope(double exponent) {
-  if (!(exponent >= 1.0)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(exponent) * std::pow((exponent - 1.0) / exponent, 0.5 * (exponent - 1.0));
 }
 
 }  // namespace halfway

@@ -46,7 +46,4 @@ struct ArcBounds {
 std::optional<ArcBounds> arc_bounds(const SurfaceEnd& begin, const SurfaceEnd& end, const Light& light,
                                     glm::dvec3 eye_world);
 
-/// Steepest slope of cos^n of an angle: sqrt(n) ((n - 1)/n)^((n - 1)/2) for n >= 1; infinite below.
-double steepest_slope(double exponent);
-
 }  // namespace halfway

@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "common/cosine_power.hpp"
 #include "golden/triangle_walker.hpp"
 #include "scene/lights.hpp"
 #include "setup/arc.hpp"

@@ -9,6 +9,8 @@
 #include <numeric>
 #include <vector>
 
+#include "common/cosine_power.hpp"
+
 namespace halfway {
 namespace {
 
@@ -34,10 +36,9 @@ double table_cosine(int power, double u) {
   return value;
 }
 
-// The greatest slope of cos^power(v pi/2) with respect to v. It is where tan^2 = 1/(power - 1).
+// The greatest slope of cos^power(v pi/2) with respect to v.
 double steepness(int power) {
-  const double m = power;
-  return c_half_pi * std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
+  return c_half_pi * steepest_slope(power);
 }
 
 // Greatest distance between the angle and the sample's angle, in half bells: half a cell of a table of 2^9

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "common/cosine_power.hpp"
 #include "common/to_integer.hpp"
 #include "tables/wrapped_numbers.hpp"
 
@@ -165,11 +166,9 @@ double table_error(const CosineTable& table) {
 }
 
 double error_bound(const CosineTable& table) {
-  // The slope of cos^m x is greatest where tan^2 x = 1/(m - 1): sqrt(m) (1 - 1/m)^((m - 1)/2).
-  const double m = exponent_of(table), steepest = std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
   const double half_bell = table.own > 0.0 ? own_reach(table.own) : std::numbers::pi / 2;
   const double cell = half_bell * std::ldexp(1.0, shift_of_cells(table) - table.address_bits);
-  return 0.5 / static_cast<double>(largest_word(table)) + steepest * cell / 2;
+  return 0.5 / static_cast<double>(largest_word(table)) + steepest_slope(exponent_of(table)) * cell / 2;
 }
 
 std::string cosine_vhdl_package(const CosineSizes& sizes) {

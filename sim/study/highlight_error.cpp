@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/cosine_power.hpp"
 #include "shading/bell.hpp"
 #include "tables/cosine.hpp"
 
@@ -16,19 +17,14 @@ struct TableError {
   double table, slope;  ///< largest error; greatest slope, per half bell
 };
 
-// Greatest slope of cos^m with respect to the angle.
-double steepest(double m) {
-  return std::sqrt(m) * std::pow(1.0 - 1.0 / m, (m - 1.0) / 2);
-}
-
 TableError power_error(int power, TableSize size) {
   return {tables::table_error(tables::cosine_table(true, power, size.address_bits, size.data_bits)),
-          std::numbers::pi / 2 * steepest(power)};
+          std::numbers::pi / 2 * steepest_slope(power)};
 }
 
 TableError own_error(double exponent, TableSize size) {
   return {tables::table_error(tables::own_table(exponent, 2, size.address_bits, size.data_bits)),
-          tables::own_reach(exponent) * steepest(exponent)};
+          tables::own_reach(exponent) * steepest_slope(exponent)};
 }
 
 }  // namespace
