@@ -194,16 +194,14 @@ class ProcessorsSetup final : public Setup {
  private:
   class Worker final : public SetupWorker {
    public:
-    explicit Worker(const ProcessorsSetup& setup) : setup_(setup) {}
+    explicit Worker(const ProcessorsSetup& setup) : setup_(setup), mesh_(setup.projector_) {}
 
     void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) override {
       if (setup_.config_.shadows) {
         setup_.append_line(unit, words, counts);
         return;
       }
-      on_screen_.clear();
-      setup_.projector_.project(unit, on_screen_, counts.projection, vertices_);
-      for (const ScreenTriangle& t : on_screen_) {
+      for (const ScreenTriangle& t : mesh_.project(unit, counts.projection)) {
         ++counts.triangles;
         setup_.append_triangle(t, words, counts);
       }
@@ -211,8 +209,7 @@ class ProcessorsSetup final : public Setup {
 
    private:
     const ProcessorsSetup& setup_;
-    std::vector<ScreenTriangle> on_screen_;
-    RecentVertices vertices_;
+    MeshProjector mesh_;
   };
 
   void append_triangle(const ScreenTriangle& t, std::vector<std::uint32_t>& words,

@@ -244,25 +244,29 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     ++(away ? counts.back_facing : counts.degenerate);
 }
 
-void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts,
-                        RecentVertices& recent) const {
-  const SceneTriangle& source = scene_->triangles[triangle];
+std::span<const ScreenTriangle> MeshProjector::project(std::uint32_t triangle, ProjectionCounts& counts) {
+  pieces_.clear();
+  const SceneTriangle& source = projector_.scene_->triangles[triangle];
   std::array<ProjectedVertex, 3> corner;
   for (std::size_t i = 0; i < 3; ++i) {
     const VertexKey key = vertex_key(source, i);
-    corner[i] = recent.get(key, [&] { return project_vertex(key); });
-    if (!corner[i].is_inside) return project(triangle, out, counts);
+    corner[i] = vertices_.get(key, [&] { return projector_.project_vertex(key); });
+    if (!corner[i].is_inside) {
+      projector_.project(triangle, pieces_, counts);
+      return pieces_;
+    }
   }
   const ScreenTriangle whole{
       triangle, source.material, {corner[0].screen, corner[2].screen, corner[1].screen}, true};
-  if (is_outside_frame(whole.vertex)) {
+  if (projector_.is_outside_frame(whole.vertex)) {
     ++counts.outside;
   } else if (whole.twice_area() > 0) {
-    out.push_back(whole);
+    pieces_.push_back(whole);
     ++counts.visible;
   } else {
     ++(faces_away(corner[0], corner[1], corner[2]) ? counts.back_facing : counts.degenerate);
   }
+  return pieces_;
 }
 
 Tile Projector::reach(std::uint32_t triangle) const {
@@ -327,8 +331,11 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
 std::vector<ScreenTriangle> Projector::project_all(ProjectionCounts* counts) const {
   std::vector<ScreenTriangle> out;
   ProjectionCounts all;
-  RecentVertices recent;
-  for (std::uint32_t i = 0; i < scene_->triangles.size(); ++i) project(i, out, all, recent);
+  MeshProjector mesh(*this);
+  for (std::uint32_t i = 0; i < scene_->triangles.size(); ++i) {
+    const std::span<const ScreenTriangle> pieces = mesh.project(i, all);
+    out.insert(out.end(), pieces.begin(), pieces.end());
+  }
   if (counts != nullptr) *counts += all;
   return out;
 }

@@ -75,8 +75,6 @@ struct ProjectedVertex {
   bool is_inside;       ///< of all planes: not clipped
   ScreenVertex screen;  ///< if it is inside
 };
-/// Projected vertices for the next triangles of the mesh, which share most of them.
-using RecentVertices = RecentValues<VertexKey, ProjectedVertex, 1024>;
 
 /// Projects triangle by triangle. A vertex or part of an edge that two triangles share has the same screen
 /// coordinates in both. A closed mesh therefore has neither gaps nor double pixels along its edges.
@@ -88,9 +86,6 @@ class Projector {
   /// Appends the visible part of the triangle: nothing, one screen triangle, or the fan of a clipped polygon.
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts) const;
   void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out) const;
-  /// The same result, sooner. `recent` must be used with this projector only.
-  void project(std::uint32_t triangle, std::vector<ScreenTriangle>& out, ProjectionCounts& counts,
-               RecentVertices& recent) const;
 
   /// A part of the frame that contains every pixel of the visible part of the triangle, and of any piece cut
   /// at the midpoints of its edges, rounded to whole pixels or not. Empty if nothing is visible.
@@ -111,6 +106,7 @@ class Projector {
   const DepthRange& range() const { return depth_range_; }
 
  private:
+  friend class MeshProjector;
   /// Homogeneous screen space: pixels are (x/w, y/w), w is the distance along the viewing axis.
   struct ClipVertex {
     double x, y, w;
@@ -149,6 +145,21 @@ class Projector {
   bool usable_;                                ///< camera and options are valid
   std::array<Plane, 4> planes_;                ///< left, right, top, bottom
   std::array<std::int32_t, 4> snapped_range_;  ///< least and greatest x, least and greatest y, in subpixels
+};
+
+/// Projects the triangles of a mesh for one thread. It keeps projected vertices, because the next triangles
+/// share most of them. The result is that of Projector::project.
+class MeshProjector {
+ public:
+  /// The projector must outlive it.
+  explicit MeshProjector(const Projector& projector) : projector_(projector) {}
+  /// The visible part of the triangle, valid until the next call.
+  std::span<const ScreenTriangle> project(std::uint32_t triangle, ProjectionCounts& counts);
+
+ private:
+  const Projector& projector_;
+  RecentValues<VertexKey, ProjectedVertex, 1024> vertices_;
+  std::vector<ScreenTriangle> pieces_;
 };
 
 /// Weights of the triangle's vertices at a point of the screen, from the snapped coordinates. Exact up to the

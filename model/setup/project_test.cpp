@@ -305,7 +305,7 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
 }
 
 // Vertices that neighbours share are projected once. Frame, near plane and guard band cut some triangles.
-TEST(Project, RecentVerticesChangeNothing) {
+TEST(MeshProjector, ProjectsAsItsProjector) {
   Scene scene = one_triangle({});
   const Mesh mesh = make_uv_sphere(60, 30, 1.0);
   scene.positions_world = mesh.positions;
@@ -318,11 +318,11 @@ TEST(Project, RecentVerticesChangeNothing) {
     for (const ProjectionOptions options : {ProjectionOptions{4, false}, ProjectionOptions{0, true}}) {
       scene.camera.near = near;
       const Projector projector(scene, {97, 61}, options);
-      RecentVertices recent;
+      MeshProjector mesh_projector(projector);
       ProjectionCounts counts, expected_counts;
       for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        std::vector<ScreenTriangle> triangles, expected;
-        projector.project(i, triangles, counts, recent);
+        const std::span<const ScreenTriangle> triangles = mesh_projector.project(i, counts);
+        std::vector<ScreenTriangle> expected;
         projector.project(i, expected, expected_counts);
         ASSERT_EQ(triangles.size(), expected.size());
         for (std::size_t k = 0; k < expected.size(); ++k) {

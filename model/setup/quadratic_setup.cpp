@@ -226,7 +226,7 @@ void subdivide(const Piece& p, const Sampler& sampler, const QuadraticSetupOptio
   leaf(p);
 }
 
-double held_sample(double radiance, SetupCounts& counts) {
+double clamped_sample(double radiance, SetupCounts& counts) {
   const double steps = radiance * 255.0;
   if (steps <= c_largest_sample) return std::max(0.0, steps);
   ++counts.overexposed;
@@ -245,11 +245,11 @@ unsigned vector_bits(int degree, int channels) {
 }
 
 // Of degree 1: at the vertices.
-ChannelSamples held_samples(const Piece& piece, int channels, int degree, SetupCounts& counts) {
+ChannelSamples clamped_samples(const Piece& piece, int channels, int degree, SetupCounts& counts) {
   ChannelSamples samples{};
   for (int c = 0; c < channels; ++c)
     for (std::size_t i = 0; i < (degree == 1 ? 3 : 6); ++i)
-      samples[static_cast<std::size_t>(c)][i] = held_sample(piece.samples[i].radiance[c], counts);
+      samples[static_cast<std::size_t>(c)][i] = clamped_sample(piece.samples[i].radiance[c], counts);
   return samples;
 }
 
@@ -416,7 +416,7 @@ class QuadraticSetup::ExactTriangle {
   void append_quadratic(const std::array<ScreenPoint, 3>& points, const Piece& piece,
                         const Walks& walks) const {
     append_vectors(words_, setup_.channels_, triangle_.source, walks, points, subpixel_bits_ + piece.level,
-                   depth_fit(piece.level), held_samples(piece, setup_.channels_, setup_.degree_, counts_),
+                   depth_fit(piece.level), clamped_samples(piece, setup_.channels_, setup_.degree_, counts_),
                    setup_.degree_);
     counts_.vectors += walks.size();
   }
@@ -428,7 +428,7 @@ class QuadraticSetup::ExactTriangle {
       const glm::dvec3 radiance = sampler_.at_centre(pixel, subpixel_bits_);
       for (int c = 0; c < setup_.channels_; ++c)
         colour[static_cast<std::size_t>(c)].push_back(
-            fixed(held_sample(radiance[c], counts_), c_exact_fraction));
+            fixed(clamped_sample(radiance[c], counts_), c_exact_fraction));
     }
     const PixelFit fit(pixels);
     append_walks(words_, setup_.degree_, setup_.channels_, triangle_.source, walks, depth_fit(level),
@@ -459,12 +459,10 @@ class QuadraticSetup::ExactTriangle {
 
 class QuadraticSetup::Worker final : public SetupWorker {
  public:
-  explicit Worker(const QuadraticSetup& setup) : setup_(setup) {}
+  explicit Worker(const QuadraticSetup& setup) : setup_(setup), mesh_(setup.projector_) {}
 
   void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) override {
-    on_screen_.clear();
-    setup_.projector_.project(triangle, on_screen_, counts.projection, vertices_);
-    for (const ScreenTriangle& t : on_screen_) {
+    for (const ScreenTriangle& t : mesh_.project(triangle, counts.projection)) {
       ++counts.triangles;
       const Sampler sampler(*setup_.scene_, setup_.lights_, t, samples_, counts);
       if (setup_.preset_ == Preset::exact)
@@ -486,13 +484,13 @@ class QuadraticSetup::Worker final : public SetupWorker {
                 };
                 counts.vectors +=
                     append_vectors(words, channels, triangle.source, {vertex(0), vertex(1), vertex(2)},
-                                   held_samples(piece, channels, degree, counts), degree);
+                                   clamped_samples(piece, channels, degree, counts), degree);
               });
   }
 
   const QuadraticSetup& setup_;
   std::vector<ScreenTriangle> on_screen_;
-  RecentVertices vertices_;
+  MeshProjector mesh_;
   RecentSamples samples_;
 };
 

@@ -326,7 +326,6 @@ class SphericalSetup::ExactTriangle {
     depth_.emplace(corners_, subpixel_bits_, fixed_depths(triangle_));
     if (setup_.options_.ends == SpanEnds::slerped_along_edges)
       for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors(surface_point(triangle_, corner(i)));
-    may_cut_ = setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty();
     append(columns, walks);
   }
 
@@ -335,10 +334,13 @@ class SphericalSetup::ExactTriangle {
     return plan_walks(corners_, subpixel_bits_, columns, setup_.frame_.height);
   }
 
+  // With ends interpolated along the edges, splitting changes nothing.
+  bool may_cut() const { return setup_.options_.ends == SpanEnds::on_surface && !setup_.lights_.empty(); }
+
   void append(Columns columns, const Walks& walks) {
     if (walks.empty()) return;
     part_.clear();
-    if (!plan(walks, may_cut_ && columns.width() > 1)) {
+    if (!plan(walks, may_cut() && columns.width() > 1)) {
       if (!split_) ++counts_.subdivided;
       split_ = true;
       const std::int64_t middle = columns.begin + columns.width() / 2;
@@ -368,7 +370,7 @@ class SphericalSetup::ExactTriangle {
   }
 
   // Fills the part. Returns false if a line must be split. Checks errors only if `look` is true.
-  bool plan(const Walks& walks, bool look) const {
+  bool plan(const Walks& walks, bool look) {
     for (const Walk& walk : walks) {
       const std::span<const std::uint32_t> header = append_header(walk);
       bool well = true;
@@ -380,7 +382,7 @@ class SphericalSetup::ExactTriangle {
     }
     return true;
   }
-  bool plan(const golden::TriangleWalker<Exact>& line, bool look) const {
+  bool plan(const golden::TriangleWalker<Exact>& line, bool look) {
     if (line.line_empty() || setup_.lights_.empty()) {
       part_.lines.push_back({true, 0.0, 0.0, 0});
       return true;
@@ -398,7 +400,7 @@ class SphericalSetup::ExactTriangle {
     return true;
   }
 
-  std::span<const std::uint32_t> append_header(const Walk& walk) const {
+  std::span<const std::uint32_t> append_header(const Walk& walk) {
     InitVector header(part_.headers, setup_.init_bits_);
     put_header(header, triangle_.source, walk,
                depth_->words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits)));
@@ -533,18 +535,15 @@ class SphericalSetup::ExactTriangle {
   std::array<PointVectors, 3> vertex_;
   std::optional<DepthFit> depth_;
   double steepest_slope_ = steepest_slope(material_.exponent);
-  bool may_cut_ = false;  // with ends interpolated along the edges, splitting changes nothing
   bool split_ = false;
 };
 
 class SphericalSetup::Worker final : public SetupWorker {
  public:
-  explicit Worker(const SphericalSetup& setup) : setup_(setup) {}
+  explicit Worker(const SphericalSetup& setup) : setup_(setup), mesh_(setup.projector_) {}
 
   void append(std::uint32_t triangle, std::vector<std::uint32_t>& words, SetupCounts& counts) override {
-    on_screen_.clear();
-    setup_.projector_.project(triangle, on_screen_, counts.projection, vertices_);
-    for (const ScreenTriangle& t : on_screen_) {
+    for (const ScreenTriangle& t : mesh_.project(triangle, counts.projection)) {
       ++counts.triangles;
       if (setup_.preset_ == Preset::exact)
         ExactTriangle(setup_, t, part_, words, counts).append();
@@ -556,7 +555,7 @@ class SphericalSetup::Worker final : public SetupWorker {
  private:
   const SphericalSetup& setup_;
   std::vector<ScreenTriangle> on_screen_;
-  RecentVertices vertices_;
+  MeshProjector mesh_;
   ExactTriangle::Part part_;
 };
 
