@@ -40,7 +40,7 @@ Plan planned(const Scene& scene, PlanRequest request = {}) {
   EXPECT_TRUE(plan) << plan.error().message;
   return plan ? *plan : Plan{};
 }
-std::string key(const Scene& scene, PlanRequest request = {}) {
+std::string key(const Scene& scene, const PlanRequest& request = {}) {
   return planned(scene, request).key.name();
 }
 std::string refusal(const Scene& scene, PlanRequest request = {}) {

@@ -106,11 +106,11 @@ Plane filtered_down(const Plane& in, FrameSize size, const Kernel& kernel) {
   const int height = static_cast<int>(size.height), radius = kernel.radius();
   Plane out(in.size());
   for (int y = 0; y < height; ++y)
-    for (int offset = -radius, at = 0; offset <= radius; ++offset, ++at) {
-      const double tap = kernel.taps[static_cast<std::size_t>(at)];
-      const double* from = &in[static_cast<std::size_t>(std::clamp(y + offset, 0, height - 1)) * width];
+    for (std::size_t tap = 0; tap < kernel.taps.size(); ++tap) {
+      const int from_y = std::clamp(y + static_cast<int>(tap) - radius, 0, height - 1);
+      const double* from = &in[static_cast<std::size_t>(from_y) * width];
       double* to = &out[static_cast<std::size_t>(y) * width];
-      for (std::size_t x = 0; x < width; ++x) to[x] += tap * from[x];
+      for (std::size_t x = 0; x < width; ++x) to[x] += kernel.taps[tap] * from[x];
     }
   return out;
 }

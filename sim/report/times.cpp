@@ -178,9 +178,9 @@ Result<std::string> readme_times(const Table& times) {
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
-      "host's "
-      "set-up on one core, and the hardware at its clock on an iCE40. On the dashed line, no other design is "
-      "both quicker and more accurate. An arrow marks a lower bound of the time: the design does not fit the "
+      "host's set-up on one core, and the hardware at its clock on an iCE40. On the dashed line, no other "
+      "design is both quicker and more accurate. An arrow marks a lower bound of the time: the design does "
+      "not fit the "
       "iCE40, and its clock is that of its slowest placed part. phong: the "
       "reference, per pixel in double precision. phong-mesa: per pixel by OpenGL on Mesa's llvmpipe. planes: "
       "Gouraud's shading in hardware. adaptive: quadratic, with triangles split until the error is below the "
