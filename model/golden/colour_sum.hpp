@@ -24,19 +24,21 @@ class ColourSum {
   ColourSum(int channels, int data_bits) : channels_(channels), data_bits_(data_bits) {}
 
   void add(const ColourTerms& terms) {
-    for (int c = 0; c < channels_; ++c)
-      sums_[static_cast<std::size_t>(c)].add(terms[static_cast<std::size_t>(c)]);
+    for (std::size_t c = 0; c < terms.size(); ++c) sums_[c].add(terms[c]);
   }
   /// With one channel all colours are equal.
   Colours colours() const {
-    const auto colour = [&](std::size_t channel) {
-      return static_cast<std::uint8_t>(sums_[channels_ == 3 ? channel : 0].result(
-          Preset::c_factor_fraction_bits + data_bits_, Preset::c_colour_bits));
-    };
-    return {colour(0), colour(1), colour(2)};
+    const std::uint8_t first = colour(0);
+    if (channels_ == 1) return {first, first, first};
+    return {first, colour(1), colour(2)};
   }
 
  private:
+  std::uint8_t colour(std::size_t channel) const {
+    return static_cast<std::uint8_t>(
+        sums_[channel].result(Preset::c_factor_fraction_bits + data_bits_, Preset::c_colour_bits));
+  }
+
   int channels_, data_bits_;
   std::array<SaturatingSum, 3> sums_;
 };

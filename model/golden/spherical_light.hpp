@@ -52,19 +52,15 @@ class SphericalLight {
 
  private:
   ColourTerms diffuse_terms() const {
-    ColourTerms terms{};
     const std::uint32_t sample = diffuse_.gated_sample();
-    for (int c = 0; c < config_.channels; ++c)
-      terms[static_cast<std::size_t>(c)] = diffuse_.product(c, sample);
-    return terms;
+    return {diffuse_.product(0, sample), diffuse_.product(1, sample), diffuse_.product(2, sample)};
   }
   // A grey highlight is added to every channel.
   ColourTerms highlight_terms() const {
-    ColourTerms terms{};
     const std::uint32_t sample = specular_.gated_sample(lit());
-    for (int c = 0; c < config_.channels; ++c)
-      terms[static_cast<std::size_t>(c)] = specular_.product(config_.highlight_channels == 1 ? 0 : c, sample);
-    return terms;
+    const std::uint64_t first = specular_.product(0, sample);
+    if (config_.highlight_channels == 1) return {first, first, first};
+    return {first, specular_.product(1, sample), specular_.product(2, sample)};
   }
 
   SphericalConfig config_;
