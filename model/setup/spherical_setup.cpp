@@ -481,17 +481,19 @@ class SphericalSetup::ExactTriangle {
       const LightVectors &first = ends.begin.light[i], &last = ends.end.light[i];
       const auto [least, most] = std::minmax(
           {glm::dot(ends.begin.normal, first.to_light), glm::dot(ends.end.normal, last.to_light)});
-      // Below the horizon the light adds nothing. At the horizon its highlight ends abruptly.
+      // Below the horizon the light adds nothing.
       if (most < -bounds->diffuse) continue;
-      if (least < bounds->diffuse) return c_unknown;
       error += light.intensity * bounds->diffuse * material_.diffuse * material_.colour;
       if (!specular) continue;
-      const CosineArc& highlight = arcs.light[i].specular;
-      const bool has_peak = highlight.phase >= 0.0 && highlight.phase <= highlight.sweep;
+      const CosineArc& arc = arcs.light[i].specular;
+      const bool has_peak = arc.phase >= 0.0 && arc.phase <= arc.sweep;
       const double largest =
-          has_peak ? highlight.amplitude : std::max(glm::dot(first.u, first.v), glm::dot(last.u, last.v));
-      error += light.intensity * bounds->specular * slope_up_to(largest + bounds->specular) *
-               material_.specular * material_.specular_colour;
+          bounds->specular +
+          (has_peak ? arc.amplitude : std::max(glm::dot(first.u, first.v), glm::dot(last.u, last.v)));
+      // At the horizon the highlight ends abruptly: the whole highlight may be wrong.
+      const double highlight = least < bounds->diffuse ? highlight_power(largest, material_.exponent)
+                                                       : bounds->specular * slope_up_to(largest);
+      error += light.intensity * highlight * material_.specular * material_.specular_colour;
     }
     return 255.0 * std::max({error.x, error.y, error.z});
   }
