@@ -361,13 +361,14 @@ glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bi
 SurfacePoint surface_point(const ScreenTriangle& triangle, glm::dvec3 barycentric_screen) {
   const auto& [a, b, c] = triangle.vertex;
   glm::dvec3 weight = barycentric_screen * glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
-  weight /= weight.x + weight.y + weight.z;
+  const double inverse_w = weight.x + weight.y + weight.z;
+  weight /= inverse_w;
   const glm::dvec3 normal = weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world;
   const double length = glm::length(normal);
   const bool is_smooth = length > c_shortest_normal;
   return {weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world,
           is_smooth ? normal / length : geometric_normal_world(triangle),
-          glm::dot(barycentric_screen, glm::dvec3(a.z, b.z, c.z)), is_smooth};
+          glm::dot(barycentric_screen, glm::dvec3(a.z, b.z, c.z)), inverse_w, is_smooth ? length : 0.0};
 }
 
 }  // namespace halfway

@@ -175,9 +175,9 @@ glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bi
 struct SurfacePoint {
   glm::dvec3 position_world;
   glm::dvec3 normal_world;  ///< always unit
-  double z;                 ///< as ScreenVertex::z
-  /// False if the interpolated normal is zero: the normal is the triangle's own.
-  bool is_smooth = true;
+  double z, inverse_w;      ///< as in ScreenVertex
+  double normal_length;  ///< of the interpolated normal; 0 if that is zero: the normal is the triangle's own
+  bool is_smooth() const { return normal_length > 0.0; }
 };
 
 /// The surface at a point of the screen, perspective-correct. If the interpolated normal is zero (opposite

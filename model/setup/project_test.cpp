@@ -565,6 +565,7 @@ TEST(SurfacePoint, IsWhereTheRayMeetsTheTriangle) {
                     const SurfacePoint point = surface_point(u.triangle, weights);
                     EXPECT_LT(glm::length(point.position_world - (eye + w * ray)), 1e-10 * w);
                     EXPECT_NEAR(point.z, 20.0 * (w - 1.0) / (w * 19.0), 1e-11);
+                    EXPECT_NEAR(point.inverse_w * w, 1.0, 1e-11);
                     EXPECT_NEAR(glm::length(point.normal_world), 1.0, 1e-14);
                   });
   }
@@ -590,7 +591,9 @@ TEST(SurfacePoint, OpposedNormalsFallBackToTheTrianglesOwn) {
   EXPECT_EQ(surface_point(triangle, {0.5, 0.5, 0.0}).normal_world, glm::dvec3(0, 0, 1));  // towards the eye
   // One rounding next to it, the direction is still noise.
   EXPECT_EQ(surface_point(triangle, {0.5 + 1e-15, 0.5 - 1e-15, 0.0}).normal_world, glm::dvec3(0, 0, 1));
+  EXPECT_FALSE(surface_point(triangle, {0.5, 0.5, 0.0}).is_smooth());
   EXPECT_NEAR(surface_point(triangle, {0.6, 0.4, 0.0}).normal_world.x, 1.0, 1e-15);
+  EXPECT_NEAR(surface_point(triangle, {0.6, 0.4, 0.0}).normal_length, 0.2, 1e-15);
   // If the corners have no normal either, the result is still a unit vector.
   for (ScreenVertex& v : triangle.vertex) v.position_world = v.normal_world = glm::dvec3(0.0);
   EXPECT_EQ(glm::length(surface_point(triangle, {0.2, 0.3, 0.5}).normal_world), 1.0);

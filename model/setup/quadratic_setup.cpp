@@ -118,7 +118,7 @@ class Sampler {
     const VertexKey a = key_of(i), b = key_of(j);
     const ShadedPoint& point = recent_.get({std::min(a, b), std::max(a, b), triangle_.material},
                                            [&] { return shaded(corner.barycentric); });
-    return point.surface.is_smooth ? sample(corner, point) : at(corner);
+    return point.surface.is_smooth() ? sample(corner, point) : at(corner);
   }
   VertexKey key_of(std::size_t vertex) const {
     return vertex_key(scene_.triangles[triangle_.source], (3 - vertex) % 3);

@@ -45,7 +45,7 @@ double angle_bound(const Turning& u, const Turning& v) {
   return u.uneven + v.uneven + off_slerp(2.0 * v.angle * (u.angle + v.angle) + 0.5 * v.angle * v.angle);
 }
 
-std::optional<ArcBounds> arc_bounds(const SurfaceEnd& begin, const SurfaceEnd& end, const Light& light,
+std::optional<ArcBounds> arc_bounds(const SurfacePoint& begin, const SurfacePoint& end, const Light& light,
                                     glm::dvec3 eye_world) {
   const double perspective = end.inverse_w / begin.inverse_w;
   // The turn of a vector given at both ends, and its directions there.
@@ -53,27 +53,28 @@ std::optional<ArcBounds> arc_bounds(const SurfaceEnd& begin, const SurfaceEnd& e
     glm::dvec3 begin, end;
     std::optional<Turning> turn;
   };
-  const auto turn_of = [&](glm::dvec3 from, glm::dvec3 to, double least) -> Ends {
+  const auto turn_to = [&](const glm::dvec3& place_world) -> Ends {
+    const glm::dvec3 from = place_world - begin.position_world, to = place_world - end.position_world;
     const double from_length = glm::length(from), to_length = glm::length(to);
-    if (!(std::min(from_length, to_length) > least)) return {from, to, std::nullopt};
-    from /= from_length;
-    to /= to_length;
-    return {from, to, turning(from, to, perspective * to_length / from_length)};
+    if (!(std::min(from_length, to_length) > 0.0)) return {from, to, std::nullopt};
+    const glm::dvec3 from_unit = from / from_length, to_unit = to / to_length;
+    return {from_unit, to_unit, turning(from_unit, to_unit, perspective * to_length / from_length)};
   };
-  const Ends normal = turn_of(begin.normal_world, end.normal_world, c_least_length);
-  const Ends eye = turn_of(eye_world - begin.position_world, eye_world - end.position_world, 0.0);
+  if (!(std::min(begin.normal_length, end.normal_length) > c_least_length)) return std::nullopt;
+  const auto normal =
+      turning(begin.normal_world, end.normal_world, perspective * end.normal_length / begin.normal_length);
+  const Ends eye = turn_to(eye_world);
   const Ends to_light = light.point.w == 0.0
                             ? Ends{light.point.xyz_world, light.point.xyz_world, Turning{0.0, 0.0}}
-                            : turn_of(light.point.xyz_world - begin.position_world,
-                                      light.point.xyz_world - end.position_world, 0.0);
-  if (!normal.turn || !eye.turn || !to_light.turn) return std::nullopt;
+                            : turn_to(light.point.xyz_world);
+  if (!normal || !eye.turn || !to_light.turn) return std::nullopt;
   const double least_sum =
       std::min(glm::length(to_light.begin + eye.begin), glm::length(to_light.end + eye.end)) -
       to_light.turn->angle - eye.turn->angle;
   if (!(least_sum > c_least_length)) return std::nullopt;
   const Turning halfway = turning_sum(*to_light.turn, *eye.turn, least_sum);
   if (halfway.angle > c_largest_turn) return std::nullopt;
-  return ArcBounds{angle_bound(*normal.turn, *to_light.turn), angle_bound(*normal.turn, halfway)};
+  return ArcBounds{angle_bound(*normal, *to_light.turn), angle_bound(*normal, halfway)};
 }
 
 }  // namespace halfway

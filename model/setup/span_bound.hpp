@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "scene/lights.hpp"
+#include "setup/project.hpp"
 
 namespace halfway {
 
@@ -30,20 +31,14 @@ Turning turning_sum(const Turning& a, const Turning& b, double least_sum);
 /// Bound of the difference of the angle between u and v, in radians, from that of cosine_arc(u, v).
 double angle_bound(const Turning& u, const Turning& v);
 
-/// Both ends of a span of a surface, at t = 0 and t = 1.
-struct SurfaceEnd {
-  glm::dvec3 position_world;
-  glm::dvec3 normal_world;  ///< interpolated, before it is normalized
-  double inverse_w;
-};
-
 /// The difference between the surface and the arcs of one light, anywhere on the span, as angles in radians.
 struct ArcBounds {
   double diffuse;   ///< angle between N and L
   double specular;  ///< angle between N and H (Blinn)
 };
-/// std::nullopt if a direction turns too far, or H is not well defined.
-std::optional<ArcBounds> arc_bounds(const SurfaceEnd& begin, const SurfaceEnd& end, const Light& light,
+/// For the span of a surface between the points t = 0 and t = 1. std::nullopt if a direction turns too far,
+/// or H is not well defined.
+std::optional<ArcBounds> arc_bounds(const SurfacePoint& begin, const SurfacePoint& end, const Light& light,
                                     glm::dvec3 eye_world);
 
 }  // namespace halfway

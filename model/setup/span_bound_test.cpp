@@ -27,8 +27,16 @@ class Random {
   std::mt19937_64 bits_;
 };
 
+SurfacePoint point_of(glm::dvec3 position_world, glm::dvec3 interpolated_normal_world, double inverse_w) {
+  const double length = glm::length(interpolated_normal_world);
+  return {.position_world = position_world,
+          .normal_world = length > 0.0 ? interpolated_normal_world / length : glm::dvec3(0.0, 0.0, 1.0),
+          .inverse_w = inverse_w,
+          .normal_length = length};
+}
+
 struct Span {
-  SurfaceEnd begin, end;
+  SurfacePoint begin, end;
   glm::dvec3 eye_world;
   Light light;
 };
@@ -37,10 +45,11 @@ struct Span {
 Span random_span(Random& random) {
   const double size = random.decades(1e-6, 1.0);
   Span span;
-  span.begin = {random.vector(), random.decades(0.3, 1.0) * random.unit(), random.decades(0.1, 10.0)};
-  span.end = {span.begin.position_world + size * random.vector(),
-              span.begin.normal_world + random.within(0.0, 1.0) * size * random.vector(),
-              span.begin.inverse_w * (1.0 + size * random.within(-0.5, 0.5))};
+  const glm::dvec3 normal = random.decades(0.3, 1.0) * random.unit();
+  span.begin = point_of(random.vector(), normal, random.decades(0.1, 10.0));
+  span.end = point_of(span.begin.position_world + size * random.vector(),
+                      normal + random.within(0.0, 1.0) * size * random.vector(),
+                      span.begin.inverse_w * (1.0 + size * random.within(-0.5, 0.5)));
   span.eye_world = span.begin.position_world + random.decades(0.1, 100.0) * random.unit();
   span.light.point =
       random.within(0, 1) < 0.5
@@ -61,7 +70,8 @@ Vectors vectors_at(const Span& span, double t) {
                s = end / (begin + end);
   const glm::dvec3 position = (1.0 - s) * span.begin.position_world + s * span.end.position_world;
   Vectors there;
-  there.normal = glm::normalize((1.0 - s) * span.begin.normal_world + s * span.end.normal_world);
+  there.normal = glm::normalize((1.0 - s) * span.begin.normal_length * span.begin.normal_world +
+                                s * span.end.normal_length * span.end.normal_world);
   there.to_light = direction_to(span.light, position);
   there.halfway = glm::normalize(there.to_light + direction(position, span.eye_world));
   return there;
@@ -102,15 +112,16 @@ TEST(SpanBound, HoldsForRandomSpans) {
 }
 
 TEST(SpanBound, IsNotGivenForLargeTurns) {
-  Span span = {{{0, 0, 0}, {0, 0, 1}, 1}, {{0.1, 0, 0}, {0.1, 0, 1}, 1}, {0, 0, 5}, {}};
+  const auto end_of = [](glm::dvec3 normal) { return point_of({0.1, 0, 0}, normal, 1); };
+  Span span = {point_of({0, 0, 0}, {0, 0, 1}, 1), end_of({0.1, 0, 1}), {0, 0, 5}, {}};
   span.light.point = {{0, 0, 1}, 0.0};
   const auto bounds = [&] { return arc_bounds(span.begin, span.end, span.light, span.eye_world); };
   EXPECT_TRUE(bounds());
-  span.end.normal_world = {1, 0, 1};
+  span.end = end_of({1, 0, 1});
   EXPECT_FALSE(bounds()) << "the normal turns too far";
-  span.end.normal_world = {0, 0, 0};
+  span.end = end_of({0, 0, 0});
   EXPECT_FALSE(bounds()) << "no normal";
-  span.end.normal_world = {0.1, 0, 1};
+  span.end = end_of({0.1, 0, 1});
   span.light.point = {{0, 0, -1}, 0.0};
   EXPECT_FALSE(bounds()) << "no halfway vector";
   span.light.point = {{0.05, 0, 0.01}, 1.0};

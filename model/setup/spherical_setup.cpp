@@ -388,16 +388,15 @@ class SphericalSetup::ExactTriangle {
       return true;
     }
     const Span at = span_of(line);
-    const SpanVectors ends = vectors_of(at);
-    const std::size_t begin = part_.arcs.size();
-    part_.arcs.resize(begin + setup_.lights_.size());
-    const std::span<LightArcs> of_line = std::span(part_.arcs).subspan(begin);
-    set_arcs(at, ends, of_line);
-    const SpanArcs arcs{of_line, ends.first, ends.step, ends.steps};
-    if (look && !(error_bound(at, ends, arcs) <= setup_.options_.threshold) && !interpolates_well(at, arcs))
-      return false;
-    part_.lines.push_back({false, arcs.first, arcs.step, arcs.steps});
-    return true;
+    if (setup_.options_.ends == SpanEnds::slerped_along_edges) {
+      append_arcs(at, vectors_along_edges(at));
+      return true;
+    }
+    const SurfaceEnds surface = ends_of(at);
+    const SpanVectors ends = vectors_on_surface(at, surface);
+    const SpanArcs arcs = append_arcs(at, ends);
+    return !look || error_bound(surface, ends, arcs) <= setup_.options_.threshold ||
+           interpolates_well(at, arcs);
   }
 
   std::span<const std::uint32_t> append_header(const Walk& walk) {
@@ -424,14 +423,13 @@ class SphericalSetup::ExactTriangle {
     return surface_point(triangle_, barycentric_screen(triangle_, half_x << subpixel_bits_,
                                                        (2 * std::int64_t{y} + 1) << subpixel_bits_));
   }
-  SurfaceEnd surface_end(std::int64_t x, std::uint32_t y) const {
-    const auto& [a, b, c] = triangle_.vertex;
-    glm::dvec3 weight = barycentric_at_centre(triangle_, subpixel_bits_, x, y) *
-                        glm::dvec3(a.inverse_w, b.inverse_w, c.inverse_w);
-    const double inverse_w = weight.x + weight.y + weight.z;
-    weight /= inverse_w;
-    return {weight.x * a.position_world + weight.y * b.position_world + weight.z * c.position_world,
-            weight.x * a.normal_world + weight.y * b.normal_world + weight.z * c.normal_world, inverse_w};
+  // The surface at the centres of the first and the last pixel.
+  struct SurfaceEnds {
+    SurfacePoint begin, end;
+  };
+  SurfaceEnds ends_of(const Span& at) const {
+    const SurfacePoint begin = point(2 * at.first + 1, at.y);
+    return {begin, at.steps() > 0 ? point(2 * at.last + 1, at.y) : begin};
   }
 
   PointVectors vectors(const SurfacePoint& surface) const {
@@ -439,20 +437,15 @@ class SphericalSetup::ExactTriangle {
     return setup_.vectors_at(material_, surface);
   }
 
-  void set_arcs(const Span& at, const SpanVectors& ends, std::span<LightArcs> arcs) const {
-    setup_.set_arcs(
-        material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); }, arcs);
-  }
-  SpanVectors vectors_of(const Span& at) const {
+  SpanVectors vectors_on_surface(const Span& at, const SurfaceEnds& ends) const {
     // Form the vectors in place: they are large.
-    if (setup_.options_.ends == SpanEnds::on_surface) {
-      const auto centre = [&](std::int64_t x) { return vectors(point(2 * x + 1, at.y)); };
-      if (at.steps() > 0)
-        return {centre(at.first), centre(at.last), 0.0, 1.0 / static_cast<double>(at.steps()), at.steps()};
-      SpanVectors pixel{centre(at.first), {}};
-      pixel.end = pixel.begin;
-      return pixel;
-    }
+    if (at.steps() > 0)
+      return {vectors(ends.begin), vectors(ends.end), 0.0, 1.0 / static_cast<double>(at.steps()), at.steps()};
+    SpanVectors pixel{vectors(ends.begin), {}};
+    pixel.end = pixel.begin;
+    return pixel;
+  }
+  SpanVectors vectors_along_edges(const Span& at) const {
     SpanVectors span;
     span.steps = at.steps();
     // Left to right. A span drawn from right to left has negative steps.
@@ -466,17 +459,27 @@ class SphericalSetup::ExactTriangle {
     return span;
   }
 
+  // Adds a line that is not empty to the part.
+  SpanArcs append_arcs(const Span& at, const SpanVectors& ends) {
+    const std::size_t begin = part_.arcs.size();
+    part_.arcs.resize(begin + setup_.lights_.size());
+    const std::span<LightArcs> of_line = std::span(part_.arcs).subspan(begin);
+    setup_.set_arcs(
+        material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); }, of_line);
+    part_.lines.push_back({false, ends.first, ends.step, ends.steps});
+    return {of_line, ends.first, ends.step, ends.steps};
+  }
+
   // An upper bound of a line's error, in colour steps, from its ends alone. Infinity where none is known.
-  double error_bound(const Span& at, const SpanVectors& ends, const SpanArcs& arcs) const {
+  double error_bound(const SurfaceEnds& surface, const SpanVectors& ends, const SpanArcs& arcs) const {
     constexpr double c_unknown = std::numeric_limits<double>::infinity();
-    if (at.steps() == 0) return 0.0;
+    if (ends.steps == 0) return 0.0;
     const bool specular = has_specular(material_);
     if (specular && material_.brdf != Brdf::blinn) return c_unknown;
-    const SurfaceEnd begin = surface_end(at.first, at.y), end = surface_end(at.last, at.y);
     glm::dvec3 error(0.0);
     for (std::size_t i = 0; i < setup_.lights_.size(); ++i) {
       const Light& light = setup_.lights_[i];
-      const auto bounds = arc_bounds(begin, end, light, setup_.scene_->camera.eye_world);
+      const auto bounds = arc_bounds(surface.begin, surface.end, light, setup_.scene_->camera.eye_world);
       if (!bounds || light.cone) return c_unknown;
       const LightVectors &first = ends.begin.light[i], &last = ends.end.light[i];
       const auto [least, most] = std::minmax(
