@@ -35,8 +35,11 @@ glm::dvec3 any_across(glm::dvec3 u) {
 
 /// The rotation from u1 to u2: u(t) = cos(t angle) u1 + sin(t angle) tangent.
 struct Turn {
-  double angle;
-  glm::dvec3 tangent;  ///< unit, perpendicular to u1
+  double cosine, sine;  ///< of the angle, 0 to pi
+  glm::dvec3 tangent;   ///< unit, perpendicular to u1
+
+  bool is_still() const { return sine == 0.0 && cosine > 0.0; }
+  double angle() const { return std::atan2(sine, cosine); }
 };
 
 Turn turn_between(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 middle) {
@@ -45,24 +48,25 @@ Turn turn_between(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 middle) {
   // u2 - u1 (u1.u2) has no accurate digits close to angles 0 and pi.
   const glm::dvec3 part = across(cosine > 0.0 ? u2 - u1 : u2 + u1, u1);
   const double sine = glm::length(part);
-  if (sine > c_no_plane) return {std::atan2(sine, cosine), part / sine};
-  if (cosine > 0.0) return {0.0, any_across(u1)};
+  if (sine > c_no_plane) return {cosine, sine, part / sine};
+  if (cosine > 0.0) return {1.0, 0.0, any_across(u1)};
   if (is_direction(middle)) {
     const glm::dvec3 through = across(middle, u1);
     const double length = glm::length(through);
-    if (length > c_no_plane) return {c_pi, through / length};
+    if (length > c_no_plane) return {-1.0, 0.0, through / length};
   }
-  return {c_pi, any_across(u1)};
+  return {-1.0, 0.0, any_across(u1)};
 }
 
 /// The cosine between v and a direction that turns away from u1.
 CosineArc arc_seen_from(glm::dvec3 v, glm::dvec3 u1, const Turn& turn) {
   const double cosine = glm::dot(u1, v);
-  if (turn.angle == 0.0) return {std::min(std::abs(cosine), 1.0), 0.0, cosine < 0.0 ? c_pi : 0.0};
+  if (turn.is_still()) return {std::min(std::abs(cosine), 1.0), 0.0, cosine < 0.0 ? c_pi : 0.0};
   const double sine = glm::dot(turn.tangent, v);
+  const double sweep = turn.angle();
   double phase = std::atan2(sine, cosine);
-  if (0.5 * turn.angle - phase > c_pi) phase += 2.0 * c_pi;
-  return {std::min(std::hypot(cosine, sine), 1.0), turn.angle, phase};
+  if (0.5 * sweep - phase > c_pi) phase += 2.0 * c_pi;
+  return {std::min(std::hypot(cosine, sine), 1.0), sweep, phase};
 }
 
 }  // namespace
@@ -74,7 +78,8 @@ double CosineArc::at(double t) const {
 glm::dvec3 slerp(glm::dvec3 u1, glm::dvec3 u2, double t, glm::dvec3 middle) {
   if (!is_direction(u1) || !is_direction(u2)) return glm::dvec3(0.0);
   const Turn turn = turn_between(u1, u2, middle);
-  return std::cos(t * turn.angle) * u1 + std::sin(t * turn.angle) * turn.tangent;
+  const double angle = t * turn.angle();
+  return std::cos(angle) * u1 + std::sin(angle) * turn.tangent;
 }
 
 CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v, const ArcMiddle& middle) {
@@ -90,13 +95,16 @@ CosineArc cosine_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2,
   // angle.
   const Turn v = turn_between(v1, v2, middle.v);
   const glm::dvec3 axis = glm::cross(v1, v.tangent);
-  const auto turned_back = [&](glm::dvec3 x, double angle) {
+  const auto turned_back = [&](glm::dvec3 x, double c, double s) {
     const double ahead = glm::dot(x, v.tangent), up = glm::dot(x, v1);
-    const double c = std::cos(angle), s = std::sin(angle);
     return (c * up + s * ahead) * v1 + (c * ahead - s * up) * v.tangent + glm::dot(x, axis) * axis;
   };
-  const glm::dvec3 u2_back = v.angle == 0.0 ? u2 : turned_back(u2, v.angle);
-  const glm::dvec3 middle_back = is_direction(middle.u) ? turned_back(middle.u, 0.5 * v.angle) : middle.u;
+  const glm::dvec3 u2_back = v.is_still() ? u2 : turned_back(u2, v.cosine, v.sine);
+  glm::dvec3 middle_back = middle.u;
+  if (is_direction(middle.u)) {
+    const double half = 0.5 * v.angle();
+    middle_back = turned_back(middle.u, std::cos(half), std::sin(half));
+  }
   return arc_seen_from(v1, u1, turn_between(u1, u2_back, middle_back));
 }
 
