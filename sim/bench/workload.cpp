@@ -261,26 +261,26 @@ Result<double> frame_rate(const Scene& scene, FrameSize size, const HardwareKey&
   std::vector<RtlFrame> pictures;
   for (const std::shared_ptr<Engine>& engine : engines)
     pictures.emplace_back(engine, size, scene.background, RtlFrameOptions{.golden = make_golden_model(key)});
-  // Draw `count` frames; each thread takes the next one.
-  const auto draw = [&](std::size_t count) -> Status {
-    std::atomic<std::size_t> next_picture = 0, next_frame = 0;
-    return for_each_on_threads(
-        static_cast<unsigned>(pictures.size()), pictures.size(), [&](std::size_t) -> Status {
-          RtlFrame& rtl = pictures[next_picture++];
-          while (next_frame++ < count) {
-            FrameCost cost;
-            if (Status drawn = draw_scene(
-                    scene, size, key, options, rtl, [] {}, std::numeric_limits<double>::infinity(), cost);
-                !drawn)
-              return drawn;
-            if (cost.mismatches != 0) return Error{ExitCode::differs, key.name() + ": the RTL differs"};
-          }
-          return Ok{};
-        });
+  const auto draw_with = [&](RtlFrame& rtl) -> Status {
+    FrameCost cost;
+    const double no_end = std::numeric_limits<double>::infinity();
+    if (Status drawn = draw_scene(scene, size, key, options, rtl, [] {}, no_end, cost); !drawn) return drawn;
+    if (cost.mismatches != 0) return Error{ExitCode::differs, key.name() + ": the RTL differs"};
+    return Ok{};
   };
-  if (Status warmed = draw(pictures.size()); !warmed) return warmed.error();
+  // Draw one frame with each engine, which is not timed.
+  const auto threads = static_cast<unsigned>(pictures.size());
+  const auto draw_one = [&](std::size_t i) { return draw_with(pictures[i]); };
+  if (Status drawn = for_each_on_threads(threads, pictures.size(), draw_one); !drawn) return drawn.error();
+  // Each engine draws the next frame until all are drawn.
+  std::atomic<std::size_t> next_frame = 0;
+  const auto draw_rest = [&](std::size_t i) -> Status {
+    while (next_frame++ < frames)
+      if (Status drawn = draw_with(pictures[i]); !drawn) return drawn;
+    return Ok{};
+  };
   const auto start = std::chrono::steady_clock::now();
-  if (Status drawn = draw(frames); !drawn) return drawn.error();
+  if (Status drawn = for_each_on_threads(threads, pictures.size(), draw_rest); !drawn) return drawn.error();
   return static_cast<double>(frames) / seconds_since(start);
 }
 
