@@ -3,15 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <fstream>
 #include <string_view>
 
-#include "mesh_files/number.hpp"
-#include "mesh_files/obj.hpp"
-#include "mesh_files/ply.hpp"
-#include "mesh_files/stl.hpp"
+#include "mesh_files/mesh_text.hpp"
 #include "sim/scene_files/gltf.hpp"
 #include "sim/system/file.hpp"
 
@@ -19,7 +14,6 @@ namespace halfway {
 
 namespace {
 
-constexpr std::array<std::string_view, 5> c_endings = {".obj", ".ply", ".stl", ".gltf", ".glb"};
 constexpr std::uintmax_t c_max_file_bytes = std::uintmax_t{4} << 30;
 constexpr std::uintmax_t c_max_library_bytes = std::uintmax_t{64} << 20;
 
@@ -39,12 +33,9 @@ MaterialLibrary read_library(const std::filesystem::path& folder, std::string_vi
 
 }  // namespace
 
-std::string lower_ending(const std::filesystem::path& path) {
-  return lower_case(path.extension().string());
-}
-
 bool is_mesh_file_name(const std::filesystem::path& path) {
-  return std::find(c_endings.begin(), c_endings.end(), lower_ending(path)) != c_endings.end();
+  const std::string ending = lower_ending(path.string());
+  return is_mesh_text_name(path.string()) || ending == ".gltf" || ending == ".glb";
 }
 
 Status check_readable(const std::filesystem::path& path) {
@@ -74,14 +65,9 @@ Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   if (Status ok = check_readable(path); !ok) return ok.error();
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
-  const std::string ending = lower_ending(path);
-  if (ending == ".ply") return read_ply(*bytes, name);
-  if (ending == ".stl") return read_stl(*bytes, name);
-  if (ending == ".obj") {
-    return read_obj(*bytes, name,
-                    [&path](std::string_view library) { return read_library(path.parent_path(), library); });
-  }
-  return read_gltf(*bytes, path);
+  if (!is_mesh_text_name(name)) return read_gltf(*bytes, path);
+  return read_mesh_text(
+      *bytes, name, [&path](std::string_view library) { return read_library(path.parent_path(), library); });
 }
 
 }  // namespace halfway

@@ -3,15 +3,11 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "common/result.hpp"
 #include "mesh_files/loaded_mesh.hpp"
 
 namespace halfway {
-
-/// The ending of a file's name with its dot, in lower case.
-std::string lower_ending(const std::filesystem::path& path);
 
 /// True if the ending is that of a mesh file (.obj .ply .stl .gltf .glb in either case).
 bool is_mesh_file_name(const std::filesystem::path& path);

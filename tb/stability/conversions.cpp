@@ -101,7 +101,7 @@ constexpr Site c_sites[] = {
     {"model/reference/ray_cast.cpp", 1, "ShadowRays: bins of a tree; Extreme numbers, the reference picture"},
     {"model/mesh_files/ply.cpp", 1, "index of a corner, in range; Numbers of a mesh file"},
     {"model/scene/hen_mesh.cpp", 1, "Net: cells of a lattice; numbers of its own"},
-    {"sim/scene_files/load_scene.cpp", 1, "slices at another tessellation, in range; load_scene_test"},
+    {"model/scene_files/parse_scene.cpp", 1, "slices at another tessellation, in range; load_scene_test"},
     {"model/setup/exact_division.hpp", 2, "an estimate that exact remainders mend; exact_division_test"},
     {"model/setup/half_triangle.cpp", 2, "whole pixels of preset published; Extreme numbers"},
     {"model/setup/init_vector.hpp", 2, "fixed, wrapped_word: Fixed-point words of any real"},

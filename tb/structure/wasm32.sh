@@ -5,7 +5,7 @@
 # types are checked. Then it checks that a file with each of these is refused.
 set -eu
 checkout=$1 scratch=$2
-folders='common frame golden golden_run mesh_files plan reference scene setup shading'
+folders='common frame golden golden_run mesh_files plan reference scene scene_files setup shading'
 compiler=clang++
 
 fail() {
@@ -19,7 +19,7 @@ command -v $compiler >/dev/null || fail "$compiler: not found; install it with: 
 # Use only these two libraries of /usr/include, because its other headers are those of another system.
 rm -rf "$scratch"
 mkdir -p "$scratch/include"
-ln -s /usr/include/glm /usr/include/fmt "$scratch/include"
+ln -s /usr/include/glm /usr/include/fmt /usr/include/toml++ "$scratch/include"
 
 check() { # FILE: its errors on stdout
   $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" \

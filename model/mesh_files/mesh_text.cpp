@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mesh_files/mesh_text.hpp"
+
+#include <algorithm>
+
+#include "mesh_files/number.hpp"
+#include "mesh_files/ply.hpp"
+#include "mesh_files/stl.hpp"
+
+namespace halfway {
+namespace {
+
+/// The place of the dot before the ending; npos if the name has no ending.
+std::size_t dot_of(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  return dot == 0 || name == ".." ? std::string_view::npos : dot;
+}
+
+}  // namespace
+
+std::string_view file_name(std::string_view path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+std::string lower_ending(std::string_view path) {
+  const std::string_view name = file_name(path);
+  const std::size_t dot = dot_of(name);
+  return dot == std::string_view::npos ? std::string() : lower_case(name.substr(dot));
+}
+
+std::string file_stem(std::string_view path) {
+  const std::string_view name = file_name(path);
+  return std::string(name.substr(0, dot_of(name)));
+}
+
+bool is_mesh_text_name(std::string_view path) {
+  return std::find(c_mesh_text_endings.begin(), c_mesh_text_endings.end(), lower_ending(path)) !=
+         c_mesh_text_endings.end();
+}
+
+Result<LoadedMesh> read_mesh_text(std::string_view bytes, std::string_view file,
+                                  const ReadLibrary& read_library) {
+  const std::string ending = lower_ending(file);
+  if (ending == ".ply") return read_ply(bytes, file);
+  if (ending == ".stl") return read_stl(bytes, file);
+  if (ending == ".obj") return read_obj(bytes, file, read_library);
+  return bad_input(std::string(file) + ": not a mesh by its name; .obj, .ply and .stl can be read here");
+}
+
+}  // namespace halfway
