@@ -121,11 +121,6 @@ void add_own_tables(const CosineSizes& sizes, const CosineSize& size, std::vecto
 
 }  // namespace
 
-double own_reach(double exponent) {
-  // cos x = c_own_end^(1/exponent), by 1 - cos x = 2 sin^2(x/2) without cancellation.
-  return 2.0 * std::asin(std::sqrt(-std::expm1(std::log(c_own_end) / exponent) / 2.0));
-}
-
 CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits) {
   return made_table({exact, power, address_bits, data_bits, {}});
 }

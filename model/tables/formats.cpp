@@ -2,7 +2,6 @@
 #include "tables/formats.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -531,15 +530,6 @@ std::vector<PresetFormats> preset_formats() {
       {"published", joined(common_formats(), published_formats()),
        joined(joined(published_layouts(), spherical_layouts(false)), processors_layouts(false))},
   };
-}
-
-std::string WordLengths::name() const {
-  std::vector<std::string> parts;
-  if (angle_bits) parts.push_back(fmt::format("angle{}", *angle_bits));
-  if (fraction_bits) parts.push_back(fmt::format("fraction{}", *fraction_bits));
-  if (seed_bits) parts.push_back(fmt::format("seed{}", *seed_bits));
-  if (newton) parts.emplace_back(*newton ? "newton" : "plain");
-  return fmt::format("{}", fmt::join(parts, "-"));
 }
 
 std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) {

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -20,9 +19,6 @@
 #include <string>
 
 #include "common/to_integer.hpp"
-#include "golden/processors_layout.hpp"
-#include "golden/triangle_walker.hpp"
-#include "golden/walker_clock.hpp"
 #include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
@@ -285,47 +281,9 @@ Result<double> frame_rate(const Scene& scene, FrameSize size, const HardwareKey&
 }
 
 WalkCounts count_walk(const InitBatches& batches) {
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(batches.key);
-  WalkCounts n;
-  golden::TriangleWalker<golden::Exact> walker;
-  golden::WalkerClock clock(batches.key.shader == Shader::spherical);
-  // Clocks lost to lines alone: the line stage handles one line per clock, the span stage one pixel per
-  // clock. The next span starts when both are ready.
-  std::uint64_t span = 0, lines = 0;
-  const bool processors = batches.key.shader == Shader::processors;
-  for (auto rest = std::span<const std::uint32_t>(batches.words); !rest.empty();) {
-    const auto vector = rest;
-    rest = rest.subspan(golden->group(rest) * batches.words_per_vector());
-    if (processors && golden::get_bits(vector, golden::Exact::request_header_at::command) !=
-                          static_cast<std::uint64_t>(golden::Command::draw))
-      continue;  // the vector defines a light
-    std::array<std::uint32_t, (golden::Exact::c_init_header_bits + 31) / 32> header;
-    for (std::size_t i = 0; i < header.size(); ++i)
-      header[i] = static_cast<std::uint32_t>(
-          golden::get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
-                           processors ? golden::ProcessorsLayout<golden::Exact>::walk_low() : 0));
-    walker.line_load(header);
-    ++n.headers;
-    clock.take_init();
-    walker.walk([&] {
-      ++n.lines;
-      ++lines;
-      if (walker.line_empty()) {
-        ++n.empty_lines;
-        clock.take_line(0);
-        return;
-      }
-      const std::uint64_t pixels = walker.pixels();
-      ++n.spans;
-      n.pixels += pixels;
-      clock.take_line(static_cast<std::int64_t>(pixels));
-      n.lost_to_lines += std::max(span, lines) - span;
-      span = pixels;
-      lines = 0;
-    });
-  }
-  n.lost_to_headers = static_cast<std::uint64_t>(clock.last_pixel()) - n.pixels - n.lost_to_lines;
-  return n;
+  WalkCounter counter(batches.key);
+  counter.add(batches.words);
+  return counter.counts();
 }
 
 double Fit::at(const Terms& row) const {

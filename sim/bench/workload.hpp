@@ -12,6 +12,7 @@
 #include "common/result.hpp"
 #include "frame/fragment.hpp"
 #include "frame/frame_size.hpp"
+#include "golden_run/walk_counts.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "sim/engine/engine.hpp"
@@ -68,15 +69,6 @@ Result<FrameCost> draw_frame(const std::function<Scene()>& make_scene, FrameSize
 Result<double> frame_rate(const Scene& scene, FrameSize size, const HardwareKey& key,
                           std::span<const std::shared_ptr<Engine>> engines, std::size_t frames);
 
-/// Counts of preset exact's walker for the vectors. They are equal for all shaders with this walker.
-struct WalkCounts {
-  std::uint64_t headers = 0, lines = 0, empty_lines = 0, spans = 0, pixels = 0;
-  /// Clocks without a pixel because the line stage handles one line per clock while the span stage draws.
-  std::uint64_t lost_to_lines = 0;
-  /// Additional clocks: two for a header before line records; without line records, a second clock for a
-  /// triangle of one line.
-  std::uint64_t lost_to_headers = 0;
-};
 /// For vectors of preset exact without shadows.
 WalkCounts count_walk(const InitBatches& batches);
 

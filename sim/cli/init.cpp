@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "plan/plan.hpp"
+#include "setup/check_counts.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
@@ -33,7 +34,8 @@ int run(const Folders& folders, const InitCommand& command) {
   SceneStream stream(*setup, key, draw->threads);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
-    if (const Status status = check_shadow_counts(*scene, stream); !status) return report(status.error());
+    if (const Status status = check_shadow_counts(*scene, stream.counts(), stream.fault()); !status)
+      return report(status.error());
     file->write(batch.init_words);
   }
   progress.clear();

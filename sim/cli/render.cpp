@@ -12,6 +12,7 @@
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
 #include "reference/spherical_renderer.hpp"
+#include "setup/check_counts.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/run/scene_stream.hpp"
@@ -41,7 +42,8 @@ Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
   Progress progress(scene.name);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
-    if (const Status status = check_shadow_counts(scene, stream); !status) return status.error();
+    if (const Status status = check_shadow_counts(scene, stream.counts(), stream.fault()); !status)
+      return status.error();
     if (const Status status = assembler.add(batch.golden); !status) return status.error();
   }
   return assembler.frame();

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "sim/compare/limits.hpp"
+#include "setup/check_counts.hpp"
 
 namespace halfway {
 namespace {
@@ -17,25 +17,23 @@ RtlFrame::RtlFrame(std::shared_ptr<Engine> engine, FrameSize size, glm::dvec3 ba
                    RtlFrameOptions options)
     : engine_(std::move(engine)),
       o_(std::move(options)),
-      assembler_(size, o_.tile.value_or(whole_frame(size)), background) {}
+      frame_(size, o_.tile.value_or(whole_frame(size)), background) {}
 
 void RtlFrame::clear() {
   comparator_ = {};
-  assembler_.clear();
-  expected_ = count_ = golden_count_ = 0;
+  frame_.clear();
+  golden_count_ = 0;
   stretch_ = {};
   golden_clock_ = compare_clock_ = assemble_clock_ = 0.0;
-  fault_.clear();
-  alive_ = true;
 }
 
 Status RtlFrame::add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden) {
   return stretch_.add([&]() -> Status {
     words_ = init_words;
     if (o_.golden_trace.empty()) given_ = golden;
-    expected_ += o_.golden ? o_.golden->all_pixels(init_words) : golden.size();
+    frame_.expect(o_.golden ? o_.golden->all_pixels(init_words) : golden.size());
     Status drawn = Ok{};
-    if (alive_) drawn = ended(engine_->draw(init_words, most(), [this](auto part) { take(part); }));
+    if (alive()) drawn = ended(engine_->draw(init_words, frame_.most(), [this](auto part) { take(part); }));
     // Keep the golden fragments of triangles that are still in the hardware, or that a fault omitted.
     compare({}, SIZE_MAX);
     return drawn;
@@ -49,8 +47,8 @@ Status RtlFrame::finish() {
       if (!trace) return trace.error();
       trace_.emplace(std::move(*trace));
     }
-    if (alive_)
-      if (Status drawn = ended(engine_->drain(most(), [this](auto part) { take(part); })); !drawn)
+    if (alive())
+      if (Status drawn = ended(engine_->drain(frame_.most(), [this](auto part) { take(part); })); !drawn)
         return drawn;
     // Add the golden fragments that the engine has not drawn.
     while (trace_ && compare({}, c_chunk) != 0) {
@@ -63,34 +61,26 @@ Status RtlFrame::finish() {
 Status RtlFrame::draw(const Scene& scene, SceneStream& stream) {
   for (Batch batch; stream.next(batch);) {
     if (Status status = add(batch.init_words, batch.golden); !status) return status;
-    if (Status status = check_shadow_counts(scene, stream, o_.golden && o_.golden->fault()); !status)
+    if (Status status =
+            check_shadow_counts(scene, stream.counts(), stream.fault() || (o_.golden && o_.golden->fault()));
+        !status)
       return status;
   }
-  if (Status status = check_projection(scene, stream); !status) return status;
+  if (Status status = check_projection(scene, stream.counts()); !status) return status;
   return finish();
 }
 
-// Upper limit of further fragments: the expected ones and a surplus. More means that the hardware runs away.
-std::uint64_t RtlFrame::most() const {
-  return expected_ - std::min(expected_, count_) + c_most_surplus;
-}
-
-// A fault of the hardware ends the drawing. Other errors are returned to the caller.
 Status RtlFrame::ended(const Status& drawn) {
   if (error_) return *error_;
-  if (drawn || drawn.error().code != ExitCode::differs) return drawn;
-  fault_ = drawn.error().message;
-  alive_ = false;
-  return Ok{};
+  return frame_.ended(drawn);
 }
 
 void RtlFrame::take(std::span<const Fragment> drawn) {
   // The golden model draws whole triangles. Draw no further while it is ahead of the engine.
-  const std::uint64_t needed = count_ + drawn.size();
+  const std::uint64_t needed = frame_.fragments() + drawn.size();
   compare(drawn, static_cast<std::size_t>(needed - std::min(needed, golden_count_)));
   const auto start = Stretch::now();
-  count_ += drawn.size();
-  assemble(drawn);
+  frame_.add(drawn);
   if (o_.on_drawn) o_.on_drawn(drawn);
   assemble_clock_ += seconds_since(start);
 }
@@ -119,16 +109,6 @@ std::span<const Fragment> RtlFrame::next_golden(std::size_t count) {
   return next;
 }
 
-// Wrong hardware may draw outside the frame. The frame then contains only the fragments inside.
-void RtlFrame::assemble(std::span<const Fragment> fragments) {
-  while (!fragments.empty()) {
-    const std::uint64_t before = assembler_.fragments();
-    if (assembler_.add(fragments)) break;
-    if (fault_.empty()) fault_ = "a fragment lies outside the frame";
-    fragments = fragments.subspan(static_cast<std::size_t>(assembler_.fragments() - before));
-  }
-}
-
 RtlFrame::Seconds RtlFrame::seconds() const {
   const double golden = stretch_.share(golden_clock_), compare = stretch_.share(compare_clock_),
                assemble = stretch_.share(assemble_clock_);
@@ -138,13 +118,14 @@ RtlFrame::Seconds RtlFrame::seconds() const {
 SimulatorRun RtlFrame::result() {
   comparator_.finish();
   SimulatorRun run{.simulator = to_string(engine_->kind()),
-                   .fragments = count_,
+                   .fragments = frame_.fragments(),
                    .mismatches = comparator_.mismatches(),
                    .cycles = engine_->cycles(),
                    .parts = engine_->parts(),
-                   .fault = fault_,
+                   .fault = frame_.fault(),
                    .first = comparator_.first()};
-  if (alive_ || run.cycles) run.seconds = stretch_.clock() - golden_clock_ - compare_clock_ - assemble_clock_;
+  if (alive() || run.cycles)
+    run.seconds = stretch_.clock() - golden_clock_ - compare_clock_ - assemble_clock_;
   if (run.mismatches != 0) run.description = comparator_.describe(title(engine_->kind()));
   return run;
 }

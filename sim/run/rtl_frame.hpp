@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "frame/assemble.hpp"
 #include "golden_run/golden_run.hpp"
 #include "scene/scene.hpp"
+#include "sim/compare/hardware_frame.hpp"
 #include "sim/compare/stream_comparator.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/run/scene_stream.hpp"
@@ -71,8 +71,8 @@ class RtlFrame {
 
   const Engine& engine() const { return *engine_; }
   /// False after a fault: later fragments are invalid.
-  bool alive() const { return alive_; }
-  const FrameAssembler& assembler() const { return assembler_; }
+  bool alive() const { return frame_.alive(); }
+  const FrameAssembler& assembler() const { return frame_.assembler(); }
 
   /// Processor seconds of this thread.
   struct Seconds {
@@ -81,7 +81,6 @@ class RtlFrame {
   Seconds seconds() const;
 
  private:
-  std::uint64_t most() const;
   Status ended(const Status& drawn);
   void take(std::span<const Fragment> drawn);
   /// Compares fragments with the next golden ones: `golden_count` of them, or all that remain. Returns the
@@ -89,22 +88,19 @@ class RtlFrame {
   std::size_t compare(std::span<const Fragment> drawn, std::size_t golden_count);
   /// Valid until the next call.
   std::span<const Fragment> next_golden(std::size_t count);
-  void assemble(std::span<const Fragment> fragments);
 
   std::shared_ptr<Engine> engine_;
   RtlFrameOptions o_;
   StreamComparator comparator_;
-  FrameAssembler assembler_;
+  HardwareFrame frame_;
   std::span<const std::uint32_t> words_;  ///< of this call, not yet drawn by the golden model
   std::span<const Fragment> given_;       ///< of this call, not yet compared
   std::optional<TraceReader> trace_;
   std::vector<Fragment> read_;
-  std::uint64_t expected_ = 0, count_ = 0, golden_count_ = 0;  ///< fragments of the vectors so far
+  std::uint64_t golden_count_ = 0;  ///< golden fragments compared so far
   Stretch stretch_;
   double golden_clock_ = 0.0, compare_clock_ = 0.0, assemble_clock_ = 0.0;  ///< elapsed seconds of its pieces
-  std::string fault_;
-  bool alive_ = true;
-  std::optional<Error> error_;  ///< when reading the golden trace
+  std::optional<Error> error_;                                              ///< when reading the golden trace
 };
 
 }  // namespace halfway

@@ -7,7 +7,6 @@
 #include <future>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
 #include "setup/setup.hpp"
@@ -76,12 +75,5 @@ class SceneStream {
   bool fault_ = false;
   double setup_seconds_ = 0, golden_seconds_ = 0;
 };
-
-/// Returns bad input if, in the batches so far, a pixel has more shadow volumes than can be counted. `fault`:
-/// that of a golden model that draws the batches elsewhere.
-Status check_shadow_counts(const Scene& scene, const SceneStream& stream, bool fault = false);
-/// Returns bad input if, in the batches so far, a triangle does not project to finite points on the
-/// screen.
-Status check_projection(const Scene& scene, const SceneStream& stream);
 
 }  // namespace halfway

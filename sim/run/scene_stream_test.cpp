@@ -10,6 +10,7 @@
 
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
+#include "setup/check_counts.hpp"
 #include "setup/test/random_solids.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
@@ -57,8 +58,8 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
         EXPECT_EQ(stream.counts().vectors, counts.vectors);
         EXPECT_EQ(stream.counts().shadows, counts.shadows);
         EXPECT_EQ(stream.counts().projection.visible, counts.projection.visible);
-        EXPECT_TRUE(check_shadow_counts(*scene, stream));
-        EXPECT_TRUE(check_projection(*scene, stream));
+        EXPECT_TRUE(check_shadow_counts(*scene, stream.counts(), stream.fault()));
+        EXPECT_TRUE(check_projection(*scene, stream.counts()));
       }
       SceneStream without(*setup, key, 2, {.golden = false, .ahead = false});
       std::vector<std::uint32_t> same;
@@ -172,7 +173,7 @@ TEST(SceneStream, TooManyShadowVolumesAreRefused) {
     SceneStream stream(*setup, key, 2);
     for (Batch batch; stream.next(batch);) {
     }
-    const Status status = check_shadow_counts(scene, stream);
+    const Status status = check_shadow_counts(scene, stream.counts(), stream.fault());
     EXPECT_GE(stream.counts().deepest_shadow, static_cast<std::uint64_t>(count));
     if (count == 300) {
       EXPECT_TRUE(status) << status.error().message;

@@ -13,6 +13,7 @@
 #include "frame/assemble.hpp"
 #include "reference/renderer.hpp"
 #include "scene/lights.hpp"
+#include "setup/check_counts.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
 #include "sim/pictures/image.hpp"
@@ -255,7 +256,8 @@ class Simulation {
     SceneStream stream(*setup, summary_.plan.key, s_.threads);
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
-      if (Status status = check_shadow_counts(scene_, stream); !status) return status;
+      if (Status status = check_shadow_counts(scene_, stream.counts(), stream.fault()); !status)
+        return status;
       init_file->write(batch.init_words);
       golden_trace->write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
@@ -267,7 +269,7 @@ class Simulation {
     if (Status status = init_file->commit(); !status) return status;
     if (Status status = golden_trace->commit(); !status) return status;
     summary_.setup = stream.counts();
-    if (Status status = check_projection(scene_, stream); !status) return status;
+    if (Status status = check_projection(scene_, stream.counts()); !status) return status;
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();

@@ -15,6 +15,7 @@
 #include "reference/spherical_renderer.hpp"
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
+#include "setup/check_counts.hpp"
 #include "sim/run/scene_stream.hpp"
 
 namespace halfway::fuzz {
@@ -49,7 +50,7 @@ void draw_by(Shader shader, const Scene& scene, FrameSize size, unsigned choice)
   SceneStream stream(*setup, plan->key, 1);
   FrameAssembler assembler(size, scene.background);
   for (Batch batch; stream.next(batch);) {
-    if (const Status counts = check_shadow_counts(scene, stream); !counts) {
+    if (const Status counts = check_shadow_counts(scene, stream.counts(), stream.fault()); !counts) {
       demand(counts.error().code == ExitCode::bad_input, counts.error().message);
       return;
     }

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks of the counts of a set-up, while a frame is drawn and at its end.
+#pragma once
+
+#include "common/result.hpp"
+#include "scene/scene.hpp"
+#include "setup/setup.hpp"
+
+namespace halfway {
+
+/// Returns bad input if a pixel has more shadow volumes than can be counted. `fault`: that of the golden
+/// model that draws the vectors.
+Status check_shadow_counts(const Scene& scene, const SetupCounts& counts, bool fault);
+/// Returns bad input if a triangle does not project to finite points on the screen.
+Status check_projection(const Scene& scene, const SetupCounts& counts);
+
+}  // namespace halfway
