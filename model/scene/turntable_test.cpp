@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "scene/camera.hpp"
 
@@ -43,6 +45,30 @@ TEST(Turntable, StepsAreEvenAndKeepHeightAndDistance) {
     EXPECT_GT(glm::dot(glm::cross(around(here), around(next)), axis), 0.0);         // counter-clockwise
     EXPECT_TRUE(has_view(turned(camera, frame, 7)));
   }
+}
+
+TEST(Turntable, OrbitsByAngles) {
+  const Camera camera{
+      .eye_world = {2.0, -1.0, 5.0}, .target_world = {0.5, 0.5, -1.0}, .up_world = {0.3, 2.0, 0.1}};
+  EXPECT_EQ(orbited(camera, 0.0, 0.0, 1.0).eye_world, camera.eye_world);
+  // Azimuth turns as the turntable does.
+  for (const std::uint32_t frame : {1U, 7U, 20U}) {
+    const glm::dvec3 eye = orbited(camera, 10.0 * frame, 0.0, 1.0).eye_world;
+    EXPECT_LT(glm::distance(eye, turned(camera, frame, 36).eye_world), 1e-14);
+  }
+  // Elevation raises the eye, and ends before the axis.
+  const glm::dvec3 axis = glm::normalize(camera.up_world);
+  const auto from_axis = [&](double elevation) {
+    const Camera at = orbited(camera, 30.0, elevation, 2.0);
+    EXPECT_TRUE(has_view(at));
+    EXPECT_NEAR(glm::distance(at.eye_world, at.target_world),
+                2.0 * glm::distance(camera.eye_world, camera.target_world), 1e-13);
+    return glm::degrees(std::acos(glm::dot(axis, glm::normalize(at.eye_world - at.target_world))));
+  };
+  EXPECT_NEAR(from_axis(25.0), from_axis(0.0) - 25.0, 1e-12);
+  EXPECT_NEAR(from_axis(-25.0), from_axis(0.0) + 25.0, 1e-12);
+  EXPECT_NEAR(from_axis(500.0), c_least_pole_degrees, 1e-10);
+  EXPECT_NEAR(from_axis(-500.0), 180.0 - c_least_pole_degrees, 1e-10);
 }
 
 }  // namespace

@@ -81,10 +81,10 @@ double clamped_exponent(const Material& material) {
 
 }  // namespace
 
-Bells fitted_bells(const Scene& scene) {
+Bells fitted_bells(const Scene& scene, unsigned powers) {
   std::vector<double> exponents;
   for (const Material& m : scene.materials) exponents.push_back(clamped_exponent(m));
-  return fitted_bells(exponents);
+  return fitted_bells(exponents, powers);
 }
 
 SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const HardwareKey& key,

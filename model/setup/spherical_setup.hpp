@@ -21,8 +21,8 @@
 
 namespace halfway {
 
-/// The bells of all materials, for SphericalSetupOptions.
-Bells fitted_bells(const Scene& scene);
+/// The bells of all materials, for SphericalSetupOptions. `powers` is the sum of the powers that may be used.
+Bells fitted_bells(const Scene& scene, unsigned powers = c_all_powers);
 
 /// Factors are clamped to this value, in colour steps. Preset exact: at this factor the smallest non-zero
 /// entry of a table with up to c_white_data_bits gives white, so the picture is the same as without a limit.

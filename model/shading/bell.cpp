@@ -99,12 +99,13 @@ Fit fit(double exponent, const SampledLobe& truth, int power) {
 
 }  // namespace
 
-Bell fitted_bell(double exponent) {
+Bell fitted_bell(double exponent, unsigned powers) {
   exponent = clamped(exponent);
   const SampledLobe truth = sampled_lobe(exponent);
   Bell best{};
   double least = std::numeric_limits<double>::infinity();
   for (const int power : c_powers) {
+    if ((powers & static_cast<unsigned>(power)) == 0) continue;
     const auto [bell, error] = fit(exponent, truth, power);
     const double total = error + c_angle_error * steepness(power);
     if (total < least) least = total, best = bell;
@@ -112,10 +113,10 @@ Bell fitted_bell(double exponent) {
   return best;
 }
 
-Bells fitted_bells(std::span<const double> exponents) {
+Bells fitted_bells(std::span<const double> exponents, unsigned powers) {
   Bells bells;
   for (const double exponent : exponents)
-    if (!bells.contains(exponent)) bells.emplace(exponent, fitted_bell(exponent));
+    if (!bells.contains(exponent)) bells.emplace(exponent, fitted_bell(exponent, powers));
   return bells;
 }
 
