@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/live/core_module.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sim/system/file.hpp"
+#include "sim/system/shared_library.hpp"
+#include "sim/system/subprocess.hpp"
+#include "sim/system/threads.hpp"
+
+namespace halfway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* c_install =
+    "apt-get install clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 "
+    "libclang-rt-14-dev-wasm32 binaryen";
+constexpr const char* c_module_name = "core.wasm";
+
+// Folders of which every source is compiled, and single sources of others.
+const std::vector<std::string> c_folders = {"model/common",     "model/frame",      "model/golden",
+                                            "model/golden_run", "model/mesh_files", "model/plan",
+                                            "model/setup",      "model/reference",  "model/scene_files",
+                                            "model/scene",      "model/shading"};
+const std::vector<std::string> c_sources = {"model/tables/own_reach.cpp",
+                                            "model/tables/word_lengths.cpp",
+                                            "sim/compare/hardware_frame.cpp",
+                                            "sim/compare/stream_comparator.cpp",
+                                            "sim/live/core.cpp",
+                                            "sim/live/live_frame.cpp",
+                                            "sim/live/live_scene.cpp",
+                                            "sim/live/stream_parts.cpp"};
+// Folders whose headers these sources include.
+const std::vector<std::string> c_header_folders = {"model", "sim/compare", "sim/engine", "sim/live",
+                                                   "sim/verilator"};
+// Headers of libraries: linked into a folder of their own, because the other headers of /usr/include are
+// those of another system.
+const std::vector<std::string> c_libraries = {"fmt", "glm", "toml++"};
+
+// A vector of -msimd128 rounds as a scalar does, and WebAssembly has no fused multiply-add, so set-up and
+// golden model are those of the program.
+const std::vector<std::string> c_flags = {"--target=wasm32-wasi",
+                                          "-msimd128",
+                                          "-std=gnu++20",
+                                          "-O2",
+                                          "-w",
+                                          "-fno-exceptions",
+                                          "-fno-threadsafe-statics",
+                                          "-ffunction-sections",
+                                          "-fdata-sections",
+                                          "-DFMT_HEADER_ONLY=1"};
+// clang++ runs wasm-opt on what it has linked.
+const std::vector<std::string> c_link_flags = {"-mexec-model=reactor", "-Wl,--gc-sections",
+                                               "-Wl,--strip-all"};
+
+bool is_source(const fs::path& file) {
+  return file.extension() == ".cpp" && !file.filename().string().ends_with("_test.cpp");
+}
+
+/// Paths of all sources, relative to the project's root.
+Result<std::vector<std::string>> sources_of(const fs::path& root) {
+  std::vector<std::string> sources = c_sources;
+  for (const std::string& folder : c_folders) {
+    const auto files = files_below(root / folder, ".cpp");
+    if (!files) return files.error();
+    for (const fs::path& file : *files)
+      if (is_source(file)) sources.push_back((folder / file).string());
+  }
+  std::sort(sources.begin(), sources.end());
+  return sources;
+}
+
+/// What the module depends on.
+Result<std::string> hash_of(const fs::path& root, const std::vector<std::string>& sources,
+                            const std::vector<std::string>& tools) {
+  std::vector<std::string> files = sources;
+  for (const std::string& folder : c_header_folders)
+    for (const char* ending : {".hpp", ".h"}) {
+      const auto headers = files_below(root / folder, ending);
+      if (!headers) return headers.error();
+      for (const fs::path& header : *headers) files.push_back((folder / header).string());
+    }
+  ContentHash hash;
+  hash.add("core 1");
+  for (const auto* list : {&tools, &c_flags, &c_link_flags}) {
+    hash.add(std::to_string(list->size()));
+    for (const std::string& item : *list) hash.add(item);
+  }
+  for (const std::string& file : files) {
+    const auto text = read_file(root / file);
+    if (!text) return text.error();
+    hash.add(file).add(*text);
+  }
+  return hash.hex();
+}
+
+Status link_libraries(const fs::path& folder) {
+  if (Status made = make_folders(folder); !made) return made;
+  for (const std::string& library : c_libraries) {
+    std::error_code fault;
+    fs::create_directory_symlink(fs::path("/usr/include") / library, folder / library, fault);
+    if (fault) return tool_failed(fmt::format("{}: {}", (folder / library).string(), fault.message()));
+  }
+  return Ok{};
+}
+
+/// Compile the sources in the folder, several at a time, and link them.
+Status compile(const Compiler& compiler, const fs::path& root, const std::vector<std::string>& sources,
+               const fs::path& folder) {
+  if (Status linked = link_libraries(folder / "include"); !linked) return linked;
+  const auto object = [](std::size_t i) { return fmt::format("{}.o", i); };
+  const auto run = [&](const std::vector<std::string>& flags, const std::vector<std::string>& arguments) {
+    Command command{.arguments = {compiler.program}, .working_folder = folder};
+    command.arguments.insert(command.arguments.end(), flags.begin(), flags.end());
+    command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
+    const auto done = run_tool(command, c_install, "core of the page");
+    return done ? Status(Ok{}) : done.error();
+  };
+  std::vector<std::string> flags = c_flags;
+  flags.insert(flags.end(),
+               {"-I" + (root / "model").string(), "-I" + root.string(), "-isystem", "include", "-c"});
+  const Status compiled = for_each_on_threads(
+      std::max(1U, std::thread::hardware_concurrency()), sources.size(), [&](std::size_t i) {
+        return run(flags, {(root / sources[i]).string(), "-o", object(i)});
+      });
+  if (!compiled) return compiled;
+
+  std::vector<std::string> link = c_flags;
+  link.insert(link.end(), c_link_flags.begin(), c_link_flags.end());
+  std::vector<std::string> objects;
+  for (std::size_t i = 0; i < sources.size(); ++i) objects.push_back(object(i));
+  objects.insert(objects.end(), {"-o", c_module_name});
+  if (Status linked = run(link, objects); !linked) return linked;
+  std::error_code ignored;
+  for (std::size_t i = 0; i < sources.size(); ++i) fs::remove(folder / object(i), ignored);
+  return Ok{};
+}
+
+}  // namespace
+
+Result<fs::path> build_core_module(const SimulatorFolders& folders) {
+  const auto compiler = Compiler::find("clang++");
+  if (!compiler) return compiler.error();
+  const auto optimizer = ask({"wasm-opt", "--version"}, c_install);
+  if (!optimizer) return optimizer.error();
+  const fs::path root = fs::absolute(folders.source);
+  const auto sources = sources_of(root);
+  if (!sources) return sources.error();
+  const auto hash = hash_of(root, *sources, {compiler->identity, *optimizer});
+  if (!hash) return hash.error();
+  const fs::path parent = fs::absolute(folders.cache) / "live", folder = parent / ("core-" + *hash);
+  if (!fs::exists(folder)) {
+    auto fresh = TemporaryFolder::make(parent);
+    if (!fresh) return fresh.error();
+    if (Status compiled = compile(*compiler, root, *sources, fresh->path()); !compiled)
+      return compiled.error();
+    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  }
+  return folder / c_module_name;
+}
+
+}  // namespace halfway
