@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "common/sine_cosine.hpp"
+
 namespace halfway {
 
 namespace {
@@ -213,11 +215,10 @@ Mesh make_uv_sphere(std::uint32_t slices, std::uint32_t stacks, double radius) {
   };
   add_vertex({0.0, 1.0, 0.0});
   for (std::uint32_t stack = 1; stack < stacks; ++stack) {
-    const double polar = std::numbers::pi * stack / stacks;
+    const auto [sin_polar, cos_polar] = sine_cosine(std::numbers::pi * stack / stacks);
     for (std::uint32_t slice = 0; slice < slices; ++slice) {
-      const double azimuth = 2.0 * std::numbers::pi * slice / slices;
-      add_vertex(
-          {std::sin(polar) * std::cos(azimuth), std::cos(polar), -std::sin(polar) * std::sin(azimuth)});
+      const auto [sin_azimuth, cos_azimuth] = sine_cosine(2.0 * std::numbers::pi * slice / slices);
+      add_vertex({sin_polar * cos_azimuth, cos_polar, -sin_polar * sin_azimuth});
     }
   }
   add_vertex({0.0, -1.0, 0.0});
