@@ -155,8 +155,9 @@ TEST_F(CoreModule, MakesTheVectorsOfTheProgram) {
         // Hardware without fragments differs.
         ASSERT_EQ(draw(), 1) << text();
         EXPECT_TRUE(evaluate("words()") == base64(engine.words)) << "the vectors differ";
-        EXPECT_EQ(evaluate("pixels(1, " + std::to_string(c_width * c_height) + ")"),
-                  base64(with_alpha(*live_.picture(Picture::golden))));
+        EXPECT_TRUE(evaluate("pixels(1, " + std::to_string(c_width * c_height) + ")") ==
+                    base64(with_alpha(*live_.picture(Picture::golden))))
+            << "the golden pictures differ";
       }
   }
 }
