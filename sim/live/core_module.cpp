@@ -43,8 +43,8 @@ const std::vector<std::string> c_header_folders = {"model", "sim/compare", "sim/
 // those of another system.
 const std::vector<std::string> c_libraries = {"fmt", "glm", "toml++"};
 
-// WebAssembly has no fused multiply-add, so set-up and golden model compute as the program's do. Vectors are not
-// used: clang++ 14 with -O2 -msimd128 compiles the golden model of the quadratic shader wrongly.
+// WebAssembly has no fused multiply-add, so set-up and golden model compute as the program's do. Vectors are
+// not used: clang++ 14 with -O2 -msimd128 compiles the golden model of the quadratic shader wrongly.
 const std::vector<std::string> c_flags = {"--target=wasm32-wasi",
                                           "-std=gnu++20",
                                           "-O2",
