@@ -211,9 +211,10 @@ HALFWAY_EXPORT(live_pixels) const std::uint8_t* live_pixels(int kind) {
     c.report(picture.error());
     return nullptr;
   }
-  c.pixels.clear();
-  for (std::size_t i = 0; i < picture->rgb.size(); i += 3)
-    c.pixels.insert(c.pixels.end(), {picture->rgb[i], picture->rgb[i + 1], picture->rgb[i + 2], 255});
+  c.pixels.assign(4 * picture->pixels(), 255);
+  for (std::size_t i = 0; i < picture->pixels(); ++i)
+    std::copy_n(picture->rgb.begin() + static_cast<std::ptrdiff_t>(3 * i), 3,
+                c.pixels.begin() + static_cast<std::ptrdiff_t>(4 * i));
   return c.pixels.data();
 }
 
