@@ -260,7 +260,10 @@ Result<double> frame_rate(const Scene& scene, FrameSize size, const HardwareKey&
   const auto draw_with = [&](RtlFrame& rtl) -> Status {
     FrameCost cost;
     const double no_end = std::numeric_limits<double>::infinity();
-    if (Status drawn = draw_scene(scene, size, key, options, rtl, [] {}, no_end, cost); !drawn) return drawn;
+    if (Status drawn = draw_scene(
+            scene, size, key, options, rtl, [] {}, no_end, cost);
+        !drawn)
+      return drawn;
     if (cost.mismatches != 0) return Error{ExitCode::differs, key.name() + ": the RTL differs"};
     return Ok{};
   };
