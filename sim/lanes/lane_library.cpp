@@ -10,7 +10,10 @@
 namespace halfway {
 namespace {
 
-constexpr const char* c_library_name = "lanes.so";
+constexpr const char* c_text_name = "lanes.hpp";
+constexpr const char* c_install_web_assembly =
+    "apt-get install clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 "
+    "libclang-rt-14-dev-wasm32 binaryen";
 // Same flags as in sim/verilator/verilated_library.cpp.
 const std::vector<std::string> c_verilator_flags = {
     "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",
@@ -30,6 +33,10 @@ const std::vector<std::string> c_compiler_flags = {
     "-mprefer-vector-width=512",
 #endif
 };
+// clang++ runs wasm-opt on what it has linked.
+const std::vector<std::string> c_web_assembly_flags = {
+    "--target=wasm32-wasi",    "-msimd128",           "-std=gnu++20", "-w", "-fno-exceptions",
+    "-fno-threadsafe-statics", "-mexec-model=reactor"};
 
 /// The compiler's option for vectors that are not the widest of the processor.
 std::string flag_of(LaneVectors vectors) {
@@ -48,7 +55,8 @@ std::string flag_of(LaneVectors vectors) {
   return "";
 }
 
-/// The sources of the generated library: this folder's, without tests, and the header of the interface.
+/// The sources of the generator and of the compiled text: this folder's, without tests, and the header of the
+/// interface.
 Result<std::vector<std::filesystem::path>> generator_sources(const std::filesystem::path& source) {
   std::vector<std::filesystem::path> files = {source / "sim/verilator/harness_api.h"};
   std::error_code error;
@@ -62,20 +70,17 @@ Result<std::vector<std::filesystem::path>> generator_sources(const std::filesyst
   return files;
 }
 
-}  // namespace
+void add_list(ContentHash& hash, const std::vector<std::string>& list) {
+  hash.add(std::to_string(list.size()));
+  for (const std::string& item : list) hash.add(item);
+}
 
-Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
+/// What the text depends on.
+Result<ContentHash> text_hash(const LaneBuild& build) {
   const auto verilator_version = ask({"verilator", "--version"}, c_install_verilator);
   if (!verilator_version) return verilator_version.error();
-  const auto compiler = Compiler::find(build.compiler);
-  if (!compiler) return compiler.error();
-  const auto harness = read_file(build.harness);
-  if (!harness) return tool_failed(harness.error().message);
-
-  const std::string vectors = flag_of(build.vectors);
   ContentHash hash;
-  hash.add("lanes 1").add(*verilator_version).add(compiler->identity).add(build.netlist).add(build.top);
-  hash.add(*harness).add(build.fast ? "-O3" : "-O1").add(vectors);
+  hash.add("lanes 2").add(*verilator_version).add(build.netlist).add(build.top);
   const auto sources = generator_sources(build.source);
   if (!sources) return sources.error();
   for (const std::filesystem::path& file : *sources) {
@@ -83,44 +88,117 @@ Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::
     if (!text) return tool_failed(text.error().message);
     hash.add(*text);
   }
-  for (const auto* list : {&c_verilator_flags, &c_compiler_flags, &build.definitions, &build.ports.outputs}) {
-    hash.add(std::to_string(list->size()));
-    for (const std::string& item : *list) hash.add(item);
-  }
+  add_list(hash, c_verilator_flags);
+  add_list(hash, build.ports.outputs);
   for (const auto& [port, value] : build.ports.fixed) hash.add(port).add(value ? "1" : "0");
-  const std::filesystem::path parent = std::filesystem::absolute(cache) / "lanes";
-  const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());
+  return hash;
+}
 
-  if (!std::filesystem::exists(folder)) {
-    auto fresh = TemporaryFolder::make(parent);
-    if (!fresh) return fresh.error();
-    if (auto written = write_file(fresh->path() / "netlist.v", build.netlist); !written)
-      return written.error();
-    Command verilate{.arguments = {"verilator"}, .working_folder = fresh->path()};
-    verilate.arguments.insert(verilate.arguments.end(), c_verilator_flags.begin(), c_verilator_flags.end());
-    verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "netlist.v"});
-    if (auto done = run_tool(verilate, c_install_verilator, build.name); !done) return done.error();
-    const auto xml = read_file(fresh->path() / "netlist.xml");
-    if (!xml) return tool_failed(xml.error().message);
-    const auto lanes = generate_lanes(*xml, build.ports);
-    if (!lanes) return Error{lanes.error().code, build.name + ": " + lanes.error().message};
-    if (auto written = write_file(fresh->path() / "lanes.hpp", *lanes); !written) return written.error();
-    if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
+/// The compiler of a target and its options.
+struct Toolchain {
+  Compiler compiler;
+  std::string install;  ///< the command that installs it
+  std::vector<std::string> flags;
+  std::string optimizer;  ///< version of wasm-opt; empty for a shared library
+  std::string product;    ///< the compiled file's name
+};
 
-    Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
-    auto& arguments = compile.arguments;
-    arguments.insert(arguments.end(), c_compiler_flags.begin(), c_compiler_flags.end());
-    arguments.emplace_back(build.fast ? "-O3" : "-O1");
-    if (!vectors.empty()) arguments.push_back(vectors);
+Result<Toolchain> toolchain_of(const LaneBuild& build) {
+  const bool web_assembly = build.target == LaneTarget::web_assembly;
+  const auto compiler = Compiler::find(web_assembly ? "clang++" : build.compiler);
+  if (!compiler) return compiler.error();
+  Toolchain tools{.compiler = *compiler};
+  tools.flags = web_assembly ? c_web_assembly_flags : c_compiler_flags;
+  tools.flags.emplace_back(build.fast ? "-O3" : "-O1");
+  tools.product = web_assembly ? "lanes.wasm" : "lanes.so";
+  tools.install = web_assembly ? c_install_web_assembly : c_install_compiler;
+  if (web_assembly) {
+    const auto version = ask({"wasm-opt", "--version"}, c_install_web_assembly);
+    if (!version) return version.error();
+    tools.optimizer = *version;
+  } else {
+    if (const std::string vectors = flag_of(build.vectors); !vectors.empty()) tools.flags.push_back(vectors);
     // g++ would share inline variables between all libraries of the process.
-    if (compiler->program.find("clang") == std::string::npos) arguments.emplace_back("-fno-gnu-unique");
-    for (const std::string& definition : build.definitions) arguments.push_back("-D" + definition);
-    arguments.insert(arguments.end(), {"-I" + std::filesystem::absolute(build.source).string(), "harness.cpp",
-                                       "-o", c_library_name});
-    if (auto done = run_tool(compile, c_install_compiler, build.name); !done) return done.error();
+    if (compiler->program.find("clang") == std::string::npos) tools.flags.emplace_back("-fno-gnu-unique");
+  }
+  for (const std::string& definition : build.definitions) tools.flags.push_back("-D" + definition);
+  return tools;
+}
+
+/// Generate the text in an empty folder.
+Status generate_text(const LaneBuild& build, const std::filesystem::path& folder) {
+  if (auto written = write_file(folder / "netlist.v", build.netlist); !written) return written.error();
+  Command verilate{.arguments = {"verilator"}, .working_folder = folder};
+  verilate.arguments.insert(verilate.arguments.end(), c_verilator_flags.begin(), c_verilator_flags.end());
+  verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "netlist.v"});
+  if (auto done = run_tool(verilate, c_install_verilator, build.name); !done) return done.error();
+  const auto xml = read_file(folder / "netlist.xml");
+  if (!xml) return tool_failed(xml.error().message);
+  const auto lanes = generate_lanes(*xml, build.ports);
+  if (!lanes) return Error{lanes.error().code, build.name + ": " + lanes.error().message};
+  return write_file(folder / c_text_name, *lanes);
+}
+
+/// Compile the text with harness.cpp, which is in the folder.
+Status compile(const LaneBuild& build, const Toolchain& tools, const std::filesystem::path& text,
+               const std::filesystem::path& folder) {
+  Command compile{.arguments = {tools.compiler.program}, .working_folder = folder};
+  auto& arguments = compile.arguments;
+  arguments.insert(arguments.end(), tools.flags.begin(), tools.flags.end());
+  arguments.insert(arguments.end(),
+                   {"-I" + text.string(), "-I" + std::filesystem::absolute(build.source).string(),
+                    "harness.cpp", "-o", tools.product});
+  if (auto done = run_tool(compile, tools.install, build.name); !done) return done.error();
+  return Ok{};
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& cache) {
+  return std::filesystem::absolute(cache) / "lanes";
+}
+
+}  // namespace
+
+Result<std::filesystem::path> lane_text(const LaneBuild& build, const std::filesystem::path& cache) {
+  const auto hash = text_hash(build);
+  if (!hash) return hash.error();
+  const std::filesystem::path folder = folder_of(cache) / fmt::format("{}-text-{}", build.name, hash->hex());
+  if (!std::filesystem::exists(folder)) {
+    auto fresh = TemporaryFolder::make(folder_of(cache));
+    if (!fresh) return fresh.error();
+    if (Status generated = generate_text(build, fresh->path()); !generated) return generated.error();
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   }
-  return SharedLibrary::load(folder / c_library_name);
+  return folder / c_text_name;
+}
+
+Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
+  const auto tools = toolchain_of(build);
+  if (!tools) return tools.error();
+  const auto harness = read_file(build.harness);
+  if (!harness) return tool_failed(harness.error().message);
+  auto hash = text_hash(build);
+  if (!hash) return hash.error();
+  hash->add(*harness).add(tools->compiler.identity).add(tools->optimizer);
+  add_list(*hash, tools->flags);
+  const std::filesystem::path folder = folder_of(cache) / fmt::format("{}-{}", build.name, hash->hex());
+
+  if (!std::filesystem::exists(folder)) {
+    const auto text = lane_text(build, cache);
+    if (!text) return text.error();
+    auto fresh = TemporaryFolder::make(folder_of(cache));
+    if (!fresh) return fresh.error();
+    if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
+    if (Status compiled = compile(build, *tools, text->parent_path(), fresh->path()); !compiled)
+      return compiled.error();
+    if (auto moved = fresh->move_to(folder); !moved) return moved.error();
+  }
+  return folder / tools->product;
+}
+
+Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
+  const auto library = build_lanes(build, cache);
+  if (!library) return library.error();
+  return SharedLibrary::load(*library);
 }
 
 }  // namespace halfway

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a netlist to a shared library of lanes: Verilator's XML, the generated C++ and a harness, cached.
+// From a netlist to compiled lanes: Verilator's XML, the generated C++ and a harness, cached. The text is
+// generated once for all targets.
 #pragma once
 
 #include <filesystem>
@@ -16,6 +17,11 @@ namespace halfway {
 /// `none`: 4 lanes without vector instructions.
 enum class LaneVectors { avx512, avx2, sse, none };
 
+enum class LaneTarget {
+  processor,    ///< a shared library for this machine
+  web_assembly  ///< a module for browsers: wasm32 with vectors of 128 bits, 4 lanes
+};
+
 struct LaneBuild {
   std::string name;     ///< prefix of the cached build's folder
   std::string netlist;  ///< after mend_netlist
@@ -26,10 +32,18 @@ struct LaneBuild {
   std::vector<std::string> definitions;  ///< NAME=value for the harness
   bool fast = true;                      ///< optimize, which takes long to compile
   LaneVectors vectors = LaneVectors::avx512;
-  std::string compiler;  ///< empty: clang++ if installed, otherwise g++
+  std::string compiler;  ///< of the shared library; empty: clang++ if installed, otherwise g++
+  LaneTarget target = LaneTarget::processor;
 };
 
-/// Build the library in build/cache/lanes/<name>-<hash>/ unless it exists, and load it.
+/// The generated text, lanes.hpp in build/cache/lanes/<name>-text-<hash>/. Generated unless it exists.
+Result<std::filesystem::path> lane_text(const LaneBuild& build, const std::filesystem::path& cache);
+
+/// The compiled text and harness, lanes.so or lanes.wasm in build/cache/lanes/<name>-<hash>/. Compiled unless
+/// it exists.
+Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache);
+
+/// Build the shared library and load it.
 Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway
