@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
-#include "sim/lanes/lane_harness.cpp"
+#include "sim/lanes/lane_runner.hpp"
 
 namespace {
 
-using halfway::lanes::c_lanes;
+using halfway::lanes::c_lanes, halfway::lanes::Lanes;
 
 constexpr std::uint64_t c_idle_limit = 100'000;  // as LaneOptions
 // In vectors. A part ends with some clocks without fragments, so parts must not be too short; shorter parts
@@ -47,7 +47,10 @@ class Hardware {
                              .max_fragments = most,
                              .enough = SIZE_MAX,
                              .more = 0};
-    const int status = lanes_->run(batch);
+    int status = lanes_->run(batch);
+    std::size_t count = 0;
+    for (const HalfwayPart& part : parts) count += part.fragments;
+    if (status == halfway_done && count > most) status = halfway_buffer_full;
     if (status != halfway_done) {
       reset();
       return status;
@@ -55,9 +58,6 @@ class Hardware {
     loads_taken_ = batch.end_load;
 
     // Put the fragments into the order of a single stream.
-    std::size_t count = 0;
-    for (const HalfwayPart& part : parts) count += part.fragments;
-    if (count > most) return halfway_buffer_full;
     fragments_.reserve(count);
     for (const HalfwayPart& part : parts) {
       const HalfwayFragment* first = lanes_->take(part.lane, part.fragments);
