@@ -10,7 +10,6 @@
 namespace halfway {
 namespace {
 
-constexpr const char* c_text_name = "lanes.hpp";
 constexpr const char* c_install_web_assembly =
     "apt-get install clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 "
     "libclang-rt-14-dev-wasm32 binaryen";
@@ -70,30 +69,6 @@ Result<std::vector<std::filesystem::path>> generator_sources(const std::filesyst
   return files;
 }
 
-void add_list(ContentHash& hash, const std::vector<std::string>& list) {
-  hash.add(std::to_string(list.size()));
-  for (const std::string& item : list) hash.add(item);
-}
-
-/// What the text depends on.
-Result<ContentHash> text_hash(const LaneBuild& build) {
-  const auto verilator_version = ask({"verilator", "--version"}, c_install_verilator);
-  if (!verilator_version) return verilator_version.error();
-  ContentHash hash;
-  hash.add("lanes 2").add(*verilator_version).add(build.netlist).add(build.top);
-  const auto sources = generator_sources(build.source);
-  if (!sources) return sources.error();
-  for (const std::filesystem::path& file : *sources) {
-    const auto text = read_file(file);
-    if (!text) return tool_failed(text.error().message);
-    hash.add(*text);
-  }
-  add_list(hash, c_verilator_flags);
-  add_list(hash, build.ports.outputs);
-  for (const auto& [port, value] : build.ports.fixed) hash.add(port).add(value ? "1" : "0");
-  return hash;
-}
-
 /// The compiler of a target and its options.
 struct Toolchain {
   Compiler compiler;
@@ -134,62 +109,56 @@ Status generate_text(const LaneBuild& build, const std::filesystem::path& folder
   if (auto done = run_tool(verilate, c_install_verilator, build.name); !done) return done.error();
   const auto xml = read_file(folder / "netlist.xml");
   if (!xml) return tool_failed(xml.error().message);
-  const auto lanes = generate_lanes(*xml, build.ports);
+  const auto lanes = generate_lanes(*xml, build.ports, build.names);
   if (!lanes) return Error{lanes.error().code, build.name + ": " + lanes.error().message};
-  return write_file(folder / c_text_name, *lanes);
+  return write_file(folder / "lanes.hpp", *lanes);
 }
 
-/// Compile the text with harness.cpp, which is in the folder.
-Status compile(const LaneBuild& build, const Toolchain& tools, const std::filesystem::path& text,
-               const std::filesystem::path& folder) {
+/// Compile lanes.hpp and harness.cpp, which are in the folder.
+Status compile(const LaneBuild& build, const Toolchain& tools, const std::filesystem::path& folder) {
   Command compile{.arguments = {tools.compiler.program}, .working_folder = folder};
   auto& arguments = compile.arguments;
   arguments.insert(arguments.end(), tools.flags.begin(), tools.flags.end());
-  arguments.insert(arguments.end(),
-                   {"-I" + text.string(), "-I" + std::filesystem::absolute(build.source).string(),
-                    "harness.cpp", "-o", tools.product});
+  arguments.insert(arguments.end(), {"-I.", "-I" + std::filesystem::absolute(build.source).string(),
+                                     "harness.cpp", "-o", tools.product});
   if (auto done = run_tool(compile, tools.install, build.name); !done) return done.error();
   return Ok{};
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& cache) {
-  return std::filesystem::absolute(cache) / "lanes";
-}
-
 }  // namespace
 
-Result<std::filesystem::path> lane_text(const LaneBuild& build, const std::filesystem::path& cache) {
-  const auto hash = text_hash(build);
-  if (!hash) return hash.error();
-  const std::filesystem::path folder = folder_of(cache) / fmt::format("{}-text-{}", build.name, hash->hex());
-  if (!std::filesystem::exists(folder)) {
-    auto fresh = TemporaryFolder::make(folder_of(cache));
-    if (!fresh) return fresh.error();
-    if (Status generated = generate_text(build, fresh->path()); !generated) return generated.error();
-    if (auto moved = fresh->move_to(folder); !moved) return moved.error();
-  }
-  return folder / c_text_name;
-}
-
 Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
+  const auto verilator_version = ask({"verilator", "--version"}, c_install_verilator);
+  if (!verilator_version) return verilator_version.error();
   const auto tools = toolchain_of(build);
   if (!tools) return tools.error();
   const auto harness = read_file(build.harness);
   if (!harness) return tool_failed(harness.error().message);
-  auto hash = text_hash(build);
-  if (!hash) return hash.error();
-  hash->add(*harness).add(tools->compiler.identity).add(tools->optimizer);
-  add_list(*hash, tools->flags);
-  const std::filesystem::path folder = folder_of(cache) / fmt::format("{}-{}", build.name, hash->hex());
+
+  ContentHash hash;
+  hash.add("lanes 2").add(*verilator_version).add(tools->compiler.identity).add(tools->optimizer);
+  hash.add(build.netlist).add(build.top).add(build.names.text()).add(*harness);
+  const auto sources = generator_sources(build.source);
+  if (!sources) return sources.error();
+  for (const std::filesystem::path& file : *sources) {
+    const auto text = read_file(file);
+    if (!text) return tool_failed(text.error().message);
+    hash.add(*text);
+  }
+  for (const auto* list : {&c_verilator_flags, &tools->flags, &build.ports.outputs}) {
+    hash.add(std::to_string(list->size()));
+    for (const std::string& item : *list) hash.add(item);
+  }
+  for (const auto& [port, value] : build.ports.fixed) hash.add(port).add(value ? "1" : "0");
+  const std::filesystem::path parent = std::filesystem::absolute(cache) / "lanes";
+  const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());
 
   if (!std::filesystem::exists(folder)) {
-    const auto text = lane_text(build, cache);
-    if (!text) return text.error();
-    auto fresh = TemporaryFolder::make(folder_of(cache));
+    auto fresh = TemporaryFolder::make(parent);
     if (!fresh) return fresh.error();
+    if (Status generated = generate_text(build, fresh->path()); !generated) return generated.error();
     if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
-    if (Status compiled = compile(build, *tools, text->parent_path(), fresh->path()); !compiled)
-      return compiled.error();
+    if (Status compiled = compile(build, *tools, fresh->path()); !compiled) return compiled.error();
     if (auto moved = fresh->move_to(folder); !moved) return moved.error();
   }
   return folder / tools->product;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a netlist to compiled lanes: Verilator's XML, the generated C++ and a harness, cached. The text is
-// generated once for all targets.
+// From a netlist to compiled lanes: Verilator's XML, the generated C++ and a harness, cached.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "common/result.hpp"
 #include "sim/lanes/lane_generator.hpp"
+#include "sim/lanes/register_names.hpp"
 #include "sim/system/shared_library.hpp"
 
 namespace halfway {
@@ -34,13 +34,11 @@ struct LaneBuild {
   LaneVectors vectors = LaneVectors::avx512;
   std::string compiler;  ///< of the shared library; empty: clang++ if installed, otherwise g++
   LaneTarget target = LaneTarget::processor;
+  RegisterNames names{};  ///< without: the netlist's
 };
 
-/// The generated text, lanes.hpp in build/cache/lanes/<name>-text-<hash>/. Generated unless it exists.
-Result<std::filesystem::path> lane_text(const LaneBuild& build, const std::filesystem::path& cache);
-
-/// The compiled text and harness, lanes.so or lanes.wasm in build/cache/lanes/<name>-<hash>/. Compiled unless
-/// it exists.
+/// Generate and compile in build/cache/lanes/<name>-<hash>/ unless it exists. The compiled file, lanes.so or
+/// lanes.wasm, next to the generated text, lanes.hpp.
 Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 /// Build the shared library and load it.

@@ -204,9 +204,9 @@ class Lanes : public testing::Test {
     return open_lanes(build_of(body, vectors), c_cache);
   }
   std::string text_of(const std::string& body) const {
-    const auto file = lane_text(build_of(body), c_cache);
-    if (!file) return file.error().message;
-    const auto text = read_file(*file);
+    const auto library = build_lanes(build_of(body), c_cache);
+    if (!library) return library.error().message;
+    const auto text = read_file(library->parent_path() / "lanes.hpp");
     return text ? *text : text.error().message;
   }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "sim/lanes/lane_api.h"
 #include "sim/lanes/lane_operations.hpp"
@@ -84,6 +85,25 @@ class Stalls {
 };
 #endif
 
+/// A bit of a register that does not change, in all lanes.
+struct StuckBit {
+  std::size_t number;  ///< of the register
+  unsigned bit;
+  bool value;
+
+  void set(State& state) const {
+    const Register& place = c_registers[number];
+    char* const variable = reinterpret_cast<char*>(&state) + place.offset;
+    if (place.mask) {
+      *reinterpret_cast<M*>(variable) = value ? c_all : c_none;
+    } else {
+      V& vector = *reinterpret_cast<V*>(variable);
+      const V one = splat(1u << bit);
+      vector = value ? vector | one : vector & ~one;
+    }
+  }
+};
+
 class Lanes {
  public:
   Lanes(std::uint32_t owner, std::uint64_t idle_limit, std::uint32_t stall_seed)
@@ -118,10 +138,16 @@ class Lanes {
     }
     Outputs out;
     for (int i = 0; active_ == 0 && i < c_late_clocks; ++i) {
-      step(state_, in_, out);
+      advance(out);
       faults_ |= to_bits(out.fault);
     }
     return faults_ != 0 ? halfway_fault : halfway_done;
+  }
+
+  /// From now on these bits stick, and no others. Not in a run.
+  void stick(const std::vector<StuckBit>& bits) {
+    stuck_ = bits;
+    set_stuck_bits();
   }
 
   const HalfwayFragment* take(std::uint32_t number, std::size_t count) {
@@ -144,6 +170,14 @@ class Lanes {
     std::uint64_t still = 0;          // clocks without progress
     std::size_t waiting() const { return count - taken; }
   };
+
+  void advance(Outputs& out) {
+    step(state_, in_, out);
+    set_stuck_bits();
+  }
+  void set_stuck_bits() {
+    for (const StuckBit& bit : stuck_) bit.set(state_);
+  }
 
   bool goes() const { return active_ != 0 && !stops_; }
   std::size_t waiting() const {
@@ -257,7 +291,7 @@ class Lanes {
       Outputs out;
       const std::uint32_t offered = waiting_;
       stalls_.drive(in_, waiting_);
-      step(state_, in_, out);
+      advance(out);
       const std::uint32_t take = stalls_.offered() & to_bits(out.init_ready);
       const std::uint32_t valid = to_bits(out.fragment_valid), drawn = valid & stalls_.ready();
       stalls_.taken(take);
@@ -293,6 +327,7 @@ class Lanes {
   std::uint32_t owner_;
   std::uint64_t idle_limit_, cycles_ = 0;
   Stalls stalls_;
+  std::vector<StuckBit> stuck_;
   std::uint32_t waiting_ = 0;  // lanes with a vector that is not accepted yet
 };
 

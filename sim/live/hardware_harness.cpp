@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <vector>
 
@@ -12,7 +13,7 @@
 
 namespace {
 
-using halfway::lanes::c_lanes, halfway::lanes::Lanes;
+using halfway::lanes::c_lanes, halfway::lanes::c_registers, halfway::lanes::Lanes, halfway::lanes::StuckBit;
 
 constexpr std::uint64_t c_idle_limit = 100'000;  // as LaneOptions
 // In vectors. A part ends with some clocks without fragments, so parts must not be too short; shorter parts
@@ -68,7 +69,17 @@ class Hardware {
 
   void reset() {
     lanes_ = std::make_unique<Lanes>(0, c_idle_limit, 0);
+    lanes_->stick(stuck_);
     loads_taken_ = 0;
+  }
+
+  void stick(const StuckBit& bit) {
+    stuck_.push_back(bit);
+    lanes_->stick(stuck_);
+  }
+  void heal() {
+    stuck_.clear();
+    lanes_->stick(stuck_);
   }
 
  private:
@@ -101,6 +112,7 @@ class Hardware {
   std::vector<HalfwayFragment> fragments_;
   std::unique_ptr<Lanes> lanes_ = std::make_unique<Lanes>(0, c_idle_limit, 0);
   std::size_t loads_taken_ = 0;
+  std::vector<StuckBit> stuck_;
 };
 
 /// The module's only hardware.
@@ -140,4 +152,24 @@ HARDWARE_EXPORT(hardware_fragments) const void* hardware_fragments() {
 /// Reset all lanes, which forget their loads.
 HARDWARE_EXPORT(hardware_reset) void hardware_reset() {
   hardware().reset();
+}
+
+/// The registers that can stick: the variables of the generated State, without those that only delay others.
+HARDWARE_EXPORT(hardware_register_count) std::uint32_t hardware_register_count() {
+  return std::size(c_registers);
+}
+/// Path of instances, signal and field in the RTL.
+HARDWARE_EXPORT(hardware_register_name) const char* hardware_register_name(std::uint32_t index) {
+  return c_registers[index].name;
+}
+HARDWARE_EXPORT(hardware_register_bits) std::uint32_t hardware_register_bits(std::uint32_t index) {
+  return c_registers[index].bits;
+}
+/// From now on this bit of this register has this value in all lanes.
+HARDWARE_EXPORT(hardware_stick) void hardware_stick(std::uint32_t index, std::uint32_t bit, int value) {
+  hardware().stick({index, bit, value != 0});
+}
+/// No bit sticks any more.
+HARDWARE_EXPORT(hardware_heal) void hardware_heal() {
+  hardware().heal();
 }

@@ -2,6 +2,7 @@
 #include "sim/live/hardware_module.hpp"
 
 #include "sim/lanes/lane_simulator.hpp"
+#include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway {
 
@@ -10,6 +11,9 @@ Result<std::filesystem::path> build_hardware_module(const HardwareKey& key, cons
   if (!build) return build.error();
   build->harness = folders.source / "sim/live/hardware_harness.cpp";
   build->target = LaneTarget::web_assembly;
+  const auto netlist = vhdl_netlist_of(key, folders);
+  if (!netlist) return netlist.error();
+  build->names = RegisterNames(*netlist, folders.source);
   return build_lanes(*build, folders.cache);
 }
 

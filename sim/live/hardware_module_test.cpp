@@ -41,6 +41,12 @@ const put = (room, words, count) => {{
   const address = hardware[room](count);
   new Uint32Array(hardware.memory.buffer, address, words.length).set(words);
 }};
+const text = address => {{
+  const bytes = new Uint8Array(hardware.memory.buffer).subarray(address);
+  return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+}};
+const registers = () => Array.from({{length: hardware.hardware_register_count()}}, (_, i) =>
+  [text(hardware.hardware_register_name(i)), hardware.hardware_register_bits(i)]);
 const draw = most => {{
   put('hardware_words', words, words.length);
   put('hardware_parts', parts, parts.length / 2);
@@ -157,6 +163,35 @@ TEST_P(HardwareModule, DrawsWhatTheGoldenModelDraws) {
     EXPECT_THAT(cut.fragments, testing::IsEmpty());
     EXPECT_TRUE(draw(golden_.size()).fragments == golden_);
   }
+}
+
+// The register of a fragment's line: all fragments are in lines with an odd number.
+TEST_P(HardwareModule, ABitThatSticksIsSeenInTheFragments) {
+  const auto registers = browser_->evaluate("registers()");
+  std::size_t line = 0;
+  while (line < registers.size() && !registers[line][0].get<std::string>().ends_with("walker/spans/r.y"))
+    ++line;
+  ASSERT_LT(line, registers.size()) << registers.dump(0);
+  EXPECT_EQ(registers[line][1], 12);
+  std::vector<Fragment> odd = golden_;
+  for (Fragment& fragment : odd) fragment.y |= 1;
+  ASSERT_FALSE(odd == golden_);
+
+  browser_->evaluate(fmt::format("hardware.hardware_stick({}, 0, 1)", line));
+  EXPECT_TRUE(draw(golden_.size()).fragments == odd);
+  // Also in reset hardware, until it is healed.
+  browser_->evaluate("hardware.hardware_reset()");
+  EXPECT_TRUE(draw(golden_.size()).fragments == odd);
+  browser_->evaluate("hardware.hardware_heal()");
+  EXPECT_TRUE(draw(golden_.size()).fragments == golden_);
+
+  // A register of one bit: no span has a pixel.
+  std::size_t valid = 0;
+  while (!registers[valid][0].get<std::string>().ends_with("walker/spans/r.valid")) ++valid;
+  browser_->evaluate(fmt::format("hardware.hardware_stick({}, 0, 0)", valid));
+  EXPECT_THAT(draw(golden_.size()).fragments, testing::IsEmpty());
+  browser_->evaluate("hardware.hardware_heal(), hardware.hardware_reset()");
+  EXPECT_TRUE(draw(golden_.size()).fragments == golden_);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, HardwareModule,
