@@ -38,24 +38,31 @@ std::string range(unsigned low, unsigned width) {
   return width == 1 ? fmt::format("({})", low) : fmt::format("({} downto {})", low + width - 1, low);
 }
 
-/// GHDL prints the label of a copy by `generate`, parts(2)/part, as parts_n2_part.
-std::string with_indices(const std::string& label) {
-  std::string text;
-  for (std::size_t at = 0; at < label.size();) {
-    std::size_t end = at + 2;
-    if (label.compare(at, 2, "_n") == 0)
-      while (end < label.size() && std::isdigit(static_cast<unsigned char>(label[end])) != 0) ++end;
-    if (end > at + 2 && end < label.size() && label[end] == '_') {
-      text += '(' + label.substr(at + 2, end - at - 2) + ")/";
-      at = end + 1;
-    } else {
-      text += label[at++];
-    }
-  }
-  return text;
-}
-
 }  // namespace
+
+/// A name of the RTL with its blocks: GHDL prints colour in parts(0)/block as parts_n1_block_colour. It
+/// counts copies from 1.
+std::string RegisterNames::path_of(const Entity* entity, std::string name) {
+  if (entity == nullptr) return name;
+  std::string path;
+  while (!entity->own.contains(name)) {
+    // Find the longest label that the name starts with.
+    std::string label;
+    for (std::size_t end = 0; (end = name.find('_', end)) != name.npos; ++end)
+      if (entity->copies.contains(name.substr(0, end)) || entity->blocks.contains(name.substr(0, end)))
+        label = name.substr(0, end);
+    if (label.empty()) break;
+    name.erase(0, label.size() + 1);
+    path += label;
+    const auto copy = entity->copies.find(label);
+    if (const std::size_t end = name.find('_'); copy != entity->copies.end() && end != name.npos) {
+      path += fmt::format("({})", copy->second + std::strtoul(name.c_str() + 1, nullptr, 10) - 1);
+      name.erase(0, end + 1);
+    }
+    path += '/';
+  }
+  return path + name;
+}
 
 /// Reads the netlist line by line.
 class RegisterNames::Reader {
@@ -68,17 +75,41 @@ class RegisterNames::Reader {
       const Words words = words_of(line);
       if (words.size() < 2) continue;
       if (words[0] == "--")
-        position_ = words[1];
+        read_position(words[1]);
       else
         read_statement(words);
     }
   }
 
  private:
+  void read_position(const std::string& position) {
+    position_ = position;
+    const std::string file = position.substr(0, position.find(':'));
+    if (entity_ != nullptr && file != file_) read_declarations(lines_of(file));
+    file_ = file;
+  }
+
+  /// Labels and signals of a file, each at the start of a line.
+  void read_declarations(const Words& lines) {
+    for (const std::string& line : lines) {
+      const Words words = words_of(line);
+      if (words.size() > 6 && words[1] == ":" && words[2] == "for" && words[6] == "to")
+        entity_->copies[words[0]] = static_cast<unsigned>(std::strtoul(words[5].c_str(), nullptr, 10));
+      else if (words.size() > 2 && words[1] == ":" && (words[2] == "if" || words[2] == "case"))
+        entity_->blocks.insert(words[0]);
+      else if (words.size() > 2 && words[1] == ":" && words[2] == "entity")
+        entity_->own.insert(words[0]);
+      else if (words.size() > 1 && words[0] == "signal")
+        for (std::size_t i = 1; i < words.size() && words[i] != ":"; ++i)
+          entity_->own.insert(words[i].substr(0, words[i].find(',')));
+    }
+  }
+
   void read_statement(const Words& words) {
     const bool assigns = words.size() >= 3 && words[1] == "<=";
     if (words[0] == "architecture" && words.size() >= 4) {
       entity_ = &names_.entities_[words[3]];
+      file_.clear();
     } else if (entity_ != nullptr && words.size() >= 4 && words[1] == ":" && words[2] == "entity") {
       constexpr std::string_view c_library = "work.";
       entity_->instances[words[0]] = words[3].substr(c_library.size());
@@ -142,6 +173,7 @@ class RegisterNames::Reader {
   const std::filesystem::path& source_;
   Entity* entity_ = nullptr;
   std::string position_;  ///< in the line above
+  std::string file_;      ///< of the last position
   std::map<std::string, Words> files_;
 };
 
@@ -151,43 +183,48 @@ RegisterNames::RegisterNames(std::string_view netlist, const std::filesystem::pa
 
 std::string RegisterNames::name(std::string_view signal, unsigned bits, unsigned low, unsigned width) const {
   // Follow the instances from the top.
+  const auto find = [&](const std::string& entity) {
+    const auto found = entities_.find(entity);
+    return found == entities_.end() ? nullptr : &found->second;
+  };
+  const auto take = [&] {
+    const std::size_t dot = signal.find('.');
+    const std::string part(signal.substr(0, dot));
+    signal.remove_prefix(dot == signal.npos ? signal.size() : dot + 1);
+    return part;
+  };
+  const Entity* entity = find(take());
   std::string path;
-  auto entity = entities_.end();
-  std::size_t dot = signal.find('.');
-  if (dot != signal.npos) entity = entities_.find(std::string(signal.substr(0, dot)));
-  if (dot != signal.npos) signal.remove_prefix(dot + 1);
-  for (; (dot = signal.find('.')) != signal.npos; signal.remove_prefix(dot + 1)) {
-    const std::string instance(signal.substr(0, dot));
-    path += with_indices(instance) + '/';
-    if (entity == entities_.end()) continue;
-    const auto found = entity->second.instances.find(instance);
-    entity = found == entity->second.instances.end() ? entities_.end() : entities_.find(found->second);
+  while (signal.find('.') != signal.npos) {
+    const std::string instance = take();
+    path += path_of(entity, instance) + '/';
+    if (entity == nullptr) continue;
+    const auto found = entity->instances.find(instance);
+    entity = found == entity->instances.end() ? nullptr : find(found->second);
   }
+  std::string text(signal);
+  if (entity == nullptr) return path + text + (width == bits ? "" : range(low, width));
 
   // Find the signal and the smallest field around the bits.
-  std::string text(signal);
-  if (entity != entities_.end()) {
-    if (const auto found = entity->second.signals.find(text); found != entity->second.signals.end())
-      text = found->second;
-    if (const auto fields = entity->second.fields.find(text); fields != entity->second.fields.end()) {
-      std::pair<unsigned, unsigned> best{0, bits};
-      const std::string* best_name = nullptr;
-      for (const auto& [place, name] : fields->second) {
-        const bool around = place.first <= low && low + width <= place.first + place.second;
-        if (around && place.second <= best.second) best = place, best_name = &name;
-      }
-      text = with_indices(text);
-      if (best_name != nullptr) text += '.' + *best_name;
-      return path + text + (width == best.second ? "" : range(low - best.first, width));
+  if (const auto found = entity->signals.find(text); found != entity->signals.end()) text = found->second;
+  std::pair<unsigned, unsigned> best{0, bits};
+  std::string field;
+  if (const auto fields = entity->fields.find(text); fields != entity->fields.end()) {
+    for (const auto& [place, name] : fields->second) {
+      const bool around = place.first <= low && low + width <= place.first + place.second;
+      if (around && place.second <= best.second) best = place, field = '.' + name;
     }
   }
-  return path + with_indices(text) + (width == bits ? "" : range(low, width));
+  return path + path_of(entity, text) + field + (width == best.second ? "" : range(low - best.first, width));
 }
 
 std::string RegisterNames::text() const {
   std::string text;
   for (const auto& [name, entity] : entities_) {
     text += name + '\n';
+    for (const auto& [label, first] : entity.copies) text += fmt::format("{} {}\n", label, first);
+    for (const auto* names : {&entity.blocks, &entity.own})
+      for (const std::string& own : *names) text += own + '\n';
     for (const auto* names : {&entity.instances, &entity.signals})
       for (const auto& [from, to] : *names) text += fmt::format("{} {}\n", from, to);
     for (const auto& [signal, fields] : entity.fields)

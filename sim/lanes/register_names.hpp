@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of registers as in the RTL: path of instances, signal and field of its record. GHDL's netlist numbers
-// registers and flattens records. Printed as VHDL it has the position in the RTL above each line; where a
-// line takes bits from a signal, the field's name is at that position.
+// Names of registers as in the RTL: path of blocks and instances, signal and field of its record. GHDL's
+// netlist numbers registers and flattens records. Printed as VHDL it has the position in the RTL above each
+// line; where a line takes bits from a signal, the field's name is at that position.
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,12 +30,16 @@ class RegisterNames {
 
  private:
   struct Entity {
+    std::map<std::string, unsigned> copies;        ///< first index of each `for ... generate`, by its label
+    std::set<std::string> blocks;                  ///< labels of each `if ... generate`
+    std::set<std::string> own;                     ///< names of instances and signals in the RTL
     std::map<std::string, std::string> instances;  ///< their entities
     std::map<std::string, std::string> signals;    ///< that have a register's value, by the register
     /// By signal and by lowest bit and width.
     std::map<std::string, std::map<std::pair<unsigned, unsigned>, std::string>> fields;
   };
   class Reader;
+  static std::string path_of(const Entity* entity, std::string name);
   std::map<std::string, Entity> entities_;
 };
 

@@ -8,7 +8,7 @@
 namespace halfway {
 namespace {
 
-// As GHDL prints a top with two copies of an entity. r is a record of four fields.
+// As GHDL prints a top with copies of an entity and a block. r is a record of four fields.
 constexpr const char* c_netlist = R"(entity stage is
 architecture rtl of stage is
   signal n5_q : std_logic_vector (17 downto 0);
@@ -31,9 +31,9 @@ architecture rtl of top is
 begin
   stages_n2_first_stage : entity work.stage port map (
     clk => clk,
-  -- rtl/top.vhd:1:10
+  -- rtl/top.vhd:5:12
   block_r <= n8_q; -- (signal)
-  -- rtl/top.vhd:2:10
+  -- rtl/top.vhd:6:12
   n9_o <= block_r (3 downto 0);
 end rtl;
 )";
@@ -44,7 +44,13 @@ constexpr const char* c_stage = R"(signal r, r_next : reg_t;
   first <= r.y.first;
   n4 <= r.y(11);
 )";
-constexpr const char* c_top = "  signal r : reg_t;\n  z <= r.depth;\n";
+constexpr const char* c_top = R"(  stages : for number in 0 to 3 generate
+    first : if g_first generate
+      stage : entity work.stage
+  block : if g_exact generate
+    signal r : reg_t;
+    z <= r.depth;
+)";
 
 TEST(RegisterNames, AreThoseOfTheRtl) {
   auto folder = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "register_names");
@@ -55,21 +61,21 @@ TEST(RegisterNames, AreThoseOfTheRtl) {
   const RegisterNames names(c_netlist, folder->path());
 
   const std::string stage = "top.stages_n2_first_stage.n5_q";
-  EXPECT_EQ(names.name(stage, 18, 0, 1), "stages(2)/first_stage/r.valid");
-  EXPECT_EQ(names.name(stage, 18, 1, 12), "stages(2)/first_stage/r.y");
-  EXPECT_EQ(names.name(stage, 18, 3, 4), "stages(2)/first_stage/r.y(5 downto 2)");
-  EXPECT_EQ(names.name(stage, 18, 12, 1), "stages(2)/first_stage/r.y(11)");
-  EXPECT_EQ(names.name(stage, 18, 13, 4), "stages(2)/first_stage/r(16 downto 13)");
-  EXPECT_EQ(names.name(stage, 18, 10, 6), "stages(2)/first_stage/r(15 downto 10)");
-  EXPECT_EQ(names.name(stage, 18, 0, 18), "stages(2)/first_stage/r");
-  EXPECT_EQ(names.name("top.n8_q", 4, 0, 4), "block_r.depth");
+  EXPECT_EQ(names.name(stage, 18, 0, 1), "stages(1)/first/stage/r.valid");
+  EXPECT_EQ(names.name(stage, 18, 1, 12), "stages(1)/first/stage/r.y");
+  EXPECT_EQ(names.name(stage, 18, 3, 4), "stages(1)/first/stage/r.y(5 downto 2)");
+  EXPECT_EQ(names.name(stage, 18, 12, 1), "stages(1)/first/stage/r.y(11)");
+  EXPECT_EQ(names.name(stage, 18, 13, 4), "stages(1)/first/stage/r(16 downto 13)");
+  EXPECT_EQ(names.name(stage, 18, 10, 6), "stages(1)/first/stage/r(15 downto 10)");
+  EXPECT_EQ(names.name(stage, 18, 0, 18), "stages(1)/first/stage/r");
+  EXPECT_EQ(names.name("top.n8_q", 4, 0, 4), "block/r.depth");
   EXPECT_EQ(names.name("top.n7_q", 1, 0, 1), "n7_q");
   EXPECT_EQ(names.name("top.unknown.n5_q", 2, 1, 1), "unknown/n5_q(1)");
 }
 
 TEST(RegisterNames, AreTheNetlistsWithoutTheRtl) {
   EXPECT_EQ(RegisterNames().name("top.stages_n2_first_stage.n5_q", 18, 1, 12),
-            "stages(2)/first_stage/n5_q(12 downto 1)");
+            "stages_n2_first_stage/n5_q(12 downto 1)");
   // The files cannot be read.
   EXPECT_EQ(RegisterNames(c_netlist, "/nonexistent").name("top.n8_q", 4, 0, 1), "block_r(0)");
 }
