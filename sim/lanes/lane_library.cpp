@@ -34,8 +34,10 @@ const std::vector<std::string> c_compiler_flags = {
 };
 // clang++ runs wasm-opt on what it has linked.
 const std::vector<std::string> c_web_assembly_flags = {
-    "--target=wasm32-wasi",    "-msimd128",           "-std=gnu++20", "-w", "-fno-exceptions",
-    "-fno-threadsafe-statics", "-mexec-model=reactor"};
+    "--target=wasm32-wasi", "-msimd128", "-std=gnu++20", "-w", "-fno-exceptions", "-fno-threadsafe-statics",
+    "-mexec-model=reactor",
+    // Debian's wasi-libc contains debug information, more than the hardware's code.
+    "-Wl,--strip-debug"};
 
 /// The compiler's option for vectors that are not the widest of the processor.
 std::string flag_of(LaneVectors vectors) {
