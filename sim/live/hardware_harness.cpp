@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions of a hardware module, compiled for WebAssembly with the generated lanes of a shader.
-// JavaScript writes the init vectors of a call into the module's memory, calls hardware_draw and reads the
-// fragments.
+// JavaScript calls _initialize, writes the init vectors of a call into the module's memory, calls
+// hardware_draw and reads the fragments. Each call may enlarge the memory: take memory.buffer again after it.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
