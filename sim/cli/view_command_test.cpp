@@ -355,7 +355,7 @@ TEST_F(ViewCommand, ReportsTheFrameWhereTheRtlDiffers) {
 // Lanes that stop in the middle of frame 0's triangles. Verilator draws the frame without a fault.
 TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
   const std::filesystem::path copy = copy_checkout();
-  spoil(copy / "sim/lanes/lane_harness.cpp", "      const std::uint32_t moved = block();\n",
+  spoil(copy / "sim/lanes/lane_runner.hpp", "      const std::uint32_t moved = block();\n",
         "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
         "      if (!broken) {\n        broken = true;\n        return halfway_hang;\n      }\n");
   for (const bool compare : {true, false}) {

@@ -167,11 +167,26 @@ Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::
 
 Result<std::string> GhdlLibrary::synthesize(
     const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const {
+  const auto files = netlists(entity, generics);
+  if (!files) return files.error();
+  return read_file(files->string() + ".v");
+}
+
+Result<std::string> GhdlLibrary::synthesize_vhdl(
+    const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const {
+  const auto files = netlists(entity, generics);
+  if (!files) return files.error();
+  return read_file(files->string() + ".vhd");
+}
+
+Result<std::filesystem::path> GhdlLibrary::netlists(
+    const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const {
   ContentHash hash;
-  hash.add("netlist 1").add(entity);
+  hash.add("netlist 2").add(entity);
   for (const auto& [name, value] : generics) hash.add(name).add(value);
-  const std::filesystem::path kept = folder_ / "netlists" / fmt::format("{}-{}.v", entity, hash.hex());
-  if (std::filesystem::exists(kept)) return read_file(kept);
+  const std::filesystem::path kept = folder_ / "netlists" / fmt::format("{}-{}", entity, hash.hex());
+  const std::string verilog_file = kept.string() + ".v";
+  if (std::filesystem::exists(verilog_file)) return kept;
   const auto netlist = [&](const std::string& language) -> Result<std::string> {
     // Standard output is written to a file, so that warnings on standard error do not get into the netlist.
     auto scratch = TemporaryFolder::make(folder_.parent_path());
@@ -193,8 +208,10 @@ Result<std::string> GhdlLibrary::synthesize(
   auto verilog = netlist("verilog");
   if (!verilog) return verilog.error();
   if (Status made = make_folders(kept.parent_path()); !made) return made.error();
-  if (Status written = write_file(kept, *verilog); !written) return written.error();
-  return verilog;
+  // The Verilog is written last: if it exists, both exist.
+  for (const auto& [file, text] : {std::pair(kept.string() + ".vhd", *vhdl), {verilog_file, *verilog}})
+    if (Status written = write_file(file, text); !written) return written.error();
+  return kept;
 }
 
 std::vector<std::string> GhdlLibrary::run_arguments(const std::string& top) const {

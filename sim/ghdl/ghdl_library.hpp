@@ -61,12 +61,18 @@ class GhdlLibrary {
   /// stored in the library's folder. Refuses a design for which GHDL would omit a `when others`.
   Result<std::string> synthesize(const std::string& entity,
                                  const std::vector<std::pair<std::string, std::string>>& generics) const;
+  /// The same netlist as VHDL, with positions in the sources.
+  Result<std::string> synthesize_vhdl(const std::string& entity,
+                                      const std::vector<std::pair<std::string, std::string>>& generics) const;
   /// The command that simulates `top`. Generics and GHDL's run options are appended to it.
   std::vector<std::string> run_arguments(const std::string& top) const;
 
  private:
   GhdlLibrary(GhdlTool tool, std::filesystem::path folder, std::string hash)
       : tool_(std::move(tool)), folder_(std::move(folder)), hash_(std::move(hash)) {}
+  /// Synthesizes, unless the netlist is stored. The files' names without extension: .v and .vhd.
+  Result<std::filesystem::path> netlists(
+      const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const;
   GhdlTool tool_;
   std::filesystem::path folder_;
   std::string hash_;

@@ -232,7 +232,7 @@ class StateEmitter {
       masks_ += fmt::format("  Ring<Late{0}, {1}> ring{0};\n", ring, c_ring_places);
     }
     return rings + "struct State {\n" + vectors_ + masks_ + "};\nstruct Inputs {\n" + inputs_ +
-           "};\nstruct Outputs {\n" + outputs() + "};\n" + tables() + setters();
+           "};\nstruct Outputs {\n" + outputs() + "};\n" + registers() + tables() + setters();
   }
 
  private:
@@ -278,6 +278,20 @@ class StateEmitter {
                           words.size() == 1 ? "" : fmt::format("[{}]", words.size()));
     }
     return text;
+  }
+
+  /// The registers that are variables of their own, not in a ring.
+  std::string registers() const {
+    std::string text = "constexpr Register c_registers[] = {\n";
+    for (std::size_t i = 0; i < step_.cells.size(); ++i) {
+      const Cell& cell = step_.cells[i];
+      if (cell.input || !hardware_.live.contains(i) || hardware_.delays.contains(i)) continue;
+      const unsigned bits = hardware_.netlist.registers.at(cell.signal);
+      text += fmt::format("  {{\"{}\", {}, {}, offsetof(State, c{})}},\n",
+                          hardware_.names.name(cell.signal, bits, cell.low, cell.width), cell.width,
+                          cell.mask, i);
+    }
+    return text + "};\n";
   }
 
   std::string tables() const {

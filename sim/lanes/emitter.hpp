@@ -6,6 +6,7 @@
 
 #include "sim/lanes/cell_layout.hpp"
 #include "sim/lanes/netlist_reader.hpp"
+#include "sim/lanes/register_names.hpp"
 #include "sim/lanes/schedule.hpp"
 
 namespace halfway {
@@ -19,6 +20,7 @@ struct ScheduledStep {
 /// What both functions share.
 struct EmittedHardware {
   const LaneNetlist& netlist;
+  const RegisterNames& names;
   const MemoryWords& memory_words;
   const CellSet& live;
   const Delays& delays;

@@ -39,7 +39,7 @@ Result<Steps> build_steps(const LaneNetlist& netlist, const LanePorts& ports, Ce
 
 }  // namespace
 
-Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports) {
+Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports, const RegisterNames& names) {
   auto netlist = read_lane_netlist(xml);
   if (!netlist) return netlist.error();
   netlist->inputs.erase("reset");
@@ -54,10 +54,13 @@ Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports)
   if (!schedule) return schedule.error();
   auto reset_schedule = make_schedule(steps->reset_step, layout.memory_words, live, delays);
   if (!reset_schedule) return reset_schedule.error();
-  return emit_lanes(
-      {.netlist = *netlist, .memory_words = layout.memory_words, .live = live, .delays = delays},
-      {std::move(steps->step), std::move(*schedule)},
-      {std::move(steps->reset_step), std::move(*reset_schedule)});
+  return emit_lanes({.netlist = *netlist,
+                     .names = names,
+                     .memory_words = layout.memory_words,
+                     .live = live,
+                     .delays = delays},
+                    {std::move(steps->step), std::move(*schedule)},
+                    {std::move(steps->reset_step), std::move(*reset_schedule)});
 }
 
 }  // namespace halfway

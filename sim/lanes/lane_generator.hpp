@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "sim/lanes/register_names.hpp"
 
 namespace halfway {
 
@@ -19,12 +20,13 @@ struct LanePorts {
   std::vector<std::string> outputs;  ///< outputs that are read; logic that only other outputs need is omitted
 };
 
-/// The structs State, Inputs and Outputs, and the functions
+/// The structs State, Inputs and Outputs, the list c_registers, and the functions
 ///     set_PORT(Inputs&, unsigned lane, const std::uint32_t* words)   for each input wider than a bit
 ///     step(State&, const Inputs&, Outputs&), reset_step(...)
 /// which give the outputs before the clock's rising edge, then the registers after it. Inputs of one bit are
 /// masks by their names. What the lanes cannot do (an unknown node, arithmetic on more than 64 bits) is an
 /// error that names it (exit code tool_failed).
-Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports);
+Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports,
+                                   const RegisterNames& names = {});
 
 }  // namespace halfway

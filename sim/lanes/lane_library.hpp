@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a netlist to a shared library of lanes: Verilator's XML, the generated C++ and a harness, cached.
+// From a netlist to compiled lanes: Verilator's XML, the generated C++ and a harness, cached.
 #pragma once
 
 #include <filesystem>
@@ -8,6 +8,7 @@
 
 #include "common/result.hpp"
 #include "sim/lanes/lane_generator.hpp"
+#include "sim/lanes/register_names.hpp"
 #include "sim/system/shared_library.hpp"
 
 namespace halfway {
@@ -15,6 +16,11 @@ namespace halfway {
 /// The widest vectors that a library may use, with 16, 8 or 4 lanes; the processor's, if it has none as wide.
 /// `none`: 4 lanes without vector instructions.
 enum class LaneVectors { avx512, avx2, sse, none };
+
+enum class LaneTarget {
+  processor,    ///< a shared library for this machine
+  web_assembly  ///< a module for browsers: wasm32 with vectors of 128 bits, 4 lanes
+};
 
 struct LaneBuild {
   std::string name;     ///< prefix of the cached build's folder
@@ -26,10 +32,16 @@ struct LaneBuild {
   std::vector<std::string> definitions;  ///< NAME=value for the harness
   bool fast = true;                      ///< optimize, which takes long to compile
   LaneVectors vectors = LaneVectors::avx512;
-  std::string compiler;  ///< empty: clang++ if installed, otherwise g++
+  std::string compiler;  ///< of the shared library; empty: clang++ if installed, otherwise g++
+  LaneTarget target = LaneTarget::processor;
+  RegisterNames names{};  ///< without: the netlist's
 };
 
-/// Build the library in build/cache/lanes/<name>-<hash>/ unless it exists, and load it.
+/// Generate and compile in build/cache/lanes/<name>-<hash>/ unless it exists. The compiled file, lanes.so or
+/// lanes.wasm, next to the generated text, lanes.hpp.
+Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache);
+
+/// Build the shared library and load it.
 Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway

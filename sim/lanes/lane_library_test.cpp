@@ -188,18 +188,26 @@ class Lanes : public testing::Test {
     ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", c_harness));
   }
 
+  LaneBuild build_of(const std::string& body, LaneVectors vectors = LaneVectors::avx512) const {
+    return {.name = "test",
+            .netlist = module_of(body),
+            .top = "m",
+            .ports = {.fixed = {}, .outputs = {"response"}},
+            .harness = scratch_->path() / "harness.cpp",
+            .source = c_root,
+            .definitions = {},
+            .fast = false,
+            .vectors = vectors,
+            .compiler = {}};
+  }
   Result<SharedLibrary> open(const std::string& body, LaneVectors vectors = LaneVectors::avx512) {
-    return open_lanes({.name = "test",
-                       .netlist = module_of(body),
-                       .top = "m",
-                       .ports = {.fixed = {}, .outputs = {"response"}},
-                       .harness = scratch_->path() / "harness.cpp",
-                       .source = c_root,
-                       .definitions = {},
-                       .fast = false,
-                       .vectors = vectors,
-                       .compiler = {}},
-                      c_cache);
+    return open_lanes(build_of(body, vectors), c_cache);
+  }
+  std::string text_of(const std::string& body) const {
+    const auto library = build_lanes(build_of(body), c_cache);
+    if (!library) return library.error().message;
+    const auto text = read_file(library->parent_path() / "lanes.hpp");
+    return text ? *text : text.error().message;
   }
 
   void expect_refused(const std::string& body, const std::string& with) {
@@ -276,49 +284,38 @@ TEST_P(LanesOfVectors, EveryOperationGivesVerilatorsResult) {
   }
 }
 
-std::string text_of(const SharedLibrary& lanes) {
-  const auto text = read_file(lanes.file().parent_path() / "lanes.hpp");
-  return text ? *text : text.error().message;
-}
-
-// The same text and harness, compiled for WebAssembly's vectors. A browser may run it; here it is compiled
-// only.
+// A browser runs what is compiled here in sim/live/hardware_module_test.cpp.
 TEST_F(Lanes, TheTextCompilesForWebAssembly) {
   std::string body = c_everything;
   body.replace(body.find("ROM\n"), 4, "    rom[63] = 8'd1;\n");
-  const auto lanes = open(body);
-  ASSERT_TRUE(lanes) << lanes.error().message;
-  const auto end =
-      run_process({.arguments = {"clang++", "--target=wasm32-wasi", "-msimd128", "-std=gnu++20", "-O1", "-w",
-                                 "-fno-exceptions", "-I" + c_root.string(), "-c", "harness.cpp", "-o",
-                                 (scratch_->path() / "lanes.wasm").string()},
-                   .working_folder = lanes->file().parent_path()},
-                  "");
-  ASSERT_TRUE(end) << end.error().message;
-  EXPECT_TRUE(end->succeeded()) << end->output;
+  LaneBuild build = build_of(body);
+  build.target = LaneTarget::web_assembly;
+  const auto module = build_lanes(build, c_cache);
+  ASSERT_TRUE(module) << module.error().message;
+  const auto bytes = read_file(*module);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_TRUE(bytes->starts_with(std::string_view("\0asm", 4)));
 }
 
 TEST_F(Lanes, KeepingAValueBecomesACondition) {
   // A record of two fields with separate conditions.
-  const auto record = open(
+  const std::string record = text_of(
       "  reg [15:0] q;\n"
       "  always @(posedge clk)\n"
       "    q <= stimulus[0] ? {q[15:8], stimulus[15:8]} : stimulus[1] ? {stimulus[31:24], q[7:0]} : q;\n"
       "  assign response = {3184'b0, q};\n");
-  ASSERT_TRUE(record) << record.error().message;
-  EXPECT_EQ(text_of(*record).find("select("), std::string::npos) << text_of(*record);
-  EXPECT_EQ(text_of(*record).find("  {\n"), std::string::npos) << text_of(*record);
+  ASSERT_NE(record.find("LANE_STEP void step("), std::string::npos) << record;
+  EXPECT_EQ(record.find("select("), std::string::npos) << record;
+  EXPECT_EQ(record.find("  {\n"), std::string::npos) << record;
 
   // A sum that is loaded or stepped. Only the step adds.
-  const auto sum = open(
+  const std::string text = text_of(
       "  reg [15:0] q;\n"
       "  wire [15:0] addend;\n"
       "  assign addend = stimulus[1] ? stimulus[31:16] : stimulus[63:48];\n"
       "  always @(posedge clk)\n"
       "    q <= (stimulus[0] | stimulus[1]) ? (stimulus[0] ? addend : q + addend) : q;\n"
       "  assign response = {3184'b0, q};\n");
-  ASSERT_TRUE(sum) << sum.error().message;
-  const std::string text = text_of(*sum);
   const std::size_t step = text.find("LANE_STEP void step("), reset = text.find("LANE_STEP void reset_step(");
   ASSERT_NE(step, std::string::npos);
   const std::string body = text.substr(step, reset - step);

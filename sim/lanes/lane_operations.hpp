@@ -32,6 +32,14 @@ LANE_FUNCTION V signed_multiply_high(V a, V b) {
   return upper_words((x << 32 >> 32) * (y << 32 >> 32), (x >> 32) * (y >> 32));
 }
 
+/// A register of the hardware, or a field of one, and its variable in the generated State.
+struct Register {
+  const char* name;  ///< path of instances, signal and field
+  unsigned bits;
+  bool mask;  ///< the variable is an M, otherwise a V
+  std::size_t offset;
+};
+
 /// The values of registers that only delay others, in all lanes at once: one place for each clock.
 template <class Place, unsigned places>
 struct Ring {

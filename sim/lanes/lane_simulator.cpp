@@ -242,8 +242,8 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
   return Ok{};
 }
 
-Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
-                                          const LaneOptions& options) {
+Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
+                                const LaneOptions& options) {
   auto netlist = netlist_of(key, folders);
   if (!netlist) return netlist.error();
   const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
@@ -256,20 +256,27 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
     definitions.emplace_back("HALFWAY_STALLS=1");
   else
     fixed["fragment_ready"] = true;
-  const LaneBuild build{.name = key.name() + (stalls ? "-stalls" : ""),
-                        .netlist = std::move(*netlist),
-                        .top = key.entity(),
-                        .ports = {.fixed = fixed,
-                                  .outputs = {"init_ready", "fragment_valid", "fragment_triangle",
-                                              "fragment_y", "fragment_x", "fragment_z", "fragment_red",
-                                              "fragment_green", "fragment_blue", "busy", "fault"}},
-                        .harness = folders.source / "sim/lanes/lane_harness.cpp",
-                        .source = folders.source,
-                        .definitions = definitions,
-                        .fast = options.fast,
-                        .vectors = options.vectors,
-                        .compiler = options.compiler};
-  auto library = open_lanes(build, folders.cache);
+  return LaneBuild{.name = key.name() + (stalls ? "-stalls" : ""),
+                   .netlist = std::move(*netlist),
+                   .top = key.entity(),
+                   .ports = {.fixed = fixed,
+                             .outputs = {"init_ready", "fragment_valid", "fragment_triangle", "fragment_y",
+                                         "fragment_x", "fragment_z", "fragment_red", "fragment_green",
+                                         "fragment_blue", "busy", "fault"}},
+                   .harness = folders.source / "sim/lanes/lane_harness.cpp",
+                   .source = folders.source,
+                   .definitions = definitions,
+                   .fast = options.fast,
+                   .vectors = options.vectors,
+                   .compiler = options.compiler};
+}
+
+Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
+                                          const LaneOptions& options) {
+  auto build = lane_build_of(key, folders, options);
+  if (!build) return build.error();
+  const unsigned init_bits = port_bits(build->netlist, key.entity(), "init_data");
+  auto library = open_lanes(*build, folders.cache);
   if (!library) return library.error();
 
   Hardware hardware{.key = key, .options = options, .library = std::move(*library), .init_bits = init_bits};

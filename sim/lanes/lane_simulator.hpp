@@ -31,6 +31,10 @@ struct LaneOptions {
   std::string compiler{};  ///< empty: clang++ if installed, otherwise g++
 };
 
+/// The build of a shader's lanes.
+Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
+                                const LaneOptions& options = {});
+
 class LaneSimulator final : public Engine {
  public:
   /// Builds the lanes, or takes them from the cache, and resets them. Hardware without lanes is an error with

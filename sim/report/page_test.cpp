@@ -10,8 +10,8 @@
 #include <memory>
 
 #include "sim/cli/command_test.hpp"
+#include "sim/pages/headless_browser.hpp"
 #include "sim/pictures/image.hpp"
-#include "sim/report/headless_browser.hpp"
 #include "sim/study/study.hpp"
 #include "sim/study/table.hpp"
 

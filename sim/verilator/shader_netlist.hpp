@@ -14,4 +14,7 @@ namespace halfway {
 /// all other steps of an unchanged build.
 Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
 
+/// The same netlist as VHDL, with positions in the RTL.
+Result<std::string> vhdl_netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
+
 }  // namespace halfway

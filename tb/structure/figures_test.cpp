@@ -223,7 +223,7 @@ std::vector<Sourced> quoted() {
        "c_longest{20};"},
       {"sim/bench/page.md.mustache",
        "in space for at most four times as many), and space for two million fragments",
-       "sim/lanes/lane_harness.cpp", "c_kept_room = std::size_t{1} << 21;"},
+       "sim/lanes/lane_runner.hpp", "c_kept_room = std::size_t{1} << 21;"},
       {"sim/bench/page.md.mustache", "{{outline}} of a million pixels", "sim/bench/program/way_table.cpp",
        "1e6 * picture->outline_off"},
       {"sim/bench/page.md.mustache", "over the last quarter of an hour.",

@@ -21,7 +21,7 @@
 
 #include "sim/system/subprocess.hpp"
 
-namespace halfway::report {
+namespace halfway {
 
 /// For tests: failures are exceptions.
 class HeadlessBrowser {
@@ -185,4 +185,4 @@ class HeadlessBrowser {
   std::string session_;
 };
 
-}  // namespace halfway::report
+}  // namespace halfway

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/live/hardware_module.hpp"
+
+#include "sim/lanes/lane_simulator.hpp"
+#include "sim/verilator/shader_netlist.hpp"
+
+namespace halfway {
+
+Result<std::filesystem::path> build_hardware_module(const HardwareKey& key, const SimulatorFolders& folders) {
+  auto build = lane_build_of(key, folders);
+  if (!build) return build.error();
+  build->harness = folders.source / "sim/live/hardware_harness.cpp";
+  build->target = LaneTarget::web_assembly;
+  const auto netlist = vhdl_netlist_of(key, folders);
+  if (!netlist) return netlist.error();
+  build->names = RegisterNames(*netlist, folders.source);
+  return build_lanes(*build, folders.cache);
+}
+
+}  // namespace halfway
