@@ -9,6 +9,7 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 drawing := SCENE SHADER DEGREE FORM PRESET SIZE ALL_EFFECTS LIGHTS
 takes_sim := $(drawing) OWN_TABLES SIMULATOR OUT THREADS JOBS
 takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
+takes_live := THREADS JOBS
 takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
 takes_why := $(drawing) PIXEL OUT JOBS
 takes_plan := $(drawing) SIMULATOR THREADS MEASURE OBJECTS RATE JOBS
@@ -123,7 +124,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
 synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
-.PHONY: help sim view compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
+.PHONY: help sim view live compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
   check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth bench build program generator mcode configure \
   setup doctor format check-format clean
 
@@ -143,6 +144,9 @@ view: program ## draw one scene from all sides, by the RTL in Verilator or lanes
 	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
 	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
 	  $(call flag,TERMINAL,--terminal) $(scene)
+
+live: program ## write a page in which the RTL draws, live in a browser: build/live/index.html
+	@build/halfway live $(call option,THREADS,--threads)
 
 compare: program ## compare the stored results of make sim again
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \
@@ -297,7 +301,7 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
-with_tools := bench bounds check-report diagrams evidence figures format check-format fuzz gallery lint mutate prove report sanitize \
+with_tools := bench bounds check-report diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
   savings slurm-test study synth test
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \

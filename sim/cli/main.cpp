@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   cli::add_sim(app, folders, exit_code);
   cli::add_view(app, folders, exit_code);
+  cli::add_live(app, folders, exit_code);
   cli::add_compare(app, folders, exit_code);
   cli::add_why(app, folders, exit_code);
   cli::add_plan(app, folders, exit_code);

@@ -98,6 +98,7 @@ void add_init(CLI::App& app, const Folders& folders, int& exit_code);
 void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
 void add_figures(CLI::App& app, const Folders& folders, int& exit_code);
 void add_view(CLI::App& app, const Folders& folders, int& exit_code);
+void add_live(CLI::App& app, const Folders& folders, int& exit_code);
 void add_savings(CLI::App& app, const Folders& folders, int& exit_code);
 void add_study(CLI::App& app, const Folders& folders, int& exit_code);
 void add_report(CLI::App& app, const Folders& folders, int& exit_code);

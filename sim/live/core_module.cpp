@@ -32,12 +32,12 @@ const std::vector<std::string> c_sources = {"model/tables/own_reach.cpp",
                                             "model/tables/word_lengths.cpp",
                                             "sim/compare/hardware_frame.cpp",
                                             "sim/compare/stream_comparator.cpp",
-                                            "sim/live/core.cpp",
-                                            "sim/live/live_frame.cpp",
-                                            "sim/live/live_scene.cpp",
-                                            "sim/live/stream_parts.cpp"};
+                                            "sim/live_core/core.cpp",
+                                            "sim/live_core/live_frame.cpp",
+                                            "sim/live_core/live_scene.cpp",
+                                            "sim/live_core/stream_parts.cpp"};
 // Folders whose headers these sources include.
-const std::vector<std::string> c_header_folders = {"model", "sim/compare", "sim/engine", "sim/live",
+const std::vector<std::string> c_header_folders = {"model", "sim/compare", "sim/engine", "sim/live_core",
                                                    "sim/verilator"};
 // Headers of libraries: linked into a folder of their own, because the other headers of /usr/include are
 // those of another system.

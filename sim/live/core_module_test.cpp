@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/live/golden_engine_test.hpp"
-#include "sim/live/live_frame.hpp"
+#include "sim/live_core/golden_engine_test.hpp"
+#include "sim/live_core/live_frame.hpp"
 #include "sim/report/headless_browser.hpp"
 #include "sim/system/file.hpp"
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sim/system/file.hpp"
+#include "sim/system/subprocess.hpp"
 
 namespace halfway::report {
 namespace {
@@ -55,10 +56,25 @@ void adapt(cmark_node* document) {
 
 }  // namespace
 
-Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type) {
+Result<std::string> base64_of(const std::filesystem::path& file) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error();
-  return fmt::format("data:{};base64,{}", media_type, OIIO::Strutil::base64_encode(*bytes));
+  return OIIO::Strutil::base64_encode(*bytes);
+}
+
+Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type) {
+  const auto text = base64_of(file);
+  if (!text) return text.error();
+  return fmt::format("data:{};base64,{}", media_type, *text);
+}
+
+nlohmann::ordered_json commit_of(const std::filesystem::path& source) {
+  if (find_program("git").empty()) return nullptr;
+  const auto described = run_process({.arguments = {"git", "-C", source.string(), "describe", "--always",
+                                                    "--tags", "--dirty= with changes"}},
+                                     "");
+  if (!described || !described->succeeded()) return nullptr;
+  return described->output.substr(0, described->output.find('\n'));
 }
 
 std::string script_safe(std::string json) {

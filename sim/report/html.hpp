@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -10,8 +11,14 @@
 
 namespace halfway::report {
 
+/// The file's bytes in base64.
+Result<std::string> base64_of(const std::filesystem::path& file);
+
 /// The file as a `data:` URI.
 Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type);
+
+/// The commit of a checkout; null if unknown, for example without Git.
+nlohmann::ordered_json commit_of(const std::filesystem::path& source);
 
 /// JSON that can be placed in a `script` element: no text in it ends the element.
 std::string script_safe(std::string json);

@@ -7,7 +7,6 @@
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::report {
 
@@ -15,20 +14,6 @@ Json Page::lacks(const std::string& what, const std::string& command) {
   report.notes.push_back(fmt::format("{}: {} makes it", what, command));
   return {{"what", what}, {"command", command}};
 }
-
-namespace {
-
-// The commit of the checkout; null if unknown, for example without Git.
-Json commit_of(const std::filesystem::path& source) {
-  if (find_program("git").empty()) return nullptr;
-  const auto described = run_process({.arguments = {"git", "-C", source.string(), "describe", "--always",
-                                                    "--tags", "--dirty= with changes"}},
-                                     "");
-  if (!described || !described->succeeded()) return nullptr;
-  return described->output.substr(0, described->output.find('\n'));
-}
-
-}  // namespace
 
 Result<Report> write_report(const ReportSettings& settings) {
   const std::filesystem::path here = settings.folders.source / "sim" / "report";

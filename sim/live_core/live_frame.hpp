@@ -20,7 +20,7 @@
 #include "setup/setup.hpp"
 #include "sim/compare/hardware_frame.hpp"
 #include "sim/engine/engine.hpp"
-#include "sim/live/live_scene.hpp"
+#include "sim/live_core/live_scene.hpp"
 
 namespace halfway::live {
 

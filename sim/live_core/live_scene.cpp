@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/live/live_scene.hpp"
+#include "sim/live_core/live_scene.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/live/stream_parts.hpp"
+#include "sim/live_core/stream_parts.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "golden_run/golden_run.hpp"
-#include "sim/live/live_frame.hpp"
-#include "sim/live/stream_parts.hpp"
+#include "sim/live_core/core_values.hpp"
+#include "sim/live_core/live_frame.hpp"
+#include "sim/live_core/stream_parts.hpp"
 #include "sim/verilator/harness_api.h"
 
 #define HALFWAY_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
@@ -87,15 +88,12 @@ class HardwareModule final : public Engine {
   std::vector<Fragment> fragments_;
 };
 
-/// Values of live_settings and live_figures, in the order in which the page reads them.
-constexpr std::size_t c_settings = 9, c_figures = 16;
-
 struct Core {
   LiveFrame frame{[] { return browser_now(); }};
   std::optional<HardwareModule> hardware;
   std::vector<std::uint8_t> input, pixels;
-  std::array<double, c_settings> settings{};
-  std::array<double, c_figures> figures{};
+  std::array<double, c_setting_names.size()> settings{};
+  std::array<double, c_figure_names.size()> figures{};
   std::string text;
 
   Core() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/live/live_frame.hpp"
+#include "sim/live_core/live_frame.hpp"
 
 #include <fmt/format.h>
 

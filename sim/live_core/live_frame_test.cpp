@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of the page's core as native code: its frames are those of the program.
-#include "sim/live/live_frame.hpp"
+#include "sim/live_core/live_frame.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <string>
 #include <tuple>
 
-#include "sim/live/golden_engine_test.hpp"
-#include "sim/live/stream_parts.hpp"
+#include "sim/live_core/golden_engine_test.hpp"
+#include "sim/live_core/stream_parts.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"

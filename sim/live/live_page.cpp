@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/live/live_page.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "plan/plan.hpp"
+#include "sim/live/core_module.hpp"
+#include "sim/live/hardware_module.hpp"
+#include "sim/live_core/core_values.hpp"
+#include "sim/pages/template.hpp"
+#include "sim/report/html.hpp"
+#include "sim/scene_files/load_scene.hpp"
+#include "sim/study/hardware.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/shared_library.hpp"
+#include "sim/system/threads.hpp"
+
+namespace halfway::live {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+// Scenes as a mesh file makes them: one with the default material, one with a colour.
+Result<std::vector<Scene>> mesh_scenes() {
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return scratch.error();
+  const std::filesystem::path file = scratch->path() / "mesh.obj";
+  if (Status written = write_file(file, c_mesh); !written) return written.error();
+  const auto grey = load_scene(file.string(), {});
+  if (!grey) return grey.error();
+  Scene coloured = *grey;
+  coloured.materials.front().colour = {0.8, 0.4, 0.2};
+  return std::vector<Scene>{*grey, std::move(coloured)};
+}
+
+// The module, compressed, in base64. `-n` omits name and time, so that equal modules give equal pages.
+Result<std::string> packed(const std::filesystem::path& module) {
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return scratch.error();
+  const std::filesystem::path file = scratch->path() / "module.gz";
+  const auto done = run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
+                             "apt-get install gzip", module.filename().string());
+  if (!done) return done.error();
+  return report::base64_of(file);
+}
+
+// Everything on the page that depends on a key.
+struct Hardware {
+  std::string module;
+  std::optional<double> mhz;
+};
+
+Result<std::map<std::string, Hardware>> build_hardware(const std::vector<HardwareKey>& keys,
+                                                       const LiveSettings& settings) {
+  std::map<std::string, Hardware> built;
+  std::mutex mutex;
+  std::size_t begun = 0;
+  const Status done = for_each_on_threads(settings.threads, keys.size(), [&](std::size_t i) -> Status {
+    const std::string name = keys[i].name();
+    {
+      const std::lock_guard lock(mutex);
+      settings.on_progress(fmt::format("hardware {} of {}: {}", ++begun, keys.size(), name));
+    }
+    const auto module = build_hardware_module(keys[i], settings.folders);
+    if (!module) return module.error();
+    auto text = packed(*module);
+    if (!text) return text.error();
+    const auto figures = study::pinned_figures(keys[i], settings.folders);
+    if (!figures) return figures.error();
+    const std::lock_guard lock(mutex);
+    built.emplace(name, Hardware{std::move(*text), figures->mhz});
+    return Ok{};
+  });
+  if (!done) return done.error();
+  return built;
+}
+
+}  // namespace
+
+Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scenes,
+                                           const std::filesystem::path& scenes_folder) {
+  auto drawn = mesh_scenes();
+  if (!drawn) return drawn.error();
+  for (const std::string& name : scenes) {
+    auto scene = load_scene(name, scenes_folder);
+    if (!scene) return scene.error();
+    drawn->push_back(std::move(*scene));
+  }
+  std::map<std::string, HardwareKey> keys;
+  for (const Scene& scene : *drawn)
+    for (const Shader shader : c_shaders)
+      for (const Preset preset : {Preset::exact, Preset::published})
+        if (const auto plan = plan_scene(scene, {.shader = shader, .preset = preset}))
+          keys.emplace(plan->key.name(), plan->key);
+  std::vector<HardwareKey> sorted;
+  for (auto& [name, key] : keys) sorted.push_back(std::move(key));
+  return sorted;
+}
+
+Result<LivePage> write_live(const LiveSettings& settings) {
+  const std::filesystem::path sources = settings.folders.source / "sim", here = sources / "live";
+  const auto keys = live_keys(settings.scenes, sources / "scenes");
+  if (!keys) return keys.error();
+  settings.on_progress("core");
+  const auto core = build_core_module(settings.folders);
+  if (!core) return core.error();
+  auto packed_core = packed(*core);
+  if (!packed_core) return packed_core.error();
+  const auto hardware = build_hardware(*keys, settings);
+  if (!hardware) return hardware.error();
+
+  // Collect the page's data.
+  Json data = {{"modules", {{"core", std::move(*packed_core)}}}, {"clocks", Json::object()}, {"settings", c_setting_names}, {"figures", c_figure_names}};
+  for (const auto& [name, built] : *hardware) {
+    data["modules"][name] = built.module;
+    if (built.mhz) data["clocks"][name] = *built.mhz;
+  }
+  for (const std::string& name : settings.scenes) {
+    const auto text = read_file(sources / "scenes" / (name + ".toml"));
+    if (!text) return text.error();
+    data["scenes"].push_back({{"name", name + ".toml"}, {"text", *text}});
+  }
+
+  // Fill the template.
+  Json view = {{"commit", report::commit_of(settings.folders.source)}, {"data", report::script_safe(data.dump())}};
+  const auto still = report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
+  if (!still) return still.error();
+  view["still"] = *still;
+  for (const auto& [file, name] : {std::pair{sources / "report/page.css", "style"}, {here / "page.css", "style"},
+                                   {here / "page.js", "script"}, {here / "worker.js", "worker"}}) {
+    const auto text = read_file(file);
+    if (!text) return text.error();
+    view[name] = view.value(name, "") + *text;
+  }
+  const auto text = filled_template(here / "page.html.mustache", view, Escape::html);
+  if (!text) return text.error();
+  if (const auto folder = settings.page.parent_path(); !folder.empty())
+    if (Status made = make_folders(folder); !made) return made.error();
+  if (Status written = write_file(settings.page, *text); !written) return written.error();
+  return LivePage{text->size(), keys->size()};
+}
+
+}  // namespace halfway::live

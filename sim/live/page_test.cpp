@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests of the page of make live in headless Chromium, used with mouse, keys and touch.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plan/plan.hpp"
+#include "sim/cli/command_test.hpp"
+#include "sim/live/live_page.hpp"
+#include "sim/pictures/image.hpp"
+#include "sim/report/headless_browser.hpp"
+#include "sim/scene_files/load_scene.hpp"
+
+namespace halfway::live {
+namespace {
+
+using report::HeadlessBrowser;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using Json = nlohmann::json;
+
+const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+const std::vector<std::string> c_scenes = {"highlights", "lights", "matte", "shadows", "spheres", "teapot"};
+
+class LiveInBrowser : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
+    const Outcome outcome = run({"live", "--out", "live.html"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    browser_ = std::make_unique<HeadlessBrowser>(folder_->path());
+    browser_->resize(1440, 900);
+    browser_->open(page().string() + "#size=320x240");
+  }
+  void TearDown() override {
+    if (!browser_) return;
+    EXPECT_THAT(browser_->complaints, IsEmpty());
+    EXPECT_THAT(browser_->requests, IsEmpty());
+  }
+
+  /// Follow a link to the page and wait for a frame with its error.
+  void open(const std::string& link) {
+    evaluate(fmt::format("(history.replaceState(null, '', '#{}'), followLink())", link));
+    ASSERT_TRUE(is_drawn()) << evaluate("document.body.innerText");
+  }
+  std::filesystem::path page() const { return folder_->path() / "live.html"; }
+  Json evaluate(const std::string& expression) { return browser_->evaluate(expression); }
+  /// The current state is drawn, with its error against the reference.
+  bool is_drawn() { return browser_->becomes_true("globalThis.halfwayIsStill && halfwayIsStill()"); }
+  std::string text_of(const std::string& selector) {
+    return evaluate(fmt::format("document.querySelector('{}').textContent", selector));
+  }
+  double figure(const std::string& name) { return evaluate("last.figures." + name); }
+  /// A picture of the page: red, green and blue of each pixel.
+  Frame picture(const std::string& canvas) {
+    const Json size = evaluate(fmt::format("[{0}.width, {0}.height]", canvas));
+    Frame frame({size[0], size[1]});
+    const std::string hex = evaluate(fmt::format(
+        "(() => {{ const p = {}.getContext('2d').getImageData(0, 0, {}, {}).data; let text = ''; "
+        "for (let i = 0; i < p.length; ++i) if (i % 4 < 3) text += p[i].toString(16).padStart(2, '0'); return text; "
+        "}})()",
+        canvas, frame.size.width, frame.size.height));
+    for (std::size_t i = 0; i < frame.rgb.size(); ++i)
+      frame.rgb[i] = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
+    return frame;
+  }
+  void click(double x, double y) {
+    browser_->mouse("mousePressed", x, y);
+    browser_->mouse("mouseReleased", x, y);
+  }
+  std::pair<double, double> middle_of(const std::string& selector) {
+    const Json box = evaluate(fmt::format(
+        "(() => {{ const e = document.querySelector('{}'); e.scrollIntoView({{block: 'center', behavior: "
+        "'instant'}}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; }})()",
+        selector));
+    return {box[0], box[1]};
+  }
+  void choose(const std::string& id, const std::string& value) {
+    evaluate(fmt::format("(() => {{ const e = document.getElementById('{}'); e.value = '{}'; "
+                         "e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change')); }})()",
+                         id, value));
+  }
+  /// Drop a file with this text on the page.
+  void drop(const std::string& name, const std::string& text) {
+    evaluate(fmt::format("(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], '{}')); "
+                         "dispatchEvent(new DragEvent('drop', {{dataTransfer: data, cancelable: true}})); }})()",
+                         Json(text).dump(), name));
+  }
+
+  std::unique_ptr<HeadlessBrowser> browser_;
+};
+
+TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
+  std::size_t drawn = 0;
+  for (const std::string& scene : c_scenes) {
+    const auto loaded = load_scene(scene, c_source / "sim/scenes");
+    ASSERT_TRUE(loaded) << loaded.error().message;
+    for (const Shader shader : c_shaders)
+      for (const Preset preset : {Preset::exact, Preset::published}) {
+        if (!plan_scene(*loaded, {.shader = shader, .preset = preset})) continue;
+        const std::string of = fmt::format("{} {} {}", scene, to_string(shader), to_string(preset));
+        const Outcome golden = run({"sim", scene, "--shader", to_string(shader), "--preset", to_string(preset), "--size",
+                                    "320x240", "--simulator", "lanes", "--out", "out"});
+        ASSERT_EQ(golden.exit_code, 0) << of << golden.output;
+        const auto expected = read_png(folder_->path() / "out" / scene / to_string(shader) / "golden.png");
+        ASSERT_TRUE(expected) << expected.error().message;
+        ASSERT_NO_FATAL_FAILURE(open(fmt::format("scene={}.toml&shader={}&preset={}&size=320x240&kind=golden", scene,
+                                                 to_string(shader), to_string(preset))))
+            << of;
+        EXPECT_EQ(picture("left").rgb, expected->rgb) << of;
+        EXPECT_EQ(picture("right").rgb, expected->rgb) << of;
+        EXPECT_THAT(text_of("#verdict"), HasSubstr("0 differ")) << of;
+        EXPECT_GT(figure("fragments"), 1000) << of;
+        ++drawn;
+      }
+  }
+  EXPECT_GE(drawn, 25U);
+}
+
+TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  ASSERT_GT(evaluate("document.querySelectorAll('#register option').length"), 10);
+  // Break registers until one is found to change the picture.
+  const std::string whole = text_of("#verdict");
+  int found = 0;
+  for (int i = 0; i < 8; ++i) {
+    choose("register", std::to_string(3 * i));
+    evaluate("document.getElementById('break').click()");
+    ASSERT_TRUE(is_drawn());
+    if (figure("mismatches") > 0) {
+      ++found;
+      EXPECT_EQ(evaluate("document.getElementById('verdict').className"), "differs");
+      EXPECT_THAT(text_of("#verdict"), HasSubstr("golden"));
+    }
+    evaluate("document.getElementById('mend').click()");
+    ASSERT_TRUE(is_drawn());
+    EXPECT_EQ(text_of("#verdict"), whole);
+  }
+  EXPECT_GT(found, 2);
+}
+
+TEST_F(LiveInBrowser, TurnsByMouseKeysAndTouchAndKeepsTheStateInTheLink) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  const std::vector<std::uint8_t> before = picture("left").rgb;
+  const auto [x, y] = middle_of("#picture");
+  browser_->mouse("mousePressed", x, y);
+  browser_->mouse("mouseMoved", x + 30, y + 10);
+  browser_->mouse("mouseMoved", x + 60, y + 20);
+  browser_->mouse("mouseReleased", x + 60, y + 20);
+  ASSERT_TRUE(is_drawn());
+  const std::vector<std::uint8_t> dragged = picture("left").rgb;
+  EXPECT_NE(dragged, before);
+  EXPECT_EQ(evaluate("state.azimuth"), -30);
+  EXPECT_EQ(evaluate("state.elevation"), 10);
+  evaluate("document.getElementById('picture').focus()");
+  browser_->press("ArrowLeft");
+  browser_->press("+");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_EQ(evaluate("state.azimuth"), -35);
+  EXPECT_EQ(evaluate("state.distance"), 0.9);
+  browser_->touch("touchStart", {{x - 20, y}, {x + 20, y}});
+  browser_->touch("touchMove", {{x - 40, y}, {x + 40, y}});
+  browser_->touch("touchEnd", {});
+  ASSERT_TRUE(is_drawn());
+  EXPECT_LT(evaluate("state.distance").get<double>(), 0.6);
+  const std::vector<std::uint8_t> turned = picture("left").rgb;
+  const std::string link = evaluate("location.hash");
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
+  ASSERT_NO_FATAL_FAILURE(open(link.substr(1)));
+  EXPECT_EQ(picture("left").rgb, turned);
+}
+
+TEST_F(LiveInBrowser, SlidersChangeTheFrame) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
+  std::vector<std::uint8_t> before = picture("left").rgb;
+  for (const auto& [id, value] : std::vector<std::pair<std::string, std::string>>{
+           {"exponent", "2"}, {"lightAzimuth", "60"}, {"lightElevation", "20"}, {"tessellation", "-1"}}) {
+    choose(id, value);
+    ASSERT_TRUE(is_drawn()) << id;
+    const std::vector<std::uint8_t> after = picture("left").rgb;
+    EXPECT_NE(after, before) << id;
+    EXPECT_EQ(figure("mismatches"), 0) << id;
+    before = after;
+  }
+  // A smaller threshold splits more triangles, and the error is smaller.
+  choose("threshold", "4");
+  ASSERT_TRUE(is_drawn());
+  const double leaves = figure("leaves"), rms = figure("rms");
+  choose("threshold", "0");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_GT(figure("leaves"), leaves);
+  EXPECT_LT(figure("rms"), rms);
+}
+
+TEST_F(LiveInBrowser, TheLineSeparatesTwoPictures) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240&kind=reference"));
+  const Frame hardware = picture("left"), reference = picture("right");
+  EXPECT_NE(hardware.rgb, reference.rgb);
+  const auto clip = [&] { return evaluate("getComputedStyle(document.getElementById('right')).clipPath"); };
+  const Json half = clip();
+  choose("wipe", "900");
+  EXPECT_NE(clip(), half);
+  // The difference is 32 times that of the two pictures.
+  choose("kind", "difference");
+  ASSERT_TRUE(is_drawn());
+  const Frame difference = picture("right");
+  for (std::size_t i = 0; i < difference.rgb.size(); ++i)
+    ASSERT_EQ(difference.rgb[i], std::min(255, 32 * std::abs(hardware.rgb[i] - reference.rgb[i]))) << i;
+  choose("kind", "triangles");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_NE(picture("right").rgb, difference.rgb);
+}
+
+TEST_F(LiveInBrowser, DrawsADroppedMeshAndRefusesABadOne) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  drop("roof.obj", "v 0 0 0\nv 2 0 0\nv 2 1 1\nv 0 1 1\nf 1 2 3 4\n");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_EQ(evaluate("last.state.scene"), "roof.obj");
+  EXPECT_EQ(figure("triangles"), 2);
+  EXPECT_EQ(figure("mismatches"), 0);
+  drop("bad.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n");
+  ASSERT_TRUE(browser_->becomes_true("!document.getElementById('refusal').hidden"));
+  EXPECT_THAT(text_of("#refusal"), HasSubstr("bad.obj:2: "));
+  // The page goes on.
+  choose("scene", "teapot.toml");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_EQ(evaluate("document.getElementById('refusal').hidden"), true);
+  EXPECT_EQ(figure("mismatches"), 0);
+}
+
+TEST_F(LiveInBrowser, ShowsThePixelThatIsClicked) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=teapot.toml&size=320x240&kind=golden"));
+  const auto [x, y] = middle_of("#picture");
+  click(x, y);
+  ASSERT_TRUE(browser_->becomes_true("document.querySelectorAll('#pixel-values tr').length > 2"));
+  const Frame shown = picture("left");
+  const std::size_t at = shown.offset(160, 120);
+  EXPECT_THAT(text_of("#pixel-title"), HasSubstr("160, 120"));
+  EXPECT_THAT(text_of("#pixel-values"), HasSubstr(fmt::format("{}{}{}", shown.rgb[at], shown.rgb[at + 1], shown.rgb[at + 2])));
+}
+
+TEST_F(LiveInBrowser, FitsPhonesAndDarkMode) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  for (const int width : {390, 1440}) {
+    browser_->resize(width, 844);
+    EXPECT_LE(evaluate("document.documentElement.scrollWidth").get<int>(), width);
+  }
+  std::vector<std::string> papers;
+  for (const char* scheme : {"light", "dark"}) {
+    browser_->prefer(scheme);
+    papers.push_back(evaluate("getComputedStyle(document.body).backgroundColor"));
+  }
+  EXPECT_NE(papers[0], papers[1]);
+}
+
+TEST_F(LiveInBrowser, TheFileIsSmall) {
+  EXPECT_LE(std::filesystem::file_size(page()), 3'000'000U);
+}
+
+}  // namespace
+}  // namespace halfway::live
