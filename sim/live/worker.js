@@ -6,9 +6,10 @@
 const pictureKinds = ["hardware", "golden", "reference", "difference", "triangles"];
 const shaders = ["quadratic", "spherical", "processors"], presets = ["exact", "published"];
 
-let ready = null;  // promise of the core
+let receiveCore = null;
+const ready = new Promise((receive) => { receiveCore = receive; });
 let core = null;
-let hardware = null;
+let hardware = null, key = "";
 const hardwareOf = new Map();  // instances by key
 const files = new Map();  // bytes of scenes and meshes by file name
 const waiting = new Map();  // keys whose modules were requested, with the functions that receive them
@@ -21,18 +22,18 @@ function textFrom(module, address) {
   return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
 }
 
-/// Copies 32-bit words from the core to the room that `reserve` returns in the hardware's memory.
-function copyWords(reserve, from, count) {
+/// Copies items of 32-bit words from the core to the room that `reserve` returns in the hardware's memory.
+function copyItems(reserve, from, count, words) {
   const to = reserve(count);
-  new Uint32Array(hardware.memory.buffer, to, count).set(new Uint32Array(core.memory.buffer, from, count));
+  new Uint32Array(hardware.memory.buffer, to, count * words).set(new Uint32Array(core.memory.buffer, from, count * words));
 }
 
 // What the core imports.
 const live = {
   hardware_draw(words, wordCount, parts, partCount, loads, loadCount, most) {
-    copyWords(hardware.hardware_words, words, wordCount);
-    copyWords(hardware.hardware_parts, parts, 2 * partCount);
-    copyWords(hardware.hardware_loads, loads, loadCount);
+    copyItems(hardware.hardware_words, words, wordCount, 1);
+    copyItems(hardware.hardware_parts, parts, partCount, 2);
+    copyItems(hardware.hardware_loads, loads, loadCount, 1);
     return hardware.hardware_draw(most);
   },
   hardware_count: () => hardware.hardware_fragment_count(),
@@ -81,17 +82,16 @@ async function planHardware({ shader, preset }) {
   if (wanted === planned) return;
   planned = "";
   call(core.live_plan(shaders.indexOf(shader), presets.indexOf(preset), 0, 0));
-  const key = coreText();
+  key = coreText();
   if (!hardwareOf.has(key)) {
     const module = await new Promise((receive) => {
       waiting.set(key, receive);
       postMessage({ kind: "need", key });
     });
-    if (!module) throw new Refused(`This page has no hardware ${key}. \`make live\` builds that of the built-in scenes.`);
+    if (!module) throw new Refused(`This page has no hardware ${key}. It has that of the built-in scenes; shading processors have at most four lights here. \`make sim\` draws with any hardware.`);
     hardwareOf.set(key, await start(module));
   }
   hardware = hardwareOf.get(key);
-  hardware.key = key;
   stuck = "";
   planned = wanted;
 }
@@ -134,13 +134,13 @@ async function drawFrame(request) {
   const figures = Object.fromEntries(names.map((name, i) => [name, values[i]]));
   const pictures = Object.fromEntries(kinds.map((kind) => [kind, pictureOf(kind, state)]));
   postMessage({
-    kind: "frame", id: request.id, state, pictures, figures, difference, milliseconds, key: hardware.key,
+    kind: "frame", id: request.id, state, pictures, figures, difference, milliseconds, key,
     registers: request.registers ? registers() : null,
   }, Object.values(pictures));
 }
 
 onmessage = async ({ data }) => {
-  if (data.kind === "start") ready = start(data.core);
+  if (data.kind === "start") receiveCore(start(data.core));
   if (data.kind === "file") files.set(data.name, data.bytes);
   if (data.kind === "hardware") waiting.get(data.key)(data.module);
   if (data.kind !== "draw") return;
