@@ -21,11 +21,12 @@ int run(const Folders& folders, const LiveCommand& command) {
   auto scenes = builtin_scenes(folders);
   if (!scenes) return report(scenes.error());
   Progress progress("live");
-  const auto made = live::write_live({.page = command.out,
-                                      .scenes = std::move(*scenes),
-                                      .folders = {folders.source, folders.cache()},
-                                      .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()),
-                                      .on_progress = [&](const std::string& what) { progress.show(what); }});
+  const auto made = live::write_live(
+      {.page = command.out,
+       .scenes = std::move(*scenes),
+       .folders = {folders.source, folders.cache()},
+       .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()),
+       .on_progress = [&](const std::string& what) { progress.show(what); }});
   progress.clear();
   if (!made) return report(made.error());
   fmt::print("{}: {} kinds of hardware, {:.1f} MB\n", command.out, made->hardware,
@@ -40,7 +41,8 @@ void add_live(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* sub =
       app.add_subcommand("live", "write a page that draws the built-in scenes by the RTL in a browser");
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
-  sub->add_option("--threads", command->threads, "threads for building (0: all cores)")->capture_default_str();
+  sub->add_option("--threads", command->threads, "threads for building (0: all cores)")
+      ->capture_default_str();
   sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
 }
 

@@ -28,14 +28,10 @@ const std::vector<std::string> c_folders = {"model/common",     "model/frame",  
                                             "model/golden_run", "model/mesh_files", "model/plan",
                                             "model/setup",      "model/reference",  "model/scene_files",
                                             "model/scene",      "model/shading"};
-const std::vector<std::string> c_sources = {"model/tables/own_reach.cpp",
-                                            "model/tables/word_lengths.cpp",
-                                            "sim/compare/hardware_frame.cpp",
-                                            "sim/compare/stream_comparator.cpp",
-                                            "sim/live_core/core.cpp",
-                                            "sim/live_core/live_frame.cpp",
-                                            "sim/live_core/live_scene.cpp",
-                                            "sim/live_core/stream_parts.cpp"};
+const std::vector<std::string> c_sources = {
+    "model/tables/own_reach.cpp",        "model/tables/word_lengths.cpp", "sim/compare/hardware_frame.cpp",
+    "sim/compare/stream_comparator.cpp", "sim/live_core/core.cpp",        "sim/live_core/live_frame.cpp",
+    "sim/live_core/live_scene.cpp",      "sim/live_core/stream_parts.cpp"};
 // Folders whose headers these sources include.
 const std::vector<std::string> c_header_folders = {"model", "sim/compare", "sim/engine", "sim/live_core",
                                                    "sim/verilator"};

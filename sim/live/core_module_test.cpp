@@ -14,13 +14,11 @@
 
 #include "sim/live_core/golden_engine_test.hpp"
 #include "sim/live_core/live_frame.hpp"
-#include "sim/report/headless_browser.hpp"
+#include "sim/pages/headless_browser.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::live {
 namespace {
-
-using report::HeadlessBrowser;
 
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 constexpr int c_width = 96, c_height = 72;

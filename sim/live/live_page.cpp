@@ -47,8 +47,9 @@ Result<std::string> packed(const std::filesystem::path& module) {
   const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
   if (!scratch) return scratch.error();
   const std::filesystem::path file = scratch->path() / "module.gz";
-  const auto done = run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
-                             "apt-get install gzip", module.filename().string());
+  const auto done =
+      run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
+               "apt-get install gzip", module.filename().string());
   if (!done) return done.error();
   return report::base64_of(file);
 }
@@ -120,7 +121,10 @@ Result<LivePage> write_live(const LiveSettings& settings) {
   if (!hardware) return hardware.error();
 
   // Collect the page's data.
-  Json data = {{"modules", {{"core", std::move(*packed_core)}}}, {"clocks", Json::object()}, {"settings", c_setting_names}, {"figures", c_figure_names}};
+  Json data = {{"modules", {{"core", std::move(*packed_core)}}},
+               {"clocks", Json::object()},
+               {"settings", c_setting_names},
+               {"figures", c_figure_names}};
   for (const auto& [name, built] : *hardware) {
     data["modules"][name] = built.module;
     if (built.mhz) data["clocks"][name] = *built.mhz;
@@ -132,12 +136,16 @@ Result<LivePage> write_live(const LiveSettings& settings) {
   }
 
   // Fill the template.
-  Json view = {{"commit", report::commit_of(settings.folders.source)}, {"data", report::script_safe(data.dump())}};
-  const auto still = report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
+  Json view = {{"commit", report::commit_of(settings.folders.source)},
+               {"data", report::script_safe(data.dump())}};
+  const auto still =
+      report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
   if (!still) return still.error();
   view["still"] = *still;
-  for (const auto& [file, name] : {std::pair{sources / "report/page.css", "style"}, {here / "page.css", "style"},
-                                   {here / "page.js", "script"}, {here / "worker.js", "worker"}}) {
+  for (const auto& [file, name] : {std::pair{sources / "report/page.css", "style"},
+                                   {here / "page.css", "style"},
+                                   {here / "page.js", "script"},
+                                   {here / "worker.js", "worker"}}) {
     const auto text = read_file(file);
     if (!text) return text.error();
     view[name] = view.value(name, "") + *text;

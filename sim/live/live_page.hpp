@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of `make live`: one HTML file that draws scenes by the RTL in a browser. It contains the core (set-up,
-// golden model, reference, comparison) and the hardware of every key that the built-in scenes need, as
-// WebAssembly.
+// The page of `make live`: one HTML file that draws scenes by the RTL in a browser. It contains the core
+// (set-up, golden model, reference, comparison) and the hardware of every key that the built-in scenes need,
+// as WebAssembly.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ struct LivePage {
   std::size_t hardware = 0;  ///< number of keys
 };
 
-/// The hardware of all built-in scenes and of a mesh file, grey or coloured, by all shaders in both presets. Each
-/// key once, sorted by name. A shader that cannot draw a scene has no key for it. Shading processors
+/// The hardware of all built-in scenes and of a mesh file, grey or coloured, by all shaders in both presets.
+/// Each key once, sorted by name. A shader that cannot draw a scene has no key for it. Shading processors
 /// with more than four lights are omitted.
 Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scenes,
                                            const std::filesystem::path& scenes_folder);

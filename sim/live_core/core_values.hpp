@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that the page and the core exchange, in the order of their arrays: live_settings and live_figures.
+// The numbers that the page and the core exchange, in the order of their arrays: live_settings and
+// live_figures.
 #pragma once
 
 #include <array>
 
 namespace halfway::live {
 
-inline constexpr std::array c_setting_names = {"width",    "height",       "azimuth",        "elevation", "distance",
-                                               "exponent", "lightAzimuth", "lightElevation", "threshold"};
+inline constexpr std::array c_setting_names = {"width",        "height",         "azimuth",
+                                               "elevation",    "distance",       "exponent",
+                                               "lightAzimuth", "lightElevation", "threshold"};
 inline constexpr std::array c_figure_names = {
-    "fragments", "mismatches", "triangles", "leaves",    "vectors",     "words",      "clocks",   "rms",
-    "largest",   "covered",    "setup",     "golden",    "hardware",    "compare",    "assemble", "unresolved"};
+    "fragments", "mismatches", "triangles", "leaves", "vectors",  "words",   "clocks",   "rms",
+    "largest",   "covered",    "setup",     "golden", "hardware", "compare", "assemble", "unresolved"};
 
 }  // namespace halfway::live
