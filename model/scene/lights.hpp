@@ -70,6 +70,8 @@ double cone_share(const Light& light, const glm::dvec3& to_light);
 std::size_t light_count(const Scene& scene, LightKind kind);
 std::size_t light_count(const Scene& scene);
 Light light_of(const Scene& scene, LightRef ref);
+/// Removes the lights of every kind. The ambient light remains.
+void clear_lights(Scene& scene);
 
 /// Every light, in the order of for_each_light.
 std::vector<Light> lights_of(const Scene& scene);
