@@ -15,9 +15,9 @@
 
 namespace halfway {
 
-/// A new kind needs a list in Scene, an enumerator here, a case in each switch that the compiler then names
-/// (-Werror=switch), and its equation in shading/shade.cpp, if it has one of its own. A shader either draws
-/// the kind or refuses it. All steps: docs/extending.md.
+/// A new kind needs a list in Scene, an enumerator here, and a case in each switch that the compiler then
+/// names (-Werror=switch), such as its equation in shading/shade.hpp. A shader either draws the kind or
+/// refuses it. Not all places are switches: docs/extending.md lists them.
 enum class LightKind { directional, positional, spot };
 inline constexpr std::array c_light_kinds = {LightKind::directional, LightKind::positional, LightKind::spot};
 
