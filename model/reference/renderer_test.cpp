@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "scene/lights.hpp"
 #include "setup/project.hpp"
 #include "setup/test/random_solids.hpp"
 #include "shading/light_ray.hpp"
@@ -165,9 +166,7 @@ TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
 
 TEST(Renderer, OfEqualDepthsTheFirstStays) {
   Scene scene = tangle(3, 0);
-  scene.directional.clear();
-  scene.positional.clear();
-  scene.spots.clear();
+  clear_lights(scene);
   scene.ambient = glm::dvec3(1.0);
   for (Material& m : scene.materials) m.ambient = 1.0;
   scene.materials[0].colour = {1, 0, 0};

@@ -95,9 +95,12 @@ class SphericalShader {
  public:
   SphericalShader(const Scene& scene, std::span<const ScreenTriangle> triangles, const RenderOptions& options,
                   const SphericalMethod& method, std::span<const double> scales)
-      : scene_(scene), triangles_(triangles), options_(options), method_(method), scales_(scales) {
-    for_each_light(scene, [&](const Light& light) { intensities_.push_back(light.intensity); });
-  }
+      : scene_(scene),
+        triangles_(triangles),
+        options_(options),
+        method_(method),
+        scales_(scales),
+        lights_(lights_of(scene)) {}
 
   glm::dvec3 operator()(std::uint32_t index, std::uint32_t x, std::uint32_t y) {
     if (index != index_ || y != y_) {
@@ -107,15 +110,15 @@ class SphericalShader {
     const double t = std::clamp((x + 0.5 - x_begin_) / length_, 0.0, 1.0);
     const ScreenTriangle& triangle = triangles_[index];
     const Material& material = scene_.materials[triangle.material];
-    const glm::dvec3 diffuse_colour = material.diffuse * material.colour;
-    const glm::dvec3 specular_colour = material.specular * material.specular_colour;
+    const SurfaceColours colours(material);
 
     glm::dvec3 sum = scene_.ambient * (material.ambient * material.colour);
-    for (std::size_t i = 0; i < intensities_.size(); ++i) {
-      const double n_dot_l = diffuse_[i].cosine(method_.vectors, t);
-      if (!(n_dot_l > 0.0)) continue;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
       const double spot = mix(begin_.lights[i].spot, end_.lights[i].spot, t);
-      sum += spot * intensities_[i] * (n_dot_l * diffuse_colour + specular(triangle, i, t) * specular_colour);
+      sum += spot * lights_[i].intensity *
+             reflected(
+                 lights_[i].ref.kind, colours, diffuse_[i].cosine(method_.vectors, t), [] { return true; },
+                 [&] { return specular(triangle, i, t); });
     }
     return sum;
   }
@@ -138,7 +141,7 @@ class SphericalShader {
       ends_along_edges();
     diffuse_.clear();
     specular_.clear();
-    for (std::size_t i = 0; i < intensities_.size(); ++i) {
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
       const LightVectors &a = begin_.lights[i], &b = end_.lights[i];
       diffuse_.emplace_back(begin_.normal, end_.normal, a.to_light, b.to_light);
       specular_.emplace_back(a.u, b.u, a.v, b.v);
@@ -207,7 +210,7 @@ class SphericalShader {
   const RenderOptions& options_;
   const SphericalMethod& method_;
   std::span<const double> scales_;  ///< published_scale of each material
-  std::vector<glm::dvec3> intensities_;
+  std::vector<Light> lights_;
 
   // For the triangle and line of the last call.
   std::uint32_t index_ = std::numeric_limits<std::uint32_t>::max(), y_ = 0;

@@ -85,6 +85,22 @@ Light light_of(const Scene& scene, LightRef ref) {
   std::abort();
 }
 
+void clear_lights(Scene& scene) {
+  for (const LightKind kind : c_light_kinds) {
+    switch (kind) {
+      case LightKind::directional:
+        scene.directional.clear();
+        break;
+      case LightKind::positional:
+        scene.positional.clear();
+        break;
+      case LightKind::spot:
+        scene.spots.clear();
+        break;
+    }
+  }
+}
+
 std::vector<Light> lights_of(const Scene& scene) {
   std::vector<Light> lights;
   for_each_light(scene, [&](const Light& light) { lights.push_back(light); });

@@ -16,7 +16,8 @@
 namespace halfway {
 
 /// A new kind needs a list in Scene, an enumerator here, and a case in each switch that the compiler then
-/// names (-Werror=switch). A shader either draws the kind or refuses it.
+/// names (-Werror=switch), such as its equation in shading/shade.hpp. A shader either draws the kind or
+/// refuses it. Not all places are switches: docs/extending.md lists them.
 enum class LightKind { directional, positional, spot };
 inline constexpr std::array c_light_kinds = {LightKind::directional, LightKind::positional, LightKind::spot};
 
@@ -70,6 +71,8 @@ double cone_share(const Light& light, const glm::dvec3& to_light);
 std::size_t light_count(const Scene& scene, LightKind kind);
 std::size_t light_count(const Scene& scene);
 Light light_of(const Scene& scene, LightRef ref);
+/// Removes the lights of every kind. The ambient light remains.
+void clear_lights(Scene& scene);
 
 /// Every light, in the order of for_each_light.
 std::vector<Light> lights_of(const Scene& scene);

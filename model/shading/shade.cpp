@@ -72,17 +72,18 @@ glm::dvec3 sum_of_lights(const Scene& scene, const Material& material, glm::dvec
     const glm::dvec3 v = direction(position_world, scene.camera.eye_world);
     return v == glm::dvec3(0.0) ? normal_world : v;
   }();
-  const glm::dvec3 diffuse_colour = material.diffuse * material.colour;
-  const glm::dvec3 specular_colour = material.specular * material.specular_colour;
+  const SurfaceColours colours(material);
 
   glm::dvec3 sum = scene.ambient * (material.ambient * material.colour);
   each_light([&](const Light& light) {
     const glm::dvec3 to_light = direction_to(light, position_world);
-    const double share = cone_share(light, to_light), n_dot_l = glm::dot(normal_world, to_light);
-    if (!(share > 0) || !(n_dot_l > 0) || (reaches && !reaches(light.ref))) return;
+    const double share = cone_share(light, to_light);
+    if (!(share > 0)) return;
     sum += share * light.intensity *
-           (n_dot_l * diffuse_colour +
-            specular_factor(material, normal_world, to_light, to_eye) * specular_colour);
+           reflected(
+               light.ref.kind, colours, glm::dot(normal_world, to_light),
+               [&] { return !reaches || reaches(light.ref); },
+               [&] { return specular_factor(material, normal_world, to_light, to_eye); });
   });
   for (int i = 0; i < 3; ++i) sum[i] = bounded(sum[i], c_largest_radiance);
   return sum;

@@ -2,6 +2,7 @@
 // The illumination model at one point of a surface, in double. All shaders of this project approximate it.
 #pragma once
 
+#include <cstdlib>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <span>
@@ -39,6 +40,29 @@ double cook_torrance_geometry(double n_dot_l, double n_dot_v, double length2_l_p
 /// the surface. It replaces (N.H)^n in I = I_in (k_s (N.H)^n + k_d (N.L)). 0 if N.L <= 0. Finite, 0 to
 /// c_largest_specular.
 double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye);
+
+/// A material's colours, k_d and k_s included.
+struct SurfaceColours {
+  glm::dvec3 diffuse, specular;
+
+  explicit SurfaceColours(const Material& m)
+      : diffuse(m.diffuse * m.colour), specular(m.specular * m.specular_colour) {}
+};
+
+/// The equation of each kind of light: the part of its intensity that a surface reflects. Calls reaches() and
+/// specular() only where their values matter.
+template <class Reaches, class Specular>
+glm::dvec3 reflected(LightKind kind, const SurfaceColours& colours, double n_dot_l, Reaches&& reaches,
+                     Specular&& specular) {
+  switch (kind) {
+    case LightKind::directional:
+    case LightKind::positional:
+    case LightKind::spot:
+      if (!(n_dot_l > 0) || !reaches()) return glm::dvec3(0.0);
+      return n_dot_l * colours.diffuse + specular() * colours.specular;
+  }
+  std::abort();
+}
 
 /// True if a light reaches the point. Without a function every light does.
 using LightFilter = std::function<bool(LightRef)>;

@@ -22,6 +22,7 @@
 #include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
+#include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
@@ -192,9 +193,7 @@ Scene many_spheres(std::uint64_t triangles) {
 }
 
 Scene with_lights(Scene scene, unsigned lights) {
-  scene.positional.clear();
-  scene.spots.clear();
-  scene.directional.clear();
+  clear_lights(scene);
   for (unsigned i = 0; i < lights; ++i) {
     const double turn = 2.0 * std::numbers::pi * i / lights;
     scene.directional.push_back(

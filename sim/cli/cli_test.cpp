@@ -210,6 +210,18 @@ TEST_F(CliTest, RenderingTheGoldenModelNotesClampedValues) {
   EXPECT_THAT(golden.output, HasSubstr("directional light 1 is 100 times white and was clamped"));
 }
 
+TEST_F(CliTest, MissingShadowsAreNotedIfALightCastsThem) {
+  const std::string rest = "[[material]]\nname = \"m\"\n[[mesh]]\nkind = \"box\"\nmaterial = \"m\"\n";
+  const auto lit = write("lit.toml", "shadows = true\n[[directional]]\nto_light = [0, 0, 1]\n" + rest);
+  const auto unlit = write("unlit.toml", "shadows = true\n" + rest);
+  const auto note = HasSubstr("its shadows are drawn by the shading processors alone");
+  const auto sim = [&](const std::filesystem::path& scene) {
+    return run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()});
+  };
+  EXPECT_THAT(sim(lit), Ends(0, note));
+  EXPECT_THAT(sim(unlit), Ends(0, Not(note)));
+}
+
 TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
   const std::string common =
       "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nkind = "

@@ -48,7 +48,7 @@ void main() {
 }
 )";
 
-// Same as radiance() of reference/shade.cpp with Blinn's highlights. LIGHTS is inserted before it.
+// Same as radiance() of shading/shade.cpp with Blinn's highlights. LIGHTS is inserted before it.
 constexpr const char* c_fragment_shader = R"(
 precision highp float;
 uniform vec3 eye, ambient, diffuse, specular;

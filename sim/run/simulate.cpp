@@ -136,7 +136,7 @@ class Simulation {
 
   // Add notes about a frame that proves little or is less accurate than requested.
   void note_what_is_unusual() {
-    if (scene_.shadows && s_.plan.shader != Shader::processors && !reflected_lights(scene_).empty())
+    if (s_.plan.shader != Shader::processors && calls_of(scene_)[Effect::shadow].called_for)
       note("its shadows are drawn by the shading processors alone; the frame has none, the reference has");
     const SetupCounts& n = summary_.setup;
     if (summary_.fragments == 0)

@@ -7,6 +7,7 @@
 
 #include "fuzz/draw.hpp"
 #include "fuzz/fuzz.hpp"
+#include "scene/lights.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
 namespace halfway::fuzz {
@@ -82,7 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   demand_fit(*loaded);
   if (loaded->triangles.size() > c_most_drawn) return 0;
-  if (loaded->directional.size() + loaded->positional.size() + loaded->spots.size() > c_most_lights) return 0;
+  if (light_count(*loaded) > c_most_lights) return 0;
   draw(*loaded, choice_of(text));
   return 0;
 }
