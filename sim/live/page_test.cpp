@@ -34,11 +34,20 @@ const std::vector<std::string> c_scenes = {"highlights", "lights", "matte", "sha
 
 class LiveInBrowser : public CommandTest {
  protected:
+  /// Make the page for all tests.
+  static void SetUpTestSuite() {
+    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+    ASSERT_TRUE(folder) << folder.error().message;
+    page_folder_.emplace(std::move(*folder));
+    const auto end = run_process({.arguments = {HALFWAY_PROGRAM, "live", "--out", page()}}, "");
+    failure_ = !end ? end.error().message : end->succeeded() ? "" : end->output;
+  }
+  static void TearDownTestSuite() { page_folder_.reset(); }
+
   void SetUp() override {
     CommandTest::SetUp();
     ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
-    const Outcome outcome = run({"live", "--out", "live.html"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    ASSERT_EQ(failure_, "");
     browser_ = std::make_unique<HeadlessBrowser>(folder_->path());
     browser_->resize(1440, 900);
     browser_->open(page().string() + "#size=320x240");
@@ -55,7 +64,7 @@ class LiveInBrowser : public CommandTest {
     evaluate(fmt::format("(history.replaceState(null, '', '#{}'), followLink())", link));
     ASSERT_TRUE(is_drawn()) << evaluate("document.body.innerText");
   }
-  std::filesystem::path page() const { return folder_->path() / "live.html"; }
+  static std::filesystem::path page() { return page_folder_->path() / "live.html"; }
   Json evaluate(const std::string& expression) { return browser_->evaluate(expression); }
   /// The current state is drawn, with its error against the reference.
   bool is_drawn() { return browser_->becomes_true("globalThis.halfwayIsStill && halfwayIsStill()"); }
@@ -118,6 +127,8 @@ class LiveInBrowser : public CommandTest {
   }
 
   std::unique_ptr<HeadlessBrowser> browser_;
+  static inline std::optional<TemporaryFolder> page_folder_;
+  static inline std::string failure_;  ///< of making the page
 };
 
 TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
