@@ -163,9 +163,16 @@ const number = (value, digits = 0) =>
 const known = (value, text) => (value < 0 || !Number.isFinite(value) ? "unknown" : text(value));
 
 let last = null;  // the last frame
+let firstFrameAt = null;  // milliseconds from the opening of the page
+/// Over the last two seconds; null if fewer frames were drawn.
+function framesPerSecond() {
+  const span = frameTimes.at(-1) - frameTimes[0];
+  return span > 500 ? 1000 * (frameTimes.length - 1) / span : null;
+}
 function showFrame(frame) {
   const { state: drawn, pictures, figures } = frame;
   last = frame;
+  firstFrameAt ??= performance.now();
   at("refusal").hidden = true;
   paint(at("left"), pictures.hardware, drawn);
   if (pictures[state.kind]) paint(at("right"), pictures[state.kind], drawn);
@@ -174,7 +181,9 @@ function showFrame(frame) {
   const equal = figures.mismatches === 0 && frame.difference === "";
   at("verdict").className = equal ? "agrees" : "differs";
   at("verdict").textContent = equal ? `${number(figures.fragments)} fragments: 0 differ from the golden model` :
-    `${number(figures.mismatches)} of ${number(figures.fragments)} fragments differ from the golden model.\n${frame.difference}`;
+    `${number(figures.mismatches)} of ${number(figures.fragments)} fragments differ from the golden model`;
+  at("differences").hidden = equal;
+  at("differences").textContent = frame.difference;
   frameTimes.push(performance.now());
   while (frameTimes.length > 1 && frameTimes.at(-1) - frameTimes[0] > 2000) frameTimes.shift();
   showFigures(frame);
@@ -183,7 +192,7 @@ function showFrame(frame) {
 
 function showFigures({ figures, key, milliseconds }) {
   const clock = data.clocks[key];
-  const span = frameTimes.at(-1) - frameTimes[0];
+  const rate = framesPerSecond();
   const rows = [
     ["triangles of the scene in view", number(figures.triangles)],
     ["triangles after splitting", `${number(figures.leaves)}, ${number(figures.words)} words of init vectors`],
@@ -197,7 +206,8 @@ function showFigures({ figures, key, milliseconds }) {
       `${number(1e6 * figures.hardware / Math.max(1, figures.fragments), 0)} ns per fragment`],
     ["golden model and comparison here", `${number(figures.golden + figures.compare, 1)} ms`],
     ["frame here", `${number(milliseconds, 1)} ms on one worker`],
-    ["frames per second here", span > 500 ? number(1000 * (frameTimes.length - 1) / span, 1) : "still"],
+    ["frames per second here", rate === null ? "still" : number(rate, 1)],
+    ["first picture here", `${number(firstFrameAt)} ms after the page was opened`],
   ];
   at("figures").tBodies[0].replaceChildren(...rows.map(([name, value]) =>
     element("tr", {}, element("th", { scope: "row", textContent: name }), element("td", { textContent: value }))));

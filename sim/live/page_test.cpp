@@ -169,7 +169,7 @@ TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
     if (figure("mismatches") > 0) {
       ++found;
       EXPECT_EQ(evaluate("document.getElementById('verdict').className"), "differs");
-      EXPECT_THAT(text_of("#verdict"), HasSubstr("golden"));
+      EXPECT_THAT(text_of("#differences"), HasSubstr("golden"));
     }
     evaluate("document.getElementById('mend').click()");
     ASSERT_TRUE(is_drawn());

@@ -167,7 +167,7 @@ Status LiveFrame::draw(const Settings& settings, Engine& engine) {
   if (figures.mismatches == 0 && hardware_->fault().empty()) return Ok{};
   std::string message = hardware_->fault();
   if (!message.empty()) message += '\n';
-  if (figures.mismatches != 0) message += comparator.describe(title(engine.kind()));
+  if (figures.mismatches != 0) message += comparator.describe("RTL");
   return Error{ExitCode::differs, message};
 }
 

@@ -132,7 +132,7 @@ TEST(LiveFrame, ReportsAFaultWithTheFirstFragmentThatDiffers) {
   EXPECT_THAT(wrong.error().message,
               StartsWith("  triangle " + std::to_string(first.triangle) + ", line " +
                          std::to_string(first.y) + ", pixel " + std::to_string(first.x) + ", blue: golden " +
-                         std::to_string(first.blue) + ", lanes " + std::to_string(first.blue ^ 4) + "\n"));
+                         std::to_string(first.blue) + ", RTL " + std::to_string(first.blue ^ 4) + "\n"));
   EXPECT_EQ(live.figures().mismatches, 1U);
   EXPECT_NE(live.picture(Picture::hardware)->rgb, live.picture(Picture::golden)->rgb);
 
@@ -141,7 +141,7 @@ TEST(LiveFrame, ReportsAFaultWithTheFirstFragmentThatDiffers) {
   const Status hung = live.draw(small(), engine);
   ASSERT_FALSE(hung);
   EXPECT_THAT(hung.error().message, StartsWith("the hardware hangs\n"));
-  EXPECT_THAT(hung.error().message, HasSubstr("golden has it, lanes ended before"));
+  EXPECT_THAT(hung.error().message, HasSubstr("golden has it, RTL ended before"));
 
   engine.change = [](std::vector<Fragment>& fragments) { fragments.at(7).x = 5000; };
   engine.end.reset();

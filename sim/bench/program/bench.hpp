@@ -119,6 +119,8 @@ void measure_small_triangles(Json& speed);
 bool measure_make(Json& speed);
 /// Whole frames from scene to picture, ours and Mesa's, in turn.
 void measure_whole_frames(Json& speed);
+/// Not without Chromium.
+void measure_browser(Json& speed);
 /// Frames per second, as printed by `halfway view`.
 void measure_view(Json& speed);
 

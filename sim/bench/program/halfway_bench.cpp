@@ -64,8 +64,9 @@ int run(const Options& options) {
   growth.write(speed);
   speed["small_triangles"] = Json::array();
   speed["cores"] = Json::array();
-  speed["whole_frames"] = speed["make_sim"] = speed["views"] = false;
+  speed["whole_frames"] = speed["browser"] = speed["make_sim"] = speed["views"] = false;
   if (is_wanted("whole_frames")) measure_whole_frames(speed);
+  if (is_wanted("browser")) measure_browser(speed);
   if (is_wanted("small_triangles")) measure_small_triangles(speed);
   ways.write_cores(speed);
   const bool unchanged = !is_wanted("make_sim") || measure_make(speed);
