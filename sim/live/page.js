@@ -39,11 +39,14 @@ function writeLink() {
   history.replaceState(null, "", `#${link}`);
 }
 
+/// A mesh file has the triangles that it has.
+const isMesh = (scene) => !scene.toLowerCase().endsWith(".toml");
+
 // The state as the core takes it: sliders with a logarithmic scale give factors.
 function requestOf() {
   const [width, height] = state.size.split("x").map(Number);
   return {
-    ...state, width, height, fault, tessellation: 2 ** state.tessellation, exponent: 2 ** state.exponent,
+    ...state, width, height, fault, tessellation: isMesh(state.scene) ? 1 : 2 ** state.tessellation, exponent: 2 ** state.exponent,
     threshold: 2 ** state.threshold,
   };
 }
@@ -231,6 +234,7 @@ function showControls() {
     at(id).value = state[id];
     at(id).nextElementSibling.textContent = shownAs(state[id]);
   }
+  at("tessellation").disabled = isMesh(state.scene);
   at("threshold").disabled = state.shader === "processors";
   at("picture").classList.toggle("whole", state.kind === "hardware");
   at("break").disabled = fault !== null;

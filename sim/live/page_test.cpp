@@ -252,6 +252,8 @@ TEST_F(LiveInBrowser, TheLineSeparatesTwoPictures) {
 
 TEST_F(LiveInBrowser, DrawsADroppedMeshAndRefusesABadOne) {
   ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  choose("tessellation", "-1");
+  ASSERT_TRUE(is_drawn());
   drop("roof.obj", "v 0 0 0\nv 2 0 0\nv 2 1 1\nv 0 1 1\nf 1 2 3 4\n");
   ASSERT_TRUE(browser_->becomes_true("state.scene === 'roof.obj'"));
   ASSERT_TRUE(is_drawn());

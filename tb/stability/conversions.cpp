@@ -96,6 +96,8 @@ constexpr Site c_sites[] = {
     {"sim/figures/rings.cpp", 1, "measure_rings: half a line of a disc"},
     {"sim/figures/spherical_figures.cpp", 1, "entry_at: an entry of a table; angles within it"},
     {"sim/pictures/flip.cpp", 2, "radii of the filters, of constants; flip_test"},
+    {"sim/live_core/live_scene.cpp", 2,
+     "sides of a frame, checked to be whole numbers in range; live_frame_test"},
     {"sim/report/figures.cpp", 2, "size_of: width and height of an SVG that this project wrote"},
     {"model/frame/frame.hpp", 1, "to_byte: Channels of a picture"},
     {"model/reference/ray_cast.cpp", 1, "ShadowRays: bins of a tree; Extreme numbers, the reference picture"},
