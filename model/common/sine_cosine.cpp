@@ -2,6 +2,9 @@
 #include "common/sine_cosine.hpp"
 
 #include <cmath>
+#include <cstdint>
+
+#include "common/to_integer.hpp"
 
 namespace halfway {
 namespace {
@@ -64,7 +67,7 @@ SineCosine sine_cosine(double radians) {
       exact_sum(radians, -quarters * c_part1) + exact_sum(-quarters * c_part2, -quarters * c_part3);
   const Pair square = rest * rest;
   const double sine = (rest * series(square, 2)).high, cosine = series(square, 1).high;
-  switch (static_cast<int>(quarters) & 3) {
+  switch (to_integer<std::int64_t>(quarters) & 3) {
     case 0:
       return {sine, cosine};
     case 1:

@@ -99,6 +99,7 @@ constexpr Site c_sites[] = {
     {"sim/live_core/live_scene.cpp", 2,
      "sides of a frame, checked to be whole numbers in range; live_frame_test"},
     {"sim/report/figures.cpp", 2, "size_of: width and height of an SVG that this project wrote"},
+    {"model/common/sine_cosine.cpp", 1, "quarter turns of an angle; sine_cosine_test"},
     {"model/frame/frame.hpp", 1, "to_byte: Channels of a picture"},
     {"model/reference/ray_cast.cpp", 1, "ShadowRays: bins of a tree; Extreme numbers, the reference picture"},
     {"model/mesh_files/ply.cpp", 1, "index of a corner, in range; Numbers of a mesh file"},
