@@ -16,6 +16,7 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
+#include "sim/live_core/stream_parts.hpp"
 #include "sim/pages/headless_browser.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
@@ -104,26 +105,14 @@ class HardwareModule : public testing::TestWithParam<Case> {
     golden->draw(words, golden_);
     ASSERT_GT(golden_.size(), 500U);
 
-    // Find loads and units.
-    const std::size_t vector_words = (golden->init_bits() + 31) / 32, vectors = words.size() / vector_words;
-    std::vector<std::uint32_t> parts, loads;
-    for (std::size_t vector = 0; vector < vectors;) {
-      const auto rest = std::span<const std::uint32_t>(words).subspan(vector * vector_words);
-      const std::size_t count = golden->unit(rest);
-      if (golden->is_load(rest))
-        loads.push_back(static_cast<std::uint32_t>(vector));
-      else
-        parts.insert(parts.end(), {static_cast<std::uint32_t>(vector), static_cast<std::uint32_t>(count)});
-      vector += count;
-    }
-
+    const live::StreamParts stream = live::parts_of(*golden, words);
     const auto module = build_hardware_module(key, c_folders);
     ASSERT_TRUE(module) << module.error().message;
     const auto bytes = read_file(*module);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const auto page = folder_->path() / "page.html";
-    ASSERT_TRUE(
-        write_file(page, fmt::format(c_page, base64(words), base64(parts), base64(loads), base64(*bytes))));
+    ASSERT_TRUE(write_file(page, fmt::format(c_page, base64(words), base64(stream.parts),
+                                             base64(stream.loads), base64(*bytes))));
     browser_ = std::make_unique<HeadlessBrowser>(folder_->path());
     browser_->open(page);
     browser_->evaluate("started");

@@ -12,6 +12,7 @@
 #include "sim/live/core_module.hpp"
 #include "sim/live/hardware_module.hpp"
 #include "sim/live_core/core_values.hpp"
+#include "sim/live_core/live_scene.hpp"
 #include "sim/pages/template.hpp"
 #include "sim/report/html.hpp"
 #include "sim/scene_files/load_scene.hpp"
@@ -31,11 +32,7 @@ constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 // Scenes as a mesh file makes them: one with the default material, one with a colour.
 Result<std::vector<Scene>> mesh_scenes() {
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  const std::filesystem::path file = scratch->path() / "mesh.obj";
-  if (Status written = write_file(file, c_mesh); !written) return written.error();
-  const auto grey = load_scene(file.string(), {});
+  const auto grey = read_scene("mesh.obj", c_mesh, 1.0);
   if (!grey) return grey.error();
   Scene coloured = *grey;
   coloured.materials.front().colour = {0.8, 0.4, 0.2};

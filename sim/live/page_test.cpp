@@ -100,18 +100,6 @@ class LiveInBrowser : public CommandTest {
       frame.rgb[i] = static_cast<std::uint8_t>(std::stoi(hex.substr(2 * i, 2), nullptr, 16));
     return frame;
   }
-  void click(double x, double y) {
-    browser_->mouse("mousePressed", x, y);
-    browser_->mouse("mouseReleased", x, y);
-  }
-  std::pair<double, double> middle_of(const std::string& selector) {
-    const Json box = evaluate(fmt::format(
-        "(() => {{ const e = document.querySelector('{}'); e.scrollIntoView({{block: 'center', behavior: "
-        "'instant'}}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; "
-        "}})()",
-        selector));
-    return {box[0], box[1]};
-  }
   void choose(const std::string& id, const std::string& value) {
     evaluate(
         fmt::format("(() => {{ const e = document.getElementById('{}'); e.value = '{}'; "
@@ -181,11 +169,8 @@ TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
 TEST_F(LiveInBrowser, TurnsByMouseKeysAndTouchAndKeepsTheStateInTheLink) {
   ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
   const std::vector<std::uint8_t> before = picture("left").rgb;
-  const auto [x, y] = middle_of("#picture");
-  browser_->mouse("mousePressed", x, y);
-  browser_->mouse("mouseMoved", x + 30, y + 10);
-  browser_->mouse("mouseMoved", x + 60, y + 20);
-  browser_->mouse("mouseReleased", x + 60, y + 20);
+  const auto [x, y] = browser_->middle_of("#picture");
+  browser_->drag({x, y}, {x + 60, y + 20});
   ASSERT_TRUE(is_drawn());
   const std::vector<std::uint8_t> dragged = picture("left").rgb;
   EXPECT_NE(dragged, before);
@@ -272,8 +257,8 @@ TEST_F(LiveInBrowser, DrawsADroppedMeshAndRefusesABadOne) {
 
 TEST_F(LiveInBrowser, ShowsThePixelThatIsClicked) {
   ASSERT_NO_FATAL_FAILURE(open("scene=teapot.toml&size=320x240&kind=golden"));
-  const auto [x, y] = middle_of("#picture");
-  click(x, y);
+  const auto [x, y] = browser_->middle_of("#picture");
+  browser_->click(x, y);
   ASSERT_TRUE(browser_->becomes_true("document.querySelectorAll('#pixel-values tr').length > 2"));
   const Frame shown = picture("left");
   const std::size_t at = shown.offset(160, 120);

@@ -129,6 +129,24 @@ class HeadlessBrowser {
                                       {"buttons", type == "mouseReleased" ? 0 : 1},
                                       {"clickCount", 1}});
   }
+  void click(double x, double y) {
+    mouse("mousePressed", x, y);
+    mouse("mouseReleased", x, y);
+  }
+  void drag(std::pair<double, double> from, std::pair<double, double> to) {
+    mouse("mousePressed", from.first, from.second);
+    mouse("mouseMoved", (from.first + to.first) / 2, (from.second + to.second) / 2);
+    mouse("mouseMoved", to.first, to.second);
+    mouse("mouseReleased", to.first, to.second);
+  }
+  /// Scroll to an element and return its centre in the window. `selector` has no double quotes.
+  std::pair<double, double> middle_of(const std::string& selector) {
+    const Json box =
+        evaluate("(() => { const e = document.querySelector(\"" + selector +
+                 "\"); e.scrollIntoView({block: 'center', behavior: 'instant'}); const b = "
+                 "e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; })()");
+    return {box[0], box[1]};
+  }
   /// Send `touchStart` or `touchMove` with all fingers that are down. Touch emulation is enabled first.
   void touch(const std::string& type, const std::vector<std::pair<double, double>>& fingers) {
     Json points = Json::array();

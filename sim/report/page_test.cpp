@@ -83,25 +83,9 @@ class ReportPage : public CommandTest {
   }
 
   Json evaluate(const std::string& expression) { return browser_->evaluate(expression); }
-  /// Scroll to an element and return its centre in the window.
-  std::pair<double, double> middle_of(const std::string& selector) {
-    const Json box = evaluate(fmt::format(
-        "(() => {{ const e = document.querySelector(\"{}\"); e.scrollIntoView({{block: 'center', behavior: "
-        "'instant'}}); const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2]; "
-        "}})()",
-        selector));
-    return {box[0], box[1]};
-  }
-  void drag(double x0, double x1, double y) {
-    browser_->mouse("mousePressed", x0, y);
-    browser_->mouse("mouseMoved", (x0 + x1) / 2, y);
-    browser_->mouse("mouseMoved", x1, y);
-    browser_->mouse("mouseReleased", x1, y);
-  }
-  void click(double x, double y) {
-    browser_->mouse("mousePressed", x, y);
-    browser_->mouse("mouseReleased", x, y);
-  }
+  std::pair<double, double> middle_of(const std::string& selector) { return browser_->middle_of(selector); }
+  void drag(double x0, double x1, double y) { browser_->drag({x0, y}, {x1, y}); }
+  void click(double x, double y) { browser_->click(x, y); }
   double wipe() {
     return evaluate("document.querySelector('#frame-viewer input').valueAsNumber").get<double>();
   }
