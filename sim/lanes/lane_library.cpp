@@ -10,9 +10,6 @@
 namespace halfway {
 namespace {
 
-constexpr const char* c_install_web_assembly =
-    "apt-get install clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 "
-    "libclang-rt-14-dev-wasm32 binaryen";
 // Same flags as in sim/verilator/verilated_library.cpp.
 const std::vector<std::string> c_verilator_flags = {
     "--xml-only",  "--flatten", "-Wno-COMBDLY", "-Wno-CASEINCOMPLETE", "--x-assign", "fast",

@@ -18,9 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* c_install =
-    "apt-get install clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 "
-    "libclang-rt-14-dev-wasm32";
 constexpr const char* c_module_name = "core.wasm";
 
 // Folders of which every source is compiled, and single sources of others.
@@ -114,7 +111,7 @@ Status compile(const Compiler& compiler, const fs::path& root, const std::vector
     Command command{.arguments = {compiler.program}, .working_folder = folder};
     command.arguments.insert(command.arguments.end(), flags.begin(), flags.end());
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    const auto done = run_tool(command, c_install, "core of the page");
+    const auto done = run_tool(command, c_install_web_assembly, "core of the page");
     return done ? Status(Ok{}) : done.error();
   };
   std::vector<std::string> flags = c_flags;

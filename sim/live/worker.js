@@ -81,7 +81,7 @@ async function planHardware({ shader, preset }) {
   const wanted = JSON.stringify([shader, preset]);
   if (wanted === planned) return;
   planned = "";
-  call(core.live_plan(shaders.indexOf(shader), presets.indexOf(preset), 0, 0));
+  call(core.live_plan(shaders.indexOf(shader), presets.indexOf(preset)));
   key = coreText();
   if (!hardwareOf.has(key)) {
     const module = await new Promise((receive) => {

@@ -172,12 +172,11 @@ int live_scene(std::uint32_t name_bytes, std::uint32_t text_bytes, double tessel
 }
 
 HALFWAY_EXPORT(live_plan)
-int live_plan(int shader, int preset, int address_bits, int data_bits) {
+int live_plan(int shader, int preset) {
   auto& c = core();
   c.hardware.reset();
-  PlanRequest request{.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)};
-  if (address_bits != 0) request.tables = TableSize{address_bits, data_bits};
-  const auto key = c.frame.plan(request);
+  const auto key =
+      c.frame.plan({.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)});
   if (!key) return c.report(key.error());
   c.hardware.emplace(*key);
   c.text = key->name();
