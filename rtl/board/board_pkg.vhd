@@ -20,7 +20,9 @@ package board_pkg is
   constant c_words        : positive := 3 * c_pixels; -- in use
 
   subtype address_t is unsigned(c_address_bits - 1 downto 0);
+  subtype place_t is unsigned(16 downto 0); -- in a buffer, below c_pixels
   subtype word_t is std_logic_vector(15 downto 0);
+  subtype level_t is std_logic_vector(2 downto 0); -- of a colour at the pins
   subtype frame_x_t is unsigned(8 downto 0);
   subtype frame_y_t is unsigned(7 downto 0);
 
@@ -30,34 +32,36 @@ package board_pkg is
   -- First address of a colour buffer.
   function colour_base (buffer_index : std_logic) return address_t;
 
-  -- Address of a pixel in a buffer that starts at 0.
-  function pixel_address (y : frame_y_t; x : frame_x_t) return address_t;
+  -- A pixel's place in each buffer.
+  function pixel_place_of (y : frame_y_t; x : frame_x_t) return place_t;
 
   -- RGB565: the upper bits of each colour.
   function rgb565 (red, green, blue : std_logic_vector(7 downto 0)) return word_t;
 
   -- The upper five bits of a colour as three bits of one of the pixel's 2x2 dots: the lower two bits of the five are
   -- the number of dots that get the next brighter level. Levels above the brightest are the brightest.
-  function dithered (colour : std_logic_vector(4 downto 0); dot_y, dot_x : std_logic) return std_logic_vector;
+  function dithered (colour : std_logic_vector(4 downto 0); dot_y, dot_x : std_logic) return level_t;
 
 end package;
 
 package body board_pkg is
 
   function colour_base (buffer_index : std_logic) return address_t is
+    variable base : address_t;
   begin
+    base := to_unsigned(0, c_address_bits);
     if buffer_index = '1' then
-      return to_unsigned(c_pixels, c_address_bits);
+      base := to_unsigned(c_pixels, c_address_bits);
     end if;
-    return to_unsigned(0, c_address_bits);
+    return base;
   end function;
 
-  function pixel_address (y : frame_y_t; x : frame_x_t) return address_t is
+  function pixel_place_of (y : frame_y_t; x : frame_x_t) return place_t is
     -- 320 = 5 * 64
     variable five_lines : unsigned(y'length + 2 downto 0);
   begin
-    five_lines := resize(y, y'length + 3) + (resize(y, y'length + 1) & "00");
-    return resize(five_lines & "000000", c_address_bits) + resize(x, c_address_bits);
+    five_lines := resize(y, y'length + 3) + resize(y & "00", y'length + 3);
+    return (five_lines & "000000") + resize(x, place_t'length);
   end function;
 
   function rgb565 (red, green, blue : std_logic_vector(7 downto 0)) return word_t is
@@ -65,23 +69,24 @@ package body board_pkg is
     return red(7 downto 3) & green(7 downto 2) & blue(7 downto 3);
   end function;
 
-  function dithered (colour : std_logic_vector(4 downto 0); dot_y, dot_x : std_logic) return std_logic_vector is
+  function dithered (colour : std_logic_vector(4 downto 0); dot_y, dot_x : std_logic) return level_t is
     variable brighter : std_logic;
+    variable level    : unsigned(level_t'range);
   begin
-    -- Of the four dots, the order of getting brighter is (y, x) = (0, 0), (1, 1), (0, 1); (1, 0) never is.
+    -- Number the dots 1 to 4 in the order in which they get brighter: (y, x) = (0, 0), (1, 1), (0, 1); (1, 0) never does.
+    brighter := '0';
     if dot_y = '0' and dot_x = '0' then
       brighter := colour(1) or colour(0);
     elsif dot_y = '1' and dot_x = '1' then
       brighter := colour(1);
     elsif dot_y = '0' and dot_x = '1' then
       brighter := colour(1) and colour(0);
-    else
-      brighter := '0';
     end if;
-    if brighter = '1' and colour(4 downto 2) /= "111" then
-      return std_logic_vector(unsigned(colour(4 downto 2)) + 1);
+    level := unsigned(colour(4 downto 2));
+    if brighter = '1' and level /= 7 then
+      level := level + 1;
     end if;
-    return colour(4 downto 2);
+    return std_logic_vector(level);
   end function;
 
 end package body;
