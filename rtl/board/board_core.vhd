@@ -12,9 +12,9 @@
 --                                             v
 --                                          monitor
 --
--- Contract    One clock domain. All outputs except spi_data_out are to be registered once more in the cells of the
---             pins, and the inputs sram_data_in and spi_* are registers in the cells of the pins: the word of a read
---             that is output in clock n is at sram_data_in in clock n + 2. sram_read and sram_write are never both
+-- Contract    One clock domain. The outputs sram_* are registered once more in the cells of the pins, and so is the input
+--             sram_data_in: the word of a read that is output in clock n is at sram_data_in in clock n + 2. The inputs
+--             spi_* are the pins sampled with clk. sram_read and sram_write are never both
 --             '1'; sram_data_enable is '1' exactly when sram_write is. At least one clock with neither lies between a
 --             read and a write that follows it. Packets, status byte and limits: docs/board.md
 -- Formats     board_pkg: colours RGB565, depths of 16 bits; formats_pkg: init vector
