@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_board: makes the board's bitstream and compares its figures with those in tb/board/pinned.txt. With the same
-// tools the bytes are the same; with others only the clock must be met.
+// halfway_board: makes the board's bitstream and compares its figures with those in tb/board/pinned.txt. With
+// the same tools the bytes are the same; with others only the clock must be met.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -13,11 +13,15 @@
 #include "sim/program/program.hpp"
 #include "sim/synth/bitstream.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/page_part.hpp"
 
 namespace halfway::synth {
 namespace {
 
-constexpr const char* c_board_pins = "tb/board/pinned.txt";  // relative to the project's root
+// Relative to the project's root.
+constexpr const char* c_board_pins = "tb/board/pinned.txt";
+constexpr const char* c_page = "docs/board.md";
+constexpr const char* c_page_part = "bitstream";
 
 struct Options {
   bool check = false, pin = false;
@@ -46,7 +50,8 @@ Result<Figures> read_pins(const std::filesystem::path& path) {
 
 Status write_pins(const std::filesystem::path& path, const Figures& figures) {
   std::string text =
-      "# The board's bitstream: its design (hash of netlist and constraints), the tools, and what they report.\n"
+      "# The board's bitstream: its design (hash of netlist and constraints), the tools, and what they "
+      "report.\n"
       "# Written by `make board PIN=1`.\n";
   for (const auto& [name, value] : figures) text += fmt::format("{} {}\n", name, value);
   return write_file(path, text);
@@ -78,6 +83,18 @@ ExitCode compare(const Figures& figures, const Figures& pins) {
   return end;
 }
 
+// The page's table of the figures.
+Status write_page(const std::filesystem::path& source, const BoardFigures& board) {
+  const std::string table = fmt::format(
+      "| LUTs | flip-flops | RAMs | logic cells of {} | clock, MHz, of {} needed | strobes to the late "
+      "clock, ns, of at most {} |\n"
+      "| --- | --- | --- | --- | --- | --- |\n| {} | {} | {} | {} | {:.1f} | {:.1f} |",
+      c_device_cells, c_board_mhz, c_strobe_ns, board.cells.luts, board.cells.flip_flops, board.cells.rams,
+      board.logic_cells, board.mhz, board.strobe_ns);
+  return rewrite_page(source / c_page,
+                      [&](const std::string& page) { return with_page_part(page, c_page_part, table); });
+}
+
 // Only the hash of the design: seconds.
 Result<ExitCode> check_design(const Options& options) {
   const auto pins = read_pins(options.folders.source / c_board_pins);
@@ -86,7 +103,8 @@ Result<ExitCode> check_design(const Options& options) {
   if (!design) return design.error();
   const auto pinned = pins->find("design");
   if (pinned != pins->end() && pinned->second == *design) return ExitCode::equal;
-  cli::say(fmt::format("{}: the figures are of another design; make board PIN=1 stores those of this one", c_board_pins));
+  cli::say(fmt::format("{}: the figures are of another design; make board PIN=1 stores those of this one",
+                       c_board_pins));
   return ExitCode::differs;
 }
 
@@ -100,11 +118,12 @@ Result<ExitCode> run(const Options& options) {
   if (!board) return board.error();
   const Figures figures = figures_of(*board, *tools, *design);
   fmt::print("{}: {} of {} logic cells, {} RAMs, {:.1f} MHz of {} needed, strobes {:.1f} ns of {}\n",
-             options.output.string(), board->logic_cells, c_device_cells, board->cells.rams, board->mhz, c_board_mhz,
-             board->strobe_ns, c_strobe_ns);
+             options.output.string(), board->logic_cells, c_device_cells, board->cells.rams, board->mhz,
+             c_board_mhz, board->strobe_ns, c_strobe_ns);
   const std::filesystem::path path = options.folders.source / c_board_pins;
   if (options.pin) {
     if (Status written = write_pins(path, figures); !written) return written.error();
+    if (Status written = write_page(options.folders.source, *board); !written) return written.error();
     return ExitCode::equal;
   }
   const auto pins = read_pins(path);
@@ -119,8 +138,10 @@ int main(int argc, char** argv) {
   using namespace halfway;
   synth::Options options;
   CLI::App app{"The board's bitstream, against what is pinned", "halfway_board"};
-  auto* pin = app.add_flag("--pin", options.pin, "write the figures into the pinned file instead of comparing");
-  app.add_flag("--check", options.check, "make nothing: only compare the design with the pinned one")->excludes(pin);
+  auto* pin =
+      app.add_flag("--pin", options.pin, "write the figures into the pinned file instead of comparing");
+  app.add_flag("--check", options.check, "make nothing: only compare the design with the pinned one")
+      ->excludes(pin);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("CACHE", options.folders.cache, "folder of what was made before")->required();
   app.add_option("OUTPUT", options.output, "the bitstream")->required();
