@@ -21,7 +21,11 @@ namespace {
 // Relative to the project's root.
 constexpr const char* c_board_pins = "tb/board/pinned.txt";
 constexpr const char* c_page = "docs/board.md";
-constexpr const char* c_page_part = "bitstream";
+constexpr const char* c_figures_part = "bitstream";
+constexpr const char* c_sram_part = "sram";
+
+// Times at the pins of the FPGA, in ns: tb/board/ice40_cells.vhd.
+constexpr double c_clock_to_pin = 2.5, c_setup = 2.5;
 
 struct Options {
   bool check = false, pin = false;
@@ -83,16 +87,46 @@ ExitCode compare(const Figures& figures, const Figures& pins) {
   return end;
 }
 
-// The page's table of the figures.
-Status write_page(const std::filesystem::path& source, const BoardFigures& board) {
-  const std::string table = fmt::format(
+std::string figures_table(const BoardFigures& board) {
+  return fmt::format(
       "| LUTs | flip-flops | RAMs | logic cells of {} | clock, MHz, of {} needed | strobes to the late "
-      "clock, ns, of at most {} |\n"
-      "| --- | --- | --- | --- | --- | --- |\n| {} | {} | {} | {} | {:.1f} | {:.1f} |",
+      "clock, ns, "
+      "of at most {} |\n| --- | --- | --- | --- | --- | --- |\n| {} | {} | {} | {} | {:.1f} | {:.1f} |",
       c_device_cells, c_board_mhz, c_strobe_ns, board.cells.luts, board.cells.flip_flops, board.cells.rams,
       board.logic_cells, board.mhz, board.strobe_ns);
-  return rewrite_page(source / c_page,
-                      [&](const std::string& page) { return with_page_part(page, c_page_part, table); });
+}
+
+// Times of the SRAM, needed by its data sheet (tb/board/sram_model.vhd) and given by the clocks of board_top.
+std::string sram_table() {
+  constexpr double c_period = 1000.0 / c_board_mhz, c_quarter = c_period / 4;
+  struct Row {
+    const char* requirement;
+    double needs, has;
+  };
+  constexpr Row c_rows[] = {
+      {"read: from the address to the data, before the set-up of the pin's register", 10,
+       c_period - c_clock_to_pin - c_setup},
+      {"read: from sram_oe_n to the data, before the same", 5,
+       c_period - c_quarter - c_clock_to_pin - c_setup},
+      {"write: pulse", 7, 2 * c_quarter},
+      {"write: address before the end of the pulse", 7, 3 * c_quarter},
+      {"write: data before the end of the pulse", 5, 3 * c_quarter},
+      {"write: address before the start of the pulse, address and data after its end", 0, c_quarter},
+      {"write after a read and a clock without access: from sram_oe_n until the pins drive", 5,
+       c_period - c_quarter},
+      {"read after a write: from the end of the pins' drive to sram_oe_n", 0, c_quarter}};
+  std::string table = "| requirement, ns | needs | has | margin |\n| --- | --- | --- | --- |";
+  for (const Row& row : c_rows)
+    table += fmt::format("\n| {} | {} | {} | {} |", row.requirement, row.needs, row.has, row.has - row.needs);
+  return table;
+}
+
+Status write_page(const std::filesystem::path& source, const BoardFigures& board) {
+  return rewrite_page(source / c_page, [&](const std::string& page) -> Result<std::string> {
+    const auto figures = with_page_part(page, c_figures_part, figures_table(board));
+    if (!figures) return figures;
+    return with_page_part(*figures, c_sram_part, sram_table());
+  });
 }
 
 // Only the hash of the design: seconds.
