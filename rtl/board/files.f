@@ -1,0 +1,10 @@
+board_pkg.vhd
+video_timing.vhd
+scan_out.vhd
+sram_arbiter.vhd
+fragment_pixel.vhd
+depth_test.vhd
+frame_control.vhd
+spi_receiver.vhd
+board_core.vhd
+board_top.vhd
