@@ -123,7 +123,7 @@ begin
       BYPASS        => '0',
       LOCK          => locked);
 
-  -- Hold reset until the PLL has been locked and the button has been up for some clocks.
+    -- Hold reset until the PLL has been locked and the button has been up for some clocks.
   reset_clocks : process (clk)
   begin
     if rising_edge(clk) then
@@ -157,7 +157,7 @@ begin
       vga_green        => vga_green,
       vga_blue         => vga_blue);
 
-  -- Sample the host's pins and the button: the first of two registers against metastability.
+    -- Sample the host's pins and the button: the first of two registers against metastability.
   samples : process (clk)
   begin
     if rising_edge(clk) then

@@ -63,7 +63,7 @@ architecture rtl of depth_test is
     await,        -- wait for the last depths
     write_depth,  -- of the pixel at index; or skip it
     write_colour
-  );
+    );
 
   type reg_t is record
     phase      : phase_t;
@@ -89,9 +89,9 @@ begin
   descends <= flag(pixel_place = r.place - 1);
   -- The second pixel gives the direction.
   follows <= '1' when r.count = 0 else
-             ascends or descends when r.count = 1 else
-             descends when r.descending = '1' else
-             ascends;
+    ascends or descends when r.count = 1 else
+    descends when r.descending = '1' else
+    ascends;
   take   <= flag(r.phase = collect) and pixel_valid and follows and access_ready;
   nearer <= flag(unsigned(word(31 downto 16)) < unsigned(data));
   kept   <= r.keep(to_integer(r.index(index_t'range)));
@@ -192,13 +192,13 @@ begin
 
   -- Read the depth of the pixel that enters; write depth and colour of a pixel to keep.
   access_valid <= (pixel_valid and follows) when r.phase = collect else
-                  kept when r.phase = write_depth else
-                  '1' when r.phase = write_colour else
-                  '0';
+    kept when r.phase = write_depth else
+    '1' when r.phase = write_colour else
+    '0';
   access_write <= '0' when r.phase = collect else '1';
   access_addr <= resize(pixel_place, c_address_bits) + c_depth_base when r.phase = collect else
-                 resize(r.place, c_address_bits) + c_depth_base when r.phase = write_depth else
-                 resize(r.place, c_address_bits) + colour_base(back);
+    resize(r.place, c_address_bits) + c_depth_base when r.phase = write_depth else
+    resize(r.place, c_address_bits) + colour_base(back);
   access_data <= word(31 downto 16) when r.phase = write_depth else word(15 downto 0);
 
   busy <= '0' when r.phase = collect and r.count = 0 else '1';

@@ -44,7 +44,7 @@ architecture rtl of frame_control is
     drain,  -- wait for drained
     await,  -- wait for the vertical blank
     clear
-  );
+    );
 
   type reg_t is record
     phase      : phase_t;

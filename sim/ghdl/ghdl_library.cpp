@@ -93,8 +93,9 @@ Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, 
   return VhdlSource{name, std::move(*content)};
 }
 
-Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder) {
-  auto reader = LineReader::open(source_folder / "rtl/files.f");
+Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder,
+                                                 const std::string& rtl_folder) {
+  auto reader = LineReader::open(source_folder / rtl_folder / "files.f");
   if (!reader) return tool_failed(reader.error().message);
   std::vector<VhdlSource> sources;
   std::string_view line;
@@ -104,9 +105,9 @@ Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& so
     if (next == LineReader::Next::end_of_file) return sources;
     if (line.empty() || line.front() == '#') continue;
     if (line.find("..") != std::string_view::npos || line.front() == '/') {
-      return tool_failed(reader->at("not a path inside rtl/").message);
+      return tool_failed(reader->at("not a path inside " + rtl_folder).message);
     }
-    auto source = read_vhdl_source(source_folder, "rtl/" + std::string(line));
+    auto source = read_vhdl_source(source_folder, rtl_folder + "/" + std::string(line));
     if (!source) return source.error();
     sources.push_back(std::move(*source));
   }

@@ -38,8 +38,9 @@ struct VhdlSource {
   std::string content;
 };
 
-/// The RTL in compile order. rtl/files.f lists one path relative to rtl/ per line.
-Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder);
+/// The RTL of a folder in compile order. Its files.f lists one path relative to the folder per line.
+Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder,
+                                                 const std::string& rtl_folder = "rtl");
 Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, const std::string& name);
 
 class GhdlLibrary {
