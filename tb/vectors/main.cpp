@@ -82,6 +82,8 @@ int main(int argc, char** argv) {
       std::pair{"token_order", &write_token_order},
       std::pair{"fragment_output", &write_fragment_output},
       std::pair{"processors_shader", &write_processors_shader},
+      std::pair{"fragment_pixel", &write_fragment_pixel},
+      std::pair{"scan_out", &write_scan_out},
   };
   bool found = false;
   for (const auto& [name, write] : c_entities) {
