@@ -14,6 +14,7 @@
 #include "scene/turntable.hpp"
 #include "setup/check_counts.hpp"
 #include "sim/board/board_picture.hpp"
+#include "sim/board/board_sources.hpp"
 #include "sim/board/spi_packet.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/system/file.hpp"
@@ -21,14 +22,9 @@
 namespace halfway::board {
 namespace {
 
-/// Longer than a picture of the monitor, 840000 clocks.
-constexpr std::uint32_t c_long_stop = 1'000'000;
-
-/// What is sent for one frame, and what the monitor must show.
-struct BoardFrame {
-  std::vector<std::vector<std::uint32_t>> vectors;
-  BoardPicture picture;
-};
+/// How long a host stops in the middle of a packet: longer than a picture of the monitor, 840000 clocks; in GHDL, which is
+/// slow, for some lines.
+constexpr std::uint32_t c_stop = 1'000'000, c_stop_in_ghdl = 10'000;
 
 /// The vectors of a frame, one by one.
 Result<std::vector<std::vector<std::uint32_t>>> vectors_of(const Scene& scene, const SetupOptions& options) {
@@ -61,23 +57,22 @@ std::uint64_t depth_pixels(const BoardPicture& picture, std::span<const Fragment
   const std::vector<std::uint8_t>& rgb = assembler.frame().rgb;
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < picture.colours().size(); ++i)
-    if (picture.colours()[i] != rgb565(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2])) ++count;
+    if (picture.colours()[i] != golden::board_colour(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2])) ++count;
   return count;
 }
 
 /// Appends the packets of a frame. An unreliable host spoils one and stops in another; both are removed from
 /// `vectors`.
 void append_frame(std::vector<HostAction>& script, std::vector<std::vector<std::uint32_t>>& vectors,
-                  unsigned init_bits, Host host) {
+                  unsigned init_bits, Host host, std::uint32_t stop_clocks) {
   const std::size_t spoiled = vectors.size() / 3, stopped = 2 * vectors.size() / 3;
   const bool unreliable = host == Host::unreliable && spoiled < stopped;
   for (std::size_t i = 0; i < vectors.size(); ++i) {
-    HostAction action{HostAction::Kind::packet, draw_packet(vectors[i], init_bits)};
+    HostAction action = whole_packet(draw_packet(vectors[i], init_bits));
     if (unreliable && i == spoiled) action.bytes[action.bytes.size() / 2] ^= 0x10;
     if (unreliable && i == stopped) {
-      action.kind = HostAction::Kind::part;
       action.bits = static_cast<std::uint32_t>(4 * action.bytes.size() + 3);
-      action.clocks = c_long_stop;
+      action.clocks = stop_clocks;
     }
     script.push_back(std::move(action));
   }
@@ -167,7 +162,7 @@ Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& opti
   const unsigned init_bits = make_golden_model(board_key())->init_bits();
   BoardCheck check;
   // After reset all buffers are black. The first packet sets the background of the next frame.
-  std::vector<HostAction> script = {{HostAction::Kind::packet, end_packet(background)}};
+  std::vector<HostAction> script = {whole_packet(end_packet(background))};
   std::vector<DotPicture> expected = {BoardPicture(0).dots()};
   std::uint64_t bad_packets = 0;
   for (const double turn : {0.0, options.turn_degrees}) {
@@ -176,9 +171,9 @@ Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& opti
     auto vectors = vectors_of(turned, options.setup);
     if (!vectors) return vectors.error();
     const std::size_t sent = vectors->size();
-    append_frame(script, *vectors, init_bits, options.host);
+    append_frame(script, *vectors, init_bits, options.host, options.ghdl ? c_stop_in_ghdl : c_stop);
     bad_packets += sent - vectors->size();
-    script.push_back({HostAction::Kind::packet, end_packet(background)});
+    script.push_back(whole_packet(end_packet(background)));
     const std::vector<Fragment> fragments = fragments_of(*vectors);
     BoardPicture picture(background);
     picture.add(fragments);

@@ -10,16 +10,16 @@
 
 #include "frame/fragment.hpp"
 #include "frame/frame.hpp"
+#include "golden/board_pixel.hpp"
 #include "sim/board/monitor.hpp"
 
 namespace halfway::board {
 
-inline constexpr FrameSize c_board_frame{320, 240};
+inline constexpr FrameSize c_board_frame{golden::c_board_width, golden::c_board_height};
 /// Two buffers of colours and one of depths.
-inline constexpr std::uint32_t c_words_in_use = 3 * c_board_frame.width * c_board_frame.height;
+inline constexpr std::uint32_t c_words_in_use = 3 * golden::c_board_pixels;
 
-std::uint16_t rgb565(std::uint8_t red, std::uint8_t green, std::uint8_t blue);
-/// Of linear radiance.
+/// Linear radiance in the board's memory.
 std::uint16_t rgb565(const glm::dvec3& radiance);
 
 class BoardPicture {

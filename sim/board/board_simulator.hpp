@@ -7,21 +7,16 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "plan/hardware_key.hpp"
 #include "sim/board/monitor.hpp"
 #include "sim/board/spi_host.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway::board {
 
-/// The hardware in rtl/board/board_core.vhd: its generics.
-HardwareKey board_key();
-
 struct BoardRun {
   HostReport report;
   bool host_done = true;            ///< all of the script is sent
   std::uint64_t clocks = 0;         ///< until the host was done
-  std::uint64_t sram_accesses = 0;  ///< Verilator only
 };
 
 /// Gets each picture of the monitor; returns false to end the run. A run in GHDL ends by itself.

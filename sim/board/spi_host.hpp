@@ -3,23 +3,32 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "sim/board/spi_wire.hpp"
 
 namespace halfway::board {
 
 struct HostAction {
   enum class Kind {
-    packet,  ///< read the status until the device can take the packet, then send it
-    part,    ///< the same, but stop after `bits` bits for `clocks` clocks, and end the packet there
-    pause,   ///< do nothing for `clocks` clocks
-    wait,    ///< read the status until no frame is being ended
+    /// Read the status until the device can take the packet, then send its first `bits` bits. Wait for `clocks` clocks
+    /// before select becomes high.
+    packet,
+    pause,  ///< do nothing for `clocks` clocks
+    wait,   ///< read the status until no frame is being ended
   };
   Kind kind;
   std::vector<std::uint8_t> bytes{};
   std::uint32_t bits = 0, clocks = 0;
 };
+
+inline HostAction whole_packet(std::vector<std::uint8_t> bytes) {
+  const auto bits = static_cast<std::uint32_t>(8 * bytes.size());
+  return {HostAction::Kind::packet, std::move(bytes), bits};
+}
 
 /// The script as text for tb/board/board_host.vhd: a line "KIND BYTES BITS CLOCKS" per action, with a kind of
 /// six characters, and a line with the bytes of a packet in hexadecimal.
@@ -33,43 +42,27 @@ struct HostReport {
   bool operator==(const HostReport&) const = default;
 };
 
-struct SpiPins {
-  bool select_n = true, clock = false, data = false;
-};
-
 class SpiHost {
  public:
-  /// Seed 0: as quick as the device allows. Otherwise random pauses between bits, bytes and packets.
-  SpiHost(std::vector<HostAction> script, std::uint32_t seed);
+  /// The seed of SpiWire's pauses.
+  SpiHost(std::vector<HostAction> script, std::uint32_t seed) : script_(std::move(script)), wire_(seed) {}
 
   /// The levels of the next clock, if the device's data has this level in the present one.
   SpiPins clock(bool device_data);
 
-  bool done() const { return next_ == script_.size() && steps_.empty(); }
+  bool done() const { return next_ == script_.size() && !wire_.busy(); }
   const HostReport& report() const { return report_; }
 
  private:
-  /// Levels for a number of clocks.
-  struct Step {
-    SpiPins pins;
-    std::uint32_t clocks;
-    bool sample = false;       ///< take the device's bit at the start
-    bool ends_status = false;  ///< it is the last bit of the status byte
-  };
-
   void plan_next();
-  void plan_packet(const std::vector<std::uint8_t>& bytes, std::uint32_t bits, std::uint32_t hold);
-  void sample(const Step& step, bool device_data);
+  void take_status();
   bool can_take(const HostAction& action) const;
-  std::uint32_t pause(std::uint32_t one_in, std::uint32_t most);
 
   std::vector<HostAction> script_;
   std::size_t next_ = 0;
-  std::deque<Step> steps_;
-  std::uint32_t random_;
-  std::uint8_t received_ = 0;
-  bool polls_ = false;         ///< the packet in transfer only reads the status
-  bool knows_status_ = false;  ///< received_ is the status after the last packet
+  SpiWire wire_;
+  enum class Sent { nothing, packet, poll } sent_ = Sent::nothing;
+  std::optional<std::uint8_t> status_;  ///< empty: not known since the last packet
   HostReport report_;
 };
 

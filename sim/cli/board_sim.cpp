@@ -8,6 +8,8 @@
 
 #include "plan/plan.hpp"
 #include "sim/board/board_check.hpp"
+#include "sim/board/board_server.hpp"
+#include "sim/board/board_sources.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
@@ -20,6 +22,7 @@ struct BoardSimCommand {
   std::vector<std::string> scenes, simulators;
   std::string out = "build/out";
   double threshold = 8.0;
+  std::string socket;
 };
 
 /// One run of the board.
@@ -68,6 +71,8 @@ Status simulate_board(const BoardSimulation& simulation, const BoardSimCommand& 
   options.out = std::filesystem::path(command.out) / result_name(simulation.scene) /
                 fmt::format("board-{}-{}", to_string(simulation.simulator), host);
   options.setup.quadratic.threshold = command.threshold;
+  // GHDL is slow: do not split triangles.
+  if (options.ghdl) options.setup.quadratic.test = HighlightTest::none;
   const auto check = board::check_board(*scene, options, {folders.source, folders.cache()});
   if (!check) return check.error();
   const board::HostReport& report = check->run.report;
@@ -81,7 +86,17 @@ Status simulate_board(const BoardSimulation& simulation, const BoardSimCommand& 
   return Ok{};
 }
 
+/// Simulates the board for another program.
+int serve(const Folders& folders, const BoardSimCommand& command) {
+  const auto report_of = board::serve_board(command.socket, command.out, {folders.source, folders.cache()});
+  if (!report_of) return report(report_of.error());
+  fmt::print("{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
+             command.socket, report_of->packets, report_of->vectors, report_of->clocks, report_of->pictures);
+  return 0;
+}
+
 int run(const Folders& folders, const BoardSimCommand& command) {
+  if (!command.socket.empty()) return serve(folders, command);
   if (!(command.threshold > 0.0))
     return report(bad_input(fmt::format("--threshold: {} is not above 0", command.threshold)));
   const auto list = simulations(command, folders);
@@ -105,6 +120,9 @@ void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--threshold", command->threshold,
                   "error above which a triangle is split, in colour steps of 1/255")
       ->capture_default_str();
+  sub->add_option("--serve", command->socket,
+                  "a Unix socket to listen at: another program sends the packets (see docs/library.md);\n"
+                  "different pictures of the monitor are written to the folder of --out");
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
 }
 

@@ -28,6 +28,8 @@ end entity;
 
 architecture sim of board_host is
 
+  constant c_reset_clocks : positive := 200; -- of the board, at most
+
 begin
 
   send_script : process
@@ -98,13 +100,14 @@ begin
     end procedure;
 
   begin
+    wait_clocks(c_reset_clocks);
     while not endfile(script) loop
       readline(script, action);
       read(action, kind);
       read(action, count);
       read(action, bits);
       read(action, hold);
-      if kind = "packet" or kind = "part  " then
+      if kind = "packet" then
         send_packet(count, bits, hold);
       elsif kind = "pause " then
         wait_clocks(hold);
