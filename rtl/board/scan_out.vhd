@@ -96,10 +96,9 @@ begin
       v.reading   := '1';
       v.remaining := to_unsigned(c_width - 1, frame_x_t'length);
       v.load      := (others => '0');
-      v.load_bank := not r.load_bank;
+      v.load_bank := not line(1);
       if fetch_first = '1' then
-        v.address   := colour_base(front);
-        v.load_bank := '0';
+        v.address := colour_base(front);
       end if;
     elsif data_valid = '1' then
       v.load := r.load + 1;
@@ -120,7 +119,7 @@ begin
 
     if reset = '1' then
       v.reading     := '0';
-      v.load_bank   := '0';
+      v.address     := (others => '0');
       v.dot.visible := '0';
     end if;
     r_next <= v;

@@ -207,7 +207,7 @@ begin
       send(i, x"4000", std_logic_vector(to_unsigned(i, 16)));
     end loop;
     drain;
-    assert clock_number - first <= 12 * 54
+    assert clock_number - first <= 12 * 52 + 2
       report "depth_test_tb: " & to_string(12 * c_places) & " pixels took " & to_string(clock_number - first) & " clocks"
       severity failure;
 

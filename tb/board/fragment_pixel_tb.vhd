@@ -147,7 +147,8 @@ begin
     if rising_edge(clk) and reset = '0' then
       assert not taken or pixel_valid = '1' or outside = '1'
         report "fragment_pixel_tb: no pixel one clock after a fragment" severity failure;
-      assert stalls or fragment_ready = '1' report "fragment_pixel_tb: not one fragment per clock" severity failure;
+      assert fragment_ready = '1' or (stalls and pixel_valid = '1')
+        report "fragment_pixel_tb: a fragment waits without need" severity failure;
       assert not waiting or (pixel_valid = '1' and std_logic_vector(pixel_place) & pixel_depth & pixel_colour = held)
         report "fragment_pixel_tb: a pixel that waits changes" severity failure;
       taken   := fragment_valid = '1' and fragment_ready = '1';

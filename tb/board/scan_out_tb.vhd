@@ -138,6 +138,7 @@ begin
       -- Fetch the first line.
       fetch <= '1';
       fetch_first <= '1';
+      line <= to_unsigned(523, line'length);
       wait until rising_edge(clk);
       fetch <= '0';
       fetch_first <= '0';

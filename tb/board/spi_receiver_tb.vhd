@@ -246,6 +246,7 @@ begin
       send_bad("end of frame: bit " & to_string(i) & " wrong", packet(0 to 39));
       packet(i) := not packet(i);
     end loop;
+    send_bad("end of frame with two bytes more", end_packet(x"1234") & x"0000");
     send_bad("unknown command", x"03" & crc(x"03"));
     send_bad("status with a byte more", x"0000");
 

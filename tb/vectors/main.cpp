@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
       std::pair{"processors_shader", &write_processors_shader},
       std::pair{"fragment_pixel", &write_fragment_pixel},
       std::pair{"scan_out", &write_scan_out},
+      std::pair{"board_top", &write_scan_out},
   };
   bool found = false;
   for (const auto& [name, write] : c_entities) {
