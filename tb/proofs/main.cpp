@@ -61,11 +61,12 @@ Result<std::vector<Proof>> select_proofs(const Options& options, std::vector<Pro
 }
 
 Status check_faults(const Options& options, const std::vector<Proof>& proofs) {
-  const auto rtl = read_rtl_sources(options.folders.source);
-  if (!rtl) return rtl.error();
-  for (const Proof& proof : proofs)
+  for (const Proof& proof : proofs) {
+    const auto rtl = read_sources(options.folders, proof);
+    if (!rtl) return rtl.error();
     for (const Fault& fault : proof.faults)
       if (const auto text = text_with_fault(*rtl, fault); !text) return text.error();
+  }
   return Ok{};
 }
 

@@ -110,11 +110,14 @@ TEST(StreamPorts, AreFoundInTheEntity) {
 }
 
 TEST_F(ProofList, HasFaultsThatOccurInTheRtl) {
-  for (const Proof& proof : proofs_)
+  for (const Proof& proof : proofs_) {
+    const auto rtl = read_sources({.source = c_source, .scratch = {}}, proof);
+    ASSERT_TRUE(rtl) << rtl.error().message;
     for (const Fault& fault : proof.faults) {
-      const auto text = text_with_fault(rtl_, fault);
+      const auto text = text_with_fault(*rtl, fault);
       EXPECT_TRUE(text) << text.error().message;
     }
+  }
 }
 
 TEST_F(ProofList, ComparesEveryTableWithTheGoldenModel) {

@@ -78,7 +78,7 @@ VhdlSource* find_source(std::vector<VhdlSource>& rtl, std::string_view name) {
 // The RTL with the formats of the proof, or of its faults.
 Result<std::vector<VhdlSource>> read_formatted_rtl(const Folders& folders, const Proof& proof,
                                                    const Fault* fault) {
-  auto rtl = read_rtl_sources(folders.source);
+  auto rtl = read_sources(folders, proof);
   if (!rtl) return rtl;
   if (const auto& formats = formats_of(proof, fault); !formats.empty())
     if (VhdlSource* package = find_source(*rtl, c_formats)) package->content = formats_package(formats);
@@ -355,6 +355,15 @@ Status find_tools() {
                                    std::string_view(tool) == "ghdl" ? c_install_ghdl : c_install));
   }
   return Ok{};
+}
+
+Result<std::vector<VhdlSource>> read_sources(const Folders& folders, const Proof& proof) {
+  auto rtl = read_rtl_sources(folders.source);
+  if (!rtl || !proof.entity.starts_with("board/")) return rtl;
+  const auto board = read_rtl_sources(folders.source, "rtl/board");
+  if (!board) return board.error();
+  rtl->insert(rtl->end(), board->begin(), board->end());
+  return rtl;
 }
 
 Result<std::string> text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault) {

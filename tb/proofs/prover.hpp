@@ -21,6 +21,9 @@ struct Folders {
 /// Fails if a program that proofs call is missing; the error names the package to install.
 Status find_tools();
 
+/// The RTL of a proof: rtl/, and for an entity of the board also rtl/board.
+Result<std::vector<VhdlSource>> read_sources(const Folders& folders, const Proof& proof);
+
 /// The text of the fault's file with the fault in it. Fails if the old text does not occur as often as it
 /// must.
 Result<std::string> text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault);
