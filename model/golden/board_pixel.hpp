@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden model of rtl/board/board_pkg.vhd and of the conversions in rtl/board/fragment_pixel.vhd: the pixels of the
-// board's memory and the bits at the monitor's pins.
+// Golden model of rtl/board/board_pkg.vhd and of the conversions in rtl/board/fragment_pixel.vhd: the pixels
+// of the board's memory and the bits at the monitor's pins.
 #pragma once
 
 #include <array>
@@ -34,9 +34,9 @@ constexpr std::uint16_t board_colour(std::uint8_t red, std::uint8_t green, std::
 /// Levels 0 to 7 of red, green and blue at the pins.
 using BoardLevels = std::array<std::uint8_t, 3>;
 
-/// The bits at the pins for dot (x, y) of the monitor, 640x480, which shows a pixel of this colour as 2x2 dots.
-/// The lower two of a colour's upper five bits are the number of its four dots that get the next brighter
-/// level. Levels above 7 are 7.
+/// The bits at the pins for dot (x, y) of the monitor, 640x480, which shows a pixel of this colour as 2x2
+/// dots. The lower two of a colour's upper five bits are the number of its four dots that get the next
+/// brighter level. Levels above 7 are 7.
 constexpr BoardLevels board_pins(std::uint16_t colour, unsigned x, unsigned y) {
   // Dots get brighter in the order (y, x) = (0, 0), (1, 1), (0, 1).
   constexpr unsigned c_least[2][2] = {{1, 3}, {4, 2}};

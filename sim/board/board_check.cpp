@@ -22,9 +22,12 @@
 namespace halfway::board {
 namespace {
 
-/// How long a host stops in the middle of a packet: longer than a picture of the monitor, 840000 clocks; in GHDL, which is
-/// slow, for some lines.
+/// How long a host stops in the middle of a packet: longer than a picture of the monitor, 840000 clocks; in
+/// GHDL, which is slow, for some lines.
 constexpr std::uint32_t c_stop = 1'000'000, c_stop_in_ghdl = 10'000;
+/// Pauses between packets of an unreliable host. In Verilator SpiWire makes others, between bits and bytes,
+/// too.
+constexpr std::size_t c_packets_per_pause = 4, c_longest_pause = 3000;
 
 /// The vectors of a frame, one by one.
 Result<std::vector<std::vector<std::uint32_t>>> vectors_of(const Scene& scene, const SetupOptions& options) {
@@ -69,6 +72,9 @@ void append_frame(std::vector<HostAction>& script, std::vector<std::vector<std::
   const bool unreliable = host == Host::unreliable && spoiled < stopped;
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     HostAction action = whole_packet(draw_packet(vectors[i], init_bits));
+    if (unreliable && i % c_packets_per_pause == 0)
+      script.push_back(
+          {HostAction::Kind::pause, {}, 0, 1 + static_cast<std::uint32_t>(7919 * i % c_longest_pause)});
     if (unreliable && i == spoiled) action.bytes[action.bytes.size() / 2] ^= 0x10;
     if (unreliable && i == stopped) {
       action.bits = static_cast<std::uint32_t>(4 * action.bytes.size() + 3);

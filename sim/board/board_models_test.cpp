@@ -63,8 +63,8 @@ TEST(Monitor, FindsWrongTimings) {
   const auto fault = [](VideoTiming line, VideoTiming field) { return fault_of_monitor(line, field, 3); };
   EXPECT_NE(fault({640, 16, 96, 49}, c_field).find("a line of 1602 clocks"), std::string::npos);
   EXPECT_NE(fault({640, 16, 95, 49}, c_field).find("a horizontal sync of 190 clocks"), std::string::npos);
-  EXPECT_NE(fault(c_line, {480, 10, 3, 32}).find("a vertical sync"), std::string::npos);
-  EXPECT_NE(fault(c_line, {480, 10, 2, 34}).find("a vertical sync after 524 lines"), std::string::npos);
+  EXPECT_NE(fault(c_line, {480, 9, 3, 33}).find("a vertical sync"), std::string::npos);
+  EXPECT_NE(fault(c_line, {480, 11, 2, 33}).find("a vertical sync after 524 lines"), std::string::npos);
   EXPECT_NE(fault({640, 17, 96, 47}, c_field).find("outside"), std::string::npos);
   EXPECT_NE(fault(c_line, {480, 11, 2, 32}).find("outside"), std::string::npos);
   EXPECT_NE(fault_of_monitor(c_line, c_field, 3, nullptr, true).find("outside"), std::string::npos);
@@ -103,7 +103,8 @@ TEST(SramModel, FindsFaultsOfTheBus) {
   EXPECT_EQ(fault({access(false, true, 100)}), "SRAM: address 100 of 100 words in clock 1");
   BoardOutputs undriven = access(false, true, 1);
   undriven.sram_data_enable = 0;
-  EXPECT_EQ(fault({undriven}), "SRAM: the FPGA drives the data, but does not write, or the reverse in clock 1");
+  EXPECT_EQ(fault({undriven}),
+            "SRAM: the FPGA drives the data, but does not write, or the reverse in clock 1");
 }
 
 /// A device that answers with a status byte, and keeps the bits of each packet.
@@ -135,7 +136,8 @@ struct Device {
 
 TEST(SpiHost, SendsItsScriptWhenThereIsRoom) {
   const std::vector<std::uint8_t> packet = draw_packet(std::vector<std::uint32_t>{0xa5}, 8);
-  SpiHost host({whole_packet(packet), {HostAction::Kind::packet, packet, 13, 50}, {HostAction::Kind::wait}}, 0);
+  SpiHost host({whole_packet(packet), {HostAction::Kind::packet, packet, 13, 50}, {HostAction::Kind::wait}},
+               0);
   Device device{.status = c_room | c_error | 5};
   device.run(host);
   // Poll, packet, poll, part, poll.
@@ -159,8 +161,10 @@ TEST(SpiHost, WaitsWhileThereIsNoRoom) {
 
 TEST(BoardPicture, KeepsTheFirstOfEqualDepths) {
   BoardPicture picture(0x1234);
-  const Fragment fragments[] = {{0, 0x000200, 0, 1, 255, 0, 0}, {0, 0x0002ff, 0, 1, 0, 255, 0},
-                                {0, 0x0001ff, 1, 0, 0, 0, 255}, {0, 0xffff00, 2, 2, 255, 255, 255}};
+  const Fragment fragments[] = {{0, 0x000200, 0, 1, 255, 0, 0},
+                                {0, 0x0002ff, 0, 1, 0, 255, 0},
+                                {0, 0x0001ff, 1, 0, 0, 0, 255},
+                                {0, 0xffff00, 2, 2, 255, 255, 255}};
   picture.add(fragments);
   EXPECT_EQ(picture.colours()[0], 0x1234);
   EXPECT_EQ(picture.colours()[1], 0xf800);

@@ -11,7 +11,8 @@ std::uint16_t rgb565(const glm::dvec3& radiance) {
 }
 
 BoardPicture::BoardPicture(std::uint16_t background)
-    : colours_(golden::c_board_pixels, background), depths_(golden::c_board_pixels, golden::c_board_farthest) {}
+    : colours_(golden::c_board_pixels, background),
+      depths_(golden::c_board_pixels, golden::c_board_farthest) {}
 
 void BoardPicture::add(std::span<const Fragment> fragments) {
   for (const Fragment& f : fragments) {

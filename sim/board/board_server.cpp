@@ -69,8 +69,9 @@ class Pictures {
     const bool equal = twin_.shows(dots);
     const std::string name = equal ? fmt::format("picture-{}", different_) : "picture-different";
     if (!equal)
-      status_ = Error{ExitCode::differs, fmt::format("picture {} of the monitor differs from the twin's; see {}",
-                                                     count_, (out_ / (name + ".png")).string())};
+      status_ =
+          Error{ExitCode::differs, fmt::format("picture {} of the monitor differs from the twin's; see {}",
+                                               count_, (out_ / (name + ".png")).string())};
     if (dots == last_) return;
     last_ = dots;
     ++different_;
@@ -140,7 +141,8 @@ Result<ServerReport> serve_board(const std::filesystem::path& socket, const std:
   for (const std::uint64_t end = pictures.count() + c_pictures_at_end; twin.pending() > 0;) {
     if (Status status = clock(); !status) return status.error();
     if (pictures.count() == end && twin.pending() > 0)
-      return Error{ExitCode::differs, fmt::format("the monitor has not shown the last {} frames", twin.pending())};
+      return Error{ExitCode::differs,
+                   fmt::format("the monitor has not shown the last {} frames", twin.pending())};
   }
   report.clocks = board->clocks();
   report.pictures = pictures.different();

@@ -57,8 +57,9 @@ Result<BoardRun> run_in_ghdl(const std::vector<HostAction>& script, const Simula
   if (!tool) return tool.error();
   auto sources = board_sources(folders);
   if (!sources) return sources.error();
-  for (const char* name : {"tb/tb_pkg.vhd", "tb/board/ice40_cells.vhd", c_board_top_file, "tb/board/sram_model.vhd",
-                           "tb/board/board_host.vhd", "tb/board/board_sim_tb.vhd"}) {
+  for (const char* name :
+       {"tb/tb_pkg.vhd", "tb/board/ice40_cells.vhd", c_board_top_file, "tb/board/sram_model.vhd",
+        "tb/board/board_host.vhd", "tb/board/board_sim_tb.vhd"}) {
     auto source = read_vhdl_source(folders.source, name);
     if (!source) return source.error();
     sources->push_back(std::move(*source));

@@ -15,8 +15,8 @@ namespace halfway::board {
 
 struct BoardRun {
   HostReport report;
-  bool host_done = true;            ///< all of the script is sent
-  std::uint64_t clocks = 0;         ///< until the host was done
+  bool host_done = true;     ///< all of the script is sent
+  std::uint64_t clocks = 0;  ///< until the host was done
 };
 
 /// Gets each picture of the monitor; returns false to end the run. A run in GHDL ends by itself.

@@ -13,8 +13,7 @@ constexpr std::size_t c_around_payload = 3;  ///< bytes of command and CRC
 
 }  // namespace
 
-PacketTwin::PacketTwin()
-    : golden_(make_golden_model(board_key())), back_(0), shown_(back_.dots()) {}
+PacketTwin::PacketTwin() : golden_(make_golden_model(board_key())), back_(0), shown_(back_.dots()) {}
 
 void PacketTwin::take(std::span<const std::uint8_t> packet, std::uint8_t status) {
   if (packet.size() < c_around_payload || crc16(packet) != 0) return;

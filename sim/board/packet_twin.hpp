@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The twin of the board for packets: draws them by the golden model, and gives the pictures that the monitor may show.
+// The twin of the board for packets: draws them by the golden model, and gives the pictures that the monitor
+// may show.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@ class PacketTwin {
  public:
   PacketTwin();
 
-  /// A packet that the board has received completely, with the status byte that it returned. Packets that the board drops
-  /// change nothing.
+  /// A packet that the board has received completely, with the status byte that it returned. Packets that the
+  /// board drops change nothing.
   void take(std::span<const std::uint8_t> packet, std::uint8_t status);
 
   /// A picture of the monitor. Returns false if it is neither the one before nor the next frame.

@@ -14,7 +14,8 @@ namespace halfway::board {
 
 struct HostAction {
   enum class Kind {
-    /// Read the status until the device can take the packet, then send its first `bits` bits. Wait for `clocks` clocks
+    /// Read the status until the device can take the packet, then send its first `bits` bits. Wait for
+    /// `clocks` clocks
     /// before select becomes high.
     packet,
     pause,  ///< do nothing for `clocks` clocks

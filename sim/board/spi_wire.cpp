@@ -5,7 +5,8 @@ namespace halfway::board {
 namespace {
 
 // In system clocks.
-constexpr std::uint32_t c_select_to_clock = 6, c_half_period = 2, c_clock_to_select = 2, c_between_packets = 6;
+constexpr std::uint32_t c_select_to_clock = 6, c_half_period = 2, c_clock_to_select = 2,
+                        c_between_packets = 6;
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SPI packets as levels at the pins of a host, one system clock at a time, with the shortest times of docs/board.md.
+// SPI packets as levels at the pins of a host, one system clock at a time, with the shortest times of
+// docs/board.md.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,9 @@ class SpiWire {
 
   /// Sends the first `bits` bits of a packet, then holds select for `hold` clocks more.
   void send(std::span<const std::uint8_t> bytes, std::uint32_t bits, std::uint32_t hold);
-  void send(std::span<const std::uint8_t> bytes) { send(bytes, static_cast<std::uint32_t>(8 * bytes.size()), 0); }
+  void send(std::span<const std::uint8_t> bytes) {
+    send(bytes, static_cast<std::uint32_t>(8 * bytes.size()), 0);
+  }
   /// Does nothing for some clocks.
   void idle(std::uint32_t clocks);
 

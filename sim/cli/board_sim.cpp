@@ -90,8 +90,9 @@ Status simulate_board(const BoardSimulation& simulation, const BoardSimCommand& 
 int serve(const Folders& folders, const BoardSimCommand& command) {
   const auto report_of = board::serve_board(command.socket, command.out, {folders.source, folders.cache()});
   if (!report_of) return report(report_of.error());
-  fmt::print("{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
-             command.socket, report_of->packets, report_of->vectors, report_of->clocks, report_of->pictures);
+  fmt::print(
+      "{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
+      command.socket, report_of->packets, report_of->vectors, report_of->clocks, report_of->pictures);
   return 0;
 }
 

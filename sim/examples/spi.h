@@ -9,7 +9,8 @@
 /* Opens a device, /dev/spidevB.C, or a socket. Returns a descriptor; -1: see errno. */
 int spi_open(const char* name);
 
-/* Sends and receives the bytes of one packet, while select is low. Ends the program with a message if that fails. */
+/* Sends and receives the bytes of one packet, while select is low. Ends the program with a message if that
+ * fails. */
 void spi_transfer(int device, const uint8_t* out, uint8_t* in, size_t count);
 
 #endif

@@ -22,7 +22,6 @@ architecture sim of board_sim_tb is
   constant c_late_clocks : positive := 5 * 1600; -- until the monitor has seen the end of a vertical sync
 
   signal oscillator, host_clk : std_logic := '0';
-  signal finished             : boolean   := false;
 
   -- At the pins.
   signal select_n, spi_clock, data_in, data_out    : std_logic;
@@ -37,10 +36,10 @@ architecture sim of board_sim_tb is
 
 begin
 
-  oscillator <= not oscillator after 5 ns when not finished;
+  oscillator <= not oscillator after 5 ns;
 
   -- Host and monitor have clocks of their own, with the frequency of the board's.
-  host_clk <= not host_clk after 10 ns when not finished;
+  host_clk <= not host_clk after 10 ns;
 
   board : entity work.board_top
     generic map (
@@ -160,8 +159,7 @@ begin
     put(faults);
     put(frames);
     writeline(video, entry);
-    finished <= true;
-    wait;
+    std.env.finish;
   end process;
 
 end architecture;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/board_pixel.hpp"
-
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
@@ -35,8 +34,8 @@ Status write_fragment_pixel(const std::filesystem::path& folder) {
   return file.write(folder / "fragments.txt");
 }
 
-// A line: colour; red, green, blue of the dots (0, 0), (1, 0), (0, 1), (1, 1) in (x, y). One line per level of a
-// channel, and others.
+// A line: colour; red, green, blue of the dots (0, 0), (1, 0), (0, 1), (1, 1) in (x, y). One line per level
+// of a channel, and others.
 Status write_scan_out(const std::filesystem::path& folder) {
   Random random(2);
   VectorFile file;
