@@ -36,6 +36,7 @@ takes_stability := JOBS
 takes_search := TRIANGLES SEED JOBS
 takes_bounds := JOBS
 takes_synth := DESIGN SEEDS PIN JOBS
+takes_board := PIN JOBS
 takes_bench := JOBS
 takes_build := JOBS
 takes_program := JOBS
@@ -126,7 +127,7 @@ synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,-
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view live board-sim compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth bench build program generator mcode configure \
+  check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program generator mcode configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -279,6 +280,10 @@ synth: configure ## compare cells on two FPGAs and the clock on one with the sto
 	@build/tb/halfway_synth --check $(synth_options)
 	@build/tb/synth_frames
 	@build/tb/halfway_synth $(synth_options)
+
+board: configure ## make the bitstream of the board and compare its figures with the stored ones (PIN=1)
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_board
+	@build/tb/halfway_board $(call flag,PIN,--pin) . build/cache build/board/board.bin
 
 bench: configure mcode ## measure speed: ways to the same picture, growth, small triangles, cores; write the page
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench

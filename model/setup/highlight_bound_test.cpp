@@ -80,11 +80,18 @@ double angle(glm::dvec3 a, glm::dvec3 b) {
   return 2.0 * std::atan2(glm::length(a - b), glm::length(a + b));
 }
 
-/// Curved patches, eyes and lights near and far. Most have a highlight in the patch or next to it.
+/// The light of a case. A new kind of light gets a place of its own: then the random cases of the others
+/// stay.
+enum class LightPlace {
+  near_highlight,  ///< directional, positional or spot: most patches have a highlight in or next to them
+  grazing,         ///< positional, close to the horizon of the patch
+};
+
+/// Curved patches, eyes and lights near and far.
 class RandomCases {
  public:
-  /// `grazing`: positional lights close to the horizon of the patch.
-  explicit RandomCases(unsigned seed, bool grazing = false) : random_(seed), grazing_(grazing) {}
+  explicit RandomCases(unsigned seed, LightPlace place = LightPlace::near_highlight)
+      : random_(seed), place_(place) {}
 
   Case next(Brdf brdf) {
     for (;;)
@@ -155,7 +162,7 @@ class RandomCases {
     const glm::dvec3 intensity(within(0.3, 1), within(0.3, 1), within(0.3, 1));
     const glm::dvec3 light =
         peak.position_world + to_light * size * (chance(0.5) ? of_any_size(0.3, 3) : of_any_size(3, 100));
-    if (grazing_) {
+    if (place_ == LightPlace::grazing) {
       const glm::dvec3 outward = peak.normal_world, across = glm::normalize(glm::cross(outward, direction()));
       const glm::dvec3 grazing = glm::normalize(across + within(-0.1, 0.1) * outward);
       c.scene.positional.push_back({peak.position_world + grazing * size * of_any_size(0.3, 5), intensity});
@@ -175,7 +182,7 @@ class RandomCases {
   }
 
   std::mt19937_64 random_;
-  bool grazing_;
+  LightPlace place_;
 };
 
 struct Outcome {
@@ -186,8 +193,8 @@ struct Outcome {
   double worst_centroid = 0.0;  // in colour steps
 };
 
-Outcome outcome(Brdf brdf, unsigned seed, int cases, bool grazing = false) {
-  RandomCases random(seed, grazing);
+Outcome outcome(Brdf brdf, unsigned seed, int cases, LightPlace place = LightPlace::near_highlight) {
+  RandomCases random(seed, place);
   Outcome o;
   for (; o.cases < cases; ++o.cases) {
     const Case c = random.next(brdf);
@@ -229,7 +236,7 @@ TEST(HighlightTest, AcceptedTrianglesAreWithinTwiceTheThreshold) {
 // the terminator, may lie between them.
 TEST(HighlightTest, AHighlightAtTheTerminatorIsNotMissed) {
   for (const Brdf brdf : {Brdf::blinn, Brdf::phong}) {
-    const Outcome o = outcome(brdf, 3, 20000, true);
+    const Outcome o = outcome(brdf, 3, 20000, LightPlace::grazing);
     EXPECT_LE(o.worst, 2.0);
     EXPECT_GT(o.passed, 500);
     EXPECT_GT(o.worst_centroid, 100.0);

@@ -15,7 +15,7 @@
 
 namespace halfway {
 
-/// Lights whose intensity is not 0: directional, positional, spots, each in the scene's order.
+/// Lights whose intensity is not 0, in the order of for_each_light.
 std::vector<LightRef> shining_lights(const Scene& scene);
 /// The shining lights, or none if no material in use reflects them.
 std::vector<LightRef> reflected_lights(const Scene& scene);

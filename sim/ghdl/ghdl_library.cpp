@@ -61,8 +61,10 @@ std::pair<std::filesystem::path, std::string> place_of(const char* kind, const G
 }
 
 /// Write the sources into the command's folder, append their names to the command and run it.
-Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sources) {
+Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sources,
+                           bool vendor_cells = false) {
   command.arguments.insert(command.arguments.end(), c_analysis_flags.begin(), c_analysis_flags.end());
+  if (vendor_cells) command.arguments.emplace_back("-Wno-default-binding");
   for (const VhdlSource& source : sources) {
     if (auto written = write_file(command.working_folder / source.name, source.content); !written)
       return written.error();
@@ -150,7 +152,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
 }
 
 Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
-                                               const std::filesystem::path& cache) {
+                                               const std::filesystem::path& cache, bool vendor_cells) {
   const auto [folder, hash] = place_of("ghdl sources 1", tool, sources, "", cache);
   GhdlLibrary library(tool, folder, hash);
   for (const VhdlSource& source : sources) library.to_read_.push_back(source.name);
@@ -159,7 +161,8 @@ Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::
   auto fresh = TemporaryFolder::make(folder.parent_path());
   if (!fresh) return fresh.error();
   // --synth does not print its own warnings.
-  if (auto done = run_on({.arguments = {tool.program, "-s"}, .working_folder = fresh->path()}, sources);
+  if (auto done = run_on({.arguments = {tool.program, "-s"}, .working_folder = fresh->path()}, sources,
+                         vendor_cells);
       !done)
     return done.error();
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();

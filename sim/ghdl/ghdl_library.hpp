@@ -50,9 +50,10 @@ class GhdlLibrary {
   /// start of the sources is analysed once for all testbenches.
   static Result<GhdlLibrary> open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                   const std::string& top, const std::filesystem::path& cache);
-  /// For `synthesize` only: the same checks without code generation, which takes most of the time.
+  /// For `synthesize` only: the same checks without code generation, which takes most of the time. With
+  /// `vendor_cells`, components may have no entity.
   static Result<GhdlLibrary> for_synthesis(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
-                                           const std::filesystem::path& cache);
+                                           const std::filesystem::path& cache, bool vendor_cells = false);
 
   const std::filesystem::path& folder() const { return folder_; }
   const GhdlTool& tool() const { return tool_; }

@@ -12,7 +12,7 @@
 
 namespace halfway {
 
-/// Ok if halfway_mesa can draw the scene: no shadows, no spot lights, Blinn's highlights only.
+/// Ok if halfway_mesa can draw the scene; otherwise the error names what it cannot draw.
 Status mesa_draws(const Scene& scene);
 
 /// The program in the tree `source`.

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
@@ -174,7 +175,23 @@ class Random {
 
 // A new kind comes last: then the random scenes of the others stay.
 enum class Lights { ambient, directional, positional, spot, hard_spot, all };
-constexpr const char* c_light_names[] = {"ambient", "directional", "positional", "spot", "hard_spot", "all"};
+const char* name_of(Lights lights) {
+  switch (lights) {
+    case Lights::ambient:
+      return "ambient";
+    case Lights::directional:
+      return "directional";
+    case Lights::positional:
+      return "positional";
+    case Lights::spot:
+      return "spot";
+    case Lights::hard_spot:
+      return "hard_spot";
+    case Lights::all:
+      return "all";
+  }
+  std::abort();
+}
 constexpr const char* c_brdf_names[] = {"blinn", "phong", "cook_torrance"};
 
 void add_light(Scene& scene, Random& random, Lights kind) {
@@ -305,11 +322,10 @@ std::vector<Case> random_cases(unsigned seeds) {
           if (shadows && lights == Lights::ambient) continue;
           const unsigned number =
               6 * static_cast<unsigned>(lights) + 2 * static_cast<unsigned>(brdf) + shadows;
-          cases.push_back(
-              {fmt::format("{} {}{}, seed {}", c_brdf_names[static_cast<int>(brdf)],
-                           c_light_names[static_cast<int>(lights)], shadows ? " shadows" : "", seed),
-               std::make_shared<Scene>(random_scene(1000 * seed + number, brdf, lights, shadows)),
-               {31 + number % 7, 27 + number % 5}});
+          cases.push_back({fmt::format("{} {}{}, seed {}", c_brdf_names[static_cast<int>(brdf)],
+                                       name_of(lights), shadows ? " shadows" : "", seed),
+                           std::make_shared<Scene>(random_scene(1000 * seed + number, brdf, lights, shadows)),
+                           {31 + number % 7, 27 + number % 5}});
         }
     const FrameSize size{33, 29};
     cases.push_back({fmt::format("half pixels, seed {}", seed),

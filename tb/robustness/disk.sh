@@ -82,15 +82,15 @@ for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"
 ln -s "$disk" "$scratch/source/build"
 for free in 0 300 1200; do
   new_disk 8192 "$free"
-  # Files with their final names must be complete: the sources, and a netlist of them. The files made from these did not
-  # fit.
-  expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/(rtl/[a-z_/]*\.vhd|netlists/[a-z_]*-[0-9a-f]*\.v)$' \
+  # Files with their final names must be complete: the sources, and a netlist of them in VHDL and Verilog. The files
+  # made from these did not fit.
+  expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/(rtl/[a-z_/]*\.vhd|netlists/[a-z_]*-[0-9a-f]*\.(v|vhd))$' \
     "$halfway" --source "$scratch/source" "${sim[@]:1}" --out "$scratch/out"
   for entry in "$disk"/cache/ghdl/[0-9a-f]*/rtl; do
     [ ! -d "$entry" ] || [ "$(sums "$entry")" = "$(sums "$checkout/rtl")" ] || fail "$entry is not whole"
   done
-  for entry in "$disk"/cache/ghdl/[0-9a-f]*/netlists/*.v; do
-    [ ! -f "$entry" ] || [ "$(grep . "$entry" | tail -n 1)" = endmodule ] || fail "$entry is not whole"
+  for entry in "$disk"/cache/ghdl/[0-9a-f]*/netlists/*.v*; do
+    [ ! -f "$entry" ] || grep . "$entry" | tail -n 1 | grep -qx 'endmodule\|end rtl;' || fail "$entry is not whole"
   done
 done
 
