@@ -15,6 +15,8 @@
 namespace halfway::board {
 namespace {
 
+/// After the host is done, the last frame must be shown: four pictures of the monitor.
+constexpr std::uint64_t c_late_clocks = 4 * 840'000;
 constexpr const char* c_testbench = "board_sim_tb";
 
 /// A line of the log of tb/board/board_sim_tb.vhd: numbers separated by blanks.
@@ -44,6 +46,7 @@ Result<BoardRun> run_in_verilator(const std::vector<HostAction>& script, const R
     const Result<bool> data = board->clock(pins);
     if (!data) return data.error();
     if (!host.done()) run.clocks = board->clocks();
+    if (board->clocks() > run.clocks + c_late_clocks) break;
     pins = host.clock(*data);
   }
   run.host_done = host.done();
