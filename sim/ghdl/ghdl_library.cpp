@@ -161,8 +161,8 @@ Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::
   auto fresh = TemporaryFolder::make(folder.parent_path());
   if (!fresh) return fresh.error();
   // --synth does not print its own warnings.
-  if (auto done = run_on({.arguments = {tool.program, "-s"}, .working_folder = fresh->path()}, sources,
-                         vendor_cells);
+  if (auto done =
+          run_on({.arguments = {tool.program, "-s"}, .working_folder = fresh->path()}, sources, vendor_cells);
       !done)
     return done.error();
   if (auto moved = fresh->move_to(folder); !moved) return moved.error();

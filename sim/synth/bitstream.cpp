@@ -25,8 +25,7 @@ constexpr std::chrono::minutes c_timeout{60};
 constexpr const char* c_seed = "1";
 
 Result<std::string> run(const std::filesystem::path& folder, std::vector<std::string> arguments) {
-  const Command command{
-      .arguments = std::move(arguments), .working_folder = folder, .timeout = c_timeout};
+  const Command command{.arguments = std::move(arguments), .working_folder = folder, .timeout = c_timeout};
   const auto end = run_process(command, c_install_board_tools);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
@@ -95,8 +94,9 @@ Result<BoardFigures> read_figures(const std::filesystem::path& folder) {
     return tool_failed(fmt::format("not what Yosys 0.23 and nextpnr 0.4 report: {}", error.what()));
   }
   if (figures.strobe_ns <= 0 || figures.strobe_ns > c_strobe_ns)
-    return tool_failed(fmt::format("{}: the strobes of the SRAM take {:.1f} ns to the late clock; {} ns are the limit",
-                                   c_top, figures.strobe_ns, c_strobe_ns));
+    return tool_failed(
+        fmt::format("{}: the strobes of the SRAM take {:.1f} ns to the late clock; {} ns are the limit",
+                    c_top, figures.strobe_ns, c_strobe_ns));
   figures.bitstream = ContentHash().add(*bytes).hex();
   return figures;
 }

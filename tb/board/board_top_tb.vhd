@@ -133,7 +133,7 @@ begin
           & to_string(vga_red & vga_green & vga_blue) & ", expected " & to_string(expected) severity failure;
         wait for c_dot;
       end loop;
-      assert vga_red & vga_green & vga_blue = 9b"0" and vga_vsync = '1'
+      assert vga_red & vga_green & vga_blue = "000000000" and vga_vsync = '1'
         report "board_top_tb: not black after the last dot" severity failure;
       wait until falling_edge(vga_hsync);
     end loop;

@@ -234,7 +234,7 @@ begin
           random := next_random(random);
           exit when place = 0 or place = c_pixels - 1 or place = c_region or place = c_pixels - c_region;
           -- Depths from few values, so that equal ones occur.
-          send(place, 8x"0" & std_logic_vector(random(7 downto 0)), std_logic_vector(random(23 downto 8)));
+          send(place, x"00" & std_logic_vector(random(7 downto 0)), std_logic_vector(random(23 downto 8)));
           place := place + step;
           if random(31 downto 26) = 0 then
             step := -step;

@@ -160,7 +160,7 @@ begin
             if clocks >= c_latency and (clocks - c_latency) / 2 < 640 then
               check((clocks - c_latency) / 2, y);
             elsif clocks >= c_latency then
-              assert red & green & blue = 9b"0" report "scan_out_tb: a dot outside is not black" severity failure;
+              assert red & green & blue = "000000000" report "scan_out_tb: a dot outside is not black" severity failure;
             end if;
             clocks := clocks + 1;
           end loop;

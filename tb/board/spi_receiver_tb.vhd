@@ -239,7 +239,7 @@ begin
     send_bad("one bit more", packet & '0');
     send_bad("one byte more", packet & x"00");
     send_bad("twice", packet & packet);
-    send_bad("nothing but zeros", 4200x"0");
+    send_bad("nothing but zeros", (1 to 4200 => '0'));
     packet(0 to 39) := end_packet(x"1234");
     for i in 0 to 39 loop
       packet(i) := not packet(i);

@@ -22,6 +22,7 @@
 #include "golden/formats.hpp"
 #include "plan/processor_clocks.hpp"
 #include "setup/setup.hpp"
+#include "sim/synth/bitstream.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
 #include "sim/system/file.hpp"
@@ -156,6 +157,14 @@ std::vector<Sourced> formed() {
       {"sim/studies/README.md",
        fmt::format("than {} logic cells, more than {} RAMs,", synth::c_device_cells, synth::c_device_rams)},
   };
+  // The board: its largest SPI clock, and batches of 16 pixels in 52 clocks while scan-out takes a tenth of
+  // them.
+  list.push_back({"docs/board.md",
+                  fmt::format("at most {} MHz (a quarter of the system clock)", synth::c_board_mhz / 4.0)});
+  list.push_back(
+      {"docs/board.md", fmt::format("so at {0} MHz large triangles that have been received are drawn at "
+                                    "{0} · 0.9 · 16 / 52 = {1:.1f} million fragments per second.",
+                                    synth::c_board_mhz, synth::c_board_mhz * 0.9 * 16 / 52)});
   std::ranges::copy(bounds_example(), std::back_inserter(list));
   // The table of the folded processor's clocks.
   for (const ProcessorClocks& row : c_processor_clocks) {
@@ -208,6 +217,7 @@ std::vector<Sourced> quoted() {
        "tb/bounds/evidence.txt", "bound = 0.014 of the spot's light"},
       {"tb/oracle/README.md", "depth within 0.5 + 0.19 steps", "tb/oracle/oracle_test.cpp",
        "c_depth_tolerance = 0.5L + 0.19L;"},
+      {"docs/board.md", "Levels of 3.3 V", "rtl/board/board.pcf", "Levels of 3.3 V"},
       // Constants of the program.
       {"docs/performance.md", "have 2²⁶ pixels or more.", "sim/run/open_engine.hpp",
        "c_least_lane_pixels = double(1U << 26);"},
