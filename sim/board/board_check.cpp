@@ -110,7 +110,8 @@ class PictureOrder {
   std::uint64_t count() const { return count_; }
   std::string difference() const {
     if (!difference_.empty()) return difference_;
-    return fmt::format("the monitor has shown {} of {} frames", at_, expected_.size());
+    const auto shown = std::ranges::count_if(shown_, [](const DotPicture& dots) { return !dots.empty(); });
+    return fmt::format("the monitor has shown {} of {} frames", shown, expected_.size());
   }
   /// The picture that differs; empty if there is none.
   const DotPicture& different() const { return different_; }

@@ -27,9 +27,9 @@ struct RunOptions {
   std::uint64_t most_clocks = 500'000'000;
 };
 
-/// Runs board_core in Verilator with the C++ models until on_picture returns false, or for some pictures after
-/// the host is done. Faults of the bus and of the video timing, and a run without end, are errors with the
-/// code `differs`.
+/// Runs board_core in Verilator with the C++ models until on_picture returns false, or for some pictures
+/// after the host is done. Faults of the bus and of the video timing, and a run without end, are errors with
+/// the code `differs`.
 Result<BoardRun> run_in_verilator(const std::vector<HostAction>& script, const RunOptions& options,
                                   const SimulatorFolders& folders, const OnPicture& on_picture);
 
