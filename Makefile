@@ -10,6 +10,7 @@ drawing := SCENE SHADER DEGREE FORM PRESET SIZE ALL_EFFECTS LIGHTS
 takes_sim := $(drawing) OWN_TABLES SIMULATOR OUT THREADS JOBS
 takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
 takes_live := THREADS JOBS
+takes_board-sim := SCENE SIMULATOR OUT JOBS
 takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
 takes_why := $(drawing) PIXEL OUT JOBS
 takes_plan := $(drawing) SIMULATOR THREADS MEASURE OBJECTS RATE JOBS
@@ -125,7 +126,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
 synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
-.PHONY: help sim view live compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
+.PHONY: help sim view live board-sim compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
   check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program generator mcode configure \
   setup doctor format check-format clean
 
@@ -148,6 +149,9 @@ view: program ## draw one scene from all sides, by the RTL in Verilator or lanes
 
 live: program ## write a page in which the RTL draws, live in a browser: build/live/index.html
 	@build/halfway live $(call option,THREADS,--threads)
+
+board-sim: program ## draw two frames on the simulated board, from the pins to the picture on a monitor (SCENE)
+	@build/halfway board-sim $(call option,SIMULATOR,--simulator) $(call option,OUT,--out) $(scene)
 
 compare: program ## compare the stored results of make sim again
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \

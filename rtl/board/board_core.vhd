@@ -70,7 +70,7 @@ architecture rtl of board_core is
   signal frame_end, ending                  : std_logic;
   signal background                         : word_t;
   signal shown                              : unsigned(3 downto 0);
-  signal shader_busy, shader_fault, outside : std_logic;
+  signal drawing, draw_fault, outside : std_logic;
   signal fault, drained                     : std_logic;
 
   signal fragment_valid, fragment_ready     : std_logic;
@@ -140,8 +140,8 @@ begin
       fragment_red      => fragment_red,
       fragment_green    => fragment_green,
       fragment_blue     => fragment_blue,
-      busy              => shader_busy,
-      fault             => shader_fault);
+      busy              => drawing,
+      fault             => draw_fault);
 
   to_pixel : entity work.fragment_pixel
     port map (
@@ -162,7 +162,7 @@ begin
       pixel_colour   => pixel_colour,
       outside        => outside);
 
-  fault <= outside or shader_fault;
+  fault <= outside or draw_fault;
 
   writer : entity work.depth_test
     port map (
@@ -184,7 +184,7 @@ begin
       busy         => writing);
 
   back    <= not front;
-  drained <= not (init_valid or shader_busy or pixel_valid or writing);
+  drained <= not (init_valid or drawing or pixel_valid or writing);
 
   control : entity work.frame_control
     port map (

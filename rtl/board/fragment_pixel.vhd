@@ -50,20 +50,20 @@ architecture rtl of fragment_pixel is
 
   signal r, r_next : reg_t;
 
-  signal free, inside : std_logic;
+  signal free, in_frame : std_logic;
 
 begin
 
   free   <= pixel_ready or not r.valid;
-  inside <= flag(unsigned(fragment_y) < c_height and unsigned(fragment_x) < c_width);
+  in_frame <= flag(unsigned(fragment_y) < c_height and unsigned(fragment_x) < c_width);
 
   combinational : process (all)
     variable v : reg_t;
   begin
     v := r;
-    v.outside := fragment_valid and free and not inside;
+    v.outside := fragment_valid and free and not in_frame;
     if free = '1' then
-      v.valid  := fragment_valid and inside;
+      v.valid  := fragment_valid and in_frame;
       v.place  := pixel_place_of(unsigned(fragment_y(frame_y_t'range)), unsigned(fragment_x(frame_x_t'range)));
       v.depth  := fragment_z(23 downto 8);
       v.colour := rgb565(fragment_red, fragment_green, fragment_blue);

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   cli::add_live(app, folders, exit_code);
   cli::add_compare(app, folders, exit_code);
   cli::add_why(app, folders, exit_code);
+  cli::add_board_sim(app, folders, exit_code);
   cli::add_plan(app, folders, exit_code);
   cli::add_savings(app, folders, exit_code);
   cli::add_study(app, folders, exit_code);

@@ -103,5 +103,6 @@ void add_savings(CLI::App& app, const Folders& folders, int& exit_code);
 void add_study(CLI::App& app, const Folders& folders, int& exit_code);
 void add_report(CLI::App& app, const Folders& folders, int& exit_code);
 void add_why(CLI::App& app, const Folders& folders, int& exit_code);
+void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code);
 
 }  // namespace halfway::cli
