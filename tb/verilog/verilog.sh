@@ -34,6 +34,12 @@ check() { # top flag
 }
 check "${shader}_shader" ""
 check "${shader}_axi" --axi
+# The page lists every port.
+sed -n 's#^//   \(input\|output\) .* ##p' "$(cat "${shader}_axi.files")" >ports.txt
+[ "$(wc -l <ports.txt)" -gt 10 ] || { echo "verilog: ${shader}_axi: no list of ports"; exit 1; }
+while read -r port; do
+  grep -q "^|.*\`$port\`.*|" "$root/docs/rtl/axi.md" || { echo "verilog: docs/rtl/axi.md lacks the port $port"; exit 1; }
+done <ports.txt
 yosys -q -p "read_verilog $(cat "${shader}_axi.files"); hierarchy -top ${shader}_axi; proc; flatten; opt_clean; memory -nomap; \
   delete t:\$dff t:\$sdff* t:\$dffe t:\$adff* t:\$mem*; select -assert-none o:* i:* %coe* %i" ||
   { echo "verilog: ${shader}_axi: an output depends on an input in the same clock"; exit 1; }
