@@ -110,8 +110,13 @@ begin
       else
         more     := vectors > 0;
         next_one := (others => '0');
-        -- A line count of 0 is 2**13 lines.
-        next_one(g_walk_low + init_header(true).upper_lines.low) := to_flag(kind = empty);
+        -- Upper lines: 0 counts as 2**13.
+        if kind = empty then
+          next_one(g_walk_low + init_header(true).upper_lines.low) := '1';
+        else
+          next_one(g_walk_low + init_header(true).lower_lines.high downto g_walk_low + init_header(true).lower_lines.low)
+            := (others => '1');
+        end if;
         if vectors > 0 then
           vectors := vectors - 1;
         end if;
