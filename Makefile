@@ -14,6 +14,7 @@ takes_board-sim := SCENE SIMULATOR OUT JOBS
 takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
 takes_why := $(drawing) PIXEL OUT JOBS
 takes_plan := $(drawing) SIMULATOR THREADS MEASURE OBJECTS RATE JOBS
+takes_verilog := $(drawing) AXI OUT JOBS
 takes_savings := THREADS JOBS
 takes_study := SCENE SIZE OUT THREADS SPACE FULL TILE ERROR PSNR TIME CLOCK PLACE PIN EXECUTOR PARTS JOBS
 takes_slurm-test := JOBS
@@ -59,6 +60,7 @@ about_FRAMES := steps of one turn of the camera   (default: 36)
 about_VIDEO := a file for a video
 about_RATE := frames per second: of the video; make plan: that the shading processors draw
 about_TERMINAL := 1: draw in the terminal
+about_AXI := 1: make verilog: the top with AXI4-Stream ports
 about_PIXEL := x,y of the pixel that make why explains
 about_MEASURE := 1: count cells by Yosys, and cycles and seconds by simulation
 about_OBJECTS := objects per pixel that the shading processors draw
@@ -126,7 +128,7 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
 synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
-.PHONY: help sim view live board-sim compare why plan savings study slurm-test figures report check-report diagrams gallery tables \
+.PHONY: help sim view live board-sim compare why plan verilog savings study slurm-test figures report check-report diagrams gallery tables \
   check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program generator mcode configure \
   setup doctor format check-format clean
 
@@ -163,6 +165,9 @@ why: program ## show one pixel stage by stage, in golden model and RTL (SCENE, P
 plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEASURE=1: cells and time)
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
 	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
+
+verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports)
+	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call option,OUT,--out) $(scene)
 
 savings: program ## measure the tables of docs/effects.md again (minutes)
 	@build/halfway savings $(call option,THREADS,--threads)

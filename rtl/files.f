@@ -78,3 +78,9 @@ shaders/token_rasterizer.vhd
 shaders/token_order.vhd
 shaders/fragment_output.vhd
 shaders/processors_shader.vhd
+axi/axi_pkg.vhd
+axi/frame_control.vhd
+axi/frame_output.vhd
+axi/quadratic_axi.vhd
+axi/spherical_axi.vhd
+axi/processors_axi.vhd

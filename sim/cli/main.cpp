@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   cli::add_report(app, folders, exit_code);
   cli::add_render(app, folders, exit_code);
   cli::add_init(app, folders, exit_code);
+  cli::add_verilog(app, folders, exit_code);
   cli::add_tables(app, folders, exit_code);
   cli::add_figures(app, folders, exit_code);
   return cli::run_program(app, argc, argv, exit_code);

@@ -102,6 +102,7 @@ void add_live(CLI::App& app, const Folders& folders, int& exit_code);
 void add_savings(CLI::App& app, const Folders& folders, int& exit_code);
 void add_study(CLI::App& app, const Folders& folders, int& exit_code);
 void add_report(CLI::App& app, const Folders& folders, int& exit_code);
+void add_verilog(CLI::App& app, const Folders& folders, int& exit_code);
 void add_why(CLI::App& app, const Folders& folders, int& exit_code);
 void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code);
 

@@ -15,14 +15,15 @@ struct GeneratedFile {
   std::string text;
 };
 
-std::vector<GeneratedFile> generated_files(const CosineSizes& sizes);
+/// The files for this checkout. halfway.core is made only if the checkout has rtl/files.f.
+std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout, const CosineSizes& sizes);
 
 /// The first line where the checkout's file differs from the generated one; 0 if the files are equal.
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file);
 
 /// "path:line: not what the generator writes; ..." for each file of the checkout that differs. Without
-/// `pages` only for sources.
+/// `all` only for sources.
 std::vector<std::string> stale_files(const std::filesystem::path& checkout, const CosineSizes& sizes,
-                                     bool pages = true);
+                                     bool all = true);
 
 }  // namespace halfway::tables

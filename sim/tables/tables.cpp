@@ -123,7 +123,7 @@ int run(const Folders& folders, const TablesOptions& options) {
       fmt::print(stderr, "{}\n", message);
       differs = true;
     }
-  for (const tables::GeneratedFile& file : tables::generated_files(settings->sizes)) {
+  for (const tables::GeneratedFile& file : tables::generated_files(folders.source, settings->sizes)) {
     if (tables::first_different_line(folders.source, file) == 0) {
       fmt::print("{}: as generated\n", file.path.string());
     } else if (!options.check) {

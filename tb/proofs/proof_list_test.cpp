@@ -27,14 +27,14 @@ struct StreamPort {
   bool out;
 };
 
-// Ports of a valid/ready stream. Every declaration is on its own line.
+// Ports of a valid/ready stream, also of AXI4-Stream's names. Every declaration is on its own line.
 std::vector<StreamPort> stream_ports(const std::string& vhdl) {
   std::vector<StreamPort> ports;
   const std::string text = without_comments(vhdl);
   const std::size_t begin = text.find("\nentity "), end = text.find("end entity", begin);
   if (begin == std::string::npos) return ports;
   const std::string entity = text.substr(begin, end - begin);
-  const std::regex port(R"((\w+_(?:valid|ready)) *: (in|out) )");
+  const std::regex port(R"((\w+_t?(?:valid|ready)) *: (in|out) )");
   for (std::sregex_iterator at(entity.begin(), entity.end(), port), last; at != last; ++at)
     ports.push_back({(*at)[1], (*at)[2] == "out"});
   return ports;

@@ -1,0 +1,157 @@
+-- SPDX-License-Identifier: Apache-2.0
+--
+-- Purpose     The spherical shader with AXI4-Stream ports.
+-- Contract    aclk, aresetn: rising edge; synchronous reset, active low, for at least one rising edge. No output depends
+--             on an input in the same clock.
+--             s_axis: one init vector per transfer, in the order of the host's set-up. tlast = '1' marks the last vector of
+--             a frame.
+--             m_axis: one fragment per transfer. tlast = '1' marks the frame's last fragment: each tlast of s_axis has one
+--             of m_axis. The fragment before it waits until the next fragment or the frame's end is known. tkeep is all
+--             ones, except in a frame without fragments: it has one transfer with tlast = '1' and tkeep all zeros.
+--             fault = '1' at the transfer with tlast: the frame is faulty (frame_control), some of its fragments are
+--             missing or wrong. The next frame is drawn, also after a frame that ends without all its line
+--             records.
+-- Formats     axi_pkg: 32-bit words of an init vector, the fields of a fragment; formats_pkg
+-- Latency     13 clocks from a header taken to its triangle's first fragment, if its first line covers two pixels
+-- Throughput  that of spherical_shader within a frame. Between frames the pipeline becomes empty: see frame_control
+-- Error       that of spherical_shader
+-- Source      ours: AMBA 4 AXI4-Stream
+-- Golden twin that of spherical_shader
+
+library ieee;
+use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
+use work.axi_pkg.all;
+use work.cosine_pkg.all;
+use work.spherical_pkg.all;
+
+entity spherical_axi is
+  generic (
+    g_exact              : boolean := true;
+    g_channels           : positive := 3;
+    g_lights             : natural := 1;
+    g_diffuse            : boolean := true;
+    g_specular           : boolean := true;
+    g_highlight_channels : positive := g_channels;
+    g_powers             : natural := 2;
+    g_address_bits       : positive := cosine_address_bits(g_exact);
+    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_limit_bits         : positive := 26 -- of frame_control
+  );
+  port (
+    aclk          : in  std_logic;
+    aresetn       : in  std_logic;
+    s_axis_tvalid : in  std_logic;
+    s_axis_tready : out std_logic;
+    s_axis_tdata  : in  std_logic_vector(whole_words(init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
+      g_highlight_channels)) - 1 downto 0);
+    s_axis_tlast  : in  std_logic;
+    m_axis_tvalid : out std_logic;
+    m_axis_tready : in  std_logic;
+    m_axis_tdata  : out fragment_data_t;
+    m_axis_tkeep  : out fragment_keep_t;
+    m_axis_tlast  : out std_logic;
+    fault         : out std_logic
+  );
+end entity;
+
+architecture rtl of spherical_axi is
+
+  constant c_formats   : formats_t := formats(g_exact);
+  constant c_init_bits : positive  := init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
+    g_highlight_channels);
+
+  signal reset                          : std_logic;
+  signal init_valid, init_ready         : std_logic;
+  signal fragment_valid, fragment_ready : std_logic;
+  signal triangle                       : std_logic_vector(c_formats.triangle.bits - 1 downto 0);
+  signal y                              : std_logic_vector(c_formats.pixel_y.bits - 1 downto 0);
+  signal x                              : std_logic_vector(c_formats.pixel_x.bits - 1 downto 0);
+  signal z                              : std_logic_vector(c_formats.depth.bits - 1 downto 0);
+  signal red, green, blue               : std_logic_vector(c_formats.colour.bits - 1 downto 0);
+  signal fragment                       : fragment_data_t;
+  signal busy, stalled                  : std_logic;
+  signal shader_fault, shader_reset     : std_logic;
+  signal frame_end, done, is_empty      : std_logic;
+
+begin
+
+  reset <= not aresetn;
+
+  control : entity work.frame_control
+    generic map (
+      g_limit_bits => g_limit_bits
+      )
+    port map (
+      clk          => aclk,
+      reset        => reset,
+      in_valid     => s_axis_tvalid,
+      in_ready     => s_axis_tready,
+      in_last      => s_axis_tlast,
+      init_valid   => init_valid,
+      init_ready   => init_ready,
+      busy         => busy,
+      stalled      => stalled,
+      shader_fault => shader_fault,
+      shader_reset => shader_reset,
+      frame_end    => frame_end,
+      done         => done,
+      fault        => fault
+      );
+
+  core : entity work.spherical_shader
+    generic map (
+      g_exact              => g_exact,
+      g_channels           => g_channels,
+      g_lights             => g_lights,
+      g_diffuse            => g_diffuse,
+      g_specular           => g_specular,
+      g_highlight_channels => g_highlight_channels,
+      g_powers             => g_powers,
+      g_address_bits       => g_address_bits,
+      g_data_bits          => g_data_bits
+      )
+    port map (
+      clk               => aclk,
+      reset             => shader_reset,
+      init_valid        => init_valid,
+      init_ready        => init_ready,
+      init_data         => s_axis_tdata(c_init_bits - 1 downto 0),
+      fragment_valid    => fragment_valid,
+      fragment_ready    => fragment_ready,
+      fragment_triangle => triangle,
+      fragment_y        => y,
+      fragment_x        => x,
+      fragment_z        => z,
+      fragment_red      => red,
+      fragment_green    => green,
+      fragment_blue     => blue,
+      busy              => busy,
+      fault             => shader_fault
+      );
+
+  stalled  <= fragment_valid and not fragment_ready;
+  fragment <= fragment_data(triangle, y, x, z, red, green, blue);
+
+  fragments : entity work.frame_output
+    generic map (
+      g_bits => c_fragment_bits
+      )
+    port map (
+      clk       => aclk,
+      reset     => reset,
+      in_valid  => fragment_valid,
+      in_ready  => fragment_ready,
+      in_data   => fragment,
+      frame_end => frame_end,
+      out_valid => m_axis_tvalid,
+      out_ready => m_axis_tready,
+      out_data  => m_axis_tdata,
+      out_last  => m_axis_tlast,
+      out_empty => is_empty,
+      done      => done
+      );
+
+  m_axis_tkeep <= (others => not is_empty);
+
+end architecture;

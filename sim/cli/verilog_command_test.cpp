@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests of `halfway verilog`: the files, the comment at their start, and refused options. tb/verilog
+// simulates them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/cli/command_test.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class VerilogCommand : public CommandTest {
+ protected:
+  std::string text_of(const std::string& file) const {
+    const auto text = read_file(folder_->path() / "v/quadratic_shader-published-c1" / file);
+    EXPECT_TRUE(text) << text.error().message;
+    return text ? *text : "";
+  }
+  Outcome write(std::vector<std::string> more) const {
+    more.insert(more.begin(), {"verilog", HALFWAY_SOURCE_DIR "/sim/report/timing.toml", "--preset",
+                               "published", "--out", "v"});
+    return run(std::move(more));
+  }
+};
+
+TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
+  const Outcome outcome = write({});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("quadratic_shader.v: module quadratic_shader with 16 ports\n"));
+  EXPECT_EQ(text_of("quadratic_shader.f"), "quadratic_shader.v\n");
+  EXPECT_THAT(
+      text_of("quadratic_shader.v"),
+      AllOf(StartsWith("// SPDX-License-Identifier: Apache-2.0\n// quadratic_shader, hardware key "
+                       "quadratic_shader-published-c1: written by Halfway "),
+            HasSubstr("--shader quadratic --preset published\n"),
+            HasSubstr("\n// Generics: g_exact=false g_channels=1 g_degree=2\n"),
+            HasSubstr("\n// Ports, in this order:\n//   input       1  clk\n//   input       1  reset\n//   "
+                      "input       1  init_valid\n//   input     497  init_data\n"),
+            HasSubstr("\n//   output     12  fragment_y\n"), HasSubstr("\nmodule quadratic_shader\n")));
+}
+
+TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
+  const Outcome outcome = write({"--axi"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_EQ(text_of("quadratic_axi.f"), "quadratic_axi.v\n");
+  EXPECT_THAT(
+      text_of("quadratic_axi.v"),
+      AllOf(HasSubstr("--preset published --axi\n"), HasSubstr("\n//   input     512  s_axis_tdata\n"),
+            HasSubstr("\n//   output    128  m_axis_tdata\n"), HasSubstr("\nmodule quadratic_axi\n")));
+}
+
+TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {
+  EXPECT_THAT(run({"verilog", "nothing"}), Ends(2, HasSubstr("nothing")));
+  EXPECT_THAT(write({"--shader", "raytracer"}), Ends(2, HasSubstr("'raytracer'")));
+  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "v"));
+}
+
+}  // namespace
+}  // namespace halfway
