@@ -79,8 +79,8 @@ shaders/token_order.vhd
 shaders/fragment_output.vhd
 shaders/processors_shader.vhd
 axi/axi_pkg.vhd
-axi/frame_control.vhd
-axi/frame_output.vhd
+axi/axi_control.vhd
+axi/axi_output.vhd
 axi/quadratic_axi.vhd
 axi/spherical_axi.vhd
 axi/processors_axi.vhd

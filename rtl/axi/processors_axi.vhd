@@ -8,12 +8,12 @@
 --             m_axis: one fragment per transfer. tlast = '1' marks the frame's last fragment: each tlast of s_axis has one
 --             of m_axis. The fragment before it waits until the next fragment or the frame's end is known. tkeep is all
 --             ones, except in a frame without fragments: it has one transfer with tlast = '1' and tkeep all zeros.
---             fault = '1' at the transfer with tlast: the frame is faulty (frame_control), some of its fragments are
+--             fault = '1' at the transfer with tlast: the frame is faulty (axi_control), some of its fragments are
 --             missing or wrong. The next frame is drawn if it
 --             begins with new_frame and defines all lights: the fault has deleted them.
 -- Formats     axi_pkg: 32-bit words of an init vector, the fields of a fragment; formats_pkg
 -- Latency     that of processors_shader and 2 clocks, if another fragment follows
--- Throughput  that of processors_shader within a frame. Between frames the pipeline becomes empty: see frame_control
+-- Throughput  that of processors_shader within a frame. Between frames the pipeline becomes empty: see axi_control
 -- Error       that of processors_shader
 -- Source      ours: AMBA 4 AXI4-Stream
 -- Golden twin that of processors_shader
@@ -36,7 +36,7 @@ entity processors_axi is
     g_normalize   : boolean := true;
     g_shadows     : boolean := false;
     g_unrolled    : boolean := true;
-    g_limit_bits  : positive := 26 -- of frame_control
+    g_limit_bits  : positive := 26 -- of axi_control
   );
   port (
     aclk          : in  std_logic;
@@ -78,7 +78,7 @@ begin
 
   reset <= not aresetn;
 
-  control : entity work.frame_control
+  control : entity work.axi_control
     generic map (
       g_limit_bits => g_limit_bits
       )
@@ -134,7 +134,7 @@ begin
   stalled  <= fragment_valid and not fragment_ready;
   fragment <= fragment_data(triangle, y, x, z, red, green, blue);
 
-  fragments : entity work.frame_output
+  fragments : entity work.axi_output
     generic map (
       g_bits => c_fragment_bits
       )

@@ -8,12 +8,12 @@
 --             m_axis: one fragment per transfer. tlast = '1' marks the frame's last fragment: each tlast of s_axis has one
 --             of m_axis. The fragment before it waits until the next fragment or the frame's end is known. tkeep is all
 --             ones, except in a frame without fragments: it has one transfer with tlast = '1' and tkeep all zeros.
---             fault = '1' at the transfer with tlast: the frame is faulty (frame_control), some of its fragments are
+--             fault = '1' at the transfer with tlast: the frame is faulty (axi_control), some of its fragments are
 --             missing or wrong. The next frame is drawn, also after a frame that ends without all its line
 --             records.
 -- Formats     axi_pkg: 32-bit words of an init vector, the fields of a fragment; formats_pkg
 -- Latency     13 clocks from a header taken to its triangle's first fragment, if its first line covers two pixels
--- Throughput  that of spherical_shader within a frame. Between frames the pipeline becomes empty: see frame_control
+-- Throughput  that of spherical_shader within a frame. Between frames the pipeline becomes empty: see axi_control
 -- Error       that of spherical_shader
 -- Source      ours: AMBA 4 AXI4-Stream
 -- Golden twin that of spherical_shader
@@ -36,7 +36,7 @@ entity spherical_axi is
     g_powers             : natural := 2;
     g_address_bits       : positive := cosine_address_bits(g_exact);
     g_data_bits          : positive := cosine_data_bits(g_exact);
-    g_limit_bits         : positive := 26 -- of frame_control
+    g_limit_bits         : positive := 26 -- of axi_control
   );
   port (
     aclk          : in  std_logic;
@@ -78,7 +78,7 @@ begin
 
   reset <= not aresetn;
 
-  control : entity work.frame_control
+  control : entity work.axi_control
     generic map (
       g_limit_bits => g_limit_bits
       )
@@ -133,7 +133,7 @@ begin
   stalled  <= fragment_valid and not fragment_ready;
   fragment <= fragment_data(triangle, y, x, z, red, green, blue);
 
-  fragments : entity work.frame_output
+  fragments : entity work.axi_output
     generic map (
       g_bits => c_fragment_bits
       )

@@ -7,13 +7,13 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.tb_pkg.all;
 
-entity frame_control_tb is
+entity axi_control_tb is
   generic (
     g_folder : string := "" -- not used: there are no vectors
   );
 end entity;
 
-architecture sim of frame_control_tb is
+architecture sim of axi_control_tb is
   constant c_limit_bits : positive := 5;
   constant c_limit      : positive := 2 ** c_limit_bits;
 
@@ -35,7 +35,7 @@ architecture sim of frame_control_tb is
   signal fault        : std_logic;
   signal finished     : boolean := false;
 begin
-  dut : entity work.frame_control
+  dut : entity work.axi_control
     generic map (g_limit_bits => c_limit_bits)
     port map (
       clk          => clk,
@@ -61,7 +61,7 @@ begin
     procedure check (kind : frame_t; name : string; got, expected : integer) is
     begin
       assert got = expected
-        report "frame_control: frame " & frame_t'image(kind) & ": " & name & ": got " & to_string(got) & ", expected "
+        report "axi_control: frame " & frame_t'image(kind) & ": " & name & ": got " & to_string(got) & ", expected "
         & to_string(expected)
         severity failure;
     end procedure;
@@ -91,7 +91,7 @@ begin
           waits := waits + 1;
         end if;
         assert waits < c_limit + 15
-          report "frame_control: frame " & frame_t'image(kind) & " waits " & to_string(waits) & " clocks" severity failure;
+          report "axi_control: frame " & frame_t'image(kind) & " waits " & to_string(waits) & " clocks" severity failure;
         if left > 0 and stalled = '0' and kind /= stays_busy then
           left := left - 1;
         end if;
@@ -146,7 +146,7 @@ begin
         end loop;
       end loop;
     end loop;
-    report "frame_control_tb: passed" severity note;
+    report "axi_control_tb: passed" severity note;
     finished <= true;
     wait;
   end process;

@@ -18,7 +18,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 
-entity frame_output is
+entity axi_output is
   generic (
     g_bits : positive
   );
@@ -38,7 +38,7 @@ entity frame_output is
   );
 end entity;
 
-architecture rtl of frame_output is
+architecture rtl of axi_output is
 
   constant c_places : positive := 3;
 

@@ -7,13 +7,13 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.tb_pkg.all;
 
-entity frame_output_tb is
+entity axi_output_tb is
   generic (
     g_folder : string := "" -- not used: there are no vectors
   );
 end entity;
 
-architecture sim of frame_output_tb is
+architecture sim of axi_output_tb is
   constant c_bits   : positive := 16;
   constant c_frames : positive := 400;
 
@@ -31,7 +31,7 @@ architecture sim of frame_output_tb is
   signal done      : std_logic;
   signal finished  : boolean := false;
 begin
-  dut : entity work.frame_output
+  dut : entity work.axi_output
     generic map (g_bits => c_bits)
     port map (
       clk       => clk,
@@ -55,7 +55,7 @@ begin
     procedure check (frame : natural; name : string; got, expected : std_logic_vector) is
     begin
       assert got = expected
-        report "frame_output: frame " & to_string(frame) & ": " & name & " is " & to_hstring(got) & ", expected "
+        report "axi_output: frame " & to_string(frame) & ": " & name & " is " & to_hstring(got) & ", expected "
         & to_hstring(expected)
         severity failure;
     end procedure;
@@ -101,7 +101,7 @@ begin
           got := got + 1;
           exit when out_last = '1';
         end if;
-        assert clocks < 10_000 report "frame_output: frame " & to_string(frame) & " does not end" severity failure;
+        assert clocks < 10_000 report "axi_output: frame " & to_string(frame) & " does not end" severity failure;
       end loop;
       frame_end <= '0';
     end procedure;
@@ -128,7 +128,7 @@ begin
     wait until rising_edge(clk);
     check(c_frames, "out_valid after a reset", (0 => out_valid), "0");
     draw(c_frames, 5, 0, 0);
-    report "frame_output_tb: passed" severity note;
+    report "axi_output_tb: passed" severity note;
     finished <= true;
     wait;
   end process;

@@ -24,7 +24,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 
-entity frame_control is
+entity axi_control is
   generic (
     g_limit_bits : positive := 26 -- at least twice the clocks of the largest triangle
   );
@@ -46,7 +46,7 @@ entity frame_control is
   );
 end entity;
 
-architecture rtl of frame_control is
+architecture rtl of axi_control is
 
   -- Clocks without a vector or fragment in the shader before the frame ends: those in which it may report a fault.
   constant c_settle : positive := 8;
