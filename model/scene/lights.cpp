@@ -21,6 +21,26 @@ const char* to_string(LightKind kind) {
   std::abort();
 }
 
+bool has_highlight(LightKind kind) {
+  switch (kind) {
+    case LightKind::directional:
+    case LightKind::positional:
+    case LightKind::spot:
+      return true;
+  }
+  std::abort();
+}
+
+bool casts_shadow(LightKind kind) {
+  switch (kind) {
+    case LightKind::directional:
+    case LightKind::positional:
+    case LightKind::spot:
+      return true;
+  }
+  std::abort();
+}
+
 std::string name_of(LightRef light) {
   return fmt::format("{} light {}", to_string(light.kind), light.index + 1);
 }

@@ -24,6 +24,10 @@ inline constexpr std::array c_light_kinds = {LightKind::directional, LightKind::
 /// For example "positional".
 const char* to_string(LightKind kind);
 
+/// What a light of this kind adds to its diffuse term. It decides which effects a scene needs.
+bool has_highlight(LightKind kind);
+bool casts_shadow(LightKind kind);
+
 /// Identifies one light of a scene.
 struct LightRef {
   LightKind kind;

@@ -187,6 +187,7 @@ struct LightOnTriangle {
   std::optional<Cone> to_light;              // empty if the light is too close for a cone
   std::array<glm::dvec3, 6> to_light_world;  // unit, at the samples
   glm::dvec3 intensity;
+  bool highlight;
 };
 
 struct ViewedTriangle {
@@ -235,6 +236,7 @@ double diffuse_amplitude(const Material& m, const LightOnTriangle& light) {
   return m.diffuse * largest(m.colour * light.intensity) * c_steps;
 }
 double specular_amplitude(const Material& m, const LightOnTriangle& light) {
+  if (!light.highlight) return 0.0;
   return m.specular * largest(m.specular_colour * light.intensity) * c_steps;
 }
 
@@ -373,6 +375,14 @@ SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>
   return {greatest, std::min(fall, c_spot_edge * turn * turn)};
 }
 
+// Both together.
+double missed_spot(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
+                   const LightOnTriangle& light, const LightCone& cone) {
+  const Missed whole = missed_light(m, t, view, light);
+  const SpotOnTriangle spot = spot_on_triangle(cone, light.to_light, light.to_light_world);
+  return whole.steps * spot.greatest + whole.greatest * spot.missed;
+}
+
 // Directions at the vertices whose differences are at most this long span cones that are narrower than 1.05
 // times this. Then no cone is too wide for the samples, if light and eye are at most 120 degrees apart.
 constexpr double c_narrow_normals = 0.35;
@@ -404,10 +414,11 @@ Extent quick_extent(const std::array<glm::dvec3, 6>& w) {
           std::sqrt(uneven2)};
 }
 
+constexpr double c_unknown = std::numeric_limits<double>::infinity();
+
 // An upper bound of missed_light without cones. Infinite for wide triangles, for Cook-Torrance and for spots.
 double quick_bound(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                    const LightOnTriangle& light) {
-  constexpr double c_unknown = std::numeric_limits<double>::infinity();
   const auto& to_light = light.to_light_world;
   if (!is_narrow(to_light[0], to_light[1], to_light[2], c_narrow_directions)) return c_unknown;
   const DiffuseCosines n_dot_l(t, light);
@@ -435,7 +446,7 @@ std::array<glm::dvec3, 6> directions_to(const SampledTriangle& t, const glm::dve
 
 // At the samples; without a cone.
 LightOnTriangle light_at_samples(const Light& light, const SampledTriangle& t) {
-  LightOnTriangle on_triangle{{}, {}, light.intensity};
+  LightOnTriangle on_triangle{{}, {}, light.intensity, has_highlight(light.ref.kind)};
   if (light.point.w == 0.0)
     on_triangle.to_light_world.fill(light.point.xyz_world);
   else
@@ -443,8 +454,8 @@ LightOnTriangle light_at_samples(const Light& light, const SampledTriangle& t) {
   return on_triangle;
 }
 
-double quick_bound(const Scene& scene, const Material& m, const SampledTriangle& t) {
-  constexpr double c_unknown = std::numeric_limits<double>::infinity();
+// The sum of the lights' quick bounds.
+double quick_sum(const Scene& scene, const Material& m, const SampledTriangle& t) {
   const auto& s = t.surface;
   if (!is_narrow(s[0].normal_world, s[1].normal_world, s[2].normal_world, c_narrow_normals)) return c_unknown;
   const ViewedTriangle view{{}, {}, directions_to(t, scene.camera.eye_world)};
@@ -452,7 +463,15 @@ double quick_bound(const Scene& scene, const Material& m, const SampledTriangle&
   if (!is_narrow(to_eye[0], to_eye[1], to_eye[2], c_narrow_directions)) return c_unknown;
   double sum = 0.0;
   for_each_light(scene, [&](const Light& light) {
-    sum += light.cone ? c_unknown : quick_bound(m, t, view, light_at_samples(light, t));
+    switch (light.ref.kind) {
+      case LightKind::directional:
+      case LightKind::positional:
+        sum += quick_bound(m, t, view, light_at_samples(light, t));
+        break;
+      case LightKind::spot:
+        sum += c_unknown;
+        break;
+    }
   });
   return sum;
 }
@@ -476,21 +495,22 @@ double missed_highlight_bound(const Scene& scene, const Material& m, const Sampl
     LightOnTriangle on_triangle = light_at_samples(light, t);
     const glm::dvec3& from = light.point.xyz_world;
     on_triangle.to_light = light.point.w == 0.0 ? Cone{from, 0.0} : cone_to(t, from);
-    const Missed whole = missed_light(m, t, view, on_triangle);
-    if (!light.cone) {
-      missed += whole.steps;
-      return;
+    switch (light.ref.kind) {
+      case LightKind::directional:
+      case LightKind::positional:
+        missed += missed_light(m, t, view, on_triangle).steps;
+        break;
+      case LightKind::spot:
+        missed += missed_spot(m, t, view, on_triangle, *light.cone);
+        break;
     }
-    const SpotOnTriangle spot =
-        spot_on_triangle(*light.cone, on_triangle.to_light, on_triangle.to_light_world);
-    missed += whole.steps * spot.greatest + whole.greatest * spot.missed;
   });
   return missed;
 }
 
 bool may_miss_highlight(const Scene& scene, const Material& m, const SampledTriangle& t, double steps) {
   constexpr double c_margin = 1.001;  // for rounding
-  return !(c_margin * quick_bound(scene, m, t) <= steps) && missed_highlight_bound(scene, m, t) > steps;
+  return !(c_margin * quick_sum(scene, m, t) <= steps) && missed_highlight_bound(scene, m, t) > steps;
 }
 
 }  // namespace halfway

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <iostream>
 #include <map>
@@ -106,6 +107,7 @@ There vectors_there(const Scene& scene, const SurfacePoint& point) {
         const Real across = Real{s.cos_inner} - s.cos_outer;
         const Real t = std::clamp<Real>((-glm::dot(l, Vector(s.axis_world)) - s.cos_outer) / across, 0, 1);
         add(l, t * t * (3 - 2 * t));
+        break;
       }
     }
   return out;

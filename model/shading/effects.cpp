@@ -45,8 +45,16 @@ bool is_coloured(const Material& m) {
   return !is_grey(m.colour) || has_coloured_highlight(m);
 }
 
-std::string first_coloured_light(const Scene& scene) {
-  for (const LightRef light : shining_lights(scene))
+// The shining lights of the kinds that pass the test.
+std::vector<LightRef> shining_lights(const Scene& scene, bool (*test)(LightKind)) {
+  std::vector<LightRef> lights = shining_lights(scene);
+  std::erase_if(lights, [&](LightRef light) { return !test(light.kind); });
+  return lights;
+}
+
+// Names the first light that is not grey. Empty if there is none.
+std::string first_coloured(const Scene& scene, const std::vector<LightRef>& lights) {
+  for (const LightRef light : lights)
     if (!is_grey(light_of(scene, light).intensity)) return name_of(light) + " is coloured";
   return {};
 }
@@ -60,7 +68,8 @@ Call call_ambient(const Scene& scene, const Materials& in_use) {
 
 Call call_colour(const Scene& scene, const Materials& in_use) {
   if (!is_grey(scene.ambient)) return {true, "the ambient light is coloured"};
-  if (std::string light = first_coloured_light(scene); !light.empty()) return {true, std::move(light)};
+  if (std::string light = first_coloured(scene, shining_lights(scene)); !light.empty())
+    return {true, std::move(light)};
   if (const Material* m = first(in_use, is_coloured))
     return {true, fmt::format("material '{}' is coloured", m->name)};
   return {false, "every light and material is grey"};
@@ -75,8 +84,8 @@ Call call_diffuse(const Materials& in_use, bool lit) {
   return {true, fmt::format("material '{}' has k_d {:g}", m->name, m->diffuse)};
 }
 
-Call call_specular(const Materials& in_use, bool lit) {
-  if (!lit) return {false, c_no_light};
+Call call_specular(const Scene& scene, const Materials& in_use) {
+  if (shining_lights(scene, has_highlight).empty()) return {false, c_no_light};
   const Material* m = first(in_use, has_specular);
   if (m == nullptr) return {false, "every k_s is 0"};
   return {true, fmt::format("material '{}' has k_s {:g}", m->name, m->specular)};
@@ -86,7 +95,8 @@ const char* c_no_highlight = "there is no highlight";
 
 Call call_highlight_colour(const Scene& scene, const Materials& in_use, const Call& specular) {
   if (!specular.called_for) return {false, c_no_highlight};
-  if (std::string light = first_coloured_light(scene); !light.empty()) return {true, std::move(light)};
+  if (std::string light = first_coloured(scene, shining_lights(scene, has_highlight)); !light.empty())
+    return {true, std::move(light)};
   if (const Material* m = first(in_use, has_coloured_highlight))
     return {true, fmt::format("the highlights of material '{}' are coloured", m->name)};
   return {false, "every highlight is white"};
@@ -167,7 +177,7 @@ SceneCalls calls_of(const Scene& scene) {
   const bool lit = !shining_lights(scene).empty();
   at(Effect::ambient) = call_ambient(scene, in_use);
   at(Effect::diffuse) = call_diffuse(in_use, lit);
-  at(Effect::specular) = call_specular(in_use, lit);
+  at(Effect::specular) = call_specular(scene, in_use);
   at(Effect::highlight_colour) = call_highlight_colour(scene, in_use, at(Effect::specular));
   at(Effect::exponents) = call_exponents(in_use, at(Effect::specular));
   at(Effect::directional) = call_lights(scene, LightKind::directional, calls);
@@ -178,7 +188,10 @@ SceneCalls calls_of(const Scene& scene) {
     return {true, why};
   };
   at(Effect::shadow) = {false, "the scene has no shadows"};
-  if (scene.shadows) at(Effect::shadow) = where_reflected("surfaces cast shadows");
+  if (scene.shadows)
+    at(Effect::shadow) = shining_lights(scene, casts_shadow).empty()
+                             ? Call{false, c_no_light}
+                             : where_reflected("surfaces cast shadows");
   at(Effect::normalization) = where_reflected("reflection uses cosines between unit vectors");
   at(Effect::colour) = call_colour(scene, in_use);
   at(Effect::depth) = {true, "the z test needs every fragment's depth"};

@@ -14,7 +14,7 @@
 --             started: there is room if no vector waits and no frame is being ended. frame_end is '1' for one clock,
 --             with background, only if ending was '0' when the packet started.
 -- Formats     g_init_bits: init vector, most significant bit first
--- Latency     3 clocks from select_n = '1' to init_valid or frame_end
+-- Latency     2 clocks from select_n = '1' to init_valid or frame_end
 -- Throughput  1 bit in 4 clocks
 -- Error       a damaged packet is taken with probability 2**-16 if its errors are random; bursts of up to 16 bits are
 --             always found

@@ -91,9 +91,19 @@ begin
 
   receive : process (clk) is
     variable waiting : boolean := false;
+    variable valid_before : boolean := false;
     variable held    : std_logic_vector(init_data'range);
+    variable since   : natural := 0; -- clocks with pin_select_n = '1', this one included
   begin
     if rising_edge(clk) and reset = '0' then
+      since := since + 1;
+      if pin_select_n = '0' then
+        since := 0;
+      end if;
+      assert not (frame_end = '1' or (init_valid = '1' and not valid_before)) or since = 3
+        report "spi_receiver_tb: the packet comes out after " & to_string(since - 1) & " clocks, expected 2"
+        severity failure;
+      valid_before := init_valid = '1';
       assert not waiting or (init_valid = '1' and init_data = held)
         report "spi_receiver_tb: a vector that waits changes" severity failure;
       waiting := init_valid = '1' and init_ready = '0';

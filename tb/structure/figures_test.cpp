@@ -163,7 +163,7 @@ std::vector<Sourced> formed() {
                   fmt::format("at most {} MHz (a quarter of the system clock)", synth::c_board_mhz / 4.0)});
   list.push_back(
       {"docs/board.md", fmt::format("so at {0} MHz large triangles that have been received are drawn at "
-                                    "{0} · 0.9 · 16 / 52 = {1:.1f} million fragments per second.",
+                                    "{0} · 0.9 · 16 / 52 = {1:.1f} million fragments per second:",
                                     synth::c_board_mhz, synth::c_board_mhz * 0.9 * 16 / 52)});
   std::ranges::copy(bounds_example(), std::back_inserter(list));
   // The table of the folded processor's clocks.

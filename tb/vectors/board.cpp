@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/board_pixel.hpp"
+#include "golden/quadratic_shader.hpp"
 #include "sim/stream_files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
+#include "vectors/triangles.hpp"
 
 namespace halfway::vectors {
 
@@ -54,6 +56,27 @@ Status write_scan_out(const std::filesystem::path& folder) {
   }
   for (int i = 0; i < 1152; ++i) add(static_cast<std::uint32_t>(random.bits(16)));
   return file.write(folder / "colours.txt");
+}
+
+// Init vectors of large triangles inside the frame, for planes of three channels.
+Status write_drawing_rate(const std::filesystem::path& folder) {
+  using Shader = golden::QuadraticShader<golden::Exact, 3, 1>;
+  constexpr std::size_t c_triangles = 3;
+  constexpr std::int64_t c_least_pixels = 3000;
+  Random random(3);
+  VectorFile file;
+  while (file.size() < c_triangles) {
+    const InitVector init = random_triangle<golden::Exact>(random, Mix::dense, Shader::c_init_bits);
+    std::int64_t pixels = 0;
+    bool inside = true;
+    for (const WalkedLine& line : walk_lines<golden::Exact>(init)) {
+      pixels += line.pixels();
+      for (const std::int64_t x : {line.start.value(), line.stop.value()})
+        inside = inside && line.y < golden::c_board_height && x >= 0 && x < golden::c_board_width;
+    }
+    if (inside && pixels >= c_least_pixels) file.words_of(init, Shader::c_init_bits).end_vector();
+  }
+  return file.write(folder / "init.txt");
 }
 
 }  // namespace halfway::vectors

@@ -19,6 +19,7 @@ Status write_stream_register(const std::filesystem::path& folder);
 Status write_stream_queue(const std::filesystem::path& folder);
 Status write_fragment_pixel(const std::filesystem::path& folder);
 Status write_scan_out(const std::filesystem::path& folder);
+Status write_drawing_rate(const std::filesystem::path& folder);
 Status write_function_rom(const std::filesystem::path& folder);
 Status write_dot_product(const std::filesystem::path& folder);
 Status write_vector_multiply(const std::filesystem::path& folder);

@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
       std::pair{"fragment_pixel", &write_fragment_pixel},
       std::pair{"scan_out", &write_scan_out},
       std::pair{"board_top", &write_scan_out},
+      std::pair{"drawing_rate", &write_drawing_rate},
   };
   bool found = false;
   for (const auto& [name, write] : c_entities) {
