@@ -55,7 +55,9 @@ Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stag
   const auto runner = GhdlRunner::open(key, folders);
   if (!runner) return runner.error();
   std::vector<std::string> paths;
-  for (const auto& [path, in_netlist] : stages.signals()) paths.push_back(in_testbench(path));
+  for (const TracedPart& part : stages.parts())
+    if (const std::string path = in_testbench(part.path); paths.empty() || paths.back() != path)
+      paths.push_back(path);
   GhdlRunOptions options;
   options.max_fragments = static_cast<std::uint32_t>(fragments + c_most_surplus);
   options.idle_limit = c_idle_limit;

@@ -379,15 +379,20 @@ std::string channel_name(unsigned channel, unsigned channels) {
   return channels == 1 ? "grey" : c_colours[channel];
 }
 
-std::map<std::string, std::string> ShaderStages::signals() const {
-  std::map<std::string, std::string> paths = {{c_first_valid, c_first_valid}, {c_first_ready, c_first_ready}};
+std::set<TracedPart> ShaderStages::parts() const {
+  std::set<TracedPart> parts;
+  const auto add = [&](const Signal& signal, int bits) {
+    parts.insert(
+        {signal.path, signal.netlist_path.empty() ? signal.path : signal.netlist_path, signal.low, bits});
+  };
+  add({c_first_valid}, 1);
+  add({c_first_ready}, 1);
   for (const Stage& stage : stages_) {
-    for (const std::string& strobe : stage.strobes) paths.emplace(strobe, strobe);
-    for (const StageWord& word : stage.words)
-      paths.emplace(word.signal.path,
-                    word.signal.netlist_path.empty() ? word.signal.path : word.signal.netlist_path);
+    for (const std::string& strobe : stage.strobes) add({strobe}, 1);
+    for (const StageWord& word : stage.words) add(word.signal, word.bits);
+    if (stage.command) add(*stage.command, stage.words.front().bits);
   }
-  return paths;
+  return parts;
 }
 
 std::vector<std::vector<RtlEvent>> ShaderStages::read(const SignalTrace& trace) const {

@@ -5,11 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "plan/hardware_key.hpp"
@@ -56,6 +57,15 @@ struct RtlEvent {
   std::vector<std::optional<std::uint64_t>> words;  ///< std::nullopt if a bit is neither 0 nor 1
 };
 
+/// Bits of a signal that ShaderStages::read needs.
+struct TracedPart {
+  std::string path, netlist_path;  ///< in a simulation, and in the netlist
+  int low, bits;
+  friend bool operator<(const TracedPart& a, const TracedPart& b) {
+    return std::tie(a.path, a.low, a.bits) < std::tie(b.path, b.low, b.bits);
+  }
+};
+
 /// The signals of a simulation: their values before each rising edge of the clock.
 class SignalTrace {
  public:
@@ -76,8 +86,8 @@ class ShaderStages {
   /// pixels the stages from the span to the fragment, without stages that the pixel does not reach.
   virtual std::vector<GoldenEvent> draw(std::span<const std::uint32_t> init_words) = 0;
 
-  /// The paths of the signals that read() needs in a trace, each with its path in the netlist.
-  std::map<std::string, std::string> signals() const;
+  /// What read() needs in a trace, each part once.
+  std::set<TracedPart> parts() const;
   /// Read the events of a trace: one list per stage.
   std::vector<std::vector<RtlEvent>> read(const SignalTrace& trace) const;
 
