@@ -21,23 +21,14 @@ struct WhyCommand {
   std::string pixel;
 };
 
-std::optional<std::pair<std::uint32_t, std::uint32_t>> parse_pixel(std::string_view text) {
+std::optional<FramePixel> parse_pixel(std::string_view text) {
   std::uint32_t x = 0, y = 0;
   const char* const end = text.data() + text.size();
   const auto [comma, x_error] = std::from_chars(text.data(), end, x);
   if (x_error != std::errc{} || comma == end || *comma != ',') return std::nullopt;
   const auto [rest, y_error] = std::from_chars(comma + 1, end, y);
   if (y_error != std::errc{} || rest != end) return std::nullopt;
-  return std::pair{x, y};
-}
-
-std::string word(std::uint64_t bits, const StageValue& v) {
-  const std::int64_t value = v.is_signed ? static_cast<std::int64_t>(bits << (64 - v.bits)) >> (64 - v.bits)
-                                         : static_cast<std::int64_t>(bits);
-  const std::string hex = fmt::format("{:0{}x}", bits, (v.bits + 3) / 4);
-  if (v.fraction_bits == 0) return fmt::format("{} = {}", hex, value);
-  return fmt::format("{} = {:.6f}", hex,
-                     static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << v.fraction_bits));
+  return FramePixel{x, y};
 }
 
 // Widths of the columns: the longest name and the longest golden word.
@@ -47,7 +38,7 @@ struct Widths {
   void take(const std::vector<StageValue>& values) {
     for (const StageValue& v : values) {
       name = std::max(name, v.name.size());
-      golden = std::max(golden, word(v.golden, v).size());
+      golden = std::max(golden, text_of(v.golden, v).size());
     }
   }
 };
@@ -65,7 +56,7 @@ Widths widths_of(const WhyReport& why) {
 void print_given(const std::string& what, const std::vector<StageValue>& values, const Widths& widths) {
   if (values.empty()) return;
   fmt::print("  {} (given to both)\n", what);
-  for (const StageValue& v : values) fmt::print("    {:<{}} {}\n", v.name, widths.name, word(v.golden, v));
+  for (const StageValue& v : values) fmt::print("    {:<{}} {}\n", v.name, widths.name, text_of(v.golden, v));
 }
 
 void print_stage(const StageState& stage, const Widths& widths) {
@@ -74,9 +65,10 @@ void print_stage(const StageState& stage, const Widths& widths) {
   else
     fmt::print("  {} stage: the RTL never came here\n", stage.stage);
   for (const StageValue& v : stage.values) {
-    fmt::print("    {:<{}} golden {:<{}} RTL {}{}\n", v.name, widths.name, word(v.golden, v), widths.golden,
+    fmt::print("    {:<{}} golden {:<{}} RTL {}{}\n", v.name, widths.name, text_of(v.golden, v),
+               widths.golden,
                !stage.cycle ? "-"
-               : v.rtl      ? word(*v.rtl, v)
+               : v.rtl      ? text_of(*v.rtl, v)
                             : "no number",
                v.golden == v.rtl ? "" : "   <-- differs");
   }
@@ -88,7 +80,7 @@ int run(const Folders& folders, const WhyCommand& command) {
   const auto pixel = parse_pixel(command.pixel);
   if (!pixel)
     return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
-  if (pixel->first >= draw->size.width || pixel->second >= draw->size.height)
+  if (pixel->x >= draw->size.width || pixel->y >= draw->size.height)
     return report(bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
                                         draw->size.width, draw->size.height)));
   const auto scene = load_scene(command.scene, folders.scenes());
@@ -99,16 +91,16 @@ int run(const Folders& folders, const WhyCommand& command) {
   settings.size = draw->size;
   settings.setup = draw->setup;
   settings.threads = draw->threads;
-  settings.x = pixel->first;
-  settings.y = pixel->second;
+  settings.pixel = *pixel;
   settings.folders = {folders.source, folders.cache()};
   settings.on_progress = [&](double done) { progress.show(done); };
   const auto why = explain_pixel(*scene, settings);
   progress.clear();
   if (!why) return report(why.error());
 
-  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.x,
-             settings.y, settings.size.width, settings.size.height, why->key.name(), why->stories.size());
+  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.pixel.x,
+             settings.pixel.y, settings.size.width, settings.size.height, why->key.name(),
+             why->stories.size());
   const Widths widths = widths_of(*why);
   for (const PixelStory& story : why->stories) {
     fmt::print("\ntriangle {}, init vector {}\n", story.triangle, story.vector);
@@ -118,12 +110,7 @@ int run(const Folders& folders, const WhyCommand& command) {
   }
   if (!why->fault.empty()) fmt::print("\n{}\n", why->fault);
   if (why->first) {
-    const FirstDifference& d = *why->first;
-    fmt::print(
-        "\nfirst difference in the frame: {} stage ({}), cycle {}: triangle {}, line {}, pixel {}: {}: "
-        "golden {}, "
-        "RTL {}\n",
-        d.stage, d.entity, d.cycle, d.triangle, d.y, d.x, d.value, d.golden, d.rtl);
+    fmt::print("\nfirst difference in the frame: {}\n", why->first->text());
     return static_cast<int>(ExitCode::differs);
   }
   if (why->fragments == 0 && !why->frame_difference && why->fault.empty()) {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "golden/word.hpp"
-#include "sim/run/stages.hpp"
+#include "sim/run/stage_trace.hpp"
 
 namespace halfway::figures {
 

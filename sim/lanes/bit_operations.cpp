@@ -130,6 +130,28 @@ Words BitOperations::to_words(const Bits& bits, bool arithmetic) {
   return words;
 }
 
+Words BitOperations::to_unnoted_words(const Bits& bits) {
+  Words words;
+  const unsigned width = width_of(bits);
+  for (unsigned low = 0; low < width; low += c_lane_word) {
+    int sum = graph().constant(0);
+    unsigned at = 0;
+    for (const Piece& piece : slice(bits, low, std::min(width - low, c_lane_word))) {
+      const std::uint64_t field = low_ones(piece.width) << at;
+      const int part =
+          is_mask(piece)
+              ? graph().fill(piece.node, field)
+              : graph().operate(LaneOp::both,
+                                graph().shift(piece.node, static_cast<int>(at) - static_cast<int>(piece.low)),
+                                graph().constant(field));
+      sum = graph().operate(LaneOp::either, sum, part);
+      at += piece.width;
+    }
+    words.push_back(sum);
+  }
+  return words;
+}
+
 Bits BitOperations::from_words(const Words& words, unsigned width) {
   Bits bits;
   for (unsigned low = 0; low < width; low += c_lane_word)

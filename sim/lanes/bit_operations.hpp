@@ -31,6 +31,9 @@ class BitOperations {
   // Convert. With `arithmetic` the bits are one number: no cut inside it.
   int to_vector(const Bits& bits, bool arithmetic = true);
   Words to_words(const Bits& bits, bool arithmetic = true);
+  /// The words without a note in the layout: reading a signal in this way leaves the rest of the text as it
+  /// is.
+  Words to_unnoted_words(const Bits& bits);
   Bits from_words(const Words& words, unsigned width);
   int to_mask(const Bits& bits);
   bool is_mask(const Piece& piece) { return graph()[piece.node].is_mask(); }

@@ -32,13 +32,32 @@ class StepEmitter {
     return text_ + "}\n";
   }
 
+  /// c_observed_words and observe().
+  std::string emit_observe() {
+    Words words;
+    for (const Words& part : step_.observed) words.insert(words.end(), part.begin(), part.end());
+    text_ = fmt::format("constexpr std::size_t c_observed_words = {};\n", words.size()) +
+            "LANE_STEP void observe(const State& s, const Inputs& in, std::uint32_t* words) {\n";
+    emit_late();
+    std::vector<bool> used;
+    CellSet cells;
+    for (const int word : words) mark_used(step_.graph, word, used, cells);
+    emit_nodes(used, {});
+    for (std::size_t i = 0; i < words.size(); ++i)
+      text_ += fmt::format("  words[{}] = {}[0];\n", i, reference(words[i]));
+    return text_ + "}\n";
+  }
+
  private:
   void emit_rings() {
-    for (std::size_t i = 0; i < schedule_.rings.size(); ++i) {
+    for (std::size_t i = 0; i < schedule_.rings.size(); ++i)
       text_ += fmt::format("  Late{0}& next{0} = s.ring{0}.next();\n", i);
+    emit_late();
+  }
+  void emit_late() {
+    for (std::size_t i = 0; i < schedule_.rings.size(); ++i)
       for (unsigned age = 0; age <= c_oldest; ++age)
         text_ += fmt::format("  const Late{0}& late{0}_{1} = s.ring{0}.late({1});\n", i, age);
-    }
   }
 
   /// The masks of the rings, before a group changes a cell that is one of them.
@@ -325,8 +344,11 @@ class StateEmitter {
 
 std::string emit_lanes(const EmittedHardware& hardware, const ScheduledStep& step,
                        const ScheduledStep& reset_step) {
-  return StateEmitter(hardware, step.step).emit() + StepEmitter(step, hardware.delays).emit("step") +
-         StepEmitter(reset_step, hardware.delays).emit("reset_step");
+  std::string text = StateEmitter(hardware, step.step).emit() +
+                     StepEmitter(step, hardware.delays).emit("step") +
+                     StepEmitter(reset_step, hardware.delays).emit("reset_step");
+  if (!step.step.observed.empty()) text += StepEmitter(step, hardware.delays).emit_observe();
+  return text;
 }
 
 }  // namespace halfway

@@ -45,6 +45,9 @@ class GraphBuilder {
     }
     // Registers and memories after it.
     for (const pugi::xml_node statement : netlist_.clocked) execute(statement, {});
+    if (!reset_)
+      for (const ObservedPart& part : ports_.observed)
+        step_.observed.push_back(ops_.to_unnoted_words(ops_.slice(signal(part.path), part.low, part.bits)));
     if (!ops_.error().empty()) return tool_failed(ops_.error());
     return std::move(step_);
   }

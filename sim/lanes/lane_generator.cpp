@@ -37,11 +37,37 @@ Result<Steps> build_steps(const LaneNetlist& netlist, const LanePorts& ports, Ce
   }
 }
 
+/// The observed parts with their signals' names in the netlist as paths.
+Result<std::vector<ObservedPart>> in_netlist(const LanePorts& ports, const LaneNetlist& netlist,
+                                             const RegisterNames& names) {
+  std::vector<ObservedPart> parts = ports.observed;
+  if (parts.empty()) return parts;
+  // Verilator omits the top in the names of its ports and of ports of instances.
+  const std::string top = ports.top + '.';
+  std::map<std::string, std::string> by_path;
+  const auto add = [&](const std::string& name) {
+    by_path.emplace(names.path(name.starts_with(top) ? name : top + name), name);
+  };
+  for (const auto& [name, width] : netlist.inputs) add(name);
+  for (const auto& [name, driver] : netlist.drivers) add(name);
+  for (ObservedPart& part : parts) {
+    const auto name = by_path.find(part.path);
+    if (name == by_path.end()) return tool_failed(part.path + ": the netlist has no such signal to observe");
+    part.path = name->second;
+  }
+  return parts;
+}
+
 }  // namespace
 
-Result<std::string> generate_lanes(std::string_view xml, const LanePorts& ports, const RegisterNames& names) {
+Result<std::string> generate_lanes(std::string_view xml, const LanePorts& rtl_ports,
+                                   const RegisterNames& names) {
   auto netlist = read_lane_netlist(xml);
   if (!netlist) return netlist.error();
+  LanePorts ports = rtl_ports;
+  auto observed = in_netlist(rtl_ports, *netlist, names);
+  if (!observed) return observed.error();
+  ports.observed = std::move(*observed);
   netlist->inputs.erase("reset");
   for (const auto& fixed : ports.fixed) netlist->inputs.erase(fixed.first);
 

@@ -104,6 +104,8 @@ Status generate_text(const LaneBuild& build, const std::filesystem::path& folder
   if (auto written = write_file(folder / "netlist.v", build.netlist); !written) return written.error();
   Command verilate{.arguments = {"verilator"}, .working_folder = folder};
   verilate.arguments.insert(verilate.arguments.end(), c_verilator_flags.begin(), c_verilator_flags.end());
+  // This optimization removes signals.
+  if (!build.ports.observed.empty()) verilate.arguments.emplace_back("-fno-dfg");
   verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "netlist.v"});
   if (auto done = run_tool(verilate, c_install_verilator, build.name); !done) return done.error();
   const auto xml = read_file(folder / "netlist.xml");
@@ -148,6 +150,8 @@ Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::fil
     hash.add(std::to_string(list->size()));
     for (const std::string& item : *list) hash.add(item);
   }
+  for (const ObservedPart& part : build.ports.observed)
+    hash.add(fmt::format("{} {} {}", part.path, part.low, part.bits));
   for (const auto& [port, value] : build.ports.fixed) hash.add(port).add(value ? "1" : "0");
   const std::filesystem::path parent = std::filesystem::absolute(cache) / "lanes";
   const std::filesystem::path folder = parent / fmt::format("{}-{}", build.name, hash.hex());

@@ -47,6 +47,7 @@ struct Ring {
   unsigned clock = 0;
   Place& next() { return of[(clock + 1) % places]; }
   Place& late(unsigned age) { return of[(clock - age) % places]; }
+  const Place& late(unsigned age) const { return of[(clock - age) % places]; }
 };
 /// Copy the values of these lanes to the next younger place, and so undo a move.
 template <class Place, unsigned places>

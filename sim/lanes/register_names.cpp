@@ -181,7 +181,7 @@ RegisterNames::RegisterNames(std::string_view netlist, const std::filesystem::pa
   Reader(*this, source).read(netlist);
 }
 
-std::string RegisterNames::name(std::string_view signal, unsigned bits, unsigned low, unsigned width) const {
+RegisterNames::Place RegisterNames::place_of(std::string_view signal) const {
   // Follow the instances from the top.
   const auto find = [&](const std::string& entity) {
     const auto found = entities_.find(entity);
@@ -202,11 +202,23 @@ std::string RegisterNames::name(std::string_view signal, unsigned bits, unsigned
     const auto found = entity->instances.find(instance);
     entity = found == entity->instances.end() ? nullptr : find(found->second);
   }
+  // Prefer the name of the signal that has a register's value.
   std::string text(signal);
+  if (entity != nullptr)
+    if (const auto found = entity->signals.find(text); found != entity->signals.end()) text = found->second;
+  return {entity, path, text};
+}
+
+std::string RegisterNames::path(std::string_view signal) const {
+  const Place place = place_of(signal);
+  return place.instance + path_of(place.entity, place.signal);
+}
+
+std::string RegisterNames::name(std::string_view signal, unsigned bits, unsigned low, unsigned width) const {
+  const auto [entity, path, text] = place_of(signal);
   if (entity == nullptr) return path + text + (width == bits ? "" : range(low, width));
 
-  // Find the signal and the smallest field around the bits.
-  if (const auto found = entity->signals.find(text); found != entity->signals.end()) text = found->second;
+  // Find the smallest field around the bits.
   std::pair<unsigned, unsigned> best{0, bits};
   std::string field;
   if (const auto fields = entity->fields.find(text); fields != entity->fields.end()) {

@@ -25,6 +25,9 @@ class RegisterNames {
   /// `signal` is the name in the flattened netlist: top, instances and register, with dots.
   std::string name(std::string_view signal, unsigned bits, unsigned low, unsigned width) const;
 
+  /// The path of a whole signal, for example walker/spans/valid.
+  std::string path(std::string_view signal) const;
+
   /// All names, for the key of a cache.
   std::string text() const;
 
@@ -39,6 +42,12 @@ class RegisterNames {
     std::map<std::string, std::map<std::pair<unsigned, unsigned>, std::string>> fields;
   };
   class Reader;
+  /// A signal's entity, the path of the entity's instance, and the signal's name there.
+  struct Place {
+    const Entity* entity;  ///< nullptr if unknown
+    std::string instance, signal;
+  };
+  Place place_of(std::string_view signal) const;
   static std::string path_of(const Entity* entity, std::string name);
   std::map<std::string, Entity> entities_;
 };

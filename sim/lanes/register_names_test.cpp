@@ -73,6 +73,13 @@ TEST(RegisterNames, AreThoseOfTheRtl) {
   EXPECT_EQ(names.name("top.unknown.n5_q", 2, 1, 1), "unknown/n5_q(1)");
 }
 
+TEST(RegisterNames, HavePathsOfSignalsThatAreNotRegisters) {
+  const RegisterNames names(c_netlist, "/nonexistent");
+  EXPECT_EQ(names.path("top.stages_n2_first_stage.n5_q"), "stages_n2_first_stage/r");
+  EXPECT_EQ(names.path("top.stages_n2_first_stage.x"), "stages_n2_first_stage/x");
+  EXPECT_EQ(names.path("top.x"), "x");
+}
+
 TEST(RegisterNames, AreTheNetlistsWithoutTheRtl) {
   EXPECT_EQ(RegisterNames().name("top.stages_n2_first_stage.n5_q", 18, 1, 12),
             "stages_n2_first_stage/n5_q(12 downto 1)");

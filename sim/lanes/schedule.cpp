@@ -202,6 +202,8 @@ CellSet live_cells(const Step& step, const MemoryWords& memory_words) {
   const auto mark = [&](int node) { mark_used(step.graph, node, used, live); };
   for (const auto& [name, words] : step.outputs)
     for (const int word : words) mark(word);
+  for (const Words& part : step.observed)
+    for (const int word : part) mark(word);
   const auto banks = bank_stores(step, memory_words);
   for (std::size_t before = SIZE_MAX; before != live.size();) {
     before = live.size();

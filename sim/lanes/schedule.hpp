@@ -49,7 +49,7 @@ struct Schedule {
   CellSet saved;              ///< cells whose old values are saved before all groups
 };
 
-/// The cells and banks that the outputs depend on, over any number of clocks.
+/// The cells and banks that the outputs and the observed parts depend on, over any number of clocks.
 CellSet live_cells(const Step& step, const MemoryWords& memory_words);
 
 Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live);

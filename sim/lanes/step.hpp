@@ -80,6 +80,7 @@ struct Step {
   std::map<Guard, std::vector<Update>> updates;
   std::map<std::string, Store> stores;              ///< by memory
   std::map<std::string, std::vector<int>> outputs;  ///< words, or one mask
+  std::vector<Words> observed;                      ///< of LanePorts::observed; none in reset
   std::map<std::string, Assignments> assignments;   ///< by register
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,18 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* c_module_name = "core.wasm";
 
-// Folders of which every source is compiled, and single sources of others.
-const std::vector<std::string> c_folders = {"model/common",     "model/frame",      "model/golden",
-                                            "model/golden_run", "model/mesh_files", "model/plan",
-                                            "model/setup",      "model/reference",  "model/scene_files",
-                                            "model/scene",      "model/shading"};
-const std::vector<std::string> c_sources = {
-    "model/tables/own_reach.cpp",        "model/tables/word_lengths.cpp", "sim/compare/hardware_frame.cpp",
-    "sim/compare/stream_comparator.cpp", "sim/live_core/core.cpp",        "sim/live_core/live_frame.cpp",
-    "sim/live_core/live_scene.cpp",      "sim/live_core/stream_parts.cpp"};
 // Folders whose headers these sources include.
-const std::vector<std::string> c_header_folders = {"model", "sim/compare", "sim/engine", "sim/live_core",
-                                                   "sim/verilator"};
+const std::vector<std::string> c_header_folders = {"model",         "sim/compare", "sim/engine",
+                                                   "sim/live_core", "sim/stages",  "sim/verilator"};
 // Headers of libraries: linked into a folder of their own, because the other headers of /usr/include are
 // those of another system.
 const std::vector<std::string> c_libraries = {"fmt", "glm", "toml++"};
@@ -55,14 +47,22 @@ bool is_source(const fs::path& file) {
   return file.extension() == ".cpp" && !file.filename().string().ends_with("_test.cpp");
 }
 
-/// Paths of all sources, relative to the project's root.
+/// Paths of all sources of core_sources.txt, relative to the project's root.
 Result<std::vector<std::string>> sources_of(const fs::path& root) {
-  std::vector<std::string> sources = c_sources;
-  for (const std::string& folder : c_folders) {
-    const auto files = files_below(root / folder, ".cpp");
+  const auto list = read_file(root / "sim/live/core_sources.txt");
+  if (!list) return list.error();
+  std::vector<std::string> sources;
+  std::istringstream lines(*list);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    if (line.ends_with(".cpp")) {
+      sources.push_back(line);
+      continue;
+    }
+    const auto files = files_below(root / line, ".cpp");
     if (!files) return files.error();
     for (const fs::path& file : *files)
-      if (is_source(file)) sources.push_back((folder / file).string());
+      if (is_source(file)) sources.push_back((line / file).string());
   }
   std::sort(sources.begin(), sources.end());
   return sources;

@@ -39,6 +39,9 @@ const live = {
   hardware_count: () => fragments.length / 16,
   hardware_take: address => bytes_at(address, fragments.length).set(fragments),
   hardware_reset: () => { ++resets; },
+  hardware_observe: () => 0,
+  hardware_trace_words: () => 0,
+  hardware_take_trace: () => {},
   now: () => performance.now()
 };
 // The functions of a system are linked, but not called.
@@ -116,7 +119,7 @@ class CoreModule : public testing::Test {
     const auto key = live_.plan({.shader = shader, .preset = preset});
     EXPECT_TRUE(key) << key.error().message;
     EXPECT_EQ(evaluate("core.live_plan(" + std::to_string(static_cast<int>(shader)) + ", " +
-                       std::to_string(static_cast<int>(preset)) + ")"),
+                       std::to_string(static_cast<int>(preset)) + ", 0, 0)"),
               0)
         << text();
     EXPECT_EQ(text(), key->name());
@@ -198,7 +201,7 @@ TEST_F(CoreModule, ComparesTheFragmentsOfTheHardware) {
 TEST_F(CoreModule, RefusesBadTextAndDrawsTheNextScene) {
   EXPECT_EQ(evaluate("scene('bad.obj', 'v 0 0 0\\nv 1 0\\n')"), 2);
   EXPECT_THAT(text(), testing::StartsWith("bad.obj:2: "));
-  EXPECT_EQ(evaluate("core.live_plan(0, 0)"), 2);
+  EXPECT_EQ(evaluate("core.live_plan(0, 0, 0, 0)"), 2);
   EXPECT_EQ(draw(), 2);
   EXPECT_EQ(evaluate("scene('bad.toml', 'ambient = true\\n')"), 2);
   EXPECT_THAT(text(), testing::StartsWith("bad.toml:1: "));

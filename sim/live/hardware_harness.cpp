@@ -25,6 +25,49 @@ struct Unit {
   std::uint32_t vector, vectors;
 };
 
+/// Draws a stream in one lane and records the observed parts of signals before each edge of the clock.
+class Observer {
+ public:
+  int run(const std::vector<std::uint32_t>& init_words, std::size_t most,
+          const std::vector<StuckBit>& stuck) {
+    using namespace halfway::lanes;
+    trace_.clear();
+    const auto state = std::make_unique<State>();  // larger than the stack
+    Inputs in;
+    Outputs out;
+    for (int i = 0; i < c_reset_clocks; ++i) reset_step(*state, in, out);
+    const std::size_t vectors = init_words.size() / c_init_words;
+    std::size_t vector = 0, fragments = 0;
+    std::uint64_t still = 0;
+    while (true) {
+      // Clock the hardware. Only the first lane gets vectors.
+      const bool offered = vector < vectors;
+      if (offered) set_init_data(in, 0, &init_words[vector * c_init_words]);
+      in.init_valid = to_mask(offered ? 1 : 0);
+      trace_.resize(trace_.size() + c_observed_words);
+      observe(*state, in, &trace_[trace_.size() - c_observed_words]);
+      step(*state, in, out);
+      for (const StuckBit& bit : stuck) bit.set(*state);
+
+      const bool taken = offered && (to_bits(out.init_ready) & 1) != 0;
+      const bool drawn = (to_bits(out.fragment_valid) & 1) != 0;
+      vector += taken ? 1 : 0;
+      fragments += drawn ? 1 : 0;
+      still = taken || drawn ? 0 : still + 1;
+      if ((to_bits(out.fault) & 1) != 0) return halfway_fault;
+      if (fragments > most || trace_.size() > c_most_words) return halfway_buffer_full;
+      if (still > c_idle_limit) return halfway_hang;
+      if (!offered && !drawn && (to_bits(out.busy) & 1) == 0) return halfway_done;
+    }
+  }
+  const std::vector<std::uint32_t>& trace() const { return trace_; }
+
+ private:
+  static constexpr std::size_t c_most_words = std::size_t{64} << 20;
+
+  std::vector<std::uint32_t> trace_;
+};
+
 class Hardware {
  public:
   std::uint32_t* words(std::size_t count) { return room(words_, count); }
@@ -66,6 +109,9 @@ class Hardware {
     }
     return halfway_done;
   }
+
+  int observe(std::size_t most) { return observer_.run(words_, most, stuck_); }
+  const std::vector<std::uint32_t>& trace() const { return observer_.trace(); }
 
   void reset() {
     lanes_ = std::make_unique<Lanes>(0, c_idle_limit, 0);
@@ -113,6 +159,7 @@ class Hardware {
   std::unique_ptr<Lanes> lanes_ = std::make_unique<Lanes>(0, c_idle_limit, 0);
   std::size_t loads_taken_ = 0;
   std::vector<StuckBit> stuck_;
+  Observer observer_;
 };
 
 /// The module's only hardware.
@@ -152,6 +199,19 @@ HARDWARE_EXPORT(hardware_fragments) const void* hardware_fragments() {
 /// Reset all lanes, which forget their loads.
 HARDWARE_EXPORT(hardware_reset) void hardware_reset() {
   hardware().reset();
+}
+
+/// Draw the words in another copy of the hardware, as a single stream, and record parts of signals. 0, or
+/// a HalfwayStatus: more than `most` fragments or too many clocks, a hang or a fault.
+HARDWARE_EXPORT(hardware_observe) int hardware_observe(std::uint32_t most) {
+  return hardware().observe(most);
+}
+/// Clock by clock, the words of each part of ShaderStages::parts in its order, the least significant first.
+HARDWARE_EXPORT(hardware_trace_words) std::uint32_t hardware_trace_words() {
+  return static_cast<std::uint32_t>(hardware().trace().size());
+}
+HARDWARE_EXPORT(hardware_trace) const std::uint32_t* hardware_trace() {
+  return hardware().trace().data();
 }
 
 /// The registers that can stick: the variables of the generated State, without those that only delay others.

@@ -2,6 +2,7 @@
 #include "sim/live/hardware_module.hpp"
 
 #include "sim/lanes/lane_simulator.hpp"
+#include "sim/stages/stages.hpp"
 #include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway {
@@ -14,6 +15,10 @@ Result<std::filesystem::path> build_hardware_module(const HardwareKey& key, cons
   const auto netlist = vhdl_netlist_of(key, folders);
   if (!netlist) return netlist.error();
   build->names = RegisterNames(*netlist, folders.source);
+  build->ports.top = build->top;
+  for (const TracedPart& part : make_stages(key)->parts())
+    build->ports.observed.push_back(
+        {part.netlist_path, static_cast<unsigned>(part.low), static_cast<unsigned>(part.bits)});
   return build_lanes(*build, folders.cache);
 }
 

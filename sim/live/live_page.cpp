@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "golden/cosine_tables.hpp"
 #include "plan/plan.hpp"
 #include "sim/live/core_module.hpp"
 #include "sim/live/hardware_module.hpp"
@@ -28,6 +31,7 @@ using Json = nlohmann::ordered_json;
 
 // Shading processors for more lights take long to convert and compile. The page says that it lacks them.
 constexpr unsigned c_most_processor_lights = 4;
+constexpr std::array c_presets = {Preset::exact, Preset::published};
 constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 // Scenes as a mesh file makes them: one with the default material, one with a colour.
@@ -37,6 +41,25 @@ Result<std::vector<Scene>> mesh_scenes() {
   Scene coloured = *grey;
   coloured.materials.front().colour = {0.8, 0.4, 0.2};
   return std::vector<Scene>{*grey, std::move(coloured)};
+}
+
+// Sizes of the cosine tables that are built into the program, the preset's own first.
+std::vector<TableSize> table_sizes(Preset preset) {
+  const bool exact = preset == Preset::exact;
+  const golden::CosineSize own = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
+  std::vector<TableSize> sizes = {{own.address_bits, own.data_bits}};
+  for (const golden::CosineTable& table : golden::c_cosine_tables)
+    if (const TableSize size{table.address_bits, table.data_bits};
+        table.exact == exact && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
+      sizes.push_back(size);
+  return sizes;
+}
+
+template <class Enumerators>
+Json names_of(const Enumerators& enumerators) {
+  Json names = Json::array();
+  for (const auto enumerator : enumerators) names.push_back(to_string(enumerator));
+  return names;
 }
 
 // The module, compressed, in base64. `-n` omits name and time, so that equal modules give equal pages.
@@ -96,10 +119,14 @@ Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scene
   std::map<std::string, HardwareKey> keys;
   for (const Scene& scene : *drawn)
     for (const Shader shader : c_shaders)
-      for (const Preset preset : {Preset::exact, Preset::published})
-        if (const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
-            plan && plan->key.processors.lights() <= c_most_processor_lights)
-          keys.emplace(plan->key.name(), plan->key);
+      for (const Preset preset : c_presets)
+        for (const TableSize size : table_sizes(preset)) {
+          PlanRequest request{.shader = shader, .preset = preset};
+          if (shader == Shader::spherical) request.tables = size;
+          const auto plan = plan_scene(scene, request);
+          if (plan && plan->key.processors.lights() <= c_most_processor_lights)
+            keys.emplace(plan->key.name(), plan->key);
+        }
   std::vector<HardwareKey> sorted;
   for (auto& [name, key] : keys) sorted.push_back(std::move(key));
   return sorted;
@@ -120,8 +147,15 @@ Result<LivePage> write_live(const LiveSettings& settings) {
   // Collect the page's data.
   Json data = {{"modules", {{"core", std::move(*packed_core)}}},
                {"clocks", Json::object()},
-               {"settings", c_setting_names},
-               {"figures", c_figure_names}};
+               {"names",
+                {{"settings", c_setting_names},
+                 {"figures", c_figure_names},
+                 {"shaders", names_of(c_shaders)},
+                 {"presets", names_of(c_presets)},
+                 {"pictures", c_picture_names}}}};
+  for (const Preset preset : c_presets)
+    for (const TableSize size : table_sizes(preset))
+      data["tables"][to_string(preset)].push_back(fmt::format("{}x{}", size.address_bits, size.data_bits));
   for (const auto& [name, built] : *hardware) {
     data["modules"][name] = built.module;
     if (built.mhz) data["clocks"][name] = *built.mhz;

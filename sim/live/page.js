@@ -16,6 +16,7 @@ function element(tag, of = {}, ...children) {
 const neutral = {
   scene: data.scenes[0].name, shader: "quadratic", preset: "exact", size: "640x480", kind: "hardware",
   azimuth: 0, elevation: 0, distance: 1, tessellation: 0, exponent: 0, lightAzimuth: 0, lightElevation: 0, threshold: 1,
+  tables: "", pixel: "",
 };
 const state = { ...neutral };
 let fault = null;  // register, bit and value that stick
@@ -30,6 +31,7 @@ function readLink() {
     if (typeof value === "string" || Number.isFinite(value)) state[name] = value;
   }
   if (!files.has(state.scene)) state.scene = neutral.scene;
+  if (!data.tables[state.preset]?.includes(state.tables)) state.tables = "";
   for (const id of ["shader", "preset", "size", "kind"])
     if (![...at(id).options].some(({ value }) => value === state[id])) state[id] = neutral[id];
 }
@@ -47,7 +49,8 @@ function requestOf() {
   const [width, height] = state.size.split("x").map(Number);
   return {
     ...state, width, height, fault, tessellation: isMesh(state.scene) ? 1 : 2 ** state.tessellation, exponent: 2 ** state.exponent,
-    threshold: 2 ** state.threshold,
+    threshold: 2 ** state.threshold, pixel: chosenPixel(),
+    tables: state.shader === "spherical" && state.tables !== "" ? state.tables.split("x").map(Number) : [0, 0],
   };
 }
 
@@ -81,7 +84,7 @@ function startWorker() {
   const made = { worker, busy: false };
   worker.onmessage = ({ data: message }) => receive(made, message);
   worker.onerror = (event) => showRefusal(`The worker stopped: ${event.message}`);
-  moduleOf("core").then((core) => worker.postMessage({ kind: "start", core }));
+  moduleOf("core").then((core) => worker.postMessage({ kind: "start", core, names: data.names }));
   for (const [name, bytes] of files) worker.postMessage({ kind: "file", name, bytes });
   return made;
 }
@@ -128,29 +131,30 @@ function change(values) {
   schedule();
 }
 
-/// Gives work to a worker without work. When the state has not changed for a moment, the frame is drawn again with the
+/// Gives work to all workers without work. When the state has not changed for a moment, the frame is drawn again with the
 /// reference and its error.
 function schedule() {
-  const free = workers.find(({ busy }) => !busy);
-  if (!free) return;
-  if (at("turning").checked && !document.hidden) {
-    state.azimuth = (state.azimuth + 2) % 360;
-    dirty = true;
-    exactly = false;
+  for (const free of workers.filter(({ busy }) => !busy)) {
+    if (at("turning").checked && !document.hidden) {
+      state.azimuth = (state.azimuth + 2) % 360;
+      dirty = true;
+      exactly = false;
+    }
+    if (!dirty) return;
+    request(free);
   }
-  if (!dirty) return;
+}
+
+function request(free) {
   dirty = false;
   free.busy = true;
   const reference = exactly || state.kind === "reference" || state.kind === "difference";
   const kinds = ["hardware", ...(state.kind === "hardware" ? [] : [state.kind])];
-  free.worker.postMessage({
-    kind: "draw", id: ++requested, state: requestOf(), kinds, reference, settings: data.settings, figures: data.figures, registers: needsRegisters,
-  });
+  free.worker.postMessage({ kind: "draw", id: ++requested, state: requestOf(), kinds, reference, exactly, registers: needsRegisters });
   needsRegisters = false;
   clearTimeout(stillTimer);
   if (!exactly)
     stillTimer = setTimeout(() => { if (!dirty && !at("turning").checked) { exactly = dirty = true; schedule(); } }, 250);
-  schedule();
 }
 
 // Showing a frame.
@@ -187,10 +191,12 @@ function showFrame(frame) {
     `${number(figures.mismatches)} of ${number(figures.fragments)} fragments differ from the golden model`;
   at("differences").hidden = equal;
   at("differences").textContent = frame.difference;
+  showFirstStage(frame.way);
   frameTimes.push(performance.now());
   while (frameTimes.length > 1 && frameTimes.at(-1) - frameTimes[0] > 2000) frameTimes.shift();
   showFigures(frame);
-  if (!at("pixel").hidden) showPixel();
+  at("pixel").hidden = drawn.pixel === null;
+  if (drawn.pixel) showPixel(frame);
 }
 
 function showFigures({ figures, key, milliseconds }) {
@@ -230,6 +236,7 @@ const sliders = {
 
 function showControls() {
   for (const id of ["scene", "shader", "preset", "size", "kind"]) at(id).value = state[id];
+  showTables();
   for (const [id, shownAs] of Object.entries(sliders)) {
     at(id).value = state[id];
     at(id).nextElementSibling.textContent = shownAs(state[id]);
@@ -241,11 +248,22 @@ function showControls() {
   at("mend").disabled = fault === null;
 }
 
+/// The sizes of cosine tables of the preset: the first is its own, which the link does not contain.
+function showTables() {
+  const sizes = data.tables[state.preset];
+  at("tables").replaceChildren(...sizes.map((size, i) =>
+    element("option", { value: i === 0 ? "" : size, textContent: `${size.replace("x", " address bits, ")} data bits` })));
+  at("tables").value = state.tables;
+  at("tables").disabled = state.shader !== "spherical" || sizes.length < 2;
+}
+
 function listenToControls() {
   for (const { name } of data.scenes) at("scene").append(element("option", { value: name, textContent: name.replace(".toml", "") }));
-  for (const id of ["scene", "shader", "preset", "size", "kind"])
+  for (const id of ["scene", "shader", "preset", "tables", "size", "kind"])
     at(id).onchange = () => {
       if (id !== "kind") forgetFault();
+      if (id === "size") state.pixel = "";
+      if (id === "preset") state.tables = "";
       change({ [id]: at(id).value });
       showControls();
     };
@@ -361,31 +379,69 @@ function listenToFaults() {
   at("mend").onclick = () => { fault = null; change({}); showControls(); };
 }
 
-// One pixel.
+// One pixel: its colours, and its way through the stages.
 
-let chosen = null;
+/// The chosen pixel, null if there is none in this frame.
+function chosenPixel() {
+  const [width, height] = state.size.split("x").map(Number);
+  const [x, y] = state.pixel.split(",").map(Number);
+  return state.pixel !== "" && x >= 0 && x < width && y >= 0 && y < height ? { x, y } : null;
+}
 function choosePixel(event) {
   const box = at("left").getBoundingClientRect();
   const [width, height] = state.size.split("x").map(Number);
-  chosen = {
-    x: clamp(Math.floor((event.clientX - box.left) / box.width * width), 0, width - 1),
-    y: clamp(Math.floor((event.clientY - box.top) / box.height * height), 0, height - 1),
-  };
-  at("pixel").hidden = false;
-  change({});
+  const x = clamp(Math.floor((event.clientX - box.left) / box.width * width), 0, width - 1);
+  const y = clamp(Math.floor((event.clientY - box.top) / box.height * height), 0, height - 1);
+  change({ pixel: `${x},${y}` });
 }
-function showPixel() {
-  at("pixel-title").textContent = `Pixel ${chosen.x}, ${chosen.y}`;
-  const offset = 4 * (chosen.y * last.state.width + chosen.x);
-  const rows = Object.entries(last.pictures).map(([kind, pixels]) => {
-    const [red, green, blue] = new Uint8Array(pixels, offset, 3);
+
+const headOf = (...names) =>
+  element("thead", {}, element("tr", {}, ...names.map((name) => element("th", { scope: "col", textContent: name }))));
+function showPixel({ state: drawn, pictures, way }) {
+  const { x, y } = drawn.pixel;
+  at("pixel-title").textContent = `Pixel ${x}, ${y}`;
+  const rows = Object.entries(pictures).map(([kind, pixels]) => {
+    const colour = new Uint8Array(pixels, 4 * (y * drawn.width + x), 3);
     return element("tr", {}, element("th", { scope: "row", textContent: kind }),
-      ...[red, green, blue].map((value) => element("td", { textContent: value })));
+      ...[...colour].map((value) => element("td", { textContent: value })));
   });
-  at("pixel-values").replaceChildren(
-    element("thead", {}, element("tr", {}, ...["picture", "red", "green", "blue"].map((name) =>
-      element("th", { scope: "col", textContent: name })))),
-    element("tbody", {}, ...rows));
+  at("pixel-values").replaceChildren(headOf("picture", "red", "green", "blue"), element("tbody", {}, ...rows));
+  showWay(way);
+}
+
+/// A table row for each line of the way. It is known once the frame is still.
+const rowOfWay = {
+  triangle: (triangle, vector) => [heading(`triangle ${triangle}, init vector ${vector}`, "triangle")],
+  given: (what) => [heading(`${what}, given to both`)],
+  stage: (stage, cycle) => [heading(cycle ? `${stage} stage, clock ${cycle}` : `${stage} stage: the RTL never came here`)],
+  value: (name, golden, rtl, result) => [
+    element("th", { scope: "row", textContent: name }), element("td", { textContent: golden }),
+    element("td", { textContent: rtl ?? "" }),
+    element("td", { className: result === "differs" ? "differs" : "agrees", textContent: { equal: "=", differs: "≠ differs" }[result] ?? "" }),
+  ],
+};
+const heading = (text, className = "") => element("th", { colSpan: 4, scope: "rowgroup", className, textContent: text });
+function showWay(way) {
+  at("way").hidden = way === null;
+  if (way === null) return;
+  let section = "";
+  const rows = way.filter(([kind]) => kind in rowOfWay).map(([kind, ...fields]) => {
+    if (kind !== "value") section = kind;
+    return element("tr", { className: `${kind} of-${section}` }, ...rowOfWay[kind](...fields));
+  });
+  at("way-note").textContent = rows.length > 0 ? "The hardware and the golden model draw the triangles of this pixel again, and the values of each stage are recorded." :
+    "No triangle covers this pixel.";
+  at("way-values").hidden = rows.length === 0;
+  at("given").onchange = () => at("way-values").classList.toggle("with-given", at("given").checked);
+  at("way-values").replaceChildren(headOf("value", "golden model", "RTL", ""), element("tbody", {}, ...rows));
+}
+
+/// Names the first stage that differs, and its entity.
+function showFirstStage(way) {
+  const texts = (way ?? []).filter(([kind]) => kind === "first" || kind === "fault")
+    .map(([kind, text]) => kind === "first" ? `First difference in the stages: ${text}` : `While the signals are recorded, ${text}`);
+  at("first-stage").hidden = texts.length === 0;
+  at("first-stage").textContent = texts.join(". ");
 }
 
 // WebAssembly's vectors: a module of one function that uses them.

@@ -15,8 +15,10 @@
 #include "setup/setup.hpp"
 #include "sim/cli/command_test.hpp"
 #include "sim/live/live_page.hpp"
+#include "sim/live_core/way_lines.hpp"
 #include "sim/pages/headless_browser.hpp"
 #include "sim/run/scene_stream.hpp"
+#include "sim/run/why.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
 namespace halfway::live {
@@ -166,6 +168,41 @@ TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
   EXPECT_GT(found, 2);
 }
 
+TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
+  struct Case {
+    const char *shader, *name;
+    int bit;  // sticks at 1
+    const char* first;
+  };
+  for (const Case& c :
+       {Case{"quadratic", "walker/spans/r.y", 0,
+             "span stage (triangle_walker, or quadratic_shader around it)"},
+        Case{"quadratic", "channels(1)/colour/interpolator/value_along_span/parts(1)/interpolator/value", 10,
+             "span stage (quadratic_interpolator, or quadratic_shader around it)"},
+        Case{"spherical", "lights(0)/light/diffuse/slice/along_line/r.value(31 downto 0)", 20,
+             "span stage (line_interpolator, or diffuse_slice around it)"},
+        Case{"processors", "pipeline/chain(1)/form/unrolled/radiance_sum/result(43 downto 22)", 18,
+             "diffuse 1 stage (unrolled_shading_processor)"}}) {
+    SCOPED_TRACE(c.name);
+    ASSERT_NO_FATAL_FAILURE(open(fmt::format("scene=spheres.toml&size=320x240&shader={}", c.shader)));
+    EXPECT_EQ(evaluate("document.getElementById('first-stage').hidden"), true);
+    const int option = evaluate(
+        fmt::format("[...document.querySelectorAll('#register option')].findIndex(({{textContent}}) => "
+                    "textContent.startsWith('{},'))",
+                    c.name));
+    ASSERT_GE(option, 0);
+    choose("register", std::to_string(option));
+    choose("bit", std::to_string(c.bit));
+    evaluate("document.getElementById('break').click()");
+    ASSERT_TRUE(is_drawn());
+    EXPECT_GT(figure("mismatches"), 0);
+    EXPECT_THAT(text_of("#first-stage"), HasSubstr(std::string("stages: ") + c.first + ", cycle "));
+    evaluate("document.getElementById('mend').click()");
+    ASSERT_TRUE(is_drawn());
+    EXPECT_EQ(evaluate("document.getElementById('first-stage').hidden"), true);
+  }
+}
+
 TEST_F(LiveInBrowser, TurnsByMouseKeysAndTouchAndKeepsTheStateInTheLink) {
   ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
   const std::vector<std::uint8_t> before = picture("left").rgb;
@@ -265,6 +302,72 @@ TEST_F(LiveInBrowser, ShowsThePixelThatIsClicked) {
   EXPECT_THAT(text_of("#pixel-title"), HasSubstr("160, 120"));
   EXPECT_THAT(text_of("#pixel-values"),
               HasSubstr(fmt::format("{}{}{}", shown.rgb[at], shown.rgb[at + 1], shown.rgb[at + 2])));
+}
+
+// The way has the values of `make why`, which simulates in GHDL.
+TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
+  struct Case {
+    const char* scene;
+    Shader shader;
+    Preset preset;
+    FramePixel pixel;
+  };
+  for (const Case& c : {Case{"teapot", Shader::quadratic, Preset::exact, {100, 100}},
+                        Case{"spheres", Shader::quadratic, Preset::published, {100, 60}},
+                        Case{"spheres", Shader::spherical, Preset::exact, {100, 60}},
+                        Case{"spheres", Shader::spherical, Preset::published, {100, 60}},
+                        Case{"spheres", Shader::processors, Preset::exact, {100, 60}},
+                        Case{"matte", Shader::processors, Preset::published, {100, 60}}}) {
+    SCOPED_TRACE(fmt::format("{} {} {}", c.scene, to_string(c.shader), to_string(c.preset)));
+    const auto scene = load_scene(c.scene, c_source / "sim/scenes");
+    ASSERT_TRUE(scene) << scene.error().message;
+    WhySettings settings;
+    settings.plan.shader = c.shader;
+    settings.plan.preset = c.preset;
+    settings.size = c_size;
+    settings.pixel = c.pixel;
+    settings.folders = {c_source, c_source / "build" / "cache"};
+    const auto why = explain_pixel(*scene, settings);
+    ASSERT_TRUE(why) << why.error().message;
+    ASSERT_FALSE(why->stories.empty());
+
+    ASSERT_NO_FATAL_FAILURE(
+        open(fmt::format("scene={}.toml&size=320x240&shader={}&preset={}&pixel={},{}", c.scene,
+                         to_string(c.shader), to_string(c.preset), c.pixel.x, c.pixel.y)));
+    EXPECT_EQ(evaluate("last.way.map((line) => line.join('\\t') + '\\n').join('')"),
+              lines_of({why->stories, why->first, why->fault}));
+    // Each value of each stage is marked as equal.
+    std::size_t values = 0;
+    for (const PixelStory& story : why->stories)
+      for (const StageState& stage : story.stages) values += stage.values.size();
+    EXPECT_GT(values, 10U);
+    EXPECT_EQ(evaluate("[...document.querySelectorAll('#way-values td.agrees')].filter(({textContent}) => "
+                       "textContent === '=').length"),
+              values);
+    EXPECT_EQ(evaluate("document.querySelectorAll('#way-values td.differs').length"), 0);
+  }
+  // No triangle covers this pixel.
+  ASSERT_NO_FATAL_FAILURE(open("scene=teapot.toml&size=320x240&pixel=0,0"));
+  EXPECT_THAT(text_of("#way-note"), HasSubstr("No triangle"));
+}
+
+// The published preset has a second size of tables.
+TEST_F(LiveInBrowser, DrawsWithTablesOfAnotherSize) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240&shader=spherical&preset=published"));
+  const std::vector<std::uint8_t> before = picture("left").rgb;
+  const double error = figure("rms");
+  ASSERT_EQ(evaluate("document.querySelectorAll('#tables option').length"), 2);
+  choose("tables", "4x4");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_THAT(evaluate("last.key").get<std::string>(), HasSubstr("-rom4x4"));
+  EXPECT_NE(picture("left").rgb, before);
+  EXPECT_EQ(figure("mismatches"), 0);
+  EXPECT_GT(figure("rms"), error);
+  // The other preset has one size.
+  choose("preset", "exact");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_EQ(evaluate("document.getElementById('tables').disabled"), true);
+  EXPECT_EQ(figure("mismatches"), 0);
 }
 
 TEST_F(LiveInBrowser, FitsPhonesAndDarkMode) {

@@ -3,9 +3,7 @@
 // hardware of one key. Each is a WebAssembly module with its own memory; this file copies between the two.
 "use strict";
 
-const pictureKinds = ["hardware", "golden", "reference", "difference", "triangles"];
-const shaders = ["quadratic", "spherical", "processors"], presets = ["exact", "published"];
-
+let names = null;  // of the core's settings, figures, shaders, presets and pictures, each in its order
 let receiveCore = null;
 const ready = new Promise((receive) => { receiveCore = receive; });
 let core = null;
@@ -40,6 +38,15 @@ const live = {
   hardware_take(to) {
     const count = 16 * hardware.hardware_fragment_count();
     bytesOf(core, to, count).set(bytesOf(hardware, hardware.hardware_fragments(), count));
+  },
+  hardware_observe(words, wordCount, most) {
+    copyItems(hardware.hardware_words, words, wordCount, 1);
+    return hardware.hardware_observe(most);
+  },
+  hardware_trace_words: () => hardware.hardware_trace_words(),
+  hardware_take_trace(to) {
+    const count = 4 * hardware.hardware_trace_words();
+    bytesOf(core, to, count).set(bytesOf(hardware, hardware.hardware_trace(), count));
   },
   hardware_reset() { hardware.hardware_reset(); },
   now: () => performance.now(),
@@ -77,11 +84,11 @@ function loadScene({ scene, tessellation }) {
   loaded = wanted;
 }
 
-async function planHardware({ shader, preset }) {
-  const wanted = JSON.stringify([shader, preset]);
+async function planHardware({ shader, preset, tables }) {
+  const wanted = JSON.stringify([shader, preset, tables]);
   if (wanted === planned) return;
   planned = "";
-  call(core.live_plan(shaders.indexOf(shader), presets.indexOf(preset)));
+  call(core.live_plan(names.shaders.indexOf(shader), names.presets.indexOf(preset), ...tables));
   key = coreText();
   if (!hardwareOf.has(key)) {
     const module = await new Promise((receive) => {
@@ -114,33 +121,43 @@ function registers() {
 }
 
 const pictureOf = (kind, { width, height }) =>
-  bytesOf(core, core.live_pixels(pictureKinds.indexOf(kind)), 4 * width * height).slice().buffer;
+  bytesOf(core, core.live_pixels(names.pictures.indexOf(kind)), 4 * width * height).slice().buffer;
+
+/// The way of a pixel through the stages, as the core's lines of fields. Without a pixel: what differs first.
+function wayOf(pixel) {
+  const { x, y } = pixel ?? { x: -1, y: -1 };
+  call(core.live_way(x, y));
+  return coreText().split("\n").slice(0, -1).map((line) => line.split("\t"));
+}
 
 async function drawFrame(request) {
   const { state, kinds } = request;
   loadScene(state);
   await planHardware(state);
   breakHardware(state.fault);
-  new Float64Array(core.memory.buffer, core.live_settings(), request.settings.length)
-    .set(request.settings.map((name) => state[name]));
+  new Float64Array(core.memory.buffer, core.live_settings(), names.settings.length)
+    .set(names.settings.map((name) => state[name]));
   const begin = performance.now();
   const end = core.live_draw();
   if (end === 2) throw new Refused(coreText());
   const difference = end === 0 ? "" : coreText();
   const milliseconds = performance.now() - begin;
   if (request.reference) call(core.live_reference());
-  const names = request.figures;
-  const values = new Float64Array(core.memory.buffer, core.live_figures(), names.length);
-  const figures = Object.fromEntries(names.map((name, i) => [name, values[i]]));
+  const values = new Float64Array(core.memory.buffer, core.live_figures(), names.figures.length);
+  const figures = Object.fromEntries(names.figures.map((name, i) => [name, values[i]]));
+  const way = request.exactly && (state.pixel || end !== 0) ? wayOf(state.pixel) : null;
   const pictures = Object.fromEntries(kinds.map((kind) => [kind, pictureOf(kind, state)]));
   postMessage({
-    kind: "frame", id: request.id, state, pictures, figures, difference, milliseconds, key,
+    kind: "frame", id: request.id, state, pictures, figures, difference, way, milliseconds, key,
     registers: request.registers ? registers() : null,
   }, Object.values(pictures));
 }
 
 onmessage = async ({ data }) => {
-  if (data.kind === "start") receiveCore(start(data.core));
+  if (data.kind === "start") {
+    names = data.names;
+    receiveCore(start(data.core));
+  }
   if (data.kind === "file") files.set(data.name, data.bytes);
   if (data.kind === "hardware") waiting.get(data.key)(data.module);
   if (data.kind !== "draw") return;

@@ -15,6 +15,8 @@
 #include "sim/live_core/core_values.hpp"
 #include "sim/live_core/live_frame.hpp"
 #include "sim/live_core/stream_parts.hpp"
+#include "sim/live_core/way_lines.hpp"
+#include "sim/stages/word_trace.hpp"
 #include "sim/verilator/harness_api.h"
 
 #define HALFWAY_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
@@ -29,6 +31,14 @@ int hardware_draw(const std::uint32_t* words, std::uint32_t word_count, const st
 HALFWAY_IMPORT(hardware_count) std::uint32_t hardware_count();
 /// Copies them.
 HALFWAY_IMPORT(hardware_take) void hardware_take(halfway::Fragment* destination);
+/// Draws words as a single stream in another copy of the hardware, and records the parts of
+/// ShaderStages::parts.
+HALFWAY_IMPORT(hardware_observe)
+int hardware_observe(const std::uint32_t* words, std::uint32_t word_count, std::uint32_t most);
+/// Number of words that the last observation recorded.
+HALFWAY_IMPORT(hardware_trace_words) std::uint32_t hardware_trace_words();
+/// Copies them.
+HALFWAY_IMPORT(hardware_take_trace) void hardware_take_trace(std::uint32_t* destination);
 /// Resets the hardware and forgets its loads.
 HALFWAY_IMPORT(hardware_reset) void hardware_reset();
 /// Milliseconds.
@@ -82,6 +92,20 @@ class HardwareModule final : public Engine {
     return Ok{};
   }
   std::optional<std::uint64_t> cycles() const override { return std::nullopt; }
+
+  static Result<Observation> observe(std::span<const std::uint32_t> init_words, const ShaderStages& stages,
+                                     std::uint64_t most) {
+    const int end = hardware_observe(init_words.data(), static_cast<std::uint32_t>(init_words.size()),
+                                     static_cast<std::uint32_t>(most));
+    std::vector<std::uint32_t> words(hardware_trace_words());
+    hardware_take_trace(words.data());
+    std::string fault;
+    if (end == halfway_buffer_full)
+      fault = "the hardware draws more fragments or takes more clocks than are recorded";
+    else if (end != halfway_done)
+      fault = fault_of(end).message;
+    return Observation{std::make_unique<WordTrace>(stages.parts(), std::move(words)), fault};
+  }
 
  private:
   std::unique_ptr<GoldenModel> golden_;
@@ -171,12 +195,14 @@ int live_scene(std::uint32_t name_bytes, std::uint32_t text_bytes, double tessel
   return code;
 }
 
+/// `address_bits` and `data_bits` of the cosine tables; 0: the preset's.
 HALFWAY_EXPORT(live_plan)
-int live_plan(int shader, int preset) {
+int live_plan(int shader, int preset, int address_bits, int data_bits) {
   auto& c = core();
   c.hardware.reset();
-  const auto key =
-      c.frame.plan({.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)});
+  PlanRequest request{.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)};
+  if (address_bits != 0) request.tables = TableSize{address_bits, data_bits};
+  const auto key = c.frame.plan(request);
   if (!key) return c.report(key.error());
   c.hardware.emplace(*key);
   c.text = key->name();
@@ -199,6 +225,16 @@ HALFWAY_EXPORT(live_reference) int live_reference() {
   const int code = core().report(core().frame.draw_reference());
   core().write_figures();
   return code;
+}
+
+/// The text is lines_of() of the way of a pixel.
+HALFWAY_EXPORT(live_way) int live_way(std::uint32_t x, std::uint32_t y) {
+  auto& c = core();
+  if (!c.hardware) return c.report(bad_input("no hardware is planned for a scene"));
+  const auto way = c.frame.way({x, y}, live::HardwareModule::observe);
+  if (!way) return c.report(way.error());
+  c.text = live::lines_of(*way);
+  return 0;
 }
 
 HALFWAY_EXPORT(live_pixels) const std::uint8_t* live_pixels(int kind) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that the page and the core exchange, in the order of their arrays: live_settings and
-// live_figures.
+// The names of what the page and the core exchange, in the order of their arrays: the numbers of
+// live_settings and live_figures, and the pictures of live_pixels.
 #pragma once
 
 #include <array>
@@ -13,5 +13,6 @@ inline constexpr std::array c_setting_names = {"width",        "height",        
 inline constexpr std::array c_figure_names = {
     "fragments", "mismatches", "triangles", "leaves", "vectors",  "words",   "clocks",   "rms",
     "largest",   "covered",    "setup",     "golden", "hardware", "compare", "assemble", "unresolved"};
+inline constexpr std::array c_picture_names = {"hardware", "golden", "reference", "difference", "triangles"};
 
 }  // namespace halfway::live

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "golden_run/golden_run.hpp"
@@ -161,6 +162,10 @@ Status LiveFrame::draw(const Settings& settings, Engine& engine) {
   if (walk) figures.hardware_clocks = walk->counts().clocks();
   figures.covered_pixels = hardware.assembler().covered_pixels();
   figures_ = figures;
+  // A fragment after the last golden one belongs to the last triangle.
+  first_wrong_ = UINT64_MAX;
+  if (!comparator.first().empty() && comparator.golden_count() > 0)
+    first_wrong_ = std::min(comparator.first().front().index, comparator.golden_count() - 1);
   hardware_ = std::move(hardware);
   drawn_ = settings;
   reference_.reset();
@@ -190,6 +195,26 @@ Result<Frame> LiveFrame::picture(Picture kind) {
   if (kind == Picture::golden || kind == Picture::split) return draw_golden(kind);
   if (!reference_) return bad_input("the reference is not drawn");
   return kind == Picture::reference ? reference_->frame : difference_image(hardware, reference_->frame);
+}
+
+Result<Way> LiveFrame::way(FramePixel pixel, const Observe& observe) {
+  if (!drawn_) return bad_input("no frame is drawn");
+  if (Status status = scene_->apply(*drawn_); !status) return status.error();
+  PixelSearch search(*key_, pixel, first_wrong_);
+  SetupCounts counts;
+  const Status made = make_stream(*drawn_, *make_golden_model(*key_), counts,
+                                  [&](std::span<const std::uint32_t> init_words, std::uint64_t) -> Status {
+                                    search.add(init_words);
+                                    return Ok{};
+                                  });
+  if (!made) return made.error();
+  PixelWay way(*key_, pixel);
+  way.draw_golden(search.found());
+  if (way.fragments() == 0) return Way{};
+  const auto observed = observe(search.found().words(), way.stages(), way.fragments() + c_most_surplus);
+  if (!observed) return observed.error();
+  way.compare(way.stages().read(*observed->trace));
+  return Way{way.stories(), way.first(), observed->fault};
 }
 
 Result<Frame> LiveFrame::draw_golden(Picture kind) {

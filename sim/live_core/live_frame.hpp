@@ -21,6 +21,7 @@
 #include "sim/compare/hardware_frame.hpp"
 #include "sim/engine/engine.hpp"
 #include "sim/live_core/live_scene.hpp"
+#include "sim/stages/pixel_way.hpp"
 
 namespace halfway::live {
 
@@ -46,6 +47,22 @@ enum class Picture {
   split,
 };
 
+/// A simulation of the hardware with the signals of its stages.
+struct Observation {
+  std::unique_ptr<SignalTrace> trace;
+  std::string fault;  ///< empty: none
+};
+/// Draws init vectors as a single stream from reset, `most` fragments at most.
+using Observe = std::function<Result<Observation>(std::span<const std::uint32_t> init_words,
+                                                  const ShaderStages& stages, std::uint64_t most)>;
+
+/// What `make why` shows, for hardware in a browser.
+struct Way {
+  std::vector<PixelStory> stories;
+  std::optional<FirstDifference> first;
+  std::string fault;
+};
+
 class LiveFrame {
  public:
   /// `now` is a clock in milliseconds.
@@ -65,6 +82,9 @@ class LiveFrame {
   Status draw_reference();
   /// A picture of the last frame. Golden model and split triangles are drawn when they are requested.
   Result<Frame> picture(Picture kind);
+  /// The way of a pixel of the last frame through the stages. The simulation also draws the triangle with the
+  /// frame's first fragment that differs.
+  Result<Way> way(FramePixel pixel, const Observe& observe);
   const Figures& figures() const { return figures_; }
 
  private:
@@ -88,6 +108,8 @@ class LiveFrame {
   std::optional<HardwareFrame> hardware_;
   std::optional<ReferenceImage> reference_;
   Figures figures_;
+  std::uint64_t first_wrong_ =
+      UINT64_MAX;  ///< number of the first fragment that differs, in the golden model
 };
 
 }  // namespace halfway::live

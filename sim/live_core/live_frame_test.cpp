@@ -2,9 +2,11 @@
 // Tests of the page's core as native code: its frames are those of the program.
 #include "sim/live_core/live_frame.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 #include <set>
@@ -13,9 +15,11 @@
 
 #include "sim/live_core/golden_engine_test.hpp"
 #include "sim/live_core/stream_parts.hpp"
+#include "sim/live_core/way_lines.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/stages/word_trace.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::live {
@@ -91,6 +95,51 @@ TEST(LiveFrame, DrawsTheFramesOfTheProgram) {
         EXPECT_EQ(figures.mismatches, 0U);
       }
   }
+}
+
+// Hardware without events: the way has the golden model's values alone.
+TEST(LiveFrame, TheWayOfAPixelIsThatOfItsTriangles) {
+  LiveFrame live = loaded("teapot");
+  const auto key = live.plan({});
+  ASSERT_TRUE(key);
+  GoldenEngine engine(*key);
+  engine.change = [](std::vector<Fragment>& fragments) { fragments.back().green ^= 1; };
+  ASSERT_EQ(live.draw(small(), engine).error().code, ExitCode::differs);
+  const Fragment seen = engine.fragments.front(), wrong = engine.fragments.back();
+  std::vector<Fragment> observed;
+  const Observe observe = [&](std::span<const std::uint32_t> words, const ShaderStages& stages,
+                              std::uint64_t most) -> Result<Observation> {
+    const auto golden = make_golden_model(*key);
+    const auto drawn = golden->draw(words);
+    observed.assign(drawn.begin(), drawn.end());
+    EXPECT_GE(most, observed.size());
+    return Observation{std::make_unique<WordTrace>(stages.parts(), std::vector<std::uint32_t>{}),
+                       "no events"};
+  };
+  const auto way = live.way({seen.x, seen.y}, observe);
+  ASSERT_TRUE(way) << way.error().message;
+  // The triangles of the pixel and that of the first fragment that differs are drawn, and not all others.
+  const auto has = [&](const Fragment& of) {
+    return std::count_if(observed.begin(), observed.end(),
+                         [&](const Fragment& f) { return f.triangle == of.triangle; }) > 0;
+  };
+  EXPECT_TRUE(has(seen));
+  EXPECT_TRUE(has(wrong));
+  EXPECT_LT(observed.size(), engine.fragments.size() / 2);
+  // The story ends with the pixel's fragment.
+  ASSERT_FALSE(way->stories.empty());
+  EXPECT_EQ(way->stories.front().triangle, seen.triangle);
+  const StageState& fragment = way->stories.front().stages.back();
+  EXPECT_EQ(fragment.cycle, std::nullopt);
+  ASSERT_EQ(fragment.values.size(), 7U);
+  EXPECT_EQ(fragment.values[1].golden, seen.y);
+  EXPECT_EQ(fragment.values[2].golden, seen.x);
+  EXPECT_EQ(fragment.values[4].golden, seen.red);
+  EXPECT_EQ(way->fault, "no events");
+  ASSERT_TRUE(way->first);
+  EXPECT_THAT(way->first->text(), HasSubstr("never came"));
+  EXPECT_THAT(lines_of(*way), StartsWith(fmt::format("triangle\t{}\t", seen.triangle)));
+  EXPECT_THAT(lines_of(*way), HasSubstr("fault\tno events\n"));
 }
 
 TEST(LiveFrame, DrawsByVerilator) {

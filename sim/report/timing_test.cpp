@@ -44,8 +44,7 @@ TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
   Batch batch;
   ASSERT_TRUE(stream.next(batch));
   ASSERT_GE(batch.golden.size(), 4U);
-  why.x = batch.golden[0].x;
-  why.y = batch.golden[0].y;
+  why.pixel = {batch.golden[0].x, batch.golden[0].y};
   const auto first = explain_pixel(*scene, why);
   ASSERT_TRUE(first) << first.error().message;
   const auto clock = first->stories.at(0).stages.back().cycle;

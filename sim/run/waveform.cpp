@@ -11,7 +11,7 @@
 #include "golden_run/golden_run.hpp"
 #include "sim/compare/limits.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/run/vectors_around.hpp"
+#include "sim/stages/vectors_around.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/system/file.hpp"
 #include "sim/verilator/verilator_simulator.hpp"

@@ -17,6 +17,7 @@
 #include "setup/setup.hpp"
 #include "sim/compare/stream_comparator.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/stages/pixel_way.hpp"
 
 namespace halfway {
 
@@ -25,42 +26,9 @@ struct WhySettings {
   FrameSize size;
   SetupOptions setup;
   unsigned threads = 1;
-  std::uint32_t x = 0, y = 0;
+  FramePixel pixel{0, 0};
   SimulatorFolders folders;
   std::function<void(double done)> on_progress = [](double) {};
-};
-
-/// A register or port in golden model and RTL.
-struct StageValue {
-  std::string name;
-  std::uint64_t golden = 0;
-  std::optional<std::uint64_t> rtl;  ///< std::nullopt if a bit is neither 0 nor 1
-  int bits = 0, fraction_bits = 0;
-  bool is_signed = false;
-};
-
-/// The values of a stage for the pixel.
-struct StageState {
-  std::string stage;                   ///< "line", "span", spherical: "sample", "product"; "fragment"
-  std::optional<std::uint64_t> cycle;  ///< of GHDL's run; std::nullopt if the RTL has no such event
-  std::vector<StageValue> values;
-};
-
-/// One triangle's fragment at the pixel.
-struct PixelStory {
-  std::uint64_t vector;  ///< number of the init vector in the stream
-  std::uint32_t triangle;
-  std::vector<StageValue> init;    ///< golden == rtl: both have the same input
-  std::vector<StageValue> record;  ///< of the pixel's line; empty without line records
-  std::vector<StageState> stages;
-};
-
-/// The first difference between RTL and golden model in GHDL's run.
-struct FirstDifference {
-  std::string stage, entity, value;
-  std::uint64_t cycle;
-  std::uint32_t triangle, y, x;
-  std::string golden, rtl;
 };
 
 struct WhyReport {

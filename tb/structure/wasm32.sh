@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# wasm32.sh CHECKOUT SCRATCH: checks that the core of model/ compiles for a browser: by clang for WebAssembly, without
-# exceptions, with a standard library that has no threads, no file system and no from_chars of double. Only syntax and
-# types are checked. Then it checks that a file with each of these is refused.
+# wasm32.sh CHECKOUT SCRATCH: checks that the sources of sim/live/core_sources.txt compile for a browser: by clang for
+# WebAssembly, without exceptions, with a standard library that has no threads, no file system and no from_chars of
+# double. Only syntax and types are checked. Then it checks that a file with each of these is refused.
 set -eu
 checkout=$1 scratch=$2
-folders='common frame golden golden_run mesh_files plan reference scene scene_files setup shading'
+sources=$(grep -v '^#' "$checkout/sim/live/core_sources.txt")
 compiler=clang++
 
 fail() {
@@ -22,27 +22,24 @@ mkdir -p "$scratch/include"
 ln -s /usr/include/glm /usr/include/fmt /usr/include/toml++ "$scratch/include"
 
 check() { # FILE: its errors on stdout
-  $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" \
+  $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" -I "$checkout" \
     -isystem "$scratch/include" "$1" 2>&1
 }
 
 # Each source file, and all headers in one.
-cd "$checkout/model"
-for folder in $folders; do
-  for file in "$folder"/*.hpp; do echo "#include \"$file\""; done
-done | grep -v '_test\.hpp' >"$scratch/headers.cpp"
+cd "$checkout"
+find $sources -maxdepth 1 -name '*.hpp' ! -name '*_test.hpp' | sed 's/.*/#include "&"/' >"$scratch/headers.cpp"
 wrong=0 count=0
-for file in $(for folder in $folders; do ls "$folder"/*.cpp 2>/dev/null || true; done) "$scratch/headers.cpp"; do
-  case $file in (*_test.cpp) continue ;; esac
+for file in $(find $sources -maxdepth 1 -name '*.cpp' ! -name '*_test.cpp') "$scratch/headers.cpp"; do
   count=$((count + 1))
   check "$file" >"$scratch/errors" || { wrong=$((wrong + 1)); grep -E 'error' "$scratch/errors" | head -5; }
 done
-[ $count -gt 30 ] || fail "checked $count files only: where is the core of $checkout/model?"
+[ $count -gt 30 ] || fail "checked $count files only: where are the others of $checkout/sim/live/core_sources.txt?"
 
 # refused NAME: the file on stdin must not compile.
 refused() {
   cat >"$scratch/planted.cpp"
-  ! check "$scratch/planted.cpp" >"$scratch/errors" || fail "$1 in the core of model/ would not be found"
+  ! check "$scratch/planted.cpp" >"$scratch/errors" || fail "$1 in the core would not be found"
 }
 refused 'an exception' <<'END'
 int f(int x) { if (x < 0) throw x; return x; }
@@ -57,5 +54,5 @@ refused 'from_chars of double' <<'END'
 #include <charconv>
 double f(const char* begin, const char* end) { double x = 0; std::from_chars(begin, end, x); return x; }
 END
-[ $wrong -eq 0 ] || fail "$wrong of $count files of the core of model/ do not compile for a browser"
-echo "$count files of the core of model/ compile for wasm32"
+[ $wrong -eq 0 ] || fail "$wrong of $count files of the core do not compile for a browser"
+echo "$count files of the core compile for wasm32"

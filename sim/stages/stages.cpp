@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/run/stages.hpp"
+#include "sim/stages/stages.hpp"
 
 #include <fmt/format.h>
 
@@ -11,25 +11,15 @@
 #include <utility>
 
 #include "golden_run/shader_model.hpp"
-#include "sim/compare/limits.hpp"
 #include "sim/compare/stream_comparator.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/ghdl/vcd.hpp"
-#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {
 
 using golden::Exact, golden::SpanXWord;
 
-constexpr const char* c_clock = "frame_tb/clk";
-constexpr const char* c_first_valid = "frame_tb/init_valid";
-constexpr const char* c_first_ready = "frame_tb/init_ready";
-
-// Path of a shader's signal in the testbench.
-std::string dut(std::string_view path) {
-  return fmt::format("frame_tb/dut/{}", path);
-}
+constexpr const char* c_first_valid = "init_valid";
+constexpr const char* c_first_ready = "init_ready";
 
 // The entities on both sides of a register. A wrong value may be caused by either.
 std::string within(std::string_view entity, std::string_view around) {
@@ -42,19 +32,6 @@ struct Number {
   bool is_signed = false;
 };
 constexpr Number c_flag{};
-
-// `number.bits` bits from bit `low` up; std::nullopt if one of them is neither 0 nor 1. GHDL writes values in
-// full.
-std::optional<std::uint64_t> number_of(std::string_view value, int low, int bits) {
-  std::uint64_t word = 0;
-  for (int i = bits - 1; i >= 0; --i) {
-    const std::size_t from_right = static_cast<std::size_t>(low + i) + 1;
-    const char bit = from_right > value.size() ? 'U' : value[value.size() - from_right];
-    if (bit != '0' && bit != '1') return std::nullopt;
-    word = word << 1 | (bit == '1' ? 1U : 0U);
-  }
-  return word;
-}
 
 // The table of a shader's stages: how to read each word in the golden model and in the RTL.
 template <class GoldenShader>
@@ -96,30 +73,38 @@ class StagesOf : public ShaderStages {
     constexpr bool c_exact = std::is_same_v<Walk, Exact>;
     const std::string edges = within(c_exact ? "edge_walker" : "slope_walker", "triangle_walker");
     constexpr Number c_x{Walk::c_span_x_bits, 0, true};
-    begin_stage({"line", "triangle_walker", {dut(front + "span_load")}});
-    add("line_y", {Walk::c_pixel_y_bits}, within("triangle_walker", around),
-        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut(front + "walker/line_y")});
-    add("line_start", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().start().bits(); },
-        {dut(front + "walker/line_start")});
-    add("line_stop", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().stop().bits(); },
-        {dut(front + "walker/line_stop")});
+    // GHDL's netlist omits signals that are only for traces, but has the ports that drive them.
+    const auto line_signal = [&](const char* field) {
+      return Signal{.path = fmt::format("{}walker/line_{}", front, field),
+                    .netlist_path = fmt::format("{}walker/next_line/line_{}", front, field)};
+    };
+    begin_stage({"line", "triangle_walker", {front + "span_load"}});
+    add(
+        "line_y", {Walk::c_pixel_y_bits}, within("triangle_walker", around),
+        [](const auto& s, SpanXWord) { return s.walker().y(); }, line_signal("y"));
+    add(
+        "line_start", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().start().bits(); },
+        line_signal("start"));
+    add(
+        "line_stop", c_x, edges, [](const auto& s, SpanXWord) { return s.walker().stop().bits(); },
+        line_signal("stop"));
     if constexpr (c_exact)
       add("line_carry", c_flag, edges, [](const auto& s, SpanXWord) { return s.walker().carry(); },
-          {dut(front + "line_carry")});
+          {front + "line_carry"});
     add("line_z", c_depth<Walk>, within("z_interpolator", around),
         [](const auto& s, SpanXWord) { return s.depth().edge_value().bits(); },
-        {dut(front + "depth/depth/edge_value"), 0, depth_clocks, depth_clocks > 0});
+        {front + "depth/depth/edge_value", 0, depth_clocks, depth_clocks > 0});
   }
   template <class Walk>
   void add_span_stage(const std::string& around, int depth_clocks, const std::string& front = {}) {
-    begin_stage({"span", "triangle_walker", {dut(front + "span_step")}});
+    begin_stage({"span", "triangle_walker", {front + "span_step"}});
     add("span_y", {Walk::c_pixel_y_bits}, within("triangle_walker", around),
-        [](const auto& s, SpanXWord) { return s.walker().y(); }, {dut(front + "y")});
+        [](const auto& s, SpanXWord) { return s.walker().y(); }, {front + "y"});
     add("span_x", {Walk::c_span_x_bits, 0, true}, within("triangle_walker", around),
-        [](const auto&, SpanXWord x) { return x.bits(); }, {dut(front + "x")});
+        [](const auto&, SpanXWord x) { return x.bits(); }, {front + "x"});
     add("span_z", c_depth<Walk>, within("z_interpolator", around),
         [](const auto& s, SpanXWord) { return s.depth().value().bits(); },
-        {dut(front + "depth/depth/span_value"), 0, depth_clocks, depth_clocks > 0});
+        {front + "depth/depth/span_value", 0, depth_clocks, depth_clocks > 0});
   }
 
   void add_fragment_stage(std::string_view colours) {
@@ -127,11 +112,11 @@ class StagesOf : public ShaderStages {
     constexpr std::array<int, 7> c_bits = {
         Exact::c_triangle_bits, Exact::c_pixel_y_bits, Exact::c_pixel_x_bits, Exact::c_depth_bits,
         Exact::c_colour_bits,   Exact::c_colour_bits,  Exact::c_colour_bits};
-    begin_stage({"fragment", "the shader's output", {"frame_tb/fragment_valid", "frame_tb/fragment_ready"}});
+    begin_stage({"fragment", "the shader's output", {"fragment_valid", "fragment_ready"}});
     for (std::size_t i = 0; i < c_ports.size(); ++i)
       add(std::string(c_fragment_fields[i]), {c_bits[i]},
           i < 4 ? "the register after the shader" : fmt::format("{}, or the register after it", colours), {},
-          {fmt::format("frame_tb/fragment_{}", c_ports[i])});
+          {fmt::format("fragment_{}", c_ports[i])});
   }
 
  private:
@@ -206,7 +191,7 @@ class QuadraticStages final : public StagesOf<golden::QuadraticShader<P, Channel
             {P::c_intensity_bits, P::c_intensity_fraction_bits, true},
             within(Degree == 1 ? "plane_interpolator" : "quadratic_interpolator", "quadratic_shader"),
             [c, golden = word.golden](const Shader& s, SpanXWord) { return (s.channel(c).*golden)().bits(); },
-            {dut(fmt::format("channels({})/colour/interpolator/{}", c, word.signal)), 0, 1, true});
+            {fmt::format("channels({})/colour/interpolator/{}", c, word.signal), 0, 1, true});
   }
 };
 
@@ -227,7 +212,7 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
                 [golden](const Shader& s, SpanXWord) { return golden(s).angle().bits(); },
                 {slice.path + "angle"});
     });
-    this->begin_stage({"sample", "triangle_walker", {dut("span_step")}, 1});
+    this->begin_stage({"sample", "triangle_walker", {"span_step"}, 1});
     for_each_slice([&](const Slice& slice, auto golden) {
       this->add(slice.name + " in_range", c_flag, within("angle_address", slice.entity),
                 [golden, light = slice.light](const Shader& s, SpanXWord) {
@@ -242,7 +227,7 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
                   [golden](const Shader& s, SpanXWord) { return golden(s).sample(); },
                   {slice.path + slice.sample});
     });
-    this->begin_stage({"product", "triangle_walker", {dut("span_step")}, 4});
+    this->begin_stage({"product", "triangle_walker", {"span_step"}, 4});
     const int bits = P::c_factor_bits + config_.data_bits;
     for_each_slice([&](const Slice& slice, auto golden) {
       for (int c = 0; c < slice.channels; ++c)
@@ -274,13 +259,13 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
       if (layout_.has_diffuse_part())
         use(
             Slice{fmt::format("light {} diffuse", l + 1), "diffuse_slice",
-                  dut(fmt::format("lights({})/light/diffuse/slice/", l)), "cosines/sample", light,
+                  fmt::format("lights({})/light/diffuse/slice/", l), "cosines/sample", light,
                   layout_.diffuse_channels()},
             [light](const Shader& s) -> const auto& { return s.diffuse(light); });
       if (config_.specular)
         use(
             Slice{fmt::format("light {} specular", l + 1), "specular_slice",
-                  dut(fmt::format("lights({})/light/specular/slice/", l)), "sample", light,
+                  fmt::format("lights({})/light/specular/slice/", l), "sample", light,
                   config_.highlight_channels},
             [light](const Shader& s) -> const auto& { return s.specular(light); });
     }
@@ -321,7 +306,7 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
                 [p](const Shader& s, SpanXWord) {
                   return golden::low_bits(static_cast<std::uint64_t>(s.plane_value(p)), P::c_vector_bits);
                 },
-                {dut(front + "vectors"), p * P::c_vector_bits});
+                {front + "vectors", p * P::c_vector_bits});
     add_processor("ambient");
     for (int light = 1; light <= config.lights(); ++light) {
       if (config.diffuse) add_processor(fmt::format("diffuse {}", light));
@@ -334,8 +319,8 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
   void add_processor(std::string name) {
     using At = typename P::pixel_header_at;
     const std::string entity = folded_ ? "shading_processor" : "unrolled_shading_processor";
-    const std::string path = dut(fmt::format("pipeline/chain({})/form/{}/", this->stages_.size() - 2,
-                                             folded_ ? "folded" : "unrolled"));
+    const std::string path =
+        fmt::format("pipeline/chain({})/form/{}/", this->stages_.size() - 2, folded_ ? "folded" : "unrolled");
     const Signal command{path + "out_token", At::command.low};
     this->begin_stage({std::move(name), entity, {path + "out_valid", path + "out_ready"}, 0, {}, command});
     this->add(
@@ -394,26 +379,29 @@ std::string channel_name(unsigned channel, unsigned channels) {
   return channels == 1 ? "grey" : c_colours[channel];
 }
 
-std::vector<std::string> ShaderStages::signals() const {
-  std::vector<std::string> paths = {c_clock, c_first_valid, c_first_ready};
+std::set<TracedPart> ShaderStages::parts() const {
+  std::set<TracedPart> parts;
+  const auto add = [&](const Signal& signal, int bits) {
+    parts.insert(
+        {signal.path, signal.netlist_path.empty() ? signal.path : signal.netlist_path, signal.low, bits});
+  };
+  add({c_first_valid}, 1);
+  add({c_first_ready}, 1);
   for (const Stage& stage : stages_) {
-    paths.insert(paths.end(), stage.strobes.begin(), stage.strobes.end());
-    for (const StageWord& word : stage.words) paths.push_back(word.signal.path);
+    for (const std::string& strobe : stage.strobes) add({strobe}, 1);
+    for (const StageWord& word : stage.words) add(word.signal, word.bits);
+    if (stage.command) add(*stage.command, stage.words.front().bits);
   }
-  std::ranges::sort(paths);
-  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
-  return paths;
+  return parts;
 }
 
-Result<std::vector<std::vector<RtlEvent>>> ShaderStages::read(const std::filesystem::path& vcd) const {
-  const auto sampled = sample_vcd(vcd, c_clock, signals(), SIZE_MAX);
-  if (!sampled) return sampled.error();
-  const std::size_t edges = sampled->edges;
+std::vector<std::vector<RtlEvent>> ShaderStages::read(const SignalTrace& trace) const {
+  const std::size_t edges = trace.edges();
   const auto is_one = [&](const std::string& path, std::size_t edge) {
-    return sampled->values.at(path)[edge] == "1";
+    return trace.part(path, edge, 0, 1) == 1U;
   };
   const auto part = [&](const Signal& signal, std::size_t edge, int low, int bits) {
-    return edge < edges ? number_of(sampled->values.at(signal.path)[edge], low, bits) : std::nullopt;
+    return edge < edges ? trace.part(signal.path, edge, low, bits) : std::nullopt;
   };
   const auto word_at = [&](const Signal& signal, int bits, std::size_t edge) -> std::optional<std::uint64_t> {
     if (!signal.skewed) return part(signal, edge, signal.low, bits);
@@ -429,7 +417,9 @@ Result<std::vector<std::vector<RtlEvent>>> ShaderStages::read(const std::filesys
   for (std::size_t s = 0; s < stages_.size(); ++s) {
     const Stage& stage = stages_[s];
     for (std::size_t edge = first; edge < edges; ++edge) {
-      if (!std::ranges::all_of(stage.strobes, [&](const auto& path) { return is_one(path, edge); })) continue;
+      if (!std::all_of(stage.strobes.begin(), stage.strobes.end(),
+                       [&](const auto& path) { return is_one(path, edge); }))
+        continue;
       const std::size_t held = edge + static_cast<std::size_t>(stage.clocks);
       if (stage.command) {
         const auto command = word_at(*stage.command, stage.words.front().bits, held);
@@ -447,27 +437,6 @@ Result<std::vector<std::vector<RtlEvent>>> ShaderStages::read(const std::filesys
 
 std::unique_ptr<ShaderStages> make_stages(const HardwareKey& key) {
   return key.preset == Preset::exact ? make<Exact>(key) : make<golden::Published>(key);
-}
-
-Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stages,
-                                const SimulatorFolders& folders, const InitStream& vectors,
-                                std::uint64_t fragments) {
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  const std::filesystem::path init = scratch->path() / "init.txt", vcd = scratch->path() / "trace.vcd";
-  if (Status written = write_init_file(init, key.name(), vectors); !written) return written.error();
-  const auto runner = GhdlRunner::open(key, folders);
-  if (!runner) return runner.error();
-  GhdlRunOptions options;
-  options.max_fragments = static_cast<std::uint32_t>(fragments + c_most_surplus);
-  options.idle_limit = c_idle_limit;
-  options.wave_file = vcd;
-  options.wave_signals = stages.signals();
-  const auto run = runner->run(init, scratch->path() / "trace", options);
-  if (!run && run.error().code != ExitCode::differs) return run.error();
-  auto events = stages.read(vcd);
-  if (!events) return events.error();
-  return StageTrace{std::move(*events), run ? std::string() : run.error().message};
 }
 
 }  // namespace halfway

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Golden model and RTL must have equal values in every stage of the table.
-#include "sim/run/stages.hpp"
+#include "sim/run/stage_trace.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/run/vectors_around.hpp"
+#include "sim/stages/vectors_around.hpp"
 
 #include <utility>
 

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Values of each stage of a shader for a line or a pixel, in the golden model and in signals of the RTL.
+// Values of each stage of a shader for a line or a pixel, in the golden model and in signals of the RTL. It
+// needs no threads, files or exceptions, so a browser runs it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/stream_files/init_file.hpp"
 
 namespace halfway {
 
-/// Bits of a signal in GHDL's trace of tb/frame_tb.vhd.
+/// Bits of a signal of the RTL.
 struct Signal {
-  std::string path;     ///< scopes and name, such as frame_tb/dut/span_load
-  int low = 0;          ///< lowest bit
-  int clocks = 0;       ///< delay after the stage's clock
-  bool skewed = false;  ///< the upper half of the bits is one clock later than the lower half
+  std::string path;            ///< instances and name, such as walker/x, from the shader on
+  int low = 0;                 ///< lowest bit
+  int clocks = 0;              ///< delay after the stage's clock
+  bool skewed = false;         ///< the upper half of the bits is one clock later than the lower half
+  std::string netlist_path{};  ///< path of an equal signal of the netlist, if it omits this one
 };
 
 /// A register of a stage.
@@ -57,6 +57,25 @@ struct RtlEvent {
   std::vector<std::optional<std::uint64_t>> words;  ///< std::nullopt if a bit is neither 0 nor 1
 };
 
+/// Bits of a signal that ShaderStages::read needs.
+struct TracedPart {
+  std::string path, netlist_path;  ///< in a simulation, and in the netlist
+  int low, bits;
+  friend bool operator<(const TracedPart& a, const TracedPart& b) {
+    return std::tie(a.path, a.low, a.bits) < std::tie(b.path, b.low, b.bits);
+  }
+};
+
+/// The signals of a simulation: their values before each rising edge of the clock.
+class SignalTrace {
+ public:
+  virtual ~SignalTrace() = default;
+  virtual std::size_t edges() const = 0;
+  /// `bits` bits, 64 at most, from bit `low` up; std::nullopt if one of them is neither 0 nor 1.
+  virtual std::optional<std::uint64_t> part(const std::string& path, std::size_t edge, int low,
+                                            int bits) const = 0;
+};
+
 /// The stages of a key's shader in pipeline order: line, span, ..., fragment.
 class ShaderStages {
  public:
@@ -67,27 +86,16 @@ class ShaderStages {
   /// pixels the stages from the span to the fragment, without stages that the pixel does not reach.
   virtual std::vector<GoldenEvent> draw(std::span<const std::uint32_t> init_words) = 0;
 
-  /// The signals that read() needs in a trace.
-  std::vector<std::string> signals() const;
+  /// What read() needs in a trace, each part once.
+  std::set<TracedPart> parts() const;
   /// Read the events of a trace: one list per stage.
-  Result<std::vector<std::vector<RtlEvent>>> read(const std::filesystem::path& vcd) const;
+  std::vector<std::vector<RtlEvent>> read(const SignalTrace& trace) const;
 
  protected:
   std::vector<Stage> stages_;
 };
 
 std::unique_ptr<ShaderStages> make_stages(const HardwareKey& key);
-
-/// Result of a simulation in GHDL.
-struct StageTrace {
-  std::vector<std::vector<RtlEvent>> events;  ///< one list per stage
-  std::string fault;  ///< fault reported by the hardware through the testbench; empty: none
-};
-
-/// Simulate the vectors of whole triangles in GHDL. `fragments`: number of fragments in the golden model.
-Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stages,
-                                const SimulatorFolders& folders, const InitStream& vectors,
-                                std::uint64_t fragments);
 
 /// Names of the planes of the processors shader: "N x", ..., "1/w".
 std::vector<std::string> plane_names(const HardwareKey& key);

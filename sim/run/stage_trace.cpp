@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/run/stage_trace.hpp"
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "sim/compare/limits.hpp"
+#include "sim/ghdl/ghdl_runner.hpp"
+#include "sim/ghdl/vcd.hpp"
+#include "sim/system/file.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* c_clock = "frame_tb/clk";
+
+// Path of a shader's signal in the testbench.
+std::string in_testbench(const std::string& path) {
+  return "frame_tb/dut/" + path;
+}
+
+// A trace of tb/frame_tb.vhd. GHDL writes values in full.
+class VcdTrace final : public SignalTrace {
+ public:
+  explicit VcdTrace(SampledSignals sampled) : sampled_(std::move(sampled)) {}
+
+  std::size_t edges() const override { return sampled_.edges; }
+  std::optional<std::uint64_t> part(const std::string& path, std::size_t edge, int low,
+                                    int bits) const override {
+    const std::string_view value = sampled_.values.at(in_testbench(path))[edge];
+    std::uint64_t word = 0;
+    for (int i = bits - 1; i >= 0; --i) {
+      const std::size_t from_right = static_cast<std::size_t>(low + i) + 1;
+      const char bit = from_right > value.size() ? 'U' : value[value.size() - from_right];
+      if (bit != '0' && bit != '1') return std::nullopt;
+      word = word << 1 | (bit == '1' ? 1U : 0U);
+    }
+    return word;
+  }
+
+ private:
+  SampledSignals sampled_;
+};
+
+}  // namespace
+
+Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stages,
+                                const SimulatorFolders& folders, const InitStream& vectors,
+                                std::uint64_t fragments) {
+  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!scratch) return scratch.error();
+  const std::filesystem::path init = scratch->path() / "init.txt", vcd = scratch->path() / "trace.vcd";
+  if (Status written = write_init_file(init, key.name(), vectors); !written) return written.error();
+  const auto runner = GhdlRunner::open(key, folders);
+  if (!runner) return runner.error();
+  std::vector<std::string> paths;
+  for (const TracedPart& part : stages.parts())
+    if (const std::string path = in_testbench(part.path); paths.empty() || paths.back() != path)
+      paths.push_back(path);
+  GhdlRunOptions options;
+  options.max_fragments = static_cast<std::uint32_t>(fragments + c_most_surplus);
+  options.idle_limit = c_idle_limit;
+  options.wave_file = vcd;
+  options.wave_signals = paths;
+  options.wave_signals.emplace_back(c_clock);
+  const auto run = runner->run(init, scratch->path() / "trace", options);
+  if (!run && run.error().code != ExitCode::differs) return run.error();
+  auto sampled = sample_vcd(vcd, c_clock, paths, SIZE_MAX);
+  if (!sampled) return sampled.error();
+  return StageTrace{stages.read(VcdTrace(std::move(*sampled))), run ? std::string() : run.error().message};
+}
+
+}  // namespace halfway
