@@ -315,7 +315,7 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
-with_tools := bench bounds check-report diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
+with_tools := bench board bounds check-report diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
   savings slurm-test study synth test
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \
