@@ -103,17 +103,14 @@ entity processors_axi_tb is
 end entity;
 
 architecture sim of processors_axi_tb is
-  -- The shader's vectors.
-  constant c_folder : string := g_folder & "/../processors_shader";
-
   signal finished : boolean_vector(0 to 1);
 begin
   directional : entity work.processors_axi_run
-    generic map (g_stem => c_folder & "/directional_")
+    generic map (g_stem => g_folder & "/directional_")
     port map (finished => finished(0));
 
   shadows : entity work.processors_axi_run
-    generic map (g_positional => 1, g_shadows => true, g_limit_bits => 13, g_stem => c_folder & "/shadows_")
+    generic map (g_positional => 1, g_shadows => true, g_limit_bits => 13, g_stem => g_folder & "/shadows_")
     port map (finished => finished(1));
 
   done : process is

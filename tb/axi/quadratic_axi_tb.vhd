@@ -88,17 +88,14 @@ entity quadratic_axi_tb is
 end entity;
 
 architecture sim of quadratic_axi_tb is
-  -- The shader's vectors.
-  constant c_folder : string := g_folder & "/../quadratic_shader";
-
   signal finished : boolean_vector(0 to 1);
 begin
   exact_colour : entity work.quadratic_axi_run
-    generic map (g_stem => c_folder & "/exact3_")
+    generic map (g_stem => g_folder & "/exact3_")
     port map (finished => finished(0));
 
   exact_grey_planes : entity work.quadratic_axi_run
-    generic map (g_channels => 1, g_degree => 1, g_stem => c_folder & "/exact1_planes_")
+    generic map (g_channels => 1, g_degree => 1, g_stem => g_folder & "/exact1_planes_")
     port map (finished => finished(1));
 
   done : process is

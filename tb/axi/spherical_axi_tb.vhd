@@ -97,17 +97,14 @@ entity spherical_axi_tb is
 end entity;
 
 architecture sim of spherical_axi_tb is
-  -- The shader's vectors.
-  constant c_folder : string := g_folder & "/../spherical_shader";
-
   signal finished : boolean_vector(0 to 1);
 begin
   two_lights : entity work.spherical_axi_run
-    generic map (g_lights => 2, g_highlight_channels => 3, g_powers => 22, g_stem => c_folder & "/two_lights_")
+    generic map (g_lights => 2, g_highlight_channels => 3, g_powers => 22, g_stem => g_folder & "/two_lights_")
     port map (finished => finished(0));
 
   no_light : entity work.spherical_axi_run
-    generic map (g_lights => 0, g_stem => c_folder & "/no_light_")
+    generic map (g_lights => 0, g_stem => g_folder & "/no_light_")
     port map (finished => finished(1));
 
   done : process is
