@@ -375,7 +375,8 @@ SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>
   return {greatest, std::min(fall, c_spot_edge * turn * turn)};
 }
 
-// Both together.
+// Greatest error of a spot light between the samples, in colour steps: of its light and at the edge of its
+// cone.
 double missed_spot(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
                    const LightOnTriangle& light, const LightCone& cone) {
   const Missed whole = missed_light(m, t, view, light);

@@ -6,6 +6,7 @@
 #include "golden/board_pixel.hpp"
 
 namespace halfway::board {
+
 std::uint16_t rgb565(const glm::dvec3& radiance) {
   return golden::board_colour(to_byte(radiance.r), to_byte(radiance.g), to_byte(radiance.b));
 }

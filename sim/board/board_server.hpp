@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated board as a device that other programs use: a socket in place of an SPI port.
+// The simulated board as a device that other programs use: a socket instead of an SPI port.
 #pragma once
 
 #include <cstdint>
