@@ -37,8 +37,12 @@ new_disk() { # size free
   head -c "$((($1 - $2) * 1024))" /dev/zero >"$disk/ballast"
 }
 
-sums() { # folder
-  (cd "$1" && find . -name '*.vhd' -exec cksum {} + | sort)
+# The core's sources are those that rtl/files.f lists; a cache's folder holds these and no others.
+sums_of_list() { # checkout
+  (cd "$1/rtl" && grep '\.vhd$' files.f | sort | xargs cksum)
+}
+sums_of_folder() { # folder
+  (cd "$1" && find . -name '*.vhd' -printf '%P\n' | sort | xargs cksum)
 }
 
 # The command must fail with a full disk and leave only files that match the pattern.
@@ -80,14 +84,14 @@ rm -rf "$scratch/source"
 mkdir -p "$scratch/source"
 for part in rtl tb sim model; do ln -s "$checkout/$part" "$scratch/source/$part"; done
 ln -s "$disk" "$scratch/source/build"
-for free in 0 300 1200; do
+for free in 0 300 1200 2400; do
   new_disk 8192 "$free"
   # Files with their final names must be complete: the sources, and a netlist of them in VHDL and Verilog. The files
   # made from these did not fit.
   expect_full "cache, $free KiB" '/cache/ghdl/[0-9a-f]*/(rtl/[a-z_/]*\.vhd|netlists/[a-z_]*-[0-9a-f]*\.(v|vhd))$' \
     "$halfway" --source "$scratch/source" "${sim[@]:1}" --out "$scratch/out"
   for entry in "$disk"/cache/ghdl/[0-9a-f]*/rtl; do
-    [ ! -d "$entry" ] || [ "$(sums "$entry")" = "$(sums "$checkout/rtl")" ] || fail "$entry is not whole"
+    [ ! -d "$entry" ] || [ "$(sums_of_folder "$entry")" = "$(sums_of_list "$checkout")" ] || fail "$entry is not whole"
   done
   for entry in "$disk"/cache/ghdl/[0-9a-f]*/netlists/*.v*; do
     [ ! -f "$entry" ] || grep . "$entry" | tail -n 1 | grep -qx 'endmodule\|end rtl;' || fail "$entry is not whole"
