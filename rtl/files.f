@@ -81,6 +81,7 @@ shaders/processors_shader.vhd
 axi/axi_pkg.vhd
 axi/axi_control.vhd
 axi/axi_output.vhd
+axi/axi_adapter.vhd
 axi/quadratic_axi.vhd
 axi/spherical_axi.vhd
 axi/processors_axi.vhd

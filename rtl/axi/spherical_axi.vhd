@@ -3,14 +3,9 @@
 -- Purpose     The spherical shader with AXI4-Stream ports.
 -- Contract    aclk, aresetn: rising edge; synchronous reset, active low, for at least one rising edge. No output depends
 --             on an input in the same clock.
---             s_axis: one init vector per transfer, in the order of the host's set-up. tlast = '1' marks the last vector of
---             a frame.
---             m_axis: one fragment per transfer. tlast = '1' marks the frame's last fragment: each tlast of s_axis has one
---             of m_axis. The fragment before it waits until the next fragment or the frame's end is known. tkeep is all
---             ones, except in a frame without fragments: it has one transfer with tlast = '1' and tkeep all zeros.
---             fault = '1' at the transfer with tlast: the frame is faulty (axi_control), some of its fragments are
---             missing or wrong. The next frame is drawn, also after a frame that ends without all its line
---             records.
+--             s_axis: one init vector per transfer, in the order of the host's set-up.
+--             m_axis, fault: one fragment per transfer, as in axi_adapter.
+--             The frame after a fault is drawn, also if the faulty frame ended without all its line records.
 -- Formats     axi_pkg: 32-bit words of an init vector, the fields of a fragment; formats_pkg
 -- Latency     13 clocks from a header taken to its triangle's first fragment, if its first line covers two pixels
 -- Throughput  that of spherical_shader within a frame. Between frames the pipeline becomes empty: see axi_control
@@ -70,34 +65,12 @@ architecture rtl of spherical_axi is
   signal z                              : std_logic_vector(c_formats.depth.bits - 1 downto 0);
   signal red, green, blue               : std_logic_vector(c_formats.colour.bits - 1 downto 0);
   signal fragment                       : fragment_data_t;
-  signal busy, stalled                  : std_logic;
+  signal busy                           : std_logic;
   signal shader_fault, shader_reset     : std_logic;
-  signal frame_end, done, is_empty      : std_logic;
 
 begin
 
   reset <= not aresetn;
-
-  control : entity work.axi_control
-    generic map (
-      g_limit_bits => g_limit_bits
-      )
-    port map (
-      clk          => aclk,
-      reset        => reset,
-      in_valid     => s_axis_tvalid,
-      in_ready     => s_axis_tready,
-      in_last      => s_axis_tlast,
-      init_valid   => init_valid,
-      init_ready   => init_ready,
-      busy         => busy,
-      stalled      => stalled,
-      shader_fault => shader_fault,
-      shader_reset => shader_reset,
-      frame_end    => frame_end,
-      done         => done,
-      fault        => fault
-      );
 
   core : entity work.spherical_shader
     generic map (
@@ -130,28 +103,32 @@ begin
       fault             => shader_fault
       );
 
-  stalled  <= fragment_valid and not fragment_ready;
   fragment <= fragment_data(triangle, y, x, z, red, green, blue);
 
-  fragments : entity work.axi_output
+  adapter : entity work.axi_adapter
     generic map (
-      g_bits => c_fragment_bits
+      g_limit_bits => g_limit_bits
       )
     port map (
-      clk       => aclk,
-      reset     => reset,
-      in_valid  => fragment_valid,
-      in_ready  => fragment_ready,
-      in_data   => fragment,
-      frame_end => frame_end,
-      out_valid => m_axis_tvalid,
-      out_ready => m_axis_tready,
-      out_data  => m_axis_tdata,
-      out_last  => m_axis_tlast,
-      out_empty => is_empty,
-      done      => done
+      clk            => aclk,
+      reset          => reset,
+      s_axis_tvalid  => s_axis_tvalid,
+      s_axis_tready  => s_axis_tready,
+      s_axis_tlast   => s_axis_tlast,
+      init_valid     => init_valid,
+      init_ready     => init_ready,
+      fragment_valid => fragment_valid,
+      fragment_ready => fragment_ready,
+      fragment       => fragment,
+      busy           => busy,
+      shader_fault   => shader_fault,
+      shader_reset   => shader_reset,
+      m_axis_tvalid  => m_axis_tvalid,
+      m_axis_tready  => m_axis_tready,
+      m_axis_tdata   => m_axis_tdata,
+      m_axis_tkeep   => m_axis_tkeep,
+      m_axis_tlast   => m_axis_tlast,
+      fault          => fault
       );
-
-  m_axis_tkeep <= (others => not is_empty);
 
 end architecture;

@@ -132,6 +132,7 @@ std::vector<ListedDesign> all_designs() {
     if (exact) add("stream_queue", {{"g_bits", "104"}}, true);
     if (exact) add("axi_output", {{"g_bits", "128"}}, true);
     if (exact) add("axi_control", {}, true);
+    if (exact) add("axi_adapter", {}, true);
     if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
     add("function_rom", {is_exact, {"g_which", "0"}}, true);
     add("dot_product", {{"g_bits", of("direction")}});

@@ -40,7 +40,7 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
     for (std::sregex_iterator it(source.content.begin(), source.content.end(), entity), end; it != end; ++it)
       there.insert((*it)[1]);
   for (const ListedDesign& design : all_designs()) listed.insert(design.design.entity);
-  // These are a shader with axi_control and axi_output, which are measured. The wrapper's clock is clk.
+  // These are a shader and axi_adapter, which are measured. The wrapper's clock is clk.
   for (const char* top : {"processors_axi", "quadratic_axi", "spherical_axi"})
     EXPECT_TRUE(listed.insert(top).second) << top;
   // These are measured inside the shading processors: a generic of record type has no value on GHDL's command
