@@ -35,11 +35,13 @@ struct BoardSimulation {
 /// The scene of about 20 visible triangles that GHDL draws by default.
 constexpr const char* c_small_scene = "sim/board/small.toml";
 
-/// Without scenes: all built-in ones in Verilator, the small one in GHDL.
+/// Without scenes: all built-in ones in Verilator, the small one in GHDL. GHDL draws other scenes only if it
+/// is named.
 Result<std::vector<BoardSimulation>> simulations(const BoardSimCommand& command, const Folders& folders) {
   constexpr EngineKind c_known[] = {EngineKind::ghdl, EngineKind::verilator};
-  const auto simulators = checked_simulators(command.simulators, c_known);
+  auto simulators = checked_simulators(command.simulators, c_known);
   if (!simulators) return simulators.error();
+  if (command.simulators.empty() && !command.scenes.empty()) *simulators = {EngineKind::verilator};
   std::vector<BoardSimulation> list;
   for (const EngineKind simulator : *simulators) {
     std::vector<std::string> scenes = command.scenes;
@@ -73,7 +75,10 @@ Status simulate_board(const BoardSimulation& simulation, const BoardSimCommand& 
   options.setup.quadratic.threshold = command.threshold;
   // GHDL is slow: do not split triangles.
   if (options.ghdl) options.setup.quadratic.test = HighlightTest::none;
+  Progress progress("board-sim");
+  progress.show(fmt::format("{} in {}, {} host", simulation.scene, to_string(simulation.simulator), host));
   const auto check = board::check_board(*scene, options, {folders.source, folders.cache()});
+  progress.clear();
   if (!check) return check.error();
   const board::HostReport& report = check->run.report;
   fmt::print(
@@ -116,7 +121,8 @@ void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   auto command = std::make_shared<BoardSimCommand>();
   sub->add_option("scene", command->scenes,
                   "as for sim (default: all built-in scenes in Verilator, a small one in GHDL)");
-  sub->add_option("--simulator", command->simulators, "ghdl or verilator (default: both)");
+  sub->add_option("--simulator", command->simulators,
+                  "ghdl or verilator (default: both; with a scene: verilator)");
   sub->add_option("--out", command->out, "folder for results")->capture_default_str();
   sub->add_option("--threshold", command->threshold,
                   "error above which a triangle is split, in colour steps of 1/255")
