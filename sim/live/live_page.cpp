@@ -30,7 +30,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Shading processors for more lights take long to convert and compile. The page says that it lacks them.
-constexpr unsigned c_most_processor_lights = 4;
+constexpr unsigned c_most_processor_lights = 16;
 constexpr std::array c_presets = {Preset::exact, Preset::published};
 constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
