@@ -255,14 +255,14 @@ evidence: configure ## measure the stale rows of the pages of evidence again: ac
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_accuracy halfway_bounds halfway_stability halfway_proofs \
 	  halfway_mutants halfway_vectors halfway_synth
 	@build/tb/halfway_vectors all build/tb/vectors
-	@end=0; build/tb/halfway_bounds --gtest_brief=1 --evidence=stale || end=$$?; \
+	@end=0; build/tb/halfway_synth --evidence stale --jobs "$(jobs)" --pin --readme docs/performance.md . build/cache || end=$$?; \
+	build/tb/halfway_bounds --gtest_brief=1 --evidence=stale || end=$$?; \
 	build/tb/halfway_accuracy --gtest_brief=1 --evidence=stale || end=$$?; \
 	tb/examples/transcripts.sh write "$$(pwd -P)/build/halfway" "$$(pwd -P)" "$$(pwd -P)/build/tb/transcripts" || end=$$?; \
 	tb/examples/block_clocks.sh write "$$(pwd -P)" "$$(pwd -P)/build/tb/block_clocks" || end=$$?; \
 	$(call sweep,stale) || end=$$?; \
 	build/tb/halfway_proofs --evidence stale . build/proofs || end=$$?; \
-	build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants || end=$$?; \
-	build/tb/halfway_synth --evidence stale --jobs "$(jobs)" --pin --readme docs/performance.md . build/cache || end=$$?; exit "$$end"
+	build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants || end=$$?; exit "$$end"
 
 families := edges quadratic spherical processors shadows illumination arithmetic conversions
 sweep = printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 --evidence=$(1) --part={}/
