@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/lights.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/project.hpp"
 #include "setup/quadratic_setup.hpp"
@@ -131,10 +132,14 @@ TEST(Library, ArraysInSpaceGiveTheVectorsOfTheMesh) {
                                  {eye.target_world.x, eye.target_world.y, eye.target_world.z},
                                  {eye.up_world.x, eye.up_world.y, eye.up_world.z},
                                  eye.vertical_fov_degrees};
+  // Lights of every kind are replaced.
+  scene->scene.positional.emplace_back();
+  scene->scene.spots.emplace_back();
   const halfway_light light = {{0.0, 0.0, 3.0}, {0.5, 0.75, 1.0}};
   for (const ScenePointer* pointer : {&scene, &made}) {
     ASSERT_EQ(halfway_set_camera(pointer->get(), &camera, &error), HALFWAY_OK) << error.text;
     ASSERT_EQ(halfway_set_lights(pointer->get(), &light, 1, &error), HALFWAY_OK) << error.text;
+    EXPECT_EQ(light_count(pointer->get()->scene), 1U);
   }
   scene->scene.ambient = made->scene.ambient;
   scene->scene.materials.assign(from.materials.size(), made->scene.materials[0]);

@@ -10,6 +10,7 @@
 #include "mesh_files/loaded_mesh.hpp"
 #include "scene/camera.hpp"
 #include "scene/check_numbers.hpp"
+#include "scene/lights.hpp"
 #include "scene/turntable.hpp"
 #include "scene_files/parse_scene.hpp"
 #include "sim/library/objects.hpp"
@@ -157,9 +158,8 @@ int halfway_set_lights(halfway_scene* scene, const halfway_light* lights, size_t
         return bad_input(fmt::format("light {}: an intensity is not a number from 0 on", i));
       directional.push_back({.to_light_world = to_light / length, .intensity = intensity});
     }
+    clear_lights(scene->scene);
     scene->scene.directional = std::move(directional);
-    scene->scene.positional.clear();
-    scene->scene.spots.clear();
     return Ok{};
   });
 }
