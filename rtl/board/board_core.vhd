@@ -70,7 +70,7 @@ architecture rtl of board_core is
   signal frame_end, ending                  : std_logic;
   signal background                         : word_t;
   signal shown                              : unsigned(3 downto 0);
-  signal drawing, draw_fault, outside : std_logic;
+  signal drawing, draw_fault, outside       : std_logic;
   signal fault, drained                     : std_logic;
 
   signal fragment_valid, fragment_ready     : std_logic;

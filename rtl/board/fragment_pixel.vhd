@@ -54,7 +54,7 @@ architecture rtl of fragment_pixel is
 
 begin
 
-  free   <= pixel_ready or not r.valid;
+  free     <= pixel_ready or not r.valid;
   in_frame <= flag(unsigned(fragment_y) < c_height and unsigned(fragment_x) < c_width);
 
   combinational : process (all)
