@@ -186,8 +186,10 @@ begin
       v.status     := v.room & not v.can_end & r.fault & r.error & std_logic_vector(shown);
     end if;
 
+    -- Report a fault in a status byte that is sampled after it.
     if fault = '1' then
-      v.fault := '1';
+      v.fault      := '1';
+      v.sent_fault := '0';
     end if;
     if reset = '1' then
       v.active     := '0';

@@ -305,6 +305,12 @@ begin
     fault <= transport '1' after 10 * 2 * c_half_period, '0' after 11 * 2 * c_half_period;
     expect_status("fault meanwhile", '1', '0', '0', '0');
     expect_status("fault after", '1', '0', '1', '0');
+    fault <= '1';
+    wait until rising_edge(clk);
+    fault <= transport '0', '1' after 10 * 2 * c_half_period, '0' after 11 * 2 * c_half_period;
+    expect_status("fault, and another meanwhile", '1', '0', '1', '0');
+    expect_status("the other fault", '1', '0', '1', '0');
+    expect_status("both faults read", '1', '0', '0', '0');
     send_good_vector("at the end");
     finished <= true;
     stop     <= true;
