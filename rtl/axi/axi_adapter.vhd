@@ -9,8 +9,8 @@
 --             m_axis: one fragment per transfer. tlast = '1' marks the frame's last fragment: each tlast of s_axis has one
 --             of m_axis. The fragment before it waits until the next fragment or the frame's end is known. tkeep is all
 --             ones, except in a frame without fragments: it has one transfer with tlast = '1' and tkeep all zeros.
---             fault = '1' at the transfer with tlast: the frame is faulty (axi_control), some of its fragments are
---             missing or wrong. The next frame is drawn.
+--             fault = '1' in the transfer with tlast: the frame is faulty (axi_control), some of its fragments are
+--             missing or wrong. The next frame is drawn. In other transfers fault = '0'.
 -- Formats     axi_pkg: the fields of a fragment
 -- Latency     0 from s_axis to init; 2 clocks from a fragment to m_axis if the next one follows at once
 -- Throughput  1 vector and 1 fragment per clock within a frame. Between frames the shader becomes empty: see axi_control
@@ -54,6 +54,7 @@ architecture rtl of axi_adapter is
   signal output_ready              : std_logic;
   signal stalled                   : std_logic;
   signal frame_end, done, is_empty : std_logic;
+  signal frame_fault, is_last      : std_logic;
 
 begin
 
@@ -75,7 +76,7 @@ begin
       shader_reset => shader_reset,
       frame_end    => frame_end,
       done         => done,
-      fault        => fault
+      fault        => frame_fault
       );
 
   stalled        <= fragment_valid and not output_ready;
@@ -95,11 +96,13 @@ begin
       out_valid => m_axis_tvalid,
       out_ready => m_axis_tready,
       out_data  => m_axis_tdata,
-      out_last  => m_axis_tlast,
+      out_last  => is_last,
       out_empty => is_empty,
       done      => done
       );
 
   m_axis_tkeep <= (others => not is_empty);
+  m_axis_tlast <= is_last;
+  fault        <= frame_fault and is_last;
 
 end architecture;

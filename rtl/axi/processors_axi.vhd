@@ -32,7 +32,7 @@ entity processors_axi is
     g_normalize   : boolean := true;
     g_shadows     : boolean := false;
     g_unrolled    : boolean := true;
-    g_limit_bits  : positive := 26 -- of axi_control
+    g_limit_bits  : positive := 31 -- of axi_control; folded processors take several clocks per fragment
   );
   port (
     aclk          : in  std_logic;

@@ -254,8 +254,9 @@ Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsi
   unsigned inputs = 0, outputs = 0;
   std::string wires, pins, connections;
   for (const Port& port : *ports) {
-    connections += fmt::format(",\n    .{0}({0})", port.name);
-    if (port.name == "clk") continue;
+    const bool is_clock = port.name == "clk" || port.name == "aclk";
+    connections += fmt::format(",\n    .{}({})", port.name, is_clock ? "clk" : port.name);
+    if (is_clock) continue;
     if (port.bits > 1)
       wires += fmt::format("  wire [{}:0] {};\n", port.bits - 1, port.name);
     else

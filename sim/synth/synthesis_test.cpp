@@ -9,6 +9,7 @@ namespace halfway::synth {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* c_netlist =
     "module other\n  (input  clk);\nendmodule\nmodule top\n  (input  clk,\n   input  go,\n   input  [2:0] "
@@ -24,6 +25,13 @@ TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
   EXPECT_THAT(*text, HasSubstr("assign out = {done, sum};"));
   EXPECT_THAT(*text, HasSubstr("reg [2:0] folded;"));
   EXPECT_THAT(*text, HasSubstr(".clk(clk)"));
+}
+
+TEST(SynthWrapper, ConnectsTheClockOfAxi) {
+  const auto text = wrapper("module top\n  (input  aclk,\n   output q);\nendmodule\n", "top", 256);
+  ASSERT_TRUE(text) << text.error().message;
+  EXPECT_THAT(*text, HasSubstr(".aclk(clk)"));
+  EXPECT_THAT(*text, Not(HasSubstr("assign aclk")));
 }
 
 TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {

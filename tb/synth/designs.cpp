@@ -16,6 +16,13 @@ ListedDesign shader(const std::string& name, const HardwareKey& key) {
   return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
 }
 
+// The shader with AXI4-Stream ports.
+ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
+  return {.design = {.name = name,
+                     .entity = to_string(key.shader) + std::string("_axi"),
+                     .generics = key.generics()}};
+}
+
 HardwareKey spherical(Preset preset, unsigned channels, unsigned powers, TableSize tables) {
   return {.shader = Shader::spherical,
           .preset = preset,
@@ -80,6 +87,10 @@ std::vector<ListedDesign> all_designs() {
         shader("quadratic_shader_planes_grey_" + p, {.preset = preset, .channels = 1, .degree = 1}));
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
+    if (exact) {
+      all.push_back(axi_top("quadratic_axi_grey_exact", {.channels = 1}));
+      all.push_back(axi_top("spherical_axi_grey_exact", spherical(preset, 1, 8, tables)));
+    }
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));

@@ -40,9 +40,8 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
     for (std::sregex_iterator it(source.content.begin(), source.content.end(), entity), end; it != end; ++it)
       there.insert((*it)[1]);
   for (const ListedDesign& design : all_designs()) listed.insert(design.design.entity);
-  // These are a shader and axi_adapter, which are measured. The wrapper's clock is clk.
-  for (const char* top : {"processors_axi", "quadratic_axi", "spherical_axi"})
-    EXPECT_TRUE(listed.insert(top).second) << top;
+  // The shader and axi_adapter, which are measured. With one light it does not fit the device.
+  EXPECT_TRUE(listed.insert("processors_axi").second);
   // These are measured inside the shading processors: a generic of record type has no value on GHDL's command
   // line.
   for (const char* inside :
