@@ -7,11 +7,12 @@
 #include <halfway.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 #include "spi.h"
 
-enum { WIDTH = 320, HEIGHT = 240, LONGEST_PACKET = 512 };
-enum { READ_STATUS = 0, DRAW = 1, END_FRAME = 2, ROOM = 0x80, ENDING = 0x40 };
+enum { WIDTH = 320, HEIGHT = 240, LONGEST_PACKET = 512, LONGEST_WAIT = 60 /* seconds */ };
+enum { READ_STATUS = 0, DRAW = 1, END_FRAME = 2, ROOM = 0x80, ENDING = 0x40, FAULT = 0x20, ERROR = 0x10 };
 
 static int failed(const halfway_error* error) {
   fprintf(stderr, "%s\n", error->text);
@@ -28,17 +29,29 @@ static unsigned crc16(const uint8_t* bytes, size_t count) {
   return crc;
 }
 
+/* Sends one packet and prints what the board reports. Returns its status byte. */
+static uint8_t exchange(int device, const uint8_t* packet, size_t count) {
+  uint8_t answer[LONGEST_PACKET];
+  spi_transfer(device, packet, answer, count);
+  if (answer[0] == 0xff) return ENDING; /* no status: bits 7 and 6 are never both 1 */
+  if (answer[0] & FAULT) fprintf(stderr, "the board reports a fragment outside the frame\n");
+  if (answer[0] & ERROR) fprintf(stderr, "the board has dropped a packet: check its wiring\n");
+  return answer[0];
+}
+
 /* Waits until the board can take a packet, adds the CRC, and sends it. */
 static void send_packet(int device, uint8_t* packet, size_t count) {
-  uint8_t command = READ_STATUS, status;
-  do {
-    spi_transfer(device, &command, &status, 1);
-  } while ((status & ENDING) || (packet[0] == DRAW && !(status & ROOM)));
+  const uint8_t read_status = READ_STATUS, needed = packet[0] == DRAW ? ROOM : 0;
+  const time_t start = time(NULL);
+  while ((exchange(device, &read_status, 1) & (ENDING | needed)) != needed)
+    if (time(NULL) - start > LONGEST_WAIT) {
+      fprintf(stderr, "the board takes no packet: check its wiring and its bitstream\n");
+      exit(HALFWAY_FAILED);
+    }
   const unsigned crc = crc16(packet, count);
   packet[count] = (uint8_t)(crc >> 8);
   packet[count + 1] = (uint8_t)crc;
-  uint8_t answer[LONGEST_PACKET];
-  spi_transfer(device, packet, answer, count + 2);
+  exchange(device, packet, count + 2);
 }
 
 static void send_vector(int device, const uint32_t* words, unsigned bits) {

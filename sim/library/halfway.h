@@ -101,8 +101,8 @@ typedef struct halfway_request {
 halfway_hardware* halfway_plan(const halfway_scene* scene, const halfway_request* request,
                                halfway_error* error);
 
-/* New: a quadratic shader of preset exact, with 1 or 3 channels, of degree 1 or 2, for triangles on the
- * screen. */
+/* New: a quadratic shader of preset exact, without a scene: with 1 or 3 channels, of degree 1 or 2. For
+ * halfway_screen_vectors, or for a board whose hardware does not depend on the scene. */
 halfway_hardware* halfway_quadratic(int channels, int degree, halfway_error* error);
 
 const char* halfway_name(const halfway_hardware* hardware);        /* such as quadratic_shader-exact-c3 */
