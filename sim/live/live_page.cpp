@@ -14,7 +14,9 @@
 #include "plan/plan.hpp"
 #include "sim/live/core_module.hpp"
 #include "sim/live/hardware_module.hpp"
+#include "sim/live/module_text.hpp"
 #include "sim/live_core/core_values.hpp"
+#include "sim/live_core/live_frame.hpp"
 #include "sim/live_core/live_scene.hpp"
 #include "sim/pages/template.hpp"
 #include "sim/report/html.hpp"
@@ -29,9 +31,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Shading processors for more lights in preset `exact` would make the page larger than its 3 MB, and take
-// minutes and 6 GB of memory to compile. The page says that it lacks them.
-constexpr unsigned c_most_exact_processor_lights = 4;
 constexpr std::array c_presets = {Preset::exact, Preset::published};
 constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -63,7 +62,7 @@ Json names_of(const Enumerators& enumerators) {
   return names;
 }
 
-// The module, compressed, in base64. `-n` omits name and time, so that equal modules give equal pages.
+// The module, compressed, as text_of_bytes. `-n` omits name and time, so that equal modules give equal pages.
 Result<std::string> packed(const std::filesystem::path& module) {
   const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
   if (!scratch) return scratch.error();
@@ -72,7 +71,9 @@ Result<std::string> packed(const std::filesystem::path& module) {
       run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
                "apt-get install gzip", module.filename().string());
   if (!done) return done.error();
-  return report::base64_of(file);
+  const auto bytes = read_file(file);
+  if (!bytes) return bytes.error();
+  return text_of_bytes({reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()});
 }
 
 // Everything on the page that depends on a key.
@@ -124,10 +125,7 @@ Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scene
         for (const TableSize size : table_sizes(preset)) {
           PlanRequest request{.shader = shader, .preset = preset};
           if (shader == Shader::spherical) request.tables = size;
-          const auto plan = plan_scene(scene, request);
-          if (plan &&
-              (preset == Preset::published || plan->key.processors.lights() <= c_most_exact_processor_lights))
-            keys.emplace(plan->key.name(), plan->key);
+          if (const auto key = planned_key(scene, request)) keys.emplace(key->name(), *key);
         }
   std::vector<HardwareKey> sorted;
   for (auto& [name, key] : keys) sorted.push_back(std::move(key));
@@ -147,8 +145,7 @@ Result<LivePage> write_live(const LiveSettings& settings) {
   if (!hardware) return hardware.error();
 
   // Collect the page's data.
-  Json data = {{"modules", {{"core", std::move(*packed_core)}}},
-               {"clocks", Json::object()},
+  Json data = {{"clocks", Json::object()},
                {"names",
                 {{"settings", c_setting_names},
                  {"figures", c_figure_names},
@@ -158,8 +155,9 @@ Result<LivePage> write_live(const LiveSettings& settings) {
   for (const Preset preset : c_presets)
     for (const TableSize size : table_sizes(preset))
       data["tables"][to_string(preset)].push_back(fmt::format("{}x{}", size.address_bits, size.data_bits));
+  Json modules = {{{"name", "core"}, {"text", std::move(*packed_core)}}};
   for (const auto& [name, built] : *hardware) {
-    data["modules"][name] = built.module;
+    modules.push_back({{"name", name}, {"text", built.module}});
     if (built.mhz) data["clocks"][name] = *built.mhz;
   }
   for (const std::string& name : settings.scenes) {
@@ -170,7 +168,8 @@ Result<LivePage> write_live(const LiveSettings& settings) {
 
   // Fill the template.
   Json view = {{"commit", report::commit_of(settings.folders.source)},
-               {"data", report::script_safe(data.dump())}};
+               {"data", report::script_safe(data.dump())},
+               {"modules", std::move(modules)}};
   const auto still =
       report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
   if (!still) return still.error();

@@ -30,8 +30,7 @@ struct LivePage {
 };
 
 /// The hardware of all built-in scenes and of a mesh file, grey or coloured, by all shaders in both presets.
-/// Each key once, sorted by name. A shader that cannot draw a scene has no key for it. Shading processors
-/// with more than four lights are omitted in preset `exact`.
+/// Each key once, sorted by name. A shader that cannot draw a scene has no key for it.
 Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scenes,
                                            const std::filesystem::path& scenes_folder);
 

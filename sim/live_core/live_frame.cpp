@@ -17,6 +17,7 @@
 namespace halfway::live {
 namespace {
 
+constexpr unsigned c_most_unrolled_lights = 4;  // of shading processors in preset `exact`
 constexpr std::size_t c_batch_bytes = std::size_t{8} << 20;
 
 /// A bright colour for a number; neighbours differ.
@@ -29,6 +30,18 @@ void paint(Fragment& fragment, std::uint32_t number) {
 }
 
 }  // namespace
+
+Result<HardwareKey> planned_key(const Scene& scene, PlanRequest request) {
+  const Result<Plan> plan = plan_scene(scene, request);
+  if (!plan) return plan.error();
+  if (request.shader != Shader::processors || request.preset == Preset::published ||
+      plan->key.processors.lights() <= c_most_unrolled_lights)
+    return plan->key;
+  request.form = ProcessorForm::folded;
+  const Result<Plan> folded = plan_scene(scene, request);
+  if (!folded) return folded.error();
+  return folded->key;
+}
 
 Status LiveFrame::load(std::string_view file, std::string_view text, double tessellation) {
   scene_.reset();
@@ -47,10 +60,9 @@ Result<HardwareKey> LiveFrame::plan(const PlanRequest& request) {
   drawn_.reset();
   if (!scene_) return bad_input("no scene is loaded");
   if (Status status = scene_->apply({}); !status) return status.error();
-  Result<Plan> plan = plan_scene(scene_->scene(), request);
-  if (!plan) return plan.error();
-  key_ = plan->key;
-  return plan->key;
+  const Result<HardwareKey> key = planned_key(scene_->scene(), request);
+  if (key) key_ = *key;
+  return key;
 }
 
 Status LiveFrame::check_planned() const {

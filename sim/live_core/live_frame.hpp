@@ -63,6 +63,11 @@ struct Way {
   std::string fault;
 };
 
+/// The hardware that draws the scene in a browser: plan_scene's, but folded for the shading processors of
+/// many lights in preset `exact`. Their unrolled form takes minutes and 6 GB of memory to compile to
+/// WebAssembly.
+Result<HardwareKey> planned_key(const Scene& scene, PlanRequest request);
+
 class LiveFrame {
  public:
   /// `now` is a clock in milliseconds.
