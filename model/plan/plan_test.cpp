@@ -149,7 +149,7 @@ TEST(Plan, ShadowsAreNeededOnlyWithReflectedLight) {
     EXPECT_EQ(shadow(scene).by, DoneBy::none);
     scene.directional.clear();
     EXPECT_FALSE(shadow(scene).called_for);
-    EXPECT_EQ(shadow(scene).why, "no light shines");
+    EXPECT_EQ(shadow(scene).why, "no light that casts shadows shines");
   }
 }
 
@@ -222,7 +222,10 @@ TEST(Plan, LightsFromNoneToOneTooMany) {
       }
       for (const Effect e : {Effect::diffuse, Effect::specular, Effect::normalization, Effect::subdivision}) {
         EXPECT_EQ(effect(*plan, e).called_for, lights > 0) << to_string(e);
-        EXPECT_EQ(effect(*plan, e).why == "no light shines", lights == 0) << to_string(e);
+        EXPECT_EQ(effect(*plan, e).why ==
+                      (e == Effect::specular ? "no light with a highlight shines" : "no light shines"),
+                  lights == 0)
+            << to_string(e);
       }
     }
 }

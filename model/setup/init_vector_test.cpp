@@ -73,10 +73,10 @@ TEST(InitVector, PutsFieldsWhereTheGoldenModelReadsThem) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 2'000; ++i) {
     std::vector<std::uint32_t> words;
-    constexpr unsigned c_bits = 1024;
-    InitVector init(words, c_bits);
-    std::vector<std::uint32_t> expected(c_bits / 32);
-    for (int low = static_cast<int>(random() % 40); low + 64 < static_cast<int>(c_bits);) {
+    constexpr unsigned c_vector_bits = 1024;
+    InitVector init(words, c_vector_bits);
+    std::vector<std::uint32_t> expected(c_vector_bits / 32);
+    for (int low = static_cast<int>(random() % 40); low + 64 < static_cast<int>(c_vector_bits);) {
       const golden::Field field{"", 7, static_cast<int>(1 + random() % 64), false, 0};
       const std::uint64_t value = random();
       init.put(field, static_cast<std::int64_t>(value), low - 7);

@@ -336,7 +336,9 @@ TEST(MeshProjector, ProjectsAsItsProjector) {
             ASSERT_EQ(a.position_world, b.position_world);
             ASSERT_EQ(a.normal_world, b.normal_world);
             const std::uint32_t corner = scene.triangles[i].position[(3 - v) % 3];
-            if (got.is_whole) ASSERT_EQ(a.position_world, scene.positions_world[corner]);
+            if (got.is_whole) {
+              ASSERT_EQ(a.position_world, scene.positions_world[corner]);
+            }
           }
         }
       }

@@ -85,7 +85,7 @@ Call call_diffuse(const Materials& in_use, bool lit) {
 }
 
 Call call_specular(const Scene& scene, const Materials& in_use) {
-  if (shining_lights(scene, has_highlight).empty()) return {false, c_no_light};
+  if (shining_lights(scene, has_highlight).empty()) return {false, "no light with a highlight shines"};
   const Material* m = first(in_use, has_specular);
   if (m == nullptr) return {false, "every k_s is 0"};
   return {true, fmt::format("material '{}' has k_s {:g}", m->name, m->specular)};
@@ -190,7 +190,7 @@ SceneCalls calls_of(const Scene& scene) {
   at(Effect::shadow) = {false, "the scene has no shadows"};
   if (scene.shadows)
     at(Effect::shadow) = shining_lights(scene, casts_shadow).empty()
-                             ? Call{false, c_no_light}
+                             ? Call{false, "no light that casts shadows shines"}
                              : where_reflected("surfaces cast shadows");
   at(Effect::normalization) = where_reflected("reflection uses cosines between unit vectors");
   at(Effect::colour) = call_colour(scene, in_use);

@@ -59,7 +59,7 @@ std::string known_scenes(const std::filesystem::path& folder) {
     if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
   }
   std::sort(names.begin(), names.end());
-  return names.empty() ? "none, for want of files in " + folder.string()
+  return names.empty() ? "none: no scene file in " + folder.string()
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
