@@ -122,7 +122,6 @@ class LiveInBrowser : public CommandTest {
 };
 
 TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
-  std::size_t drawn = 0;
   for (const std::string& scene : c_scenes) {
     const auto loaded = load_scene(scene, c_source / "sim/scenes");
     ASSERT_TRUE(loaded) << loaded.error().message;
@@ -130,7 +129,7 @@ TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
       for (const Preset preset : {Preset::exact, Preset::published}) {
         const std::string of = fmt::format("{} {} {}", scene, to_string(shader), to_string(preset));
         const auto key = planned_key(*loaded, {.shader = shader, .preset = preset});
-        if (!key) continue;
+        ASSERT_TRUE(key) << of << ": " << key.error().message;
         EXPECT_TRUE(has_hardware(*key)) << of;
         const std::vector<std::uint8_t> expected = golden_of(*loaded, *key);
         ASSERT_NO_FATAL_FAILURE(open(fmt::format("scene={}.toml&shader={}&preset={}&size=320x240&kind=golden",
@@ -140,11 +139,8 @@ TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
         EXPECT_EQ(picture("right").rgb, expected) << of;
         EXPECT_THAT(text_of("#verdict"), HasSubstr("0 differ")) << of;
         EXPECT_GT(figure("fragments"), 1000) << of;
-        ++drawn;
       }
   }
-  // 6 scenes, 3 shaders, 2 presets; `published` draws fewer scenes.
-  EXPECT_EQ(drawn, 0U);
 }
 
 TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
