@@ -395,7 +395,6 @@ class SceneReader {
     return glm::scale(matrix, scale);
   }
 
- private:
   std::string file_;
   const ReadMesh& read_mesh_;
   LoadOptions options_;

@@ -91,7 +91,7 @@ TEST(SramModel, ReadsWhatWasWritten) {
 }
 
 TEST(SramModel, FindsFaultsOfTheBus) {
-  const auto fault = [](std::vector<BoardOutputs> clocks) {
+  const auto fault = [](const std::vector<BoardOutputs>& clocks) {
     SramModel sram(100);
     for (const BoardOutputs& pins : clocks) sram.clock(pins);
     return sram.fault();

@@ -14,6 +14,8 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+constexpr const char* c_scene = HALFWAY_SOURCE_DIR "/sim/report/timing.toml";
+
 class VerilogCommand : public CommandTest {
  protected:
   std::string text_of(const std::string& file) const {
@@ -22,8 +24,7 @@ class VerilogCommand : public CommandTest {
     return text ? *text : "";
   }
   Outcome write(std::vector<std::string> more) const {
-    more.insert(more.begin(), {"verilog", HALFWAY_SOURCE_DIR "/sim/report/timing.toml", "--preset",
-                               "published", "--out", "v"});
+    more.insert(more.begin(), {"verilog", c_scene, "--preset", "published", "--out", "v"});
     return run(std::move(more));
   }
 };

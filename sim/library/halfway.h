@@ -20,6 +20,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* NOLINTBEGIN(modernize-use-using,readability-identifier-naming): C */
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -193,5 +195,7 @@ void halfway_free_frame(halfway_frame* frame);
 #ifdef __cplusplus
 }
 #endif
+
+/* NOLINTEND(modernize-use-using,readability-identifier-naming) */
 
 #endif

@@ -40,16 +40,16 @@ class LiveInBrowser : public CommandTest {
   static void SetUpTestSuite() {
     auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
     ASSERT_TRUE(folder) << folder.error().message;
-    page_folder_.emplace(std::move(*folder));
+    made_folder.emplace(std::move(*folder));
     const auto end = run_process({.arguments = {HALFWAY_PROGRAM, "live", "--out", page()}}, "");
-    failure_ = !end ? end.error().message : end->succeeded() ? "" : end->output;
+    failure = !end ? end.error().message : end->succeeded() ? "" : end->output;
   }
-  static void TearDownTestSuite() { page_folder_.reset(); }
+  static void TearDownTestSuite() { made_folder.reset(); }
 
   void SetUp() override {
     CommandTest::SetUp();
     ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
-    ASSERT_EQ(failure_, "");
+    ASSERT_EQ(failure, "");
     browser_ = std::make_unique<HeadlessBrowser>(folder_->path());
     browser_->resize(1440, 900);
     browser_->open(page().string() + "#size=320x240");
@@ -66,7 +66,7 @@ class LiveInBrowser : public CommandTest {
     evaluate(fmt::format("(history.replaceState(null, '', '#{}'), followLink())", link));
     ASSERT_TRUE(is_drawn()) << evaluate("document.body.innerText");
   }
-  static std::filesystem::path page() { return page_folder_->path() / "live.html"; }
+  static std::filesystem::path page() { return made_folder->path() / "live.html"; }
   Json evaluate(const std::string& expression) { return browser_->evaluate(expression); }
   /// The current state is drawn, with its error against the reference.
   bool is_drawn() { return browser_->becomes_true("globalThis.halfwayIsStill && halfwayIsStill()"); }
@@ -117,8 +117,8 @@ class LiveInBrowser : public CommandTest {
   }
 
   std::unique_ptr<HeadlessBrowser> browser_;
-  static inline std::optional<TemporaryFolder> page_folder_;
-  static inline std::string failure_;  ///< of making the page
+  static inline std::optional<TemporaryFolder> made_folder;
+  static inline std::string failure;  ///< of making the page
 };
 
 TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {

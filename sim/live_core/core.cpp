@@ -51,7 +51,7 @@ static_assert(sizeof(StreamPart) == 2 * sizeof(std::uint32_t));
 static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
 
 Error fault_of(int end) {
-  const auto differs = [](std::string what) { return Error{ExitCode::differs, std::move(what)}; };
+  const auto differs = [](const char* what) { return Error{ExitCode::differs, what}; };
   switch (end) {
     case halfway_buffer_full:
       return differs("the hardware draws more fragments than its triangles have");
