@@ -137,7 +137,7 @@ help: ## this list
 	@echo
 	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
 	@echo
-	@echo 'Variables, e.g. make sim SCENE=../shared/meshes/cow.obj SIZE=800x600, and the targets that use each'
+	@echo 'Variables, e.g. make sim SCENE=path/to/mesh.obj SIZE=800x600, and the targets that use each'
 	@printf '  %s\t%s   [%s]\n' $(foreach name,$(variables_in_order),'$(name)' '$(about_$(name))' \
 	  '$(if $(filter JOBS,$(name)),every target that builds,$(call users_of,$(name)))') | expand -t 16
 
@@ -220,7 +220,7 @@ test: build mcode ## run every test
 testbench: configure ## run one VHDL testbench in GHDL, with vectors from the golden model (ENTITY)
 	@[ -n "$$ENTITY" ] || { echo 'testbench: give ENTITY=name, such as make testbench ENTITY=triangle_walker' >&2; exit 2; }
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
-	@ctest --test-dir build --output-on-failure --no-tests=error -R "^tb\.$$ENTITY\$$"
+	@ctest --test-dir build --output-on-failure --no-tests=error -R "^(tb|board)\.$$ENTITY\$$"
 
 # Warnings of clang-tidy and of GHDL are errors.
 lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
