@@ -155,7 +155,7 @@ class Planner {
         return in_hardware(effect, "multipliers and one sum per channel", key_.channels == 3, other);
       case Effect::subdivision:
         if (!exact) break;
-        return planned(calls_, effect, DoneBy::host, "triangles split into columns above a threshold");
+        return planned(calls_, effect, DoneBy::host, "triangles cut into strips above a threshold");
       case Effect::perspective:
         return planned(
             calls_, effect, DoneBy::host,

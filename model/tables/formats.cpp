@@ -320,16 +320,16 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
 // then for each line and light a diffuse and a specular part. Angles are in units of half a bell: the bell
 // reaches zero at 1.
 std::vector<Layout> spherical_layouts(bool exact) {
-  std::vector<Field> specular = {{"angle", "angle", "phi at the first pixel of the line"},
-                                 {"slope", "angle", "change of phi per pixel"}};
+  std::vector<Field> specular = {{"angle", "angle", "Θ at the first pixel of the line"},
+                                 {"slope", "angle", "change of Θ per pixel"}};
   if (exact) specular.push_back({"power", "power", "log2 of the cosine's power: which table is read"});
   return {
       {"ambient", {}, {{"ambient", "factor", "ambient light of the triangle, in colour steps, plus 0.5"}}},
       {"diffuse",
-       {{"angle", "angle", "phi at the first pixel of the line"},
-        {"slope", "angle", "change of phi per pixel"}},
-       {{"factor", "factor", "255 I k_d A s 2^D / (2^D - 1), in colour steps"}}},
-      {"specular", specular, {{"factor", "factor", "255 I k_s A^n g s 2^D / (2^D - 1), in colour steps"}}},
+       {{"angle", "angle", "Θ at the first pixel of the line"},
+        {"slope", "angle", "change of Θ per pixel"}},
+       {{"factor", "factor", "255 I k_d A c 2^D / (2^D - 1), in colour steps"}}},
+      {"specular", specular, {{"factor", "factor", "255 I k_s A^n g c 2^D / (2^D - 1), in colour steps"}}},
   };
 }
 

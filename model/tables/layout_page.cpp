@@ -31,17 +31,18 @@ constexpr Section c_sections[] = {
      "`model/setup/spherical_setup.cpp`"},
     {"diffuse", "Diffuse part of a line record (spherical shader)",
      "One line record per line follows the triangle's vector. It holds for each light its diffuse part, then "
-     "its specular part; light 1 is lowest. On the line, N·L = A cos phi. I is the intensity of the light (1 "
-     "is white) and k_d the material's coefficient times its colour, both in this channel. s is the share of "
-     "a spot's cone (1 for other lights), and D the number of data bits of the table. The unit of phi is a "
+     "its specular part; light 1 is lowest. On the line, N·L = A cos Θ. I is the intensity of the light (1 "
+     "is white) and k_d the material's coefficient times its colour, both in this channel. c is the share of "
+     "a spot's cone (1 for other lights), and D the number of data bits of the table. The unit of Θ is a "
      "quarter turn (half a bell) in preset `exact`, where the cosine is zero at 1, and a half turn in preset "
      "`published`.",
      "`model/setup/spherical_setup.cpp`, `arc.cpp`"},
     {"specular", "Specular part of a line record (spherical shader)",
      "One block per highlight channel: 1 if all highlights are white or grey, otherwise 3. On the line, N·H "
-     "(of Phong materials R·V) = A cos phi. n is the material's exponent. The bell with scale a and gain g "
-     "approximates cosⁿ (`model/shading/bell.hpp`; g is 1 in preset `published`). The words hold a phi in "
-     "half bells: the highlight is zero at 1.",
+     "(of Phong materials R·V, with R = 2 (N·L) N − L) = A cos Θ. n is the material's exponent and k_s its "
+     "coefficient times the highlight's colour; I, c and D are as in the diffuse part. The bell with scale a "
+     "and gain g approximates cosⁿ (`model/shading/bell.hpp`; g is 1 in preset `published`). The words contain "
+     "the product of a and Θ, in half bells: the highlight is zero at 1.",
      "`model/setup/spherical_setup.cpp`, `arc.cpp`"},
     {"request", "Request of the shading processors",
      "Every vector of the shading processors starts with a request. Its command gives what follows:\n\n"

@@ -522,7 +522,7 @@ TEST_F(CliTest, InitSaysWhatSetupMade) {
                     "[^\n]*\n.* [1-9][0-9]* of them split in four: [0-9]+ pieces in all, in [0-9]+ init "
                     "vectors and 0 line records; [0-9]+ points shaded\n"));
   EXPECT_THAT(run({"init", "spheres", "--size", "64x48", "--shader", "spherical"}).output,
-              ContainsRegex(" 0 of them cut into columns: [0-9]+ pieces in all, in [0-9]+ init vectors and "
+              ContainsRegex(" 0 of them cut into strips: [0-9]+ pieces in all, in [0-9]+ init vectors and "
                             "[1-9][0-9]* line records; [0-9]+ points where vectors were computed\n"));
 }
 

@@ -49,7 +49,7 @@ int run(const Folders& folders, const InitCommand& command) {
       "{} pieces in all, in {} init vectors and {} line records; {} points {}\n",
       scene->triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
       n.projection.degenerate, n.triangles, n.subdivided,
-      key.shader == Shader::quadratic ? "split in four" : "cut into columns", n.leaves, n.vectors, n.records,
+      key.shader == Shader::quadratic ? "split in four" : "cut into strips", n.leaves, n.vectors, n.records,
       n.shaded, key.shader == Shader::quadratic ? "shaded" : "where vectors were computed");
   return 0;
 }

@@ -96,7 +96,7 @@ void DrawOptions::add_to(CLI::App& command) {
                      "conservative (default: conservative in preset exact, centroid in published)");
   command.add_option(
       "--threshold", threshold,
-      fmt::format("error above which a triangle is split (quadratic) or cut into columns (spherical, preset\n"
+      fmt::format("error above which a triangle is split (quadratic) or cut into strips (spherical, preset\n"
                   "exact), in colour steps of 1/255 (default: {})",
                   QuadraticSetupOptions{}.threshold));
   command.add_option("--max-level", max_level,
@@ -124,7 +124,7 @@ void DrawOptions::add_to(CLI::App& command) {
   command.add_option(
       "--span-ends", span_ends,
       "spherical, preset exact: surface or slerp: vectors at a span's ends from the surface, or by\n"
-      "slerp along the edges, as published: never cut into columns, so errors are large close to a\n"
+      "slerp along the edges, as published: never cut into strips, so errors are large close to a\n"
       "light (default: surface)");
   command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
       ->capture_default_str();

@@ -349,9 +349,10 @@ Status print_degrees(const Scene& scene, const DrawSettings& draw, const Hardwar
   print_clocks(planes, quadratics, folders);
   const std::uint64_t mixed = enough * bits(planes) + unsplit.unresolved * bits(quadratics);
   fmt::print(
-      "A stream of both, a plane where it is enough, has {} fewer bits than quadratics alone, unsplit. It "
-      "shades as\n"
-      "many samples: the test needs all six. Hardware of degree 2 draws a plane from zeros.\n",
+      "With a plane for each triangle that planes draw within the threshold, and a quadratic for each other\n"
+      "one, none split, the init vectors have {} fewer bits than with quadratics only. The host shades the\n"
+      "same samples: the test needs all six. Hardware of degree 2 draws a plane if its second differences\n"
+      "are zero.\n",
       saved(static_cast<double>(mixed), static_cast<double>(unsplit.leaves * bits(quadratics))));
   if (cells.empty()) return Ok{};
   print_counts("LUTs of 4 inputs", cells.at(planes.name()).luts, cells.at(quadratics.name()).luts);
