@@ -29,7 +29,7 @@ const std::vector<std::string> c_compiler_flags = {
     "-mprefer-vector-width=512",
 #endif
 };
-// clang++ runs wasm-opt on what it has linked.
+// clang++ runs wasm-opt, with its own option of optimization, on what it has linked.
 const std::vector<std::string> c_web_assembly_flags = {
     "--target=wasm32-wasi", "-msimd128", "-std=gnu++20", "-w", "-fno-exceptions", "-fno-threadsafe-statics",
     "-mexec-model=reactor",
@@ -83,7 +83,9 @@ Result<Toolchain> toolchain_of(const LaneBuild& build) {
   if (!compiler) return compiler.error();
   Toolchain tools{.compiler = *compiler};
   tools.flags = web_assembly ? c_web_assembly_flags : c_compiler_flags;
-  tools.flags.emplace_back(build.fast ? "-O3" : "-O1");
+  // wasm-opt -O3 needs minutes and gigabytes for ten shading processors, and modules become no smaller.
+  const char* const most = web_assembly ? "-O2" : "-O3";
+  tools.flags.emplace_back(build.fast ? most : "-O1");
   tools.product = web_assembly ? "lanes.wasm" : "lanes.so";
   tools.install = web_assembly ? c_install_web_assembly : c_install_compiler;
   if (web_assembly) {
