@@ -128,6 +128,11 @@ architecture rtl of power is
 
 begin
 
+  assert 2 ** c_shifts > c_decay_bits
+    report "power: " & integer'image(c_shifts) & " stages do not shift a decay of " & integer'image(c_decay_bits)
+    & " bits to zero"
+    severity failure;
+
   is_zero <= '1' when base = (base'range => '0') else '0';
   split   <= normalize(base);
 

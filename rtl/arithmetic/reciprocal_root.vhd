@@ -6,7 +6,7 @@
 -- Formats     square: format square, 1/4 to 4 (0 also gives a number); reciprocal: format root with one more whole bit
 -- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 4, in preset published 1
 -- Throughput  1 per clock
--- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.5, or
+-- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.4, or
 --             2**-6.86, of 1
 -- Source      processors paper, section 3.3 and figure 2 (1/sqrt by a table); the Newton step is ours
 -- Golden twin model/golden/reciprocal_root.hpp

@@ -4,11 +4,11 @@
 --             ended: it is then the last one. Three places: the word at the output, the next word, and one for the
 --             word that comes in the clock in which the receiver stalls.
 -- Contract    Both streams are valid/ready; in_ready, out_valid and out_last depend on registers only. frame_end is a
---             register: the frame's last word has come. It stays '1' until the clock after done, and no word comes
---             meanwhile. Each frame has one transfer with out_last = '1'. In a frame without words it has no word:
+--             register: the frame's last word has come. It stays '1' up to and including the clock of done, and no word
+--             comes meanwhile. Each frame has one transfer with out_last = '1'. In a frame without words it has no word:
 --             out_empty = '1'. done = '1': that transfer is taken in this clock.
 -- Formats     g_bits of any format
--- Latency     1 clock from the next word, or from the frame's end, to out_valid
+-- Latency     to out_valid: 1 clock from the next word, none from frame_end
 -- Throughput  1 word per clock
 -- Error       none: each word is output once, unchanged, in order
 -- Source      ours: AXI4-Stream's tlast

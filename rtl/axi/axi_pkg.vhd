@@ -7,7 +7,6 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
-use work.formats_pkg.all;
 
 package axi_pkg is
 

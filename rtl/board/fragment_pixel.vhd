@@ -14,6 +14,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.formats_pkg.all;
 use work.board_pkg.all;
 use work.line_pkg.flag;
 
@@ -23,12 +24,12 @@ entity fragment_pixel is
     reset          : in  std_logic;
     fragment_valid : in  std_logic;
     fragment_ready : out std_logic;
-    fragment_y     : in  std_logic_vector(11 downto 0);
-    fragment_x     : in  std_logic_vector(11 downto 0);
-    fragment_z     : in  std_logic_vector(23 downto 0);
-    fragment_red   : in  std_logic_vector(7 downto 0);
-    fragment_green : in  std_logic_vector(7 downto 0);
-    fragment_blue  : in  std_logic_vector(7 downto 0);
+    fragment_y     : in  std_logic_vector(c_exact_formats.pixel_y.bits - 1 downto 0);
+    fragment_x     : in  std_logic_vector(c_exact_formats.pixel_x.bits - 1 downto 0);
+    fragment_z     : in  std_logic_vector(c_exact_formats.depth.bits - 1 downto 0);
+    fragment_red   : in  std_logic_vector(c_exact_formats.colour.bits - 1 downto 0);
+    fragment_green : in  std_logic_vector(c_exact_formats.colour.bits - 1 downto 0);
+    fragment_blue  : in  std_logic_vector(c_exact_formats.colour.bits - 1 downto 0);
     pixel_valid    : out std_logic;
     pixel_ready    : in  std_logic;
     pixel_place    : out place_t;
@@ -65,7 +66,7 @@ begin
     if free = '1' then
       v.valid  := fragment_valid and in_frame;
       v.place  := pixel_place_of(unsigned(fragment_y(frame_y_t'range)), unsigned(fragment_x(frame_x_t'range)));
-      v.depth  := fragment_z(23 downto 8);
+      v.depth  := fragment_z(fragment_z'high downto fragment_z'length - word_t'length);
       v.colour := rgb565(fragment_red, fragment_green, fragment_blue);
     end if;
     if reset = '1' then

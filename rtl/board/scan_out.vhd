@@ -3,7 +3,7 @@
 -- Purpose     Shows the front buffer: fetches each line of the frame from the SRAM into a line buffer, and shows it as
 --             two lines of the monitor, each pixel as 2x2 dots.
 --
---             fetch --> address counter --> read_address ... read_data --> line buffer (2 lines) --> dither --> pins
+--             fetch --> address counter --> read_address ... data --> line buffer (2 lines) --> dither --> pins
 --
 -- Contract    Each clock with read_valid = '1' is a read; the arbiter takes it in the same clock. Words come back in
 --             order with data_valid = '1'. One line is fetched in one burst, while the line before it is shown. The

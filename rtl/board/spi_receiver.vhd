@@ -9,7 +9,9 @@
 --                        +--> shift register of the vector, shift register of the background
 --
 -- Contract    select_n, clock and data_in are registers that sample the pins with clk. High and low phases of clock
---             last at least 2 clocks, its period at least 4. The init stream is valid/ready; a vector does not change
+--             last at least 2 clocks, its period at least 4. Its first rising edge comes at least 6 clocks after
+--             select_n = '0'. select_n = '1' comes at least 2 clocks after its last falling edge, and lasts at least 6
+--             clocks, so that the next status byte shows what the packet has changed. The init stream is valid/ready; a vector does not change
 --             while it waits. A vector is taken if it was complete and correct, and if there was room when its packet
 --             started: there is room if no vector waits and no frame is being ended. frame_end is '1' for one clock,
 --             with background, only if ending was '0' when the packet started.

@@ -2,8 +2,8 @@
 --
 -- Purpose     Counts the dots and lines of a monitor with 640x480 dots at 60 Hz, and makes its syncs.
 -- Contract    Outputs are registers. Each dot takes two clocks. column and line are those of the dot where visible =
---             '1'. blank_start and fetch are '1' for one clock: at the start of vertical blank, and two lines of the
---             monitor before the dots of frame line fetch_line.
+--             '1'. blank_start and fetch are '1' for one clock: blank_start at the start of vertical blank, fetch two
+--             lines of the monitor before the first dots of each line of the frame.
 -- Formats     column 0 to 799, line 0 to 524; visible: column < 640 and line < 480. hsync, vsync active low
 -- Latency     from reset to dot (0, 0): none
 -- Throughput  1 dot in 2 clocks: 25 MHz of a clock of 50 MHz; VESA's 25.175 MHz is 0.7 % faster

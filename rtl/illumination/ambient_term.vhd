@@ -9,7 +9,8 @@
 --               k_a I_a                wait                    reflected_term, in the last clock
 --
 --             unit_vector exists only for the vectors that config needs. Without any the term takes one clock.
--- Contract    light must not change while a token is in the stages. normalize belongs to the token that leaves.
+-- Contract    light must not change while a token is in the stages. delayed is token, `term` of times clocks with enable
+--             later; its flag normalize selects the unit vector or the plain N.
 -- Formats     token, light: token_pkg; delayed: the token that leaves; terms: reflected_term; normal, view: direction,
 --             three components, x lowest
 -- Latency     times of terms_pkg: term
@@ -20,7 +21,6 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
-use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;

@@ -9,8 +9,8 @@
 --               new_frame         no volumes around any column
 --             The first four apply only if the token has the number of this light.
 -- Contract    At a rising edge with take the token is taken; take must be '0' while ready is '0'. object and changes
---             belong to the token that is offered. lit belongs to the last object taken, until the next one is taken.
---             It is '1' without g_config.shadows and in the ambient processor. After reset the light is not defined.
+--             belong to the token that is offered. lit belongs to the last token taken, until the next one is taken; it
+--             has a meaning only for an object. It is '1' without g_config.shadows and in the ambient processor. After reset the light is not defined.
 --             fault: shadow_counter.
 -- Formats     token, light: token_pkg
 -- Latency     1 clock from take to light, defined and lit

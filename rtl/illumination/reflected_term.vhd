@@ -11,8 +11,7 @@
 -- Formats     coefficients: coefficient, intensities: light_intensity, a word per channel, the first lowest; weight:
 --             weight, a clock after its coefficients; terms: product_bits of terms_pkg per channel, with the fraction
 --             bits of reflected and weight
--- Latency     c_vector_multiply_latency from each input to terms, clocks with enable: from coefficients 2, or 1 without
---             g_weighted
+-- Latency     clocks with enable to terms: 2 from coefficients, 1 from weight; without g_weighted 1 from coefficients
 -- Throughput  1 term per clock
 -- Error       half a step of reflected
 -- Source      processors paper, equation 5 and figure 1: the vector multiplications

@@ -21,12 +21,12 @@
 --             '1', at the latest from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between
 --             the units: terms_pkg
--- Latency     one clock less than the clocks of the throughput
+-- Latency     the clocks of Throughput, minus 1
 -- Throughput  1 token per this number of clocks, the clock of the input and of the output included (published, exact):
 --             load, delete, shadow polygon, object without a light 2, 2; object in a shadow 3, 3; ambient 4, 4; with N
 --             normalized 6, 9; with the view vector too -, 15 (without N 10); directional diffuse 6, 6, specular 7, 20;
---             positional diffuse 12, 16, specular 13, 30; spot diffuse 18, 22, specular 24, 32. A step waits only for a
---             unit in use: the paper's counts leave no slack.
+--             positional diffuse 12, 16, specular 13, 30; spot diffuse 18, 22, specular 24, 32. A step waits only while
+--             its unit is busy.
 -- Source      processors paper, figures 1 and 2 and table 4: preset published has its clocks. Ours: spots, perspective,
 --             the view vector.
 -- Golden twin model/golden/shading_processor.hpp

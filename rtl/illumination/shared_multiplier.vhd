@@ -20,7 +20,6 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.schedule_pkg.all;
-use work.shading_pkg.all;
 use work.terms_pkg.all;
 use work.token_pkg.all;
 use work.vector_pkg.all;

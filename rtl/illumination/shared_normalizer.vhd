@@ -18,9 +18,7 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.schedule_pkg.all;
-use work.shading_pkg.all;
 use work.terms_pkg.all;
-use work.token_pkg.all;
 
 entity shared_normalizer is
   generic (

@@ -52,6 +52,12 @@ architecture rtl of token_register is
 
 begin
 
+  assert g_kind /= c_ambient or ((not c_shape.first or c_at.add /= c_at.round_1)
+    and (not c_shape.second or c_at.add /= c_at.round_2))
+    report "token_register: the term is added in clock " & integer'image(c_at.add) & ", N is taken in clock "
+    & integer'image(c_at.round_1) & ", the view vector in clock " & integer'image(c_at.round_2)
+    severity failure;
+
   choose_terms : process (all)
     constant c_k_i  : positive := formats(c_exact).coefficient.bits + formats(c_exact).light_intensity.bits;
     constant c_term : positive := product_bits(c_exact);

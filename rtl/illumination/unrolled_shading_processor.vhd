@@ -20,13 +20,12 @@
 -- Latency     times of terms_pkg: leave (published, exact): ambient 2, 2; with N normalized or the view vector 6, 9;
 --             directional diffuse 4, 4, specular 5, 18; positional diffuse 10, 14, specular 11, 28; spot diffuse 14, 18,
 --             specular 14, 29
--- Throughput  1 token per clock
+-- Throughput  1 token per clock; a token that changes the light waits until the stages are empty
 -- Source      processors paper, figures 1 and 2, unrolled; ours
 -- Golden twin model/golden/shading_processor.hpp
 
 library ieee;
 use ieee.std_logic_1164.all;
-use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.terms_pkg.all;

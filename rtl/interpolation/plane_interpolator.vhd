@@ -18,7 +18,7 @@
 --             (skew_pkg), part 0 in the clock of line_load
 -- Formats     plane: value, dx, de0 and, with g_carries, de1, the first lowest, g_bits each, signed; sums wrap, the value
 --             at a covered pixel fits
--- Latency     g_parts clocks from a load or step to its value
+-- Latency     g_parts clocks from span_load or span_step to value
 -- Throughput  1 line and 1 pixel per clock
 -- Error       each word half a unit off, so the value (1 + lines + steps)/2 units at most: see plane_sum and depth_sum
 --             in formats_pkg

@@ -24,7 +24,7 @@
 --             de0e0 | de0e1  de0                line without | with carry                   2 (T5 A^2 + T4 A + T3)
 --             de0e1 | de1e1  de1                line without | with carry
 --             In preset published the edge steps by its real slope A, as in the paper, and does not carry: de1 and the
---             right-hand words do not exist. q: start_quotient of init; T2, T4, T5, A: the paper's coefficients and slope.
+--             right-hand words do not exist. q: start_quotient of init; T3, T4, T5, A: the paper's coefficients and slope.
 -- Contract    line_load and line_step are never both '1', nor span_load and span_step. The words of init are skewed words
 --             (skew_pkg), part 0 in the clock of line_load
 -- Formats     formats_pkg: intensity; sums wrap, the value at a covered pixel fits

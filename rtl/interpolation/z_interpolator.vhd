@@ -4,7 +4,7 @@
 -- Formats     formats_pkg: depth_sum; sums wrap, the value at a covered pixel fits
 -- Contract    line_load and line_step are never both '1', nor span_load and span_step. The plane's words are skewed words
 --             (skew_pkg), part 0 in the clock of line_load
--- Latency     g_parts clocks from a load or step to its value
+-- Latency     g_parts clocks from span_load or span_step to value
 -- Throughput  1 line and 1 pixel per clock
 -- Error       0.19 of a depth step at most: see depth_sum in formats_pkg
 -- Source      plane_interpolator; the papers leave depth to the host

@@ -74,7 +74,7 @@ begin
     end if;
     next_reduced := (r.reduced & '1') + (increment & not below);
 
-    -- Load the increments, already while load waits for its step: the edge before needs no more sums.
+    -- Load the increments while load = '1', also before the step: the previous edge does not step again.
     if load = '1' then
       v.quotient  := signed(load_quotient);
       v.remainder := unsigned(load_remainder);

@@ -76,7 +76,7 @@ begin
     -- Add the slope's whole part and the carry, in one sum.
     next_x := (r.x & '1') + (r.whole & r.carry);
 
-    -- Add the fractions for the line after the next; a load has its own first step.
+    -- Add the fractions one line ahead of x. On a load, add those of the new edge.
     fraction := r.fraction;
     part     := r.part;
     if load = '1' then
@@ -87,7 +87,7 @@ begin
     next_fraction := (fraction(fraction_t'high) & fraction) + ('0' & part);
     next_carry    := next_fraction(c_fraction) xor fraction(fraction_t'high);
 
-    -- Load the slope, already while load waits for its step: the edge before needs no more sums.
+    -- Load the slope while load = '1', also before the step: the previous edge does not step again.
     if load = '1' then
       v.whole := stored(load_slope(c_high downto c_fraction));
       v.part  := unsigned(load_slope(c_fraction - 1 downto 0));

@@ -35,6 +35,9 @@ package processors_pkg is
   constant c_diffuse  : natural := 1;
   constant c_specular : natural := 2;
 
+  -- Most lights of all kinds: a light's number has 5 bits, and the bounds of formats_pkg hold for so many.
+  constant c_most_lights : positive := 16;
+
   -- Components x, y and z of a vector.
   constant c_axes : positive := 3;
 

@@ -16,8 +16,10 @@
 -- Latency     4 clocks from a vector taken to its first object at the pipeline, if its first line covers a pixel, 1
 --             more with shadows; then that of shading_pipeline, and 1
 -- Throughput  that of shading_pipeline: in the unrolled form 1 fragment per clock, with no bubble between spans, lines
---             and triangles. Exceptions: a triangle takes at least 2 clocks, a load takes 3 clocks, and a line without
---             a pixel takes 1 clock if no span is drawn meanwhile
+--             and triangles. Exceptions: a triangle takes at least 2 clocks; a line without a pixel takes 1 clock if no
+--             span is drawn meanwhile; the first load after a triangle takes 4 clocks, each further load 1. In the
+--             unrolled form define, redefine and delete also wait, in each processor of their light, until its stages
+--             are empty. With shadows, objects after new_frame wait until the columns are cleared
 -- Error       see plane_sum in formats_pkg, shading_processor; the colour is rounded once
 -- Source      processors paper, sections 3 and 4
 -- Golden twin model/golden/processors_shader.hpp
@@ -101,6 +103,9 @@ begin
 
   assert g_channels = 1 or g_channels = 3
     report "processors_shader: g_channels is " & integer'image(g_channels) & ", not 1 (grey) or 3 (red, green, blue)"
+    severity failure;
+  assert lights(c_config) <= c_most_lights
+    report "processors_shader: " & integer'image(lights(c_config)) & " lights, at most " & integer'image(c_most_lights)
     severity failure;
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
     report "processors_shader: depth_sum has "

@@ -19,7 +19,6 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
-use work.formats_pkg.all;
 use work.cosine_pkg.all;
 use work.spherical_pkg.all;
 

@@ -82,7 +82,8 @@ architecture rtl of spherical_shader is
   constant c_multiplied : positive := 4;
   constant c_summed     : positive := 5;
 
-  -- Depth is two clocks later than its pixel: its words have two parts, and registers drive its strobes.
+  -- Parts of the depth's skewed words (skew_pkg): clocks from the span stage to a pixel's depth, as registers drive the
+  -- strobes.
   constant c_depth : positive := 2;
 
   subtype position_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
@@ -200,7 +201,7 @@ begin
     port map (clk => clk, load => header_load, start => init(c_header_bits - 1 downto 0), value => header);
 
   depth : entity work.z_interpolator
-    generic map (g_exact => g_exact, g_parts => 2)
+    generic map (g_exact => g_exact, g_parts => c_depth)
     port map (
       clk        => clk,
       init       => header(c_walk_bits - 1 downto 0),

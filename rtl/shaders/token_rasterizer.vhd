@@ -50,6 +50,7 @@ architecture rtl of token_rasterizer is
   constant c_plane_bits  : positive         := plane_channel_low(c_exact, 0);
   constant c_vector_bits : positive         := c_formats.vector.bits;
 
+  -- The headers of a request and of a token begin with the same fields.
   subtype request_t is std_logic_vector(c_request.normalize.high downto 0);
   subtype material_t is std_logic_vector(material_bits(g_config) - 1 downto 0);
 
@@ -74,6 +75,11 @@ architecture rtl of token_rasterizer is
   signal span_material : material_t;
 
 begin
+
+  assert c_request.normalize.high = c_pixel.normalize.high
+    report "token_rasterizer: normalize is bit " & integer'image(c_request.normalize.high) & " of a request, bit "
+    & integer'image(c_pixel.normalize.high) & " of a token"
+    severity failure;
 
   walk       <= init(walk_low(g_config) + walk'high downto walk_low(g_config));
   init_ready <= line_load;
