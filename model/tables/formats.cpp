@@ -326,8 +326,7 @@ std::vector<Layout> spherical_layouts(bool exact) {
   return {
       {"ambient", {}, {{"ambient", "factor", "ambient light of the triangle, in colour steps, plus 0.5"}}},
       {"diffuse",
-       {{"angle", "angle", "Θ at the first pixel of the line"},
-        {"slope", "angle", "change of Θ per pixel"}},
+       {{"angle", "angle", "Θ at the first pixel of the line"}, {"slope", "angle", "change of Θ per pixel"}},
        {{"factor", "factor", "255 I k_d A c 2^D / (2^D - 1), in colour steps"}}},
       {"specular", specular, {{"factor", "factor", "255 I k_s A^n g c 2^D / (2^D - 1), in colour steps"}}},
   };

@@ -41,7 +41,8 @@ constexpr Section c_sections[] = {
      "One block per highlight channel: 1 if all highlights are white or grey, otherwise 3. On the line, N·H "
      "(of Phong materials R·V, with R = 2 (N·L) N − L) = A cos Θ. n is the material's exponent and k_s its "
      "coefficient times the highlight's colour; I, c and D are as in the diffuse part. The bell with scale a "
-     "and gain g approximates cosⁿ (`model/shading/bell.hpp`; g is 1 in preset `published`). The words contain "
+     "and gain g approximates cosⁿ (`model/shading/bell.hpp`; g is 1 in preset `published`). The words "
+     "contain "
      "the product of a and Θ, in half bells: the highlight is zero at 1.",
      "`model/setup/spherical_setup.cpp`, `arc.cpp`"},
     {"request", "Request of the shading processors",
