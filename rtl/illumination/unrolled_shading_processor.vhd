@@ -26,6 +26,7 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.terms_pkg.all;
