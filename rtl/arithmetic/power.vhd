@@ -129,7 +129,7 @@ architecture rtl of power is
 begin
 
   assert 2 ** c_shifts > c_decay_bits
-    report "power: " & integer'image(c_shifts) & " stages do not shift a decay of " & integer'image(c_decay_bits)
+    report "power: " & to_string(c_shifts) & " stages do not shift a decay of " & to_string(c_decay_bits)
     & " bits to zero"
     severity failure;
 

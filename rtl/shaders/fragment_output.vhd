@@ -95,7 +95,7 @@ begin
   shaded <= colours & field_of(token, c_header.z) & field_of(token, c_header.triangle) & field_of(token, c_header.y)
     & field_of(token, c_header.x);
 
-  output : entity work.stream_register
+  fragment_register : entity work.stream_register
     generic map (
       g_bits => shaded'length
       )

@@ -105,7 +105,7 @@ begin
     report "processors_shader: g_channels is " & integer'image(g_channels) & ", not 1 (grey) or 3 (red, green, blue)"
     severity failure;
   assert lights(c_config) <= c_most_lights
-    report "processors_shader: " & integer'image(lights(c_config)) & " lights, at most " & integer'image(c_most_lights)
+    report "processors_shader: " & integer'image(lights(c_config)) & " lights, at most " & to_string(c_most_lights)
     severity failure;
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
     report "processors_shader: depth_sum has "
