@@ -47,18 +47,20 @@ architecture rtl of fragment_output is
   constant c_colour   : positive       := c_formats.colour.bits;
   constant c_radiance : positive       := c_formats.radiance.bits;
 
-  subtype fragment_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length
-    + fragment_z'length + 3 * c_colour - 1 downto 0);
+  subtype pixel_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
 
+  signal take           : std_logic;
+  signal pixel, pixel_q : pixel_t;
   signal radiance       : std_logic_vector(g_config.channels * c_radiance - 1 downto 0);
   signal results        : std_logic_vector(g_config.channels * c_colour - 1 downto 0);
   signal colours        : std_logic_vector(3 * c_colour - 1 downto 0); -- red lowest
-  signal shaded         : fragment_t; -- the fragment of the token that is offered
-  signal fragment       : fragment_t;
+  signal colours_q      : std_logic_vector(3 * c_colour - 1 downto 0);
 
 begin
 
+  take     <= token_valid and token_ready;
   radiance <= radiance_of(g_config, token);
+  pixel    <= field_of(token, c_header.triangle) & field_of(token, c_header.y) & field_of(token, c_header.x);
 
   channels : for channel in 0 to g_config.channels - 1 generate
 
@@ -92,24 +94,48 @@ begin
 
   end generate;
 
-  shaded <= colours & field_of(token, c_header.z) & field_of(token, c_header.triangle) & field_of(token, c_header.y)
-    & field_of(token, c_header.x);
-
-  fragment_register : entity work.stream_register
+  pixel_register : entity work.stream_register
     generic map (
-      g_bits => shaded'length
+      g_bits => pixel'length
       )
     port map (
       clk       => clk,
       reset     => reset,
       in_valid  => token_valid,
       in_ready  => token_ready,
-      in_data   => shaded,
+      in_data   => pixel,
       out_valid => fragment_valid,
       out_ready => fragment_ready,
-      out_data  => fragment
+      out_data  => pixel_q
       );
 
-  (fragment_blue, fragment_green, fragment_red, fragment_z, fragment_triangle, fragment_y, fragment_x) <= fragment;
+  depth_register : entity work.parameter_register
+    generic map (
+      g_bits => fragment_z'length
+      )
+    port map (
+      clk   => clk,
+      load  => take,
+      start => field_of(token, c_header.z),
+      value => fragment_z
+      );
+
+  colour_register : entity work.parameter_register
+    generic map (
+      g_bits => colours'length
+      )
+    port map (
+      clk   => clk,
+      load  => take,
+      start => colours,
+      value => colours_q
+      );
+
+  fragment_x        <= pixel_q(fragment_x'range);
+  fragment_y        <= pixel_q(fragment_x'length + fragment_y'length - 1 downto fragment_x'length);
+  fragment_triangle <= pixel_q(pixel_q'high downto fragment_x'length + fragment_y'length);
+  fragment_red      <= colours_q(c_colour - 1 downto 0);
+  fragment_green    <= colours_q(2 * c_colour - 1 downto c_colour);
+  fragment_blue     <= colours_q(3 * c_colour - 1 downto 2 * c_colour);
 
 end architecture;

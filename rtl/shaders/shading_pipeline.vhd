@@ -18,7 +18,6 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
-use work.token_pkg.all;
 
 entity shading_pipeline is
   generic (
@@ -51,9 +50,10 @@ end entity;
 
 architecture rtl of shading_pipeline is
 
-  constant c_config     : config_t := config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
+  constant c_config     : config_t       := config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
     g_specular, g_normalize, g_shadows);
-  constant c_processors : positive := processors(c_config);
+  constant c_header     : pixel_header_t := pixel_header(g_exact);
+  constant c_processors : positive       := processors(c_config);
   -- Processors per light; 1 if there is none.
   constant c_terms : positive := boolean'pos(g_diffuse and g_specular) + 1;
 
@@ -66,6 +66,16 @@ architecture rtl of shading_pipeline is
   signal works  : std_logic_vector(0 to c_processors - 1);
   signal faults : std_logic_vector(0 to c_processors - 1);
   signal object : std_logic; -- the last processor outputs an object
+
+  subtype command_t is std_logic_vector(c_header.command.high downto c_header.command.low);
+
+  function is_object (command : command_t) return std_logic is
+  begin
+    if unsigned(command) = c_new_pixel or unsigned(command) = c_new_object or unsigned(command) = c_new_scanline then
+      return '1';
+    end if;
+    return '0';
+  end function;
 
   function light_of (processor : natural) return natural is
   begin
@@ -155,7 +165,7 @@ begin
 
   end generate;
 
-  object <= is_object(command_of(g_exact, tokens(c_processors)));
+  object <= is_object(tokens(c_processors)(command_t'range));
 
   ready(c_processors) <= out_ready or not object;
   out_valid           <= valid(c_processors) and object;
