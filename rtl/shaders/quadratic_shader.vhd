@@ -68,10 +68,38 @@ architecture rtl of quadratic_shader is
 
   type colours_t is array (0 to 2) of colour_t;
 
-  subtype position_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
-  subtype fragment_t is std_logic_vector(position_t'length + fragment_z'length + 3 * c_colour - 1 downto 0);
+  -- A pixel's position.
+  type position_t is record
+    triangle : std_logic_vector(fragment_triangle'range);
+    y        : std_logic_vector(fragment_y'range);
+    x        : std_logic_vector(fragment_x'range);
+  end record;
 
   type positions_t is array (1 to c_parts) of position_t;
+
+  type fragment_t is record
+    position : position_t;
+    z        : std_logic_vector(fragment_z'range);
+    red      : colour_t;
+    green    : colour_t;
+    blue     : colour_t;
+  end record;
+
+  -- A fragment as a word of the queue.
+  subtype fragment_word_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length
+    + fragment_z'length + 3 * c_colour - 1 downto 0);
+
+  function packed (f : fragment_t) return fragment_word_t is
+  begin
+    return f.position.triangle & f.position.y & f.position.x & f.z & f.red & f.green & f.blue;
+  end function;
+
+  function unpacked (word : fragment_word_t) return fragment_t is
+    variable f : fragment_t;
+  begin
+    (f.position.triangle, f.position.y, f.position.x, f.z, f.red, f.green, f.blue) := word;
+    return f;
+  end function;
 
   type reg_t is record
     walk_taken  : std_logic; -- the walker read the header one clock ago: the upper word parts are copied now
@@ -101,6 +129,7 @@ architecture rtl of quadratic_shader is
   signal colours                      : colours_t;
   signal pixel_valid                  : std_logic;
   signal pixel, fragment              : fragment_t;
+  signal pixel_word, fragment_word    : fragment_word_t;
   signal room, queue_busy             : std_logic;
 
 begin
@@ -188,7 +217,7 @@ begin
   begin
     if rising_edge(clk) then
       r         <= r_next;
-      positions <= position_t'(triangle & y & x(fragment_x'range)) & positions(1 to c_parts - 1);
+      positions <= position_t'(triangle, y, x(fragment_x'range)) & positions(1 to c_parts - 1);
     end if;
   end process;
 
@@ -260,11 +289,12 @@ begin
 
   -- Queue the pixel: its position, the whole bits of its depth, its colours.
   pixel_valid <= r.pixel_valid(c_parts);
-  pixel       <= positions(c_parts) & z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction)
-    & colours(0) & colours(1) & colours(2);
+  pixel       <= (positions(c_parts), z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction),
+    colours(0), colours(1), colours(2));
+  pixel_word  <= packed(pixel);
 
   queue : entity work.stream_queue
-    generic map (g_bits => fragment_t'length)
+    generic map (g_bits => fragment_word_t'length)
     port map (
       clk       => clk,
       reset     => reset,
@@ -272,12 +302,19 @@ begin
       room      => room,
       pending   => queue_busy,
       in_valid  => pixel_valid,
-      in_data   => pixel,
+      in_data   => pixel_word,
       out_valid => fragment_valid,
       out_ready => fragment_ready,
-      out_data  => fragment);
+      out_data  => fragment_word);
 
-  (fragment_triangle, fragment_y, fragment_x, fragment_z, fragment_red, fragment_green, fragment_blue) <= fragment;
+  fragment          <= unpacked(fragment_word);
+  fragment_triangle <= fragment.position.triangle;
+  fragment_y        <= fragment.position.y;
+  fragment_x        <= fragment.position.x;
+  fragment_z        <= fragment.z;
+  fragment_red      <= fragment.red;
+  fragment_green    <= fragment.green;
+  fragment_blue     <= fragment.blue;
 
   busy  <= waiting or walking or queue_busy;
   fault <= '0';
