@@ -46,7 +46,7 @@ enum class SpanEnds {
 struct SphericalSetupOptions {
   SpanEnds ends = SpanEnds::on_surface;  ///< for preset exact; published always uses slerped_along_edges
   /// Preset exact, ends on the surface: colour steps of 1/255. If a span's interpolation differs more from
-  /// the illumination model, the triangle is split into columns. The errors of fitted bells, tables and
+  /// the illumination model, the triangle is cut into strips. The errors of fitted bells, tables and
   /// rounding are additional. A span is checked at every pixel unless a bound from its two ends is below the
   /// threshold.
   double threshold = 2.0;

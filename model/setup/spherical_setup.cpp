@@ -275,7 +275,7 @@ double SphericalSetup::interpolation_error(const Material& material, const SpanA
   return 255.0 * largest;
 }
 
-// Divides one triangle of preset exact into columns.
+// Divides one triangle of preset exact into strips.
 class SphericalSetup::ExactTriangle {
  public:
   // The part of a triangle as it is drawn. The arcs take most of the setup's time. Keep them after the check

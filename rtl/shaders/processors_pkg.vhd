@@ -35,7 +35,7 @@ package processors_pkg is
   constant c_diffuse  : natural := 1;
   constant c_specular : natural := 2;
 
-  -- Most lights of all kinds: a light's number has 5 bits, and the bounds of formats_pkg hold for so many.
+  -- Most lights of all kinds. The bounds of formats_pkg are derived for as many; the set-up's limit has the same name.
   constant c_most_lights : positive := 16;
 
   -- Components x, y and z of a vector.

@@ -82,8 +82,7 @@ architecture rtl of spherical_shader is
   constant c_multiplied : positive := 4;
   constant c_summed     : positive := 5;
 
-  -- Parts of the depth's skewed words (skew_pkg): clocks from the span stage to a pixel's depth, as registers drive the
-  -- strobes.
+  -- Parts of the depth's skewed words (skew_pkg). A pixel's depth is valid as many clocks after the span stage.
   constant c_depth : positive := 2;
 
   subtype position_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
