@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -39,7 +40,7 @@ class HeadlessBrowser {
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
       throw std::runtime_error("socketpair failed");
-    const timeval longest{.tv_sec = 60};
+    const timeval longest{.tv_sec = c_longest.count()};
     setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &longest, sizeof longest);
     const std::string name = program(), profile = "--user-data-dir=" + (scratch / "profile").string(),
                       log = scratch / "browser.log";
@@ -99,9 +100,10 @@ class HeadlessBrowser {
       throw std::runtime_error(expression + ": " + result["exceptionDetails"].dump());
     return result["result"].value("value", Json());
   }
-  /// Wait until an expression is true.
+  /// Wait until an expression is true, for minutes if the machine is slow.
   bool becomes_true(const std::string& expression) {
-    for (int i = 0; i < 200; ++i) {
+    const auto end = std::chrono::steady_clock::now() + c_longest;
+    while (std::chrono::steady_clock::now() < end) {
       if (evaluate("Boolean(" + expression + ")") == true) return true;
       usleep(50'000);
     }
@@ -174,6 +176,8 @@ class HeadlessBrowser {
   std::vector<std::string> requests;
 
  private:
+  static constexpr std::chrono::seconds c_longest{300};  // of any wait, on a slow machine
+
   Json receive() {
     char* message = nullptr;
     std::size_t room = 0;
