@@ -52,16 +52,22 @@ constexpr std::uint64_t get_bits(std::span<const std::uint32_t> words, const Fie
   return low_bits(value, field.bits);
 }
 
+/// Inverts the bits of a field where `ones` has ones.
+constexpr void invert_bits(std::span<std::uint32_t> words, const Field& field, std::uint64_t ones,
+                           int block_low = 0) {
+  const std::uint64_t bits = low_bits(ones, field.bits);
+  const auto low = static_cast<unsigned>(block_low + field.low);
+  const int shift = static_cast<int>(low % 32);
+  auto word = words.begin() + low / 32;
+  *word ^= static_cast<std::uint32_t>(bits << shift);
+  for (int done = 32 - shift; done < field.bits; done += 32)
+    *++word ^= static_cast<std::uint32_t>(bits >> done);
+}
+
+/// Writes a field.
 constexpr void set_bits(std::span<std::uint32_t> words, const Field& field, std::uint64_t value,
                         int block_low = 0) {
-  const std::uint64_t mask = low_bits(~std::uint64_t{0}, field.bits), bits = value & mask;
-  const int low = block_low + field.low, shift = low % 32;
-  auto word = words.begin() + low / 32;
-  *word = (*word & ~static_cast<std::uint32_t>(mask << shift)) | static_cast<std::uint32_t>(bits << shift);
-  for (int done = 32 - shift; done < field.bits; done += 32) {
-    ++word;
-    *word = (*word & ~static_cast<std::uint32_t>(mask >> done)) | static_cast<std::uint32_t>(bits >> done);
-  }
+  invert_bits(words, field, get_bits(words, field, block_low) ^ value, block_low);
 }
 
 }  // namespace halfway::golden

@@ -27,10 +27,10 @@ class InitVector {
     words.resize(begin + count);
     words_ = std::span(words).subspan(begin, count);
   }
-  /// Writes the value modulo 2^bits of the field, in the block that starts at bit `block_low`. The hardware's
-  /// sums wrap, so a start word may wrap too.
+  /// Writes the value modulo 2^bits of a field that is not yet written, in the block that starts at bit
+  /// `block_low`. The hardware's sums wrap, so a start word may wrap too.
   void put(const golden::Field& field, Int128 value, int block_low = 0) {
-    golden::set_bits(words_, field, static_cast<std::uint64_t>(value), block_low);
+    golden::invert_bits(words_, field, static_cast<std::uint64_t>(value), block_low);
   }
   std::span<const std::uint32_t> words() const { return words_; }
 
