@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -183,6 +185,12 @@ TEST(Plan, AmbientLightNeedsALightAndAMaterial) {
     EXPECT_FALSE(ambient(scene).called_for);
     EXPECT_EQ(ambient(scene).why, "the ambient light is 0");
   }
+}
+
+TEST(Plan, KnowsTheMostLightsOfTheHardware) {
+  std::ifstream file(HALFWAY_SOURCE_DIR "/rtl/shaders/processors_pkg.vhd");
+  const std::string vhdl{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(vhdl, HasSubstr(fmt::format("constant c_most_lights : positive := {};", c_most_lights)));
 }
 
 TEST(Plan, LightsFromNoneToOneTooMany) {

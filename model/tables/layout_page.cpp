@@ -42,8 +42,7 @@ constexpr Section c_sections[] = {
      "(of Phong materials R·V, with R = 2 (N·L) N − L) = A cos Θ. n is the material's exponent and k_s its "
      "coefficient times the highlight's colour; I, c and D are as in the diffuse part. The bell with scale a "
      "and gain g approximates cosⁿ (`model/shading/bell.hpp`; g is 1 in preset `published`). The words "
-     "contain "
-     "the product of a and Θ, in half bells: the highlight is zero at 1.",
+     "contain the product of a and Θ, in half bells: the highlight is zero at 1.",
      "`model/setup/spherical_setup.cpp`, `arc.cpp`"},
     {"request", "Request of the shading processors",
      "Every vector of the shading processors starts with a request. Its command gives what follows:\n\n"
