@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,6 +16,7 @@
 
 #include "golden/cosine_tables.hpp"
 #include "shading/effects.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {
@@ -188,9 +187,9 @@ TEST(Plan, AmbientLightNeedsALightAndAMaterial) {
 }
 
 TEST(Plan, KnowsTheMostLightsOfTheHardware) {
-  std::ifstream file(HALFWAY_SOURCE_DIR "/rtl/shaders/processors_pkg.vhd");
-  const std::string vhdl{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_THAT(vhdl, HasSubstr(fmt::format("constant c_most_lights : positive := {};", c_most_lights)));
+  const auto vhdl = read_file(HALFWAY_SOURCE_DIR "/rtl/shaders/processors_pkg.vhd");
+  ASSERT_TRUE(vhdl) << vhdl.error().message;
+  EXPECT_THAT(*vhdl, HasSubstr(fmt::format("constant c_most_lights : positive := {};", c_most_lights)));
 }
 
 TEST(Plan, LightsFromNoneToOneTooMany) {

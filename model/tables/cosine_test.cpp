@@ -9,12 +9,13 @@
 #include <mpfr.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "golden/cosine_tables.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::tables {
 namespace {
@@ -220,15 +221,13 @@ TEST(Cosine, EachGeneratedTableExistsOnce) {
   EXPECT_EQ(cosine_tables(sizes).size(), 7U);
 }
 
-std::string committed(const std::string& name) {
-  std::ifstream file(std::string(HALFWAY_SOURCE_DIR) + "/" + name, std::ios::binary);
-  EXPECT_TRUE(file) << name;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Cosine, TheCommittedFilesEqualTheGenerators) {
-  EXPECT_TRUE(cosine_vhdl_package() == committed("rtl/tables/cosine_pkg.vhd")) << "run `make tables`";
-  EXPECT_TRUE(cosine_cpp_header() == committed("model/golden/cosine_tables.hpp")) << "run `make tables`";
+  for (const auto& [name, text] : {std::pair{"rtl/tables/cosine_pkg.vhd", cosine_vhdl_package()},
+                                   {"model/golden/cosine_tables.hpp", cosine_cpp_header()}}) {
+    const auto committed = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / name);
+    ASSERT_TRUE(committed) << name;
+    EXPECT_TRUE(text == *committed) << name << ": run `make tables`";
+  }
 }
 
 using Constants = std::map<std::string, std::vector<std::uint32_t>>;

@@ -6,25 +6,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <set>
+#include <utility>
 
 #include "golden/formats.hpp"
+#include "sim/system/file.hpp"
 
 namespace halfway::tables {
 namespace {
 
-std::string committed(const std::string& name) {
-  std::ifstream file(std::string(HALFWAY_SOURCE_DIR) + "/" + name, std::ios::binary);
-  EXPECT_TRUE(file) << name;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 TEST(Formats, TheCommittedFilesEqualTheGenerators) {
   const auto presets = preset_formats();
-  EXPECT_TRUE(vhdl_package(presets) == committed("rtl/tables/formats_pkg.vhd")) << "run `make tables`";
-  EXPECT_TRUE(cpp_header(presets) == committed("model/golden/formats.hpp")) << "run `make tables`";
+  for (const auto& [name, text] : {std::pair{"rtl/tables/formats_pkg.vhd", vhdl_package(presets)},
+                                   {"model/golden/formats.hpp", cpp_header(presets)}}) {
+    const auto committed = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / name);
+    ASSERT_TRUE(committed) << name;
+    EXPECT_TRUE(text == *committed) << name << ": run `make tables`";
+  }
 }
 
 const Format& format_of(const PresetFormats& preset, std::string_view name) {
