@@ -181,10 +181,8 @@ std::vector<Sourced> quoted() {
   return {
       // Measured by hand. The job runs both commands on a bare machine.
       {"README.md",
-       "On a new installation with two cores `make sim` takes 5 to 7 minutes, most of it installation and "
-       "build, "
-       "and "
-       "`make test` 24 to 43 minutes.",
+       "On a new installation with two cores `make sim` takes 5 to 13 minutes, most of it installation "
+       "and build, and `make test` 24 to 88 minutes.",
        ".github/workflows/ci.yml", "- run: make sim - run: make test"},
       // Bounds and limits that other tests check.
       {"docs/accuracy.md", "rounding of the samples | 3.2·10⁻⁹ colour steps (`exact`)",
