@@ -2,6 +2,7 @@
 #include "plan/hardware_key.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace halfway {
 namespace {

@@ -2,6 +2,7 @@
 // `halfway render`: software pictures only, by the reference, Gouraud shading, the golden model, or spherical
 // interpolation in double.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 #include "sim/lanes/emitter.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <map>

@@ -2,6 +2,7 @@
 #include "sim/run/video.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/socket.h>
 #include <unistd.h>
 

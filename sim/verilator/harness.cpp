@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled in one translation unit with the verilated model (prefix Vshader).
 // A cycle is the same as in tb/frame_tb.vhd: inputs change after the rising edge, outputs are sampled just
-// before the next one. The model is evaluated once for the edge, and a second time only if inputs changed. At
-// full speed that is once per vector.
-#include <concepts>
+// before the next one. Only Verilator's public interface is used: it is the same in all versions.
 #include <cstring>
 #include <memory>
 #include <type_traits>
 
 #include "Vshader.h"
-#include "Vshader___024root.h"
 #include "sim/verilator/harness_api.h"
 #include "verilated.h"
 #ifdef HALFWAY_WAVES
@@ -46,37 +43,6 @@ void write_port(Port& port, const std::uint32_t* words) {
   }
 }
 
-// Verilator's eval() always evaluates all input-dependent logic and checks for edges. If the model has one
-// trigger, the clock's rising edge, and the function names of Verilator 5.006, the harness calls these
-// functions directly: the registers with all logic that depends on them, or only the logic that depends on
-// inputs. Other models use eval().
-template <class Root>
-concept HasOneTrigger = requires(Root& root) {
-  { root.__VnbaTriggered } -> std::same_as<VlTriggerVec<1>&>;
-  { root.__VicoTriggered } -> std::same_as<VlTriggerVec<1>&>;
-  Vshader___024root___eval_nba(&root);
-  Vshader___024root___eval_ico(&root);
-};
-
-template <class Root>
-void rise_directly(Root& root) {
-  root.__VnbaTriggered.at(0) = 1;
-  Vshader___024root___eval_nba(&root);
-}
-
-template <class Root>
-void settle_directly(Root& root) {
-  root.__VicoTriggered.at(0) = 1;
-  Vshader___024root___eval_ico(&root);
-}
-
-constexpr bool c_direct =
-#ifdef HALFWAY_PLAIN_EVAL
-    false;
-#else
-    !c_waves && HasOneTrigger<Vshader___024root>;
-#endif
-
 class Model {
  public:
   explicit Model(const HalfwayOptions& options) : options_(options), random_(options.stall_seed) {
@@ -96,7 +62,7 @@ class Model {
     shader_->eval();
     for (int i = 0; i < 4; ++i) rising_edge();
     shader_->reset = 0;
-    settle();
+    shader_->eval();
   }
 
   ~Model() {
@@ -124,24 +90,11 @@ class Model {
   }
 
  private:
-  // Inputs changed: update the logic that depends on them directly.
-  void settle() {
-    if constexpr (c_direct) {
-      settle_directly(*shader_->rootp);
-    } else {
-      shader_->eval();
-    }
-  }
-
   void rising_edge() {
-    if constexpr (c_direct) {
-      rise_directly(*shader_->rootp);
-    } else {
-      shader_->clk = 1;
-      shader_->eval();
-      shader_->clk = 0;
-      shader_->eval();
-    }
+    shader_->clk = 1;
+    shader_->eval();
+    shader_->clk = 0;
+    shader_->eval();
   }
 
   std::uint32_t next_random() {  // xorshift32 (Marsaglia 2003), as in tb/frame_tb.vhd.
@@ -164,7 +117,7 @@ class Model {
     shader_->fragment_ready = ready;
     shader_->init_valid = offered_;
     if (offered_) write_port(shader_->init_data, streams.words);
-    settle();
+    shader_->eval();
   }
 
   // A counter may detect an error of a token after the token has left.

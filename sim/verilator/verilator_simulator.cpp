@@ -64,19 +64,17 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
     return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));
   if (!options.netlist.empty()) *netlist = options.netlist;
   const std::filesystem::path folder = folders.source / "sim/verilator";
-  const VerilatedBuild build{
-      .name = key.name() + (options.wave_file.empty() ? "" : "-waves") +
-              (options.plain_eval ? "-plain" : "") + (options.netlist.empty() ? "" : "-mapped"),
-      .netlist = std::move(*netlist),
-      .top = key.entity(),
-      .harness = folder / "harness.cpp",
-      .include_folder = folders.source,
-      .harness_headers = {folder / "harness_api.h"},
-      .definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits),
-                      options.plain_eval ? "HALFWAY_PLAIN_EVAL=1" : "HALFWAY_DIRECT_EVAL=1"},
-      .waves = !options.wave_file.empty(),
-      .fast = fast,
-      .compiler = options.compiler};
+  const VerilatedBuild build{.name = key.name() + (options.wave_file.empty() ? "" : "-waves") +
+                                     (options.netlist.empty() ? "" : "-mapped"),
+                             .netlist = std::move(*netlist),
+                             .top = key.entity(),
+                             .harness = folder / "harness.cpp",
+                             .include_folder = folders.source,
+                             .harness_headers = {folder / "harness_api.h"},
+                             .definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits)},
+                             .waves = !options.wave_file.empty(),
+                             .fast = fast,
+                             .compiler = options.compiler};
   auto library = open_verilated(build, folders.cache);
   if (!library) return library.error();
 

@@ -24,7 +24,6 @@ struct VerilatorOptions {
   std::filesystem::path wave_file{};   ///< FST; empty: none. Uses another cached build, several times slower
   std::uint64_t waves_from = 0, waves_to = UINT64_MAX;  ///< cycles [from, to)
   std::string compiler{};                               ///< empty: clang++ if installed, otherwise g++
-  bool plain_eval = false;  ///< use only Verilator's eval(), to test the harness's direct calls
   /// Verilog with the key's top and its ports, which replaces GHDL's netlist of the RTL. For example that
   /// netlist after synthesis by Yosys.
   std::string netlist{};

@@ -3,6 +3,7 @@
 // nextpnr for an iCE40 HX8K. Writes one table, and compares the figures with those pinned in
 // tb/synth/pinned.txt. Each design has a row of evidence.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

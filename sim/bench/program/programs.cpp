@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole programs as a user runs them: `make sim` and `halfway view`.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
