@@ -11,6 +11,7 @@
 #include <new>
 
 #include "sim/program/printable.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 
@@ -33,6 +34,8 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const int& exit_code) {
     if (error.get_exit_code() == 0) return app.exit(error);  // help and version are printed on stdout
     say(fmt::format("{0}: {1}; see {0} --help", name, error.what()));
     return static_cast<int>(ExitCode::bad_input);
+  } catch (const Failure& failure) {
+    return report(failure.error);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "{}: out of memory; a smaller frame or mesh, or fewer threads, may fit\n", name);
     return static_cast<int>(ExitCode::tool_failed);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors as exceptions, for long measurements that end at the first error. must() throws; one place catches.
+// Errors as exceptions, for work that ends at the first error: must() throws, and run_program() reports. Code
+// that a browser runs, or that is called through a C interface, returns errors instead.
 #pragma once
 
+#include <type_traits>
 #include <utility>
 
 #include "common/result.hpp"
@@ -17,6 +19,23 @@ template <class T>
 T must(Result<T> result) {
   if (!result) throw Failure{result.error()};
   return std::move(*result);
+}
+
+/// Call the work; a Failure becomes an error.
+template <class Work>
+auto caught(const Work& work) {
+  using Value = std::invoke_result_t<Work>;
+  using Caught = Result<std::conditional_t<std::is_void_v<Value>, Ok, Value>>;
+  try {
+    if constexpr (std::is_void_v<Value>) {
+      work();
+      return Caught(Ok{});
+    } else {
+      return Caught(work());
+    }
+  } catch (const Failure& failure) {
+    return Caught(failure.error);
+  }
 }
 
 }  // namespace halfway

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 
@@ -78,6 +79,12 @@ Status for_each_on_threads(unsigned threads, std::size_t count, const Each& each
     }
   });
   return result;
+}
+
+/// The same for a function that throws Failure.
+template <class Each>
+void must_for_each(unsigned threads, std::size_t count, const Each& each) {
+  must(for_each_on_threads(threads, count, [&](std::size_t at) { return caught([&] { each(at); }); }));
 }
 
 }  // namespace halfway
