@@ -25,6 +25,7 @@ takes_gallery := THREADS JOBS
 takes_tables := PRESET ADDRESS_BITS DATA_BITS JOBS
 takes_check-tables := $(takes_tables)
 takes_test := TESTS JOBS
+takes_test-all := JOBS
 takes_testbench := ENTITY JOBS
 takes_lint := FILES JOBS
 takes_sanitize := TESTS JOBS
@@ -77,7 +78,7 @@ about_EXECUTOR := local or slurm (a job array)   (default: local)
 about_PARTS := tasks of the job array   (default: 64)
 about_ADDRESS_BITS := address bits of the cosine tables   (default: 9; published 6)
 about_DATA_BITS := data bits of the cosine tables   (default: 8; published 6)
-about_TESTS := a regular expression: only the tests that match
+about_TESTS := a regular expression: only the tests that match, of both tiers
 about_ENTITY := the entity whose testbench runs, such as triangle_walker
 about_FILES := only C++ files with this text in their paths   (default: all)
 about_SECONDS := seconds for each fuzzer   (default: 60)
@@ -129,7 +130,7 @@ synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,-
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view live board-sim compare why plan verilog savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program generator mcode configure \
+  check-tables test test-all testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program generator mcode configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -214,8 +215,11 @@ tables: generator ## write the generated ROMs and formats
 check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
-test: build mcode ## run every test
-	@unset MAKEFLAGS; flock -o build/test.lock ctest --test-dir build --output-on-failure --no-tests=error -j "$(jobs)" $${TESTS:+--tests-regex "$$TESTS"}
+test: build mcode ## run the tests of every change: each feature, entity and shader (TESTS: only some, of all tests)
+	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh quick "$(jobs)" "$$TESTS"
+
+test-all: build mcode ## run every test that has not passed on this tree: continues an interrupted run
+	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh all "$(jobs)"
 
 testbench: configure ## run one VHDL testbench in GHDL, with vectors from the golden model (ENTITY)
 	@[ -n "$$ENTITY" ] || { echo 'testbench: give ENTITY=name, such as make testbench ENTITY=triangle_walker' >&2; exit 2; }
@@ -226,7 +230,7 @@ testbench: configure ## run one VHDL testbench in GHDL, with vectors from the go
 lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
 	@scripts/lint.sh build "$(jobs)" "$$FILES"
-	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^RtlLint'
+	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^rtl_lint$$'
 
 sanitize: setup ## run every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
@@ -316,10 +320,10 @@ configure: setup
 
 # Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
 with_tools := bench board bounds check-report diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
-  savings slurm-test study synth test
+  savings slurm-test study synth test test-all
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \
-	  $(if $(filter test check-report sanitize slurm-test,$(MAKECMDGOALS)),test) \
+	  $(if $(filter test test-all check-report sanitize slurm-test,$(MAKECMDGOALS)),test) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,tools)) \
 	  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,tools))
 

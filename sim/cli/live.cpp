@@ -13,17 +13,23 @@ namespace halfway::cli {
 namespace {
 
 struct LiveCommand {
+  std::vector<std::string> scenes;
   std::string out = "build/live/index.html";
   unsigned threads = 0;
 };
 
 int run(const Folders& folders, const LiveCommand& command) {
-  auto scenes = builtin_scenes(folders);
-  if (!scenes) return report(scenes.error());
+  std::vector<std::string> scenes = command.scenes;
+  if (scenes.empty()) {
+    auto builtin = builtin_scenes(folders);
+    if (!builtin) return report(builtin.error());
+    scenes = std::move(*builtin);
+  }
   Progress progress("live");
   const auto made = live::write_live(
       {.page = command.out,
-       .scenes = std::move(*scenes),
+       .scenes = std::move(scenes),
+       .meshes = command.scenes.empty(),
        .folders = {folders.source, folders.cache()},
        .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()),
        .on_progress = [&](const std::string& what) { progress.show(what); }});
@@ -40,6 +46,7 @@ void add_live(CLI::App& app, const Folders& folders, int& exit_code) {
   const auto command = std::make_shared<LiveCommand>();
   CLI::App* sub =
       app.add_subcommand("live", "write a page that draws the built-in scenes by the RTL in a browser");
+  sub->add_option("scene", command->scenes, "built-in scenes (default: all, and the hardware of mesh files)");
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
   sub->add_option("--threads", command->threads, "threads for building (0: all cores)")
       ->capture_default_str();

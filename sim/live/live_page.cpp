@@ -107,19 +107,22 @@ Result<std::map<std::string, Hardware>> build_hardware(const std::vector<Hardwar
   return built;
 }
 
-}  // namespace
-
-Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scenes,
-                                           const std::filesystem::path& scenes_folder) {
-  auto drawn = mesh_scenes();
-  if (!drawn) return drawn.error();
-  for (const std::string& name : scenes) {
-    auto scene = load_scene(name, scenes_folder);
+// The hardware of the page, each key once, sorted by name. A shader that cannot draw a scene has no key for
+// it.
+Result<std::vector<HardwareKey>> live_keys(const LiveSettings& settings) {
+  std::vector<Scene> drawn;
+  if (settings.meshes) {
+    auto meshes = mesh_scenes();
+    if (!meshes) return meshes.error();
+    drawn = std::move(*meshes);
+  }
+  for (const std::string& name : settings.scenes) {
+    auto scene = load_scene(name, settings.folders.source / "sim/scenes");
     if (!scene) return scene.error();
-    drawn->push_back(std::move(*scene));
+    drawn.push_back(std::move(*scene));
   }
   std::map<std::string, HardwareKey> keys;
-  for (const Scene& scene : *drawn)
+  for (const Scene& scene : drawn)
     for (const Shader shader : c_shaders)
       for (const Preset preset : c_presets)
         for (const TableSize size : table_sizes(preset)) {
@@ -132,9 +135,11 @@ Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scene
   return sorted;
 }
 
+}  // namespace
+
 Result<LivePage> write_live(const LiveSettings& settings) {
   const std::filesystem::path sources = settings.folders.source / "sim", here = sources / "live";
-  const auto keys = live_keys(settings.scenes, sources / "scenes");
+  const auto keys = live_keys(settings);
   if (!keys) return keys.error();
   settings.on_progress("core");
   const auto core = build_core_module(settings.folders);

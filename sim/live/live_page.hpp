@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway::live {
@@ -19,6 +18,7 @@ namespace halfway::live {
 struct LiveSettings {
   std::filesystem::path page;       ///< output file
   std::vector<std::string> scenes;  ///< names of the built-in scenes
+  bool meshes = true;               ///< with the hardware of mesh files
   SimulatorFolders folders;
   unsigned threads = 1;
   std::function<void(const std::string& what)> on_progress = [](const std::string&) {};
@@ -29,12 +29,8 @@ struct LivePage {
   std::size_t hardware = 0;  ///< number of keys
 };
 
-/// The hardware of all built-in scenes and of a mesh file, grey or coloured, by all shaders in both presets.
-/// Each key once, sorted by name. A shader that cannot draw a scene has no key for it.
-Result<std::vector<HardwareKey>> live_keys(const std::vector<std::string>& scenes,
-                                           const std::filesystem::path& scenes_folder);
-
-/// Build the modules, which takes minutes if the cache has none, and write the page atomically.
+/// Build the modules, which takes minutes if the cache has none, and write the page atomically. The page has
+/// the hardware of the scenes, and of a mesh file, grey or coloured, by all shaders in both presets.
 Result<LivePage> write_live(const LiveSettings& settings);
 
 }  // namespace halfway::live

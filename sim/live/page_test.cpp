@@ -33,15 +33,25 @@ using Json = nlohmann::json;
 const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 constexpr FrameSize c_size{320, 240};
 const std::vector<std::string> c_scenes = {"highlights", "lights", "matte", "shadows", "spheres", "teapot"};
+// A rectangle, coloured as the spheres are: it is drawn by the same hardware.
+constexpr const char* c_coloured_roof =
+    R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAQAAAgD8AAIA/AAAAAAAAgD8AAIA/AAABAAIAAAACAAMA"}],
+"bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},{"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[0.8,0.4,0.2,1]}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}],"scene":0})";
 
 class LiveInBrowser : public CommandTest {
  protected:
-  /// Make the page for all tests.
-  static void SetUpTestSuite() {
+  /// Make the page for all tests: with one scene, because each kind of hardware is compiled for the browser.
+  static void SetUpTestSuite() { make_page({"spheres"}); }
+  static void make_page(const std::vector<std::string>& scenes) {
     auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
     ASSERT_TRUE(folder) << folder.error().message;
     made_folder.emplace(std::move(*folder));
-    const auto end = run_process({.arguments = {HALFWAY_PROGRAM, "live", "--out", page()}}, "");
+    Command command{.arguments = {HALFWAY_PROGRAM, "live", "--out", page()}};
+    command.arguments.insert(command.arguments.end(), scenes.begin(), scenes.end());
+    const auto end = run_process(command, "");
     failure = !end ? end.error().message : end->succeeded() ? "" : end->output;
   }
   static void TearDownTestSuite() { made_folder.reset(); }
@@ -116,35 +126,60 @@ class LiveInBrowser : public CommandTest {
                     Json(text).dump(), name));
   }
 
+  /// Drop a file with one rectangle on the page.
+  void draw_dropped_roof(const std::string& name, const std::string& text) {
+    drop(name, text);
+    ASSERT_TRUE(browser_->becomes_true(fmt::format("state.scene === '{}'", name)));
+    ASSERT_TRUE(is_drawn());
+    EXPECT_EQ(evaluate("last.state.scene"), name);
+    EXPECT_EQ(figure("triangles"), 2);
+    EXPECT_EQ(figure("mismatches"), 0);
+  }
+  /// Compare the pictures of the page with the golden model's.
+  void draw_by_every_shader(const std::vector<std::string>& scenes) {
+    for (const std::string& scene : scenes) {
+      const auto loaded = load_scene(scene, c_source / "sim/scenes");
+      ASSERT_TRUE(loaded) << loaded.error().message;
+      for (const Shader shader : c_shaders)
+        for (const Preset preset : {Preset::exact, Preset::published}) {
+          const std::string of = fmt::format("{} {} {}", scene, to_string(shader), to_string(preset));
+          const auto key = planned_key(*loaded, {.shader = shader, .preset = preset});
+          ASSERT_TRUE(key) << of << ": " << key.error().message;
+          EXPECT_TRUE(has_hardware(*key)) << of;
+          const std::vector<std::uint8_t> expected = golden_of(*loaded, *key);
+          ASSERT_NO_FATAL_FAILURE(
+              open(fmt::format("scene={}.toml&shader={}&preset={}&size=320x240&kind=golden", scene,
+                               to_string(shader), to_string(preset))))
+              << of;
+          EXPECT_EQ(picture("left").rgb, expected) << of;
+          EXPECT_EQ(picture("right").rgb, expected) << of;
+          EXPECT_THAT(text_of("#verdict"), HasSubstr("0 differ")) << of;
+          EXPECT_GT(figure("fragments"), 1000) << of;
+        }
+    }
+  }
+
   std::unique_ptr<HeadlessBrowser> browser_;
   static inline std::optional<TemporaryFolder> made_folder;
   static inline std::string failure;  ///< of making the page
 };
 
-TEST_F(LiveInBrowser, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
-  for (const std::string& scene : c_scenes) {
-    const auto loaded = load_scene(scene, c_source / "sim/scenes");
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    for (const Shader shader : c_shaders)
-      for (const Preset preset : {Preset::exact, Preset::published}) {
-        const std::string of = fmt::format("{} {} {}", scene, to_string(shader), to_string(preset));
-        const auto key = planned_key(*loaded, {.shader = shader, .preset = preset});
-        ASSERT_TRUE(key) << of << ": " << key.error().message;
-        EXPECT_TRUE(has_hardware(*key)) << of;
-        const std::vector<std::uint8_t> expected = golden_of(*loaded, *key);
-        ASSERT_NO_FATAL_FAILURE(open(fmt::format("scene={}.toml&shader={}&preset={}&size=320x240&kind=golden",
-                                                 scene, to_string(shader), to_string(preset))))
-            << of;
-        EXPECT_EQ(picture("left").rgb, expected) << of;
-        EXPECT_EQ(picture("right").rgb, expected) << of;
-        EXPECT_THAT(text_of("#verdict"), HasSubstr("0 differ")) << of;
-        EXPECT_GT(figure("fragments"), 1000) << of;
-      }
-  }
+/// The page of `make live`, with all scenes.
+class WholeLivePage : public LiveInBrowser {
+ protected:
+  static void SetUpTestSuite() { make_page({}); }
+};
+
+TEST_F(LiveInBrowser, DrawsTheGoldenFrameByEveryShader) {
+  draw_by_every_shader({"spheres"});
+}
+
+TEST_F(WholeLivePage, DrawsTheGoldenFrameOfEverySceneByEveryShader) {
+  draw_by_every_shader(c_scenes);
 }
 
 TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
-  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
   ASSERT_GT(evaluate("document.querySelectorAll('#register option').length"), 10);
   // Break registers until one is found to change the picture.
   const std::string whole = text_of("#verdict");
@@ -201,7 +236,7 @@ TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
 }
 
 TEST_F(LiveInBrowser, TurnsByMouseKeysAndTouchAndKeepsTheStateInTheLink) {
-  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
   const std::vector<std::uint8_t> before = picture("left").rgb;
   const auto [x, y] = browser_->middle_of("#picture");
   browser_->drag({x, y}, {x + 60, y + 20});
@@ -270,27 +305,22 @@ TEST_F(LiveInBrowser, TheLineSeparatesTwoPictures) {
 }
 
 TEST_F(LiveInBrowser, DrawsADroppedMeshAndRefusesABadOne) {
-  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
   choose("tessellation", "-1");
   ASSERT_TRUE(is_drawn());
-  drop("roof.obj", "v 0 0 0\nv 2 0 0\nv 2 1 1\nv 0 1 1\nf 1 2 3 4\n");
-  ASSERT_TRUE(browser_->becomes_true("state.scene === 'roof.obj'"));
-  ASSERT_TRUE(is_drawn());
-  EXPECT_EQ(evaluate("last.state.scene"), "roof.obj");
-  EXPECT_EQ(figure("triangles"), 2);
-  EXPECT_EQ(figure("mismatches"), 0);
+  ASSERT_NO_FATAL_FAILURE(draw_dropped_roof("roof.gltf", c_coloured_roof));
   drop("bad.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n");
   ASSERT_TRUE(browser_->becomes_true("!document.getElementById('refusal').hidden"));
   EXPECT_THAT(text_of("#refusal"), HasSubstr("bad.obj:2: "));
   // The page goes on.
-  choose("scene", "teapot.toml");
+  choose("scene", "spheres.toml");
   ASSERT_TRUE(is_drawn());
   EXPECT_EQ(evaluate("document.getElementById('refusal').hidden"), true);
   EXPECT_EQ(figure("mismatches"), 0);
 }
 
 TEST_F(LiveInBrowser, ShowsThePixelThatIsClicked) {
-  ASSERT_NO_FATAL_FAILURE(open("scene=teapot.toml&size=320x240&kind=golden"));
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240&kind=golden"));
   const auto [x, y] = browser_->middle_of("#picture");
   browser_->click(x, y);
   ASSERT_TRUE(browser_->becomes_true("document.querySelectorAll('#pixel-values tr').length > 2"));
@@ -304,19 +334,18 @@ TEST_F(LiveInBrowser, ShowsThePixelThatIsClicked) {
 // The way has the values of `make why`, which simulates in GHDL.
 TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
   struct Case {
-    const char* scene;
     Shader shader;
     Preset preset;
     FramePixel pixel;
   };
-  for (const Case& c : {Case{"teapot", Shader::quadratic, Preset::exact, {100, 100}},
-                        Case{"spheres", Shader::quadratic, Preset::published, {100, 60}},
-                        Case{"spheres", Shader::spherical, Preset::exact, {100, 60}},
-                        Case{"spheres", Shader::spherical, Preset::published, {100, 60}},
-                        Case{"spheres", Shader::processors, Preset::exact, {100, 60}},
-                        Case{"matte", Shader::processors, Preset::published, {100, 60}}}) {
-    SCOPED_TRACE(fmt::format("{} {} {}", c.scene, to_string(c.shader), to_string(c.preset)));
-    const auto scene = load_scene(c.scene, c_source / "sim/scenes");
+  for (const Case& c : {Case{Shader::quadratic, Preset::exact, {100, 100}},
+                        Case{Shader::quadratic, Preset::published, {100, 60}},
+                        Case{Shader::spherical, Preset::exact, {100, 60}},
+                        Case{Shader::spherical, Preset::published, {100, 60}},
+                        Case{Shader::processors, Preset::exact, {100, 60}},
+                        Case{Shader::processors, Preset::published, {100, 60}}}) {
+    SCOPED_TRACE(fmt::format("{} {}", to_string(c.shader), to_string(c.preset)));
+    const auto scene = load_scene("spheres", c_source / "sim/scenes");
     ASSERT_TRUE(scene) << scene.error().message;
     WhySettings settings;
     settings.plan.shader = c.shader;
@@ -329,7 +358,7 @@ TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
     ASSERT_FALSE(why->stories.empty());
 
     ASSERT_NO_FATAL_FAILURE(
-        open(fmt::format("scene={}.toml&size=320x240&shader={}&preset={}&pixel={},{}", c.scene,
+        open(fmt::format("scene=spheres.toml&size=320x240&shader={}&preset={}&pixel={},{}",
                          to_string(c.shader), to_string(c.preset), c.pixel.x, c.pixel.y)));
     EXPECT_EQ(evaluate("last.way.map((line) => line.join('\\t') + '\\n').join('')"),
               lines_of({why->stories, why->first, why->fault}));
@@ -344,7 +373,7 @@ TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
     EXPECT_EQ(evaluate("document.querySelectorAll('#way-values td.differs').length"), 0);
   }
   // No triangle covers this pixel.
-  ASSERT_NO_FATAL_FAILURE(open("scene=teapot.toml&size=320x240&pixel=0,0"));
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240&pixel=0,0"));
   EXPECT_THAT(text_of("#way-note"), HasSubstr("No triangle"));
 }
 
@@ -368,7 +397,7 @@ TEST_F(LiveInBrowser, DrawsWithTablesOfAnotherSize) {
 }
 
 TEST_F(LiveInBrowser, FitsPhonesAndDarkMode) {
-  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
   for (const int width : {390, 1440}) {
     browser_->resize(width, 844);
     EXPECT_LE(evaluate("document.documentElement.scrollWidth").get<int>(), width);
@@ -381,7 +410,14 @@ TEST_F(LiveInBrowser, FitsPhonesAndDarkMode) {
   EXPECT_NE(papers[0], papers[1]);
 }
 
-TEST_F(LiveInBrowser, TheFileIsSmall) {
+TEST_F(WholeLivePage, DrawsADroppedGreyMesh) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=matte.toml&size=320x240"));
+  choose("tessellation", "-1");
+  ASSERT_TRUE(is_drawn());
+  draw_dropped_roof("roof.obj", "v 0 0 0\nv 2 0 0\nv 2 1 1\nv 0 1 1\nf 1 2 3 4\n");
+}
+
+TEST_F(WholeLivePage, TheFileIsSmall) {
   EXPECT_LE(std::filesystem::file_size(page()), 3'000'000U);
 }
 
