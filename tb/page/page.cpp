@@ -3,12 +3,31 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <algorithm>
 
-#include "sim/system/file.hpp"
+#include "sim/pages/template.hpp"
 #include "sim/system/page_part.hpp"
 
 namespace halfway::page {
+namespace {
+
+constexpr std::size_t c_shown_digits = 12;  // of a commit
+
+std::string origin_start(std::string_view page) {
+  return fmt::format("\nMeasured by `make evidence PAGE={}` at commit ", page);
+}
+
+std::string shown(std::string_view commit) {
+  return fmt::format("`{}`", commit.substr(0, c_shown_digits));
+}
+
+}  // namespace
+
+std::string Row::field(std::string_view column) const {
+  const auto found = std::ranges::find(fields, column, &Fields::value_type::first);
+  return found == fields.end() ? std::string() : found->second;
+}
+
 std::string with_sections(std::string_view text, std::span<const Section> sections) {
   std::string page(text);
   if (!page.empty() && page.back() != '\n') page += '\n';
@@ -30,10 +49,39 @@ std::string with_sections(std::string_view text, std::span<const Section> sectio
   return page;
 }
 
-Status write_sections(const std::filesystem::path& page, std::span<const Section> sections) {
-  const auto text = read_file(page);
-  if (!text) return text.error();
-  return write_file(page, with_sections(*text, sections));
+std::vector<Section> sections_of(std::span<const Row> rows) {
+  std::vector<Section> sections;
+  for (const Row& first : rows) {
+    if (std::ranges::find(sections, first.section, &Section::heading) != sections.end()) continue;
+    std::vector<std::string> columns;
+    for (const auto& [key, value] : first.fields) columns.push_back(key);
+    const bool is_whole = columns == std::vector<std::string>{std::string(c_table)};
+    std::vector<std::vector<std::string>> cells;
+    std::string text;
+    for (const Row& row : rows) {
+      if (row.section != first.section) continue;
+      cells.emplace_back();
+      for (const std::string& column : columns) cells.back().push_back(row.field(column));
+      if (is_whole) text += cells.back().front();
+    }
+    sections.push_back({first.section, is_whole ? text : markdown_table(columns, cells)});
+  }
+  return sections;
+}
+
+std::string with_origin(std::string_view text, const Origin& origin) {
+  std::string page(text);
+  const std::string start = origin_start(origin.page);
+  const std::string line = fmt::format("{}{} {}\n", start, shown(origin.commit), origin.text);
+  if (const std::size_t old = page.find(start); old != std::string::npos)
+    return page.replace(old, page.find('\n', old + 1) + 1 - old, line);
+  const std::size_t title = page.starts_with("# ") ? 0 : page.find("\n# ");
+  const std::size_t end = title == std::string::npos ? title : page.find('\n', title + 1);
+  return end == std::string::npos ? line + page : page.insert(end + 1, line);
+}
+
+bool is_of_commit(std::string_view text, std::string_view page, std::string_view commit) {
+  return text.find(origin_start(page) + shown(commit)) != std::string_view::npos;
 }
 
 }  // namespace halfway::page

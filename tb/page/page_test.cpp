@@ -27,5 +27,33 @@ TEST(Page, PartsBetweenCommentsAreReplacedInPlace) {
   EXPECT_EQ(with_sections(written, sections), written);
 }
 
+TEST(Page, RowsAreATablePerSection) {
+  const Row rows[] = {{"a", "one", {{"x", "1"}, {"y", "2"}}},
+                      {"b", "two", {{std::string(c_table), "| whole |\n"}}},
+                      {"c", "one", {{"y", "4"}, {"x", "3"}}}};
+  const auto sections = sections_of(rows);
+  ASSERT_EQ(sections.size(), 2U);
+  EXPECT_EQ(sections[0].heading, "one");
+  EXPECT_EQ(sections[0].body, "| x | y |\n| --- | --- |\n| 1 | 2 |\n| 3 | 4 |\n");
+  EXPECT_EQ(sections[1].body, "| whole |\n");
+}
+
+TEST(Page, NamesItsCommitBelowItsTitle) {
+  const std::string page = "<!-- licence -->\n# Page\n\nIntro.\n";
+  const std::string once = with_origin(page, {"proofs", "0123456789abcdef", "on Monday."});
+  EXPECT_EQ(once,
+            "<!-- licence -->\n# Page\n\nMeasured by `make evidence PAGE=proofs` at commit `0123456789ab` on "
+            "Monday.\n\nIntro.\n");
+  EXPECT_TRUE(is_of_commit(once, "proofs", "0123456789abcdef"));
+  EXPECT_FALSE(is_of_commit(once, "proofs", "1123456789abcdef"));
+  EXPECT_FALSE(is_of_commit(once, "mutants", "0123456789abcdef"));
+  // A page can have a line for each of two measurements.
+  const std::string twice = with_origin(once, {"gallery", "0123456789abcdef", "on Tuesday."});
+  EXPECT_EQ(
+      with_origin(twice, {"proofs", "fedcba9876543210", "on Friday."}),
+      "<!-- licence -->\n# Page\n\nMeasured by `make evidence PAGE=gallery` at commit `0123456789ab` on "
+      "Tuesday.\n\nMeasured by `make evidence PAGE=proofs` at commit `fedcba987654` on Friday.\n\nIntro.\n");
+}
+
 }  // namespace
 }  // namespace halfway::page
