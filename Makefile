@@ -197,7 +197,7 @@ report: program ## write one HTML page: frames, accuracy against time, effects, 
 	@build/halfway report
 
 check-report: build ## test the page of make report in headless Chromium, with mouse and keys
-	@ctest --test-dir build --output-on-failure --no-tests=error -R '^ReportPage'
+	@ctest --test-dir build --output-on-failure --no-tests=error -C cases -R '^ReportPage'
 
 diagrams: setup ## draw the shaders' block diagrams in rtl/diagrams from their text
 	@scripts/diagrams.sh build/diagrams
@@ -228,15 +228,15 @@ testbench: configure ## run one VHDL testbench in GHDL, with vectors from the go
 
 # Warnings of clang-tidy and of GHDL are errors.
 lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors rtl_lint_test
 	@scripts/lint.sh build "$(jobs)" "$$FILES"
-	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^rtl_lint$$'
+	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^rtl_lint_test$$'
 
 sanitize: setup ## run every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
 	@unset MAKEFLAGS; LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/fuzz/leaks.txt:print_suppressions=0" flock -o build/test.lock \
 	  ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
-	  $${TESTS:+--tests-regex "$$TESTS"}
+	  $${TESTS:+--build-config cases --tests-regex "$$TESTS"}
 
 fuzz: setup ## run libFuzzer on every kind of input (SECONDS each; TARGET: only one)
 	@$(sanitized) --target halfway_fuzz_targets

@@ -4,7 +4,7 @@
 #
 #   scripts/test.sh quick JOBS          without the tests that have the label `whole`
 #   scripts/test.sh all JOBS            every test that has not passed on this tree, also in an interrupted run
-#   scripts/test.sh quick JOBS REGEX    every test whose name matches
+#   scripts/test.sh quick JOBS REGEX    every test whose name matches, each case of a C++ test by its own name
 set -eu
 tier=$1 jobs=$2 tests=${3-}
 cd "$(dirname "$0")/.."
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 set -- --output-on-failure -j "$jobs" --output-junit tests.xml
 log=/dev/null
 if [ -n "$tests" ]; then
-  set -- "$@" --no-tests=error --tests-regex "$tests"
+  set -- "$@" --no-tests=error --build-config cases --tests-regex "$tests"
 elif [ "$tier" = quick ]; then
   set -- "$@" --no-tests=error --label-exclude '^whole$'
 else
