@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "sim/ghdl/rtl_hash.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 
@@ -56,7 +57,7 @@ std::pair<std::filesystem::path, std::string> place_of(const char* kind, const G
   ContentHash hash;
   hash.add(kind).add(tool.version).add(top);
   for (const std::string& flag : c_analysis_flags) hash.add(flag);
-  for (const VhdlSource& source : sources) hash.add(source.name).add(source.content);
+  for (const VhdlSource& source : sources) hash.add(source.name).add(bare_vhdl(source.content));
   return {std::filesystem::absolute(cache) / "ghdl" / hash.hex(), hash.hex()};
 }
 
@@ -119,7 +120,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
                                       const std::string& top, const std::filesystem::path& cache) {
   // If folders are given as absolute names, GHDL's library file contains them. Run all commands inside the
   // folder instead.
-  const auto [folder, hash] = place_of("ghdl library 2", tool, sources, top, cache);
+  const auto [folder, hash] = place_of("ghdl library 3", tool, sources, top, cache);
   GhdlLibrary library(tool, folder, hash);
   if (std::filesystem::exists(folder)) return library;
 
@@ -153,7 +154,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
 
 Result<GhdlLibrary> GhdlLibrary::for_synthesis(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                                const std::filesystem::path& cache, bool vendor_cells) {
-  const auto [folder, hash] = place_of("ghdl sources 1", tool, sources, "", cache);
+  const auto [folder, hash] = place_of("ghdl sources 2", tool, sources, "", cache);
   GhdlLibrary library(tool, folder, hash);
   for (const VhdlSource& source : sources) library.to_read_.push_back(source.name);
   if (std::filesystem::exists(folder)) return library;

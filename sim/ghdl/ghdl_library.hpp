@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Analysed VHDL, cached by content. build/cache/ghdl/<hash>/ contains copies of the sources under their
-// relative names and GHDL's work library. Later edits of the tree do not affect a run.
+// Analysed VHDL, cached by content without comments. build/cache/ghdl/<hash>/ contains copies of the sources
+// under their relative names and GHDL's work library. Later edits of the tree do not affect a run; lines in
+// GHDL's messages are those of the copies.
 #pragma once
 
 #include <chrono>

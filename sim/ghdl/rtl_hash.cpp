@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/ghdl/rtl_hash.hpp"
 
-#include <algorithm>
 #include <cctype>
 
 #include "sim/ghdl/ghdl_library.hpp"
@@ -11,18 +10,28 @@ namespace halfway {
 
 std::string bare_vhdl(std::string_view text) {
   std::string bare;
-  bool in_string = false;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const char c = text[at];
-    if (c == '"') in_string = !in_string;
-    if (in_string) {
-      bare += c;
-    } else if (text.substr(at).starts_with("--")) {
-      at = std::min(text.find('\n', at), text.size()) - 1;
-    } else if (std::isspace(static_cast<unsigned char>(c)) == 0) {
-      bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    } else if (!bare.empty() && bare.back() != ' ') {
-      bare += ' ';
+  // Skips text up to and with `end`, and returns it.
+  const auto take = [&text](std::string_view end, std::size_t from) {
+    const std::size_t found = text.find(end, from);
+    const std::string_view taken =
+        text.substr(0, found == std::string_view::npos ? text.size() : found + end.size());
+    text.remove_prefix(taken.size());
+    return taken;
+  };
+  while (!text.empty()) {
+    const char c = text.front();
+    if (c == '"' || c == '\\') {  // a string, an extended identifier
+      bare += take(text.substr(0, 1), 1);
+    } else if (c == '\'' && text.size() > 2 && text[2] == '\'') {
+      bare += take("'", 1);
+    } else if (text.starts_with("--") || text.starts_with("/*")) {
+      take(c == '-' ? "\n" : "*/", 2);
+      bare += bare.ends_with(' ') ? "" : " ";
+    } else {
+      const bool space = std::isspace(static_cast<unsigned char>(c)) != 0;
+      if (!space) bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (space && !bare.ends_with(' ')) bare += ' ';
+      text.remove_prefix(1);
     }
   }
   return bare;

@@ -10,7 +10,8 @@
 
 namespace halfway {
 
-/// VHDL without comments, in lower case outside of strings, with one space for white space.
+/// VHDL without comments, in lower case outside of literals, with one space for white space: equal for equal
+/// tokens.
 std::string bare_vhdl(std::string_view text);
 
 /// Hash of the sources of rtl/files.f, each as bare_vhdl.

@@ -12,9 +12,11 @@ Result<std::filesystem::path> build_hardware_module(const HardwareKey& key, cons
   if (!build) return build.error();
   build->harness = folders.source / "sim/live/hardware_harness.cpp";
   build->target = LaneTarget::web_assembly;
-  const auto netlist = vhdl_netlist_of(key, folders);
+  const auto library = rtl_library(folders);
+  if (!library) return library.error();
+  const auto netlist = library->synthesize_vhdl(key.entity(), key.generics());
   if (!netlist) return netlist.error();
-  build->names = RegisterNames(*netlist, folders.source);
+  build->names = RegisterNames(*netlist, library->folder());
   build->ports.top = build->top;
   for (const TracedPart& part : make_stages(key)->parts())
     build->ports.observed.push_back(

@@ -10,11 +10,11 @@
 
 namespace halfway {
 
+/// The RTL, for synthesis.
+Result<GhdlLibrary> rtl_library(const SimulatorFolders& folders);
+
 /// The repaired netlist of a key. GHDL's output is cached by its inputs, because synthesis takes longer than
 /// all other steps of an unchanged build.
 Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
-
-/// The same netlist as VHDL, with positions in the RTL.
-Result<std::string> vhdl_netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
 
 }  // namespace halfway
