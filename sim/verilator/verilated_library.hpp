@@ -25,7 +25,8 @@ struct VerilatedBuild {
   std::string compiler;                                ///< empty: clang++ if installed, otherwise g++
 };
 
-/// Build the library in build/cache/verilator/<name>-<hash>/ unless it exists, and load it.
+/// Build the library in build/cache/verilator/<name>-<hash>/ unless it exists, and load it. With
+/// HALFWAY_QUICK_BUILDS in the environment no library is optimized: tests simulate few clocks.
 Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway
