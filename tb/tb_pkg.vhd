@@ -1,6 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Common parts of the testbenches: files of vectors (format: tb/vectors/vector_file.hpp), comparisons that stop the run
--- with vector number, actual and expected value, and random stalls.
+-- Common parts of the testbenches: files of vectors (format: sim/stream_files/vector_file.hpp), comparisons that stop the
+-- run with vector number, actual and expected value, clocks, random stalls, and the end of a testbench.
+--
+-- The shape of a testbench: one process per instance reads the rows of a file, drives the instance's inputs, compares its
+-- outputs and gives its clock.
+--
+--   vectors.open_file(g_folder & "/16.txt", c_latency);
+--   while vectors.next_clock loop
+--     vectors.drive(enable);
+--     vectors.drive(a);
+--     settle;
+--     vectors.check("sum", sum);
+--     tick(clk);
+--   end loop;
+--   finished <= true;
+--   wait;
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -14,15 +28,20 @@ package tb_pkg is
 
   -- A file of vectors, read one by one.
   type vectors_t is protected
-    procedure open_file (name : in string);
+    -- With `latency`: the only word of the file's first vector must be this latency of the hardware.
+    procedure open_file (name : in string; latency : in integer := -1);
     procedure close_file;
     -- Advances to the next vector. Returns false at the end of a complete file with at least one vector.
     impure function next_vector return boolean;
+    -- As next_vector. The first word of the vector is a flag: '0': the hardware's outputs are not compared.
+    impure function next_clock return boolean;
     -- As next_vector, but fails at the end of the file: the hardware gave `what`, and the file expects no more.
     procedure expect_vector (what : in string);
     -- Reads the next word of this vector.
     procedure read_word (word : out std_logic_vector);
     procedure read_flag (flag : out std_logic);
+    -- Reads the next word as a number below 2**31.
+    impure function read_number return natural;
     -- Drives `target` with the next word of this vector; a line with one word per field.
     procedure drive (signal target : out std_logic);
     procedure drive (signal target : out std_logic_vector);
@@ -30,24 +49,43 @@ package tb_pkg is
     procedure drive (signal target : out signed);
     procedure drive (signal target : out line_t);
     -- Compares `got` with the next word of this vector.
-    procedure check_word (name : in string; got : in std_logic_vector);
-    -- As check_word if `checked` is '1'; otherwise skips the word.
-    procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector);
-    -- As check_word_if for each word of `bits` bits of `got`, the lowest first. A failure names it "NAME INDEX".
-    procedure check_words_if (checked : in std_logic; name : in string; bits : in positive; got : in std_logic_vector);
-    procedure check_flag (name : in string; got : in std_logic);
-    procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic);
-    -- Reads the next word as a number below 2**31.
-    impure function read_number return natural;
-    -- Compares the only word of the next vector with the hardware's latency.
-    procedure expect_latency (latency : in natural);
+    procedure check (name : in string; got : in std_logic_vector);
+    procedure check (name : in string; got : in unsigned);
+    procedure check (name : in string; got : in signed);
+    procedure check (name : in string; got : in std_logic);
+    -- As check if `condition` is '1'; otherwise skips the word.
+    procedure check_if (condition : in std_logic; name : in string; got : in std_logic_vector);
+    procedure check_if (condition : in std_logic; name : in string; got : in unsigned);
+    procedure check_if (condition : in std_logic; name : in string; got : in signed);
+    procedure check_if (condition : in std_logic; name : in string; got : in std_logic);
+    -- As check_if, with the condition as a word before the expected one.
+    procedure check_known (name : in string; got : in std_logic_vector);
+    -- As check for each word of `bits` bits of `got`, the lowest first. A failure names it "NAME INDEX".
+    procedure check_words (name : in string; bits : in positive; got : in std_logic_vector);
     -- Stops the run. The message gives the file and the number of the vector.
     procedure fail (message : in string);
   end protected;
 
+  -- True when each process that drives `finished` has set it. Each part of a testbench that can end first drives it.
+  function all_true (values : boolean_vector) return boolean;
+  signal finished : all_true boolean;
+
+  -- Reports that the testbench passed when `done` is true.
+  procedure report_end (signal done : in boolean; testbench : in string);
+
+  -- The second half of a clock period: inputs that were driven reach the outputs.
+  procedure settle;
+  -- A rising edge of the clock and the first half of its period.
+  procedure tick (signal clk : out std_logic);
+  -- Waits for `count` rising edges.
+  procedure wait_clocks (signal clk : in std_logic; count : in natural);
+
   function to_flag (value : boolean) return std_logic;
 
   function preset_name (exact : boolean) return string;
+
+  -- Numbers in a file's name, such as 3_24_14_8.
+  function joined (numbers : integer_vector) return string;
 
   -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
   function next_random (state : unsigned(31 downto 0)) return unsigned;
@@ -65,20 +103,36 @@ end package;
 
 package body tb_pkg is
 
+  type nibbles_t is array (0 to 15) of std_logic_vector(3 downto 0);
+
+  constant c_nibbles : nibbles_t := (x"0", x"1", x"2", x"3", x"4", x"5", x"6", x"7", x"8", x"9", x"A", x"B", x"C", x"D",
+    x"E", x"F");
+
+  -- Hexadecimal. If a digit has metavalues, append all bits.
+  function to_text (word : std_logic_vector) return string is
+  begin
+    if is_x(word) then
+      return to_hstring(word) & " (" & to_string(word) & ")";
+    end if;
+    return to_hstring(word);
+  end function;
+
   type vectors_t is protected body
-    file vectors         : text;
+    file vectors       : text;
     variable file_name : line;
     variable text_in   : line;
     variable position  : positive;
     variable count     : natural;
+    variable checked   : std_logic;
 
     procedure fail (message : in string) is
     begin
       report file_name.all & ": vector " & to_string(count - 1) & ": " & message severity failure;
     end procedure;
 
-    procedure open_file (name : in string) is
-      variable status : file_open_status;
+    procedure open_file (name : in string; latency : in integer := -1) is
+      variable status   : file_open_status;
+      variable expected : natural;
     begin
       deallocate(file_name);
       file_name := new string'(name);
@@ -86,6 +140,13 @@ package body tb_pkg is
       file_open(status, vectors, name, read_mode);
       if status /= open_ok then
         report name & ": cannot open; halfway_vectors writes it" severity failure;
+      end if;
+      if latency >= 0 then
+        expect_vector("the latency");
+        expected := read_number;
+        if latency /= expected then
+          fail("the latency is " & to_string(latency) & ", expected " & to_string(expected));
+        end if;
       end if;
     end procedure;
 
@@ -108,8 +169,19 @@ package body tb_pkg is
         end if;
         return false;
       end if;
-      count := count + 1;
+      count   := count + 1;
+      checked := '1';
       return true;
+    end function;
+
+    impure function next_clock return boolean is
+      variable found : boolean;
+    begin
+      found := next_vector;
+      if found then
+        read_flag(checked);
+      end if;
+      return found;
     end function;
 
     procedure expect_vector (what : in string) is
@@ -136,7 +208,7 @@ package body tb_pkg is
             digit := 0;
             fail("has a word of another width than " & to_string(word'length) & " bits");
         end case;
-        digits(4 * i + 3 downto 4 * i) := std_logic_vector(to_unsigned(digit, 4));
+        digits(4 * i + 3 downto 4 * i) := c_nibbles(digit);
         position := position + 1;
       end loop;
       if position <= text_in'high and text_in(position) /= ' ' then
@@ -152,6 +224,13 @@ package body tb_pkg is
       read_word(word);
       flag := word(0);
     end procedure;
+
+    impure function read_number return natural is
+      variable word : std_logic_vector(31 downto 0);
+    begin
+      read_word(word);
+      return to_integer(unsigned(word));
+    end function;
 
     procedure drive (signal target : out std_logic) is
       variable flag : std_logic;
@@ -193,65 +272,97 @@ package body tb_pkg is
       drive(target.carry);
     end procedure;
 
-    impure function read_number return natural is
-      variable word : std_logic_vector(31 downto 0);
-    begin
-      read_word(word);
-      return to_integer(unsigned(word));
-    end function;
-
-    procedure expect_latency (latency : in natural) is
-      variable expected : natural;
-    begin
-      expect_vector("the latency");
-      expected := read_number;
-      if latency /= expected then
-        fail("the latency is " & to_string(latency) & ", expected " & to_string(expected));
-      end if;
-    end procedure;
-
-    -- Hexadecimal. If a digit has metavalues, append all bits.
-    function to_text (word : std_logic_vector) return string is
-    begin
-      if is_x(word) then
-        return to_hstring(word) & " (" & to_string(word) & ")";
-      end if;
-      return to_hstring(word);
-    end function;
-
-    procedure check_word_if (checked : in std_logic; name : in string; got : in std_logic_vector) is
+    procedure check_if (condition : in std_logic; name : in string; got : in std_logic_vector) is
       variable expected : std_logic_vector(got'range);
     begin
       read_word(expected);
-      if checked = '1' and got /= expected then
+      if checked = '1' and condition = '1' and got /= expected then
         fail(name & " is " & to_text(got) & ", expected " & to_text(expected));
       end if;
     end procedure;
 
-    procedure check_words_if (checked : in std_logic; name : in string; bits : in positive; got : in std_logic_vector) is
+    procedure check_if (condition : in std_logic; name : in string; got : in unsigned) is
+    begin
+      check_if(condition, name, std_logic_vector(got));
+    end procedure;
+
+    procedure check_if (condition : in std_logic; name : in string; got : in signed) is
+    begin
+      check_if(condition, name, std_logic_vector(got));
+    end procedure;
+
+    procedure check_if (condition : in std_logic; name : in string; got : in std_logic) is
+      variable word : std_logic_vector(0 downto 0) := (others => got);
+    begin
+      check_if(condition, name, word);
+    end procedure;
+
+    procedure check (name : in string; got : in std_logic_vector) is
+    begin
+      check_if('1', name, got);
+    end procedure;
+
+    procedure check (name : in string; got : in unsigned) is
+    begin
+      check_if('1', name, got);
+    end procedure;
+
+    procedure check (name : in string; got : in signed) is
+    begin
+      check_if('1', name, got);
+    end procedure;
+
+    procedure check (name : in string; got : in std_logic) is
+    begin
+      check_if('1', name, got);
+    end procedure;
+
+    procedure check_known (name : in string; got : in std_logic_vector) is
+      variable known : std_logic;
+    begin
+      read_flag(known);
+      check_if(known, name, got);
+    end procedure;
+
+    procedure check_words (name : in string; bits : in positive; got : in std_logic_vector) is
       alias words : std_logic_vector(got'length - 1 downto 0) is got;
     begin
       for index in 0 to got'length / bits - 1 loop
-        check_word_if(checked, name & " " & to_string(index), words((index + 1) * bits - 1 downto index * bits));
+        check(name & " " & to_string(index), words((index + 1) * bits - 1 downto index * bits));
       end loop;
     end procedure;
-
-    procedure check_word (name : in string; got : in std_logic_vector) is
-    begin
-      check_word_if('1', name, got);
-    end procedure;
-
-    procedure check_flag_if (checked : in std_logic; name : in string; got : in std_logic) is
-      variable word : std_logic_vector(0 downto 0) := (others => got);
-    begin
-      check_word_if(checked, name, word);
-    end procedure;
-
-    procedure check_flag (name : in string; got : in std_logic) is
-    begin
-      check_flag_if('1', name, got);
-    end procedure;
   end protected body;
+
+  function all_true (values : boolean_vector) return boolean is
+  begin
+    return and values;
+  end function;
+
+  procedure report_end (signal done : in boolean; testbench : in string) is
+  begin
+    wait until done;
+    report testbench & ": passed" severity note;
+    wait;
+  end procedure;
+
+  procedure settle is
+  begin
+    wait for c_half_period;
+  end procedure;
+
+  procedure tick (signal clk : out std_logic) is
+  begin
+    clk <= '1';
+    wait for c_half_period;
+    clk <= '0';
+  end procedure;
+
+  procedure wait_clocks (signal clk : in std_logic; count : in natural) is
+  begin
+    for i in 1 to count loop
+      wait until rising_edge(clk);
+    end loop;
+  end procedure;
 
   function to_flag (value : boolean) return std_logic is
   begin
@@ -267,6 +378,15 @@ package body tb_pkg is
       return "exact";
     end if;
     return "published";
+  end function;
+
+  function joined (numbers : integer_vector) return string is
+    alias list : integer_vector(0 to numbers'length - 1) is numbers;
+  begin
+    if list'length = 1 then
+      return to_string(list(0));
+    end if;
+    return to_string(list(0)) & "_" & joined(list(1 to list'right));
   end function;
 
   function next_random (state : unsigned(31 downto 0)) return unsigned is

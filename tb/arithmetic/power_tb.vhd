@@ -7,69 +7,39 @@ use work.formats_pkg.all;
 use work.shading_pkg.all;
 use work.tb_pkg.all;
 
-entity power_run is
-  generic (
-    g_exact       : boolean;
-    g_folder      : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of power_run is
-  signal clk        : std_logic := '0';
-  signal enable     : std_logic := '0';
-  signal base       : std_logic_vector((formats(g_exact).direction.fraction + 1) - 1 downto 0) := (others => '0');
-  signal exponent   : std_logic_vector(formats(g_exact).exponent.bits - 1 downto 0) := (others => '0');
-  signal result     : std_logic_vector(formats(g_exact).weight.bits - 1 downto 0);
-begin
-  dut : entity work.power
-    generic map (g_exact => g_exact)
-    port map (clk => clk, enable => enable, base => base, exponent => exponent, result => result);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    vectors.expect_latency(power_latency(g_exact));
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(enable);
-      vectors.drive(base);
-      vectors.drive(exponent);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "result", result);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity power_tb is
-  generic (
-    g_folder : string := "power"
-  );
+  generic (g_folder : string := "power");
 end entity;
 
 architecture sim of power_tb is
-  signal finished : boolean_vector(0 to 1);
 begin
-  run_0 : entity work.power_run
-    generic map (g_exact => true, g_folder => g_folder)
-    port map (finished => finished(0));
+  presets : for exact in boolean generate
+    signal clk      : std_logic := '0';
+    signal enable   : std_logic;
+    signal base     : std_logic_vector(formats(exact).direction.fraction downto 0);
+    signal exponent : std_logic_vector(formats(exact).exponent.bits - 1 downto 0);
+    signal result   : std_logic_vector(formats(exact).weight.bits - 1 downto 0);
+    begin
+      dut : entity work.power
+        generic map (g_exact => exact)
+        port map (clk => clk, enable => enable, base => base, exponent => exponent, result => result);
 
-  run_1 : entity work.power_run
-    generic map (g_exact => false, g_folder => g_folder)
-    port map (finished => finished(1));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & preset_name(exact) & ".txt", power_latency(exact));
+        while vectors.next_clock loop
+          vectors.drive(enable);
+          vectors.drive(base);
+          vectors.drive(exponent);
+          settle;
+          vectors.check("result", result);
+          tick(clk);
+        end loop;
+        finished <= true;
+        wait;
+      end process;
+  end generate;
 
-  done : process is
-  begin
-    wait until and finished;
-    report "power_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "power_tb");
 end architecture;

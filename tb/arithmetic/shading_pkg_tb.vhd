@@ -7,67 +7,35 @@ use work.formats_pkg.all;
 use work.shading_pkg.all;
 use work.tb_pkg.all;
 
-entity shading_pkg_run is
-  generic (
-    g_exact  : boolean;
-    g_folder : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of shading_pkg_run is
-begin
-  run : process is
-    variable vectors : vectors_t;
-    variable dot     : std_logic_vector(2 * formats(g_exact).direction.bits downto 0);
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_word(dot);
-      vectors.check_word("cosine", std_logic_vector(cosine(g_exact, signed(dot))));
-      vectors.check_flag("positive", is_positive(signed(dot)));
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
-library ieee;
-use ieee.std_logic_1164.all;
-use ieee.numeric_std.all;
-use work.shading_pkg.all;
-use work.tb_pkg.all;
-
 entity shading_pkg_tb is
-  generic (
-    g_folder : string := "shading_pkg"
-  );
+  generic (g_folder : string := "shading_pkg");
 end entity;
 
 architecture sim of shading_pkg_tb is
-  signal finished    : boolean_vector(0 to 1);
-  signal calculated  : boolean := false;
-
 begin
-  exact : entity work.shading_pkg_run
-    generic map (g_exact => true, g_folder => g_folder)
-    port map (finished => finished(0));
-
-  published : entity work.shading_pkg_run
-    generic map (g_exact => false, g_folder => g_folder)
-    port map (finished => finished(1));
+  presets : for exact in boolean generate
+    run : process is
+      variable vectors : vectors_t;
+      variable dot     : std_logic_vector(2 * formats(exact).direction.bits downto 0);
+    begin
+      vectors.open_file(g_folder & "/" & preset_name(exact) & ".txt");
+      while vectors.next_vector loop
+        vectors.read_word(dot);
+        vectors.check("cosine", cosine(exact, signed(dot)));
+        vectors.check("positive", is_positive(signed(dot)));
+      end loop;
+      finished <= true;
+      wait;
+    end process;
+  end generate;
 
   calculate : process is
     variable random : unsigned(31 downto 0) := x"2545F491";
 
-    procedure check (name : in string; got, expected : in std_logic_vector) is
+    procedure check (name : in string; got, expected : in unsigned) is
     begin
-      if got /= expected then
-        report "shading_pkg: " & name & " is " & to_hstring(got) & ", expected " & to_hstring(expected)
-          severity failure;
-      end if;
+      assert got = expected
+        report "shading_pkg: " & name & " is " & to_hstring(got) & ", expected " & to_hstring(expected) severity failure;
     end procedure;
 
     procedure check_rounding (word_bits, bits : in positive) is
@@ -81,18 +49,15 @@ begin
       half           := (others => '0');
       half(bits - 1) := '1';
       high           := ('0' & word) + half;
-      check("round_half_up of unsigned", std_logic_vector(round_half_up(word, bits)),
-        std_logic_vector(high(word_bits downto bits)));
-      whole := resize(signed(word), word_bits + 1) + signed(half);
-      check("round_half_up of signed", std_logic_vector(round_half_up(signed(word), bits)),
-        std_logic_vector(whole(word_bits downto bits)));
-      check("round_half_up to no bit", std_logic_vector(round_half_up(signed(word), 0)),
-        std_logic_vector(resize(signed(word), word_bits + 1)));
-      check("round_half_up to no bit", std_logic_vector(round_half_up(word, 0)), std_logic_vector('0' & word));
+      whole          := resize(signed(word), word_bits + 1) + signed(half);
+      check("round_half_up of unsigned", round_half_up(word, bits), high(word_bits downto bits));
+      check("round_half_up of signed", unsigned(round_half_up(signed(word), bits)), unsigned(whole(word_bits downto bits)));
+      check("round_half_up to no bit", unsigned(round_half_up(signed(word), 0)), word(word_bits - 1) & word);
+      check("round_half_up to no bit", round_half_up(word, 0), '0' & word);
       if word < largest then
         largest := word(bits - 1 downto 0);
       end if;
-      check("clamped", std_logic_vector(clamped(word, bits)), std_logic_vector(largest));
+      check("clamped", clamped(word, bits), largest);
     end procedure;
   begin
     for word_bits in 2 to 34 loop
@@ -102,14 +67,9 @@ begin
         end loop;
       end loop;
     end loop;
-    calculated <= true;
+    finished <= true;
     wait;
   end process;
 
-  done : process is
-  begin
-    wait until (and finished) and calculated;
-    report "shading_pkg_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "shading_pkg_tb");
 end architecture;

@@ -123,9 +123,9 @@ begin
           next;
         end if;
         wait until rising_edge(clk) and pixel_valid = '1' and pixel_ready = '1';
-        vectors.check_word("place", std_logic_vector(pixel_place));
-        vectors.check_word("depth", pixel_depth);
-        vectors.check_word("colour", pixel_colour);
+        vectors.check("place", std_logic_vector(pixel_place));
+        vectors.check("depth", pixel_depth);
+        vectors.check("colour", pixel_colour);
       end loop;
       vectors.close_file;
     end loop;

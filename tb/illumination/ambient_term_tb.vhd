@@ -54,15 +54,14 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
       vectors.drive(light);
       vectors.drive(token);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "view, normal, terms", view & normal & terms);
+      vectors.check_if(checked, "view, normal, terms", view & normal & terms);
     end loop;
     finished <= true;
     wait;

@@ -44,8 +44,7 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_highlight)) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_highlight)) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -53,7 +52,7 @@ begin
       vectors.drive(direction);
       vectors.drive(exponent);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "result", result);
+      vectors.check_if(checked, "result", result);
     end loop;
     finished <= true;
     wait;

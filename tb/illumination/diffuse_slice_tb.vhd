@@ -50,20 +50,18 @@ begin
 
   run : process is
     variable vectors : vectors_t;
-    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_"
       & to_string(g_address_bits) & "_" & to_string(g_data_bits) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
+    while vectors.next_clock loop
       vectors.drive(part);
       vectors.drive(span_load);
       vectors.drive(span_step);
       vectors.drive(sample_step);
       wait until rising_edge(clk);
-      vectors.check_flag_if(checked, "lit", lit);
+      vectors.check("lit", lit);
       if g_channels > 0 then
-        vectors.check_words_if(checked, "product of channel", c_product_bits, products);
+        vectors.check_words("product of channel", c_product_bits, products);
       elsif products /= (products'range => '0') then
         vectors.fail("products are " & to_hstring(products) & " though there is none");
       end if;

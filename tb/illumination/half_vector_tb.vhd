@@ -44,8 +44,7 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_normalize)) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_normalize)) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -53,7 +52,7 @@ begin
       vectors.drive(to_light);
       vectors.drive(to_eye);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "half", half);
+      vectors.check_if(checked, "half", half);
     end loop;
     finished <= true;
     wait;

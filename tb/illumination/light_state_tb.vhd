@@ -76,8 +76,8 @@ begin
       offered <= '1';
       wait until rising_edge(clk) and ready = '1';
       is_object := object;
-      vectors.check_flag("object", object);
-      vectors.check_flag("changes", changes);
+      vectors.check("object", object);
+      vectors.check("changes", changes);
       -- fault is set two clocks after its token.
       if (fault = '1' and faulty = '0') or (fault /= '1' and earlier = '1') then
         vectors.fail("fault is " & to_string(fault) & ", after the last two tokens " & to_string(earlier)
@@ -87,9 +87,9 @@ begin
       offered <= '0';
       token   <= (others => 'X');
       wait for c_half_period;
-      vectors.check_flag("defined", defined);
-      vectors.check_word_if(defined, "light", light);
-      vectors.check_flag_if(is_object and defined, "lit", lit);
+      vectors.check("defined", defined);
+      vectors.check_if(defined, "light", light);
+      vectors.check_if(is_object and defined, "lit", lit);
       vectors.read_flag(faulty);
       count := count + 1;
     end loop;

@@ -48,8 +48,7 @@ begin
     variable checked : std_logic;
     variable result  : std_logic_vector(terms'length downto 0);
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_kind) & to_string(g_light) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_kind) & to_string(g_light) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -60,7 +59,7 @@ begin
       if above /= '0' then
         result := terms & above;
       end if;
-      vectors.check_word_if(checked, "terms, above", result);
+      vectors.check_if(checked, "terms, above", result);
     end loop;
     finished <= true;
     wait;

@@ -49,8 +49,7 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_positional)) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(boolean'pos(g_positional)) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -60,7 +59,7 @@ begin
       vectors.drive(point);
       vectors.drive(distance);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "to_light", to_light);
+      vectors.check_if(checked, "to_light", to_light);
     end loop;
     finished <= true;
     wait;

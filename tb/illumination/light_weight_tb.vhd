@@ -56,8 +56,7 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_lead) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_lead) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -68,7 +67,7 @@ begin
       vectors.drive(to_light);
       vectors.drive(cosine);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "weight", weight);
+      vectors.check_if(checked, "weight", weight);
     end loop;
     finished <= true;
     wait;

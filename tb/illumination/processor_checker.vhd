@@ -115,7 +115,7 @@ begin
       if busy /= '1' then
         vectors.fail("a token leaves, but busy is " & to_string(busy));
       end if;
-      vectors.check_word("token", out_token);
+      vectors.check("token", out_token);
       if faulty = '1' and fault /= '1' then
         vectors.fail("no fault after the token before");
       end if;

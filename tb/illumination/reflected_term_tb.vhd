@@ -51,8 +51,7 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_" & to_string(boolean'pos(g_weighted)) & ".txt");
-    vectors.expect_latency(c_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_" & to_string(boolean'pos(g_weighted)) & ".txt", c_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -60,7 +59,7 @@ begin
       vectors.drive(intensities);
       vectors.drive(weight);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "terms", terms);
+      vectors.check_if(checked, "terms", terms);
     end loop;
     finished <= true;
     wait;

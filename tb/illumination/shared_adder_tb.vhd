@@ -78,11 +78,11 @@ begin
       vectors.drive(unit);
       wait until rising_edge(clk);
       vectors.read_flag(known);
-      vectors.check_word_if(known, "sum", sum);
+      vectors.check_if(known, "sum", sum);
       vectors.read_flag(known);
-      vectors.check_word_if(known, "to_light", to_light);
+      vectors.check_if(known, "to_light", to_light);
       vectors.read_flag(known);
-      vectors.check_word_if(known, "half", half);
+      vectors.check_if(known, "half", half);
     end loop;
     finished <= true;
     wait;

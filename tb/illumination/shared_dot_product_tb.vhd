@@ -66,7 +66,7 @@ begin
       vectors.drive(axis);
       wait until rising_edge(clk);
       vectors.read_flag(known);
-      vectors.check_word_if(known, "dot", dot);
+      vectors.check_if(known, "dot", dot);
     end loop;
     finished <= true;
     wait;

@@ -72,7 +72,7 @@ begin
       wait until rising_edge(clk);
       known := vectors.read_number;
       for i in 0 to c_axes - 1 loop
-        vectors.check_word_if(to_flag(i < known), "product " & to_string(i),
+        vectors.check_if(to_flag(i < known), "product " & to_string(i),
           std_logic_vector(resize(signed(products((i + 1) * c_bits - 1 downto i * c_bits)), 64)));
       end loop;
     end loop;

@@ -67,10 +67,10 @@ begin
       products <= spaced(scaled, products'length / c_axes);
       wait until rising_edge(clk);
       vectors.read_flag(known);
-      vectors.check_word_if(known, "shifted", shifted);
+      vectors.check_if(known, "shifted", shifted);
       vectors.read_flag(known);
-      vectors.check_word_if(known, "root", root);
-      vectors.check_word("unit", unit);
+      vectors.check_if(known, "root", root);
+      vectors.check("unit", unit);
     end loop;
     finished <= true;
     wait;

@@ -95,7 +95,7 @@ begin
             & to_hstring(raised) & " " & to_hstring(share));
         end if;
       end loop;
-      vectors.check_word("weight", weight);
+      vectors.check("weight", weight);
     end loop;
     finished <= true;
     wait;

@@ -34,8 +34,7 @@ begin
     variable vectors : vectors_t;
     variable checked : std_logic;
   begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt");
-    vectors.expect_latency(c_spot_cone_latency);
+    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt", c_spot_cone_latency);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
@@ -43,7 +42,7 @@ begin
       vectors.drive(outer);
       vectors.drive(slope);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "factor", factor);
+      vectors.check_if(checked, "factor", factor);
     end loop;
     finished <= true;
     wait;

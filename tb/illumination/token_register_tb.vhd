@@ -130,19 +130,19 @@ begin
         in_token <= (others => 'X');
         if is_object = '1' then
           clock(1);
-          vectors.check_word("token taken", token);
+          vectors.check("token taken", token);
           for step in 2 to c_at.leave - 1 loop
             clock(step);
           end loop;
         end if;
         clock(c_at.leave);
         if is_object = '0' then
-          vectors.check_word("token taken", token);
+          vectors.check("token taken", token);
         end if;
         if stalls then
           pause(clk, random, 1);
         end if;
-        vectors.check_word("token", token);
+        vectors.check("token", token);
         cycle <= 0;
       end loop;
       vectors.close_file;

@@ -4,69 +4,38 @@ library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
 
-entity deskew_run is
-  generic (
-    g_bits   : positive;
-    g_parts  : positive;
-    g_folder : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of deskew_run is
-  signal clk    : std_logic := '0';
-  signal skewed : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
-  signal word   : std_logic_vector(g_bits - 1 downto 0);
-begin
-  dut : entity work.deskew
-    generic map (g_bits => g_bits, g_parts => g_parts)
-    port map (clk => clk, skewed => skewed, word => word);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_parts) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(skewed);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "word", word);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity deskew_tb is
-  generic (
-    g_folder : string := "deskew"
-  );
+  generic (g_folder : string := "deskew");
 end entity;
 
 architecture sim of deskew_tb is
-  signal finished : boolean_vector(0 to 2);
+  type sizes_t is array (natural range <>) of integer_vector(0 to 1);
+
+  -- bits, parts
+  constant c_sizes : sizes_t := ((40, 2), (32, 1), (7, 3));
 begin
-  two_parts : entity work.deskew_run
-    generic map (g_bits => 40, g_parts => 2, g_folder => g_folder)
-    port map (finished => finished(0));
+  sizes : for i in c_sizes'range generate
+    signal clk          : std_logic := '0';
+    signal skewed, word : std_logic_vector(c_sizes(i)(0) - 1 downto 0);
+    begin
+      dut : entity work.deskew
+        generic map (g_bits => c_sizes(i)(0), g_parts => c_sizes(i)(1))
+        port map (clk => clk, skewed => skewed, word => word);
 
-  one_part : entity work.deskew_run
-    generic map (g_bits => 32, g_parts => 1, g_folder => g_folder)
-    port map (finished => finished(1));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & joined(c_sizes(i)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(skewed);
+          settle;
+          vectors.check("word", word);
+          tick(clk);
+        end loop;
+        finished <= true;
+        wait;
+      end process;
+  end generate;
 
-  three_parts : entity work.deskew_run
-    generic map (g_bits => 7, g_parts => 3, g_folder => g_folder)
-    port map (finished => finished(2));
-
-  done : process is
-  begin
-    wait until and finished;
-    report "deskew_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "deskew_tb");
 end architecture;

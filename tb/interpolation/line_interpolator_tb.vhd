@@ -2,76 +2,42 @@
 -- Random loads, steps and waits, with extreme words and wrap-around. Every clock is compared with the golden model.
 library ieee;
 use ieee.std_logic_1164.all;
+use work.formats_pkg.all;
 use work.tb_pkg.all;
 
-entity line_interpolator_run is
-  generic (
-    g_bits   : positive;
-    g_folder : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of line_interpolator_run is
-  signal clk       : std_logic := '0';
-  signal load      : std_logic := '0';
-  signal start     : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
-  signal step      : std_logic := '0';
-  signal increment : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
-  signal value     : std_logic_vector(g_bits - 1 downto 0);
-begin
-  dut : entity work.line_interpolator
-    generic map (g_bits => g_bits)
-    port map (clk => clk, load => load, start => start, step => step, increment => increment, value => value);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & to_string(g_bits) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(load);
-      vectors.drive(start);
-      vectors.drive(step);
-      vectors.drive(increment);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "value", value);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
-use work.formats_pkg.all;
-
 entity line_interpolator_tb is
-  generic (
-    g_folder : string := "line_interpolator"
-  );
+  generic (g_folder : string := "line_interpolator");
 end entity;
 
 architecture sim of line_interpolator_tb is
-  signal finished : boolean_vector(0 to 2);
+  constant c_bits : integer_vector := (3, formats(false).intensity.bits, formats(true).intensity.bits);
 begin
-  small : entity work.line_interpolator_run
-    generic map (g_bits => 3, g_folder => g_folder)
-    port map (finished => finished(0));
+  widths : for i in c_bits'range generate
+    signal clk                     : std_logic := '0';
+    signal load, step              : std_logic;
+    signal start, increment, value : std_logic_vector(c_bits(i) - 1 downto 0);
+    begin
+      dut : entity work.line_interpolator
+        generic map (g_bits => c_bits(i))
+        port map (clk => clk, load => load, start => start, step => step, increment => increment, value => value);
 
-  presets : for exact in boolean generate
-    intensity : entity work.line_interpolator_run
-      generic map (g_bits => formats(exact).intensity.bits, g_folder => g_folder)
-      port map (finished => finished(1 + boolean'pos(exact)));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & to_string(c_bits(i)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(load);
+          vectors.drive(start);
+          vectors.drive(step);
+          vectors.drive(increment);
+          settle;
+          vectors.check("value", value);
+          tick(clk);
+        end loop;
+        finished <= true;
+        wait;
+      end process;
   end generate;
 
-  done : process is
-  begin
-    wait until and finished;
-    report "line_interpolator_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "line_interpolator_tb");
 end architecture;

@@ -1,113 +1,67 @@
 -- SPDX-License-Identifier: Apache-2.0
--- The planes of both presets, and one without de1. Every combination of the walker's strobes at random, every clock
--- compared with the golden model. In several parts: the same values, later by one clock per additional part.
-library ieee;
-use ieee.std_logic_1164.all;
-use work.tb_pkg.all;
-
-entity plane_interpolator_run is
-  generic (
-    g_bits    : positive;
-    g_carries : boolean;
-    g_file    : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of plane_interpolator_run is
-  constant c_most_parts : positive := 3;
-
-  type values_t is array (natural range <>) of std_logic_vector(g_bits - 1 downto 0);
-
-  signal clk        : std_logic := '0';
-  signal plane      : std_logic_vector((3 + boolean'pos(g_carries)) * g_bits - 1 downto 0) := (others => '0');
-  signal line_load  : std_logic := '0';
-  signal line_step  : std_logic := '0';
-  signal line_carry : std_logic := '0';
-  signal span_load  : std_logic := '0';
-  signal span_step  : std_logic := '0';
-
-  signal values : values_t(1 to c_most_parts); -- element n: of the interpolator in n parts
-begin
-  forms : for parts in values'range generate
-    dut : entity work.plane_interpolator
-      generic map (g_bits => g_bits, g_carries => g_carries, g_parts => parts)
-      port map (
-        clk        => clk,
-        plane      => plane,
-        line_load  => line_load,
-        line_step  => line_step,
-        line_carry => line_carry,
-        span_load  => span_load,
-        span_step  => span_step,
-        value      => values(parts));
-  end generate;
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors  : vectors_t;
-    variable strobe   : std_logic_vector(1 to 5);
-    variable checked  : std_logic_vector(0 to c_most_parts - 1) := (others => '0'); -- now, one clock ago, ...
-    variable before   : values_t(0 to c_most_parts - 1);
-    variable words    : std_logic_vector(plane'range);
-  begin
-    vectors.open_file(g_file);
-    while vectors.next_vector loop
-      checked(1 to checked'high) := checked(0 to checked'high - 1);
-      vectors.read_flag(checked(0));
-      vectors.read_word(words);
-      for i in strobe'range loop
-        vectors.read_flag(strobe(i));
-      end loop;
-      plane <= words;
-      (line_load, line_step, line_carry, span_load, span_step) <= strobe;
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked(0), "value", values(1));
-      before := values(1) & before(0 to before'high - 1);
-      for parts in 2 to c_most_parts loop
-        if checked(parts - 1) = '1' and values(parts) /= before(parts - 1) then
-          vectors.fail("value in " & to_string(parts) & " parts is " & to_hstring(values(parts)) & ", expected "
-            & to_hstring(before(parts - 1)) & ", that of " & to_string(parts - 1) & " clocks before");
-        end if;
-      end loop;
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
+-- The planes of both presets, and one without de1. Every combination of the walker's strobes at random, in one part and
+-- in several, by interpolator_checker.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
+use work.tb_pkg.all;
 
 entity plane_interpolator_tb is
-  generic (
-    g_folder : string := "plane_interpolator"
-  );
+  generic (g_folder : string := "plane_interpolator");
 end entity;
 
 architecture sim of plane_interpolator_tb is
-  signal finished : boolean_vector(0 to 2);
-begin
-  exact : entity work.plane_interpolator_run
-    generic map (g_bits => c_exact_formats.plane_sum.bits, g_carries => true, g_file => g_folder & "/exact.txt")
-    port map (finished => finished(0));
+  constant c_parts : positive := 3;
 
-  published : entity work.plane_interpolator_run
-    generic map (g_bits => c_published_formats.plane_sum.bits, g_carries => true, g_file => g_folder & "/published.txt")
-    port map (finished => finished(1));
+  -- The last form has no de1.
+  constant c_bits : integer_vector := (formats(true).plane_sum.bits, formats(false).plane_sum.bits, 7);
 
-  without_carry : entity work.plane_interpolator_run
-    generic map (g_bits => 7, g_carries => false, g_file => g_folder & "/without_carry.txt")
-    port map (finished => finished(2));
-
-  done : process is
+  function file_name (form : natural) return string is
   begin
-    wait until and finished;
-    report "plane_interpolator_tb: passed" severity note;
-    wait;
-  end process;
+    if form = 2 then
+      return "without_carry";
+    end if;
+    return preset_name(form = 0);
+  end function;
+begin
+  widths : for form in c_bits'range generate
+    constant c_carries : boolean := form < 2;
+
+    signal clk        : std_logic;
+    signal plane      : std_logic_vector((3 + boolean'pos(c_carries)) * c_bits(form) - 1 downto 0);
+    signal line_load  : std_logic;
+    signal line_step  : std_logic;
+    signal line_carry : std_logic;
+    signal span_load  : std_logic;
+    signal span_step  : std_logic;
+    signal values     : std_logic_vector(c_parts * c_bits(form) - 1 downto 0);
+    begin
+      forms : for parts in 1 to c_parts generate
+        dut : entity work.plane_interpolator
+          generic map (g_bits => c_bits(form), g_carries => c_carries, g_parts => parts)
+          port map (
+            clk        => clk,
+            plane      => plane,
+            line_load  => line_load,
+            line_step  => line_step,
+            line_carry => line_carry,
+            span_load  => span_load,
+            span_step  => span_step,
+            value      => values(parts * c_bits(form) - 1 downto (parts - 1) * c_bits(form)));
+      end generate;
+
+      checker : entity work.interpolator_checker
+        generic map (g_file => g_folder & "/" & file_name(form) & ".txt", g_parts => c_parts)
+        port map (
+          clk        => clk,
+          init       => plane,
+          line_load  => line_load,
+          line_step  => line_step,
+          line_carry => line_carry,
+          span_load  => span_load,
+          span_step  => span_step,
+          values     => values);
+  end generate;
+
+  report_end(finished, "plane_interpolator_tb");
 end architecture;

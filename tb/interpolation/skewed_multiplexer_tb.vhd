@@ -4,73 +4,41 @@ library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
 
-entity skewed_multiplexer_run is
-  generic (
-    g_bits   : positive;
-    g_parts  : positive;
-    g_folder : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of skewed_multiplexer_run is
-  signal clk      : std_logic := '0';
-  signal select_b : std_logic := '0';
-  signal a        : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
-  signal b        : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
-  signal value    : std_logic_vector(g_bits - 1 downto 0);
-begin
-  dut : entity work.skewed_multiplexer
-    generic map (g_bits => g_bits, g_parts => g_parts)
-    port map (clk => clk, select_b => select_b, a => a, b => b, value => value);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & to_string(g_bits) & "_" & to_string(g_parts) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(select_b);
-      vectors.drive(a);
-      vectors.drive(b);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "value", value);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity skewed_multiplexer_tb is
-  generic (
-    g_folder : string := "skewed_multiplexer"
-  );
+  generic (g_folder : string := "skewed_multiplexer");
 end entity;
 
 architecture sim of skewed_multiplexer_tb is
-  signal finished : boolean_vector(0 to 2);
+  type sizes_t is array (natural range <>) of integer_vector(0 to 1);
+
+  -- bits, parts
+  constant c_sizes : sizes_t := ((40, 2), (32, 1), (7, 3));
 begin
-  two_parts : entity work.skewed_multiplexer_run
-    generic map (g_bits => 40, g_parts => 2, g_folder => g_folder)
-    port map (finished => finished(0));
+  sizes : for i in c_sizes'range generate
+    signal clk         : std_logic := '0';
+    signal select_b    : std_logic;
+    signal a, b, value : std_logic_vector(c_sizes(i)(0) - 1 downto 0);
+    begin
+      dut : entity work.skewed_multiplexer
+        generic map (g_bits => c_sizes(i)(0), g_parts => c_sizes(i)(1))
+        port map (clk => clk, select_b => select_b, a => a, b => b, value => value);
 
-  one_part : entity work.skewed_multiplexer_run
-    generic map (g_bits => 32, g_parts => 1, g_folder => g_folder)
-    port map (finished => finished(1));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & joined(c_sizes(i)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(select_b);
+          vectors.drive(a);
+          vectors.drive(b);
+          settle;
+          vectors.check("value", value);
+          tick(clk);
+        end loop;
+        finished <= true;
+        wait;
+      end process;
+  end generate;
 
-  three_parts : entity work.skewed_multiplexer_run
-    generic map (g_bits => 7, g_parts => 3, g_folder => g_folder)
-    port map (finished => finished(2));
-
-  done : process is
-  begin
-    wait until and finished;
-    report "skewed_multiplexer_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "skewed_multiplexer_tb");
 end architecture;

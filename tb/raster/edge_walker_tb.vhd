@@ -7,9 +7,7 @@ use work.formats_pkg.all;
 use work.tb_pkg.all;
 
 entity edge_walker_tb is
-  generic (
-    g_folder : string := "edge_walker"
-  );
+  generic (g_folder : string := "edge_walker");
 end entity;
 
 architecture sim of edge_walker_tb is
@@ -17,17 +15,16 @@ architecture sim of edge_walker_tb is
   subtype error_t  is std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
 
   signal clk            : std_logic := '0';
-  signal load           : std_logic := '0';
-  signal load_x         : span_x_t := (others => '0');
-  signal load_quotient  : span_x_t := (others => '0');
-  signal load_remainder : error_t := (others => '0');
-  signal load_divisor   : error_t := (others => '0');
-  signal load_error     : error_t := (others => '0');
-  signal load_carry     : std_logic := '0';
-  signal step           : std_logic := '0';
+  signal load           : std_logic;
+  signal load_x         : span_x_t;
+  signal load_quotient  : span_x_t;
+  signal load_remainder : error_t;
+  signal load_divisor   : error_t;
+  signal load_error     : error_t;
+  signal load_carry     : std_logic;
+  signal step           : std_logic;
   signal x              : span_x_t;
   signal carry          : std_logic;
-  signal finished       : boolean := false;
 begin
   dut : entity work.edge_walker
     port map (
@@ -43,15 +40,11 @@ begin
       x              => x,
       carry          => carry);
 
-  clk <= not clk after c_half_period when not finished;
-
   run : process is
     variable vectors : vectors_t;
-    variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/edges.txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
+    while vectors.next_clock loop
       vectors.drive(load);
       vectors.drive(load_x);
       vectors.drive(load_quotient);
@@ -60,12 +53,14 @@ begin
       vectors.drive(load_error);
       vectors.drive(load_carry);
       vectors.drive(step);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "x", x);
-      vectors.check_flag_if(checked, "carry", carry);
+      settle;
+      vectors.check("x", x);
+      vectors.check("carry", carry);
+      tick(clk);
     end loop;
     finished <= true;
-    report "edge_walker_tb: passed" severity note;
     wait;
   end process;
+
+  report_end(finished, "edge_walker_tb");
 end architecture;

@@ -3,30 +3,26 @@
 -- the contract in the entity's header (tb/vectors/raster.cpp).
 library ieee;
 use ieee.std_logic_1164.all;
-use ieee.numeric_std.all;
 use work.line_pkg.all;
 use work.tb_pkg.all;
 
 entity line_stage_tb is
-  generic (
-    g_folder : string := "line_stage"
-  );
+  generic (g_folder : string := "line_stage");
 end entity;
 
 architecture sim of line_stage_tb is
   signal clk            : std_logic := '0';
   signal reset          : std_logic := '1';
-  signal enable         : std_logic := '0';
-  signal in_valid       : std_logic := '0';
+  signal enable         : std_logic;
+  signal in_valid       : std_logic;
   signal in_line        : line_t;
-  signal line_ready     : std_logic := '0';
-  signal span_last_next : std_logic := '0';
+  signal line_ready     : std_logic;
+  signal span_last_next : std_logic;
   signal advance        : std_logic;
   signal step           : std_logic;
   signal span_load      : std_logic;
   signal valid          : std_logic;
   signal line           : line_t;
-  signal finished       : boolean := false;
 begin
   dut : entity work.line_stage
     port map (
@@ -43,13 +39,11 @@ begin
       valid          => valid,
       line           => line);
 
-  clk <= not clk after c_half_period when not finished;
-
   run : process is
     variable vectors : vectors_t;
   begin
     vectors.open_file(g_folder & "/lines.txt");
-    wait until rising_edge(clk);
+    tick(clk); -- of the reset
     while vectors.next_vector loop
       vectors.drive(reset);
       vectors.drive(enable);
@@ -57,22 +51,24 @@ begin
       vectors.drive(in_line);
       vectors.drive(line_ready);
       vectors.drive(span_last_next);
-      wait until rising_edge(clk);
-      vectors.check_flag("advance", advance);
-      vectors.check_flag("step", step);
-      vectors.check_flag("span_load", span_load);
-      vectors.check_flag("valid", valid);
-      vectors.check_word_if(valid, "line.triangle", line.triangle);
-      vectors.check_word_if(valid, "line.y", std_logic_vector(line.y));
-      vectors.check_word_if(valid, "line.start", std_logic_vector(line.start));
-      vectors.check_word_if(valid, "line.stop", std_logic_vector(line.stop));
-      vectors.check_word_if(valid, "line.remaining", std_logic_vector(line.remaining));
-      vectors.check_flag("line.empty", line.empty);
-      vectors.check_flag_if(valid, "line.backward", line.backward);
-      vectors.check_flag_if(valid, "line.carry", line.carry);
+      settle;
+      vectors.check("advance", advance);
+      vectors.check("step", step);
+      vectors.check("span_load", span_load);
+      vectors.check("valid", valid);
+      vectors.check_if(valid, "line.triangle", line.triangle);
+      vectors.check_if(valid, "line.y", line.y);
+      vectors.check_if(valid, "line.start", line.start);
+      vectors.check_if(valid, "line.stop", line.stop);
+      vectors.check_if(valid, "line.remaining", line.remaining);
+      vectors.check("line.empty", line.empty);
+      vectors.check_if(valid, "line.backward", line.backward);
+      vectors.check_if(valid, "line.carry", line.carry);
+      tick(clk);
     end loop;
     finished <= true;
-    report "line_stage_tb: passed" severity note;
     wait;
   end process;
+
+  report_end(finished, "line_stage_tb");
 end architecture;

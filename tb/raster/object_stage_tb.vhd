@@ -122,7 +122,7 @@ begin
             end if;
           else
             outputs.expect_vector("token");
-            outputs.check_word("token", out_token);
+            outputs.check("token", out_token);
           end if;
           held := out_token;
           still := 0;

@@ -3,28 +3,24 @@
 -- contract in the entity's header (tb/vectors/raster.cpp).
 library ieee;
 use ieee.std_logic_1164.all;
-use ieee.numeric_std.all;
 use work.line_pkg.all;
 use work.tb_pkg.all;
 
 entity span_stage_tb is
-  generic (
-    g_folder : string := "span_stage"
-  );
+  generic (g_folder : string := "span_stage");
 end entity;
 
 architecture sim of span_stage_tb is
   signal clk       : std_logic := '0';
   signal reset     : std_logic := '1';
-  signal enable    : std_logic := '0';
-  signal load      : std_logic := '0';
+  signal enable    : std_logic;
+  signal load      : std_logic;
   signal line      : line_t;
   signal last_next : std_logic;
   signal valid     : std_logic;
   signal triangle  : triangle_t;
   signal y         : pixel_y_t;
   signal x         : span_x_t;
-  signal finished  : boolean := false;
 begin
   dut : entity work.span_stage
     port map (
@@ -39,27 +35,27 @@ begin
       y         => y,
       x         => x);
 
-  clk <= not clk after c_half_period when not finished;
-
   run : process is
     variable vectors : vectors_t;
   begin
     vectors.open_file(g_folder & "/spans.txt");
-    wait until rising_edge(clk);
+    tick(clk); -- of the reset
     while vectors.next_vector loop
       vectors.drive(reset);
       vectors.drive(enable);
       vectors.drive(load);
       vectors.drive(line);
-      wait until rising_edge(clk);
-      vectors.check_flag("last_next", last_next);
-      vectors.check_flag("valid", valid);
-      vectors.check_word_if(valid, "triangle", triangle);
-      vectors.check_word_if(valid, "y", std_logic_vector(y));
-      vectors.check_word_if(valid, "x", std_logic_vector(x));
+      settle;
+      vectors.check("last_next", last_next);
+      vectors.check("valid", valid);
+      vectors.check_if(valid, "triangle", triangle);
+      vectors.check_if(valid, "y", y);
+      vectors.check_if(valid, "x", x);
+      tick(clk);
     end loop;
     finished <= true;
-    report "span_stage_tb: passed" severity note;
     wait;
   end process;
+
+  report_end(finished, "span_stage_tb");
 end architecture;

@@ -140,11 +140,11 @@ begin
           if not waiting then
             fragments.expect_vector("fragment " & to_string(given));
             given := given + 1;
-            fragments.check_word("triangle", triangle);
-            fragments.check_word("y", y);
-            fragments.check_word("x", x);
+            fragments.check("triangle", triangle);
+            fragments.check("y", y);
+            fragments.check("x", x);
             if c_full then
-              fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
+              fragments.check("clock", std_logic_vector(to_unsigned(clock, 32)));
               if given = 1 and clock /= c_latency then
                 fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(c_latency));
               end if;
@@ -163,7 +163,7 @@ begin
           lines.expect_vector("line");
           lines.read_flag(empty);
           lines.read_flag(last);
-          lines.check_flag_if(not last, "line_carry", line_carry);
+          lines.check_if(not last, "line_carry", line_carry);
           check_flag("span_load", span_load, not empty, clock);
           in_line := last = '0';
           idle    := 0;

@@ -37,14 +37,13 @@ begin
     variable checked : std_logic;
   begin
     vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_"
-      & to_string(g_terms) & "_" & to_string(g_data_bits) & ".txt");
-    vectors.expect_latency(1);
+      & to_string(g_terms) & "_" & to_string(g_data_bits) & ".txt", 1);
     while vectors.next_vector loop
       vectors.read_flag(checked);
       vectors.drive(enable);
       vectors.drive(terms);
       wait until rising_edge(clk);
-      vectors.check_word_if(checked, "colours", colours);
+      vectors.check_if(checked, "colours", colours);
     end loop;
     finished <= true;
     wait;

@@ -80,13 +80,13 @@ begin
     while vectors.next_vector loop
       vectors.read_word(word);
       wait until rising_edge(clk) and fragment_valid = '1' and fragment_ready = '1' and reset = '0';
-      vectors.check_word("triangle", fragment_triangle);
-      vectors.check_word("y", fragment_y);
-      vectors.check_word("x", fragment_x);
-      vectors.check_word("z", fragment_z);
-      vectors.check_word("red", fragment_red);
-      vectors.check_word("green", fragment_green);
-      vectors.check_word("blue", fragment_blue);
+      vectors.check("triangle", fragment_triangle);
+      vectors.check("y", fragment_y);
+      vectors.check("x", fragment_x);
+      vectors.check("z", fragment_z);
+      vectors.check("red", fragment_red);
+      vectors.check("green", fragment_green);
+      vectors.check("blue", fragment_blue);
     end loop;
     for i in 1 to 10 loop
       wait until rising_edge(clk);

@@ -124,16 +124,16 @@ begin
           if not waiting then
             fragments.expect_vector("fragment " & to_string(given));
             given := given + 1;
-            fragments.check_word("triangle", fragment_triangle);
-            fragments.check_word("y", fragment_y);
-            fragments.check_word("x", fragment_x);
-            fragments.check_word("z", fragment_z);
-            fragments.check_word("red", fragment_red);
-            fragments.check_word("green", fragment_green);
-            fragments.check_word("blue", fragment_blue);
+            fragments.check("triangle", fragment_triangle);
+            fragments.check("y", fragment_y);
+            fragments.check("x", fragment_x);
+            fragments.check("z", fragment_z);
+            fragments.check("red", fragment_red);
+            fragments.check("green", fragment_green);
+            fragments.check("blue", fragment_blue);
             if c_full then
               if g_timed then
-                fragments.check_word("clock", std_logic_vector(to_unsigned(clock, 32)));
+                fragments.check("clock", std_logic_vector(to_unsigned(clock, 32)));
               end if;
               if given = 1 and g_timed and clock /= g_latency then
                 fragments.fail("comes in clock " & to_string(clock) & ", expected " & to_string(g_latency));

@@ -86,7 +86,7 @@ begin
         if busy /= '1' then
           vectors.fail("an object leaves, but busy is " & to_string(busy));
         end if;
-        vectors.check_word("object", out_token);
+        vectors.check("object", out_token);
       else
         vectors.read_word(word);
       end if;

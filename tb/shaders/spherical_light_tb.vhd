@@ -57,17 +57,15 @@ begin
 
   run : process is
     variable vectors : vectors_t;
-    variable checked : std_logic;
   begin
     vectors.open_file(g_file);
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
+    while vectors.next_clock loop
       vectors.drive(part);
       vectors.drive(span_load);
       vectors.drive(span_step);
       vectors.drive(sample_step);
       wait until rising_edge(clk);
-      vectors.check_words_if(checked, "term", c_term_bits, terms);
+      vectors.check_words("term", c_term_bits, terms);
     end loop;
     finished <= true;
     wait;

@@ -83,8 +83,8 @@ begin
       if token_valid /= '1' or load_ready /= '1' or object_ready /= '1' then
         vectors.fail("a token is not offered, or not taken");
       end if;
-      vectors.check_word("token", token);
-      vectors.check_flag("frame_start", frame_start);
+      vectors.check("token", token);
+      vectors.check("frame_start", frame_start);
       count := count + 1;
     end loop;
     load_valid   <= '0';

@@ -67,7 +67,7 @@ begin
       if busy /= '1' then
         vectors.fail("a token is offered, but busy is " & to_string(busy));
       end if;
-      vectors.check_word("token", token);
+      vectors.check("token", token);
     end loop;
     for i in 1 to 100 loop
       wait until rising_edge(clk);

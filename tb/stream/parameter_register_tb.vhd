@@ -4,70 +4,38 @@ library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
 
-entity parameter_register_run is
-  generic (
-    g_bits   : positive;
-    g_folder : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of parameter_register_run is
-  signal clk   : std_logic := '0';
-  signal load  : std_logic := '0';
-  signal start : std_logic_vector(g_bits - 1 downto 0) := (others => '0');
-  signal value : std_logic_vector(g_bits - 1 downto 0);
-begin
-  dut : entity work.parameter_register
-    generic map (g_bits => g_bits)
-    port map (clk => clk, load => load, start => start, value => value);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & to_string(g_bits) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(load);
-      vectors.drive(start);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "value", value);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity parameter_register_tb is
-  generic (
-    g_folder : string := "parameter_register"
-  );
+  generic (g_folder : string := "parameter_register");
 end entity;
 
 architecture sim of parameter_register_tb is
-  signal finished : boolean_vector(0 to 2);
+  -- one bit, an intensity, a section of an edge
+  constant c_bits : integer_vector := (1, 40, 83);
 begin
-  one_bit : entity work.parameter_register_run
-    generic map (g_bits => 1, g_folder => g_folder)
-    port map (finished => finished(0));
+  widths : for i in c_bits'range generate
+    signal clk          : std_logic := '0';
+    signal load         : std_logic;
+    signal start, value : std_logic_vector(c_bits(i) - 1 downto 0);
+    begin
+      dut : entity work.parameter_register
+        generic map (g_bits => c_bits(i))
+        port map (clk => clk, load => load, start => start, value => value);
 
-  intensity : entity work.parameter_register_run
-    generic map (g_bits => 40, g_folder => g_folder)
-    port map (finished => finished(1));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & to_string(c_bits(i)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(load);
+          vectors.drive(start);
+          settle;
+          vectors.check("value", value);
+          tick(clk);
+        end loop;
+        finished <= true;
+        wait;
+      end process;
+  end generate;
 
-  edge_section : entity work.parameter_register_run
-    generic map (g_bits => 83, g_folder => g_folder)
-    port map (finished => finished(2));
-
-  done : process is
-  begin
-    wait until and finished;
-    report "parameter_register_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "parameter_register_tb");
 end architecture;

@@ -4,82 +4,53 @@ library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
 
-entity cosine_rom_run is
-  generic (
-    g_exact        : boolean;
-    g_power        : positive;
-    g_address_bits : positive;
-    g_data_bits    : positive;
-    g_folder       : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of cosine_rom_run is
-  signal clk     : std_logic := '0';
-  signal enable  : std_logic := '0';
-  signal address : std_logic_vector(g_address_bits - 1 downto 0) := (others => '0');
-  signal sample  : std_logic_vector(g_data_bits - 1 downto 0);
-begin
-  dut : entity work.cosine_rom
-    generic map (
-      g_exact        => g_exact,
-      g_power        => g_power,
-      g_address_bits => g_address_bits,
-      g_data_bits    => g_data_bits)
-    port map (clk => clk, enable => enable, address => address, sample => sample);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_power) & "_"
-      & to_string(g_address_bits) & "_" & to_string(g_data_bits) & ".txt");
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(enable);
-      vectors.drive(address);
-      wait until rising_edge(clk);
-      vectors.check_word_if(checked, "sample", sample);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity cosine_rom_tb is
-  generic (
-    g_folder : string := "cosine_rom"
-  );
+  generic (g_folder : string := "cosine_rom");
 end entity;
 
 architecture sim of cosine_rom_tb is
-  signal finished : boolean_vector(0 to 8);
+  type form_t is record
+    exact                          : boolean;
+    power, address_bits, data_bits : positive;
+  end record;
+
+  type forms_t is array (natural range <>) of form_t;
+
+  constant c_forms : forms_t := ((true, 1, 9, 8), (true, 2, 9, 8), (true, 4, 9, 8), (true, 8, 9, 8), (true, 16, 9, 8),
+    (false, 1, 6, 6), (false, 2, 6, 6), (false, 1, 4, 4), (false, 2, 4, 4));
 begin
-  exact : for i in 0 to 4 generate
-    one : entity work.cosine_rom_run
-      generic map (g_exact => true, g_power => 2 ** i, g_address_bits => 9, g_data_bits => 8, g_folder => g_folder)
-      port map (finished => finished(i));
+  forms : for i in c_forms'range generate
+    constant c_form : form_t := c_forms(i);
+
+    signal clk     : std_logic := '0';
+    signal enable  : std_logic;
+    signal address : std_logic_vector(c_form.address_bits - 1 downto 0);
+    signal sample  : std_logic_vector(c_form.data_bits - 1 downto 0);
+    begin
+      dut : entity work.cosine_rom
+        generic map (
+          g_exact        => c_form.exact,
+          g_power        => c_form.power,
+          g_address_bits => c_form.address_bits,
+          g_data_bits    => c_form.data_bits)
+        port map (clk => clk, enable => enable, address => address, sample => sample);
+
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & preset_name(c_form.exact) & "_"
+          & joined((c_form.power, c_form.address_bits, c_form.data_bits)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(enable);
+          vectors.drive(address);
+          settle;
+          vectors.check("sample", sample);
+          tick(clk);
+        end loop;
+        finished <= true;
+        wait;
+      end process;
   end generate;
 
-  published : for i in 0 to 1 generate
-    one : entity work.cosine_rom_run
-      generic map (g_exact => false, g_power => 2 ** i, g_address_bits => 6, g_data_bits => 6, g_folder => g_folder)
-      port map (finished => finished(5 + i));
-
-    small : entity work.cosine_rom_run
-      generic map (g_exact => false, g_power => 2 ** i, g_address_bits => 4, g_data_bits => 4, g_folder => g_folder)
-      port map (finished => finished(7 + i));
-  end generate;
-
-  done : process is
-  begin
-    wait until and finished;
-    report "cosine_rom_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "cosine_rom_tb");
 end architecture;
