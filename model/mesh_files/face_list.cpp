@@ -7,13 +7,13 @@ namespace halfway {
 
 namespace {
 
-constexpr std::uint32_t c_none = UINT32_MAX;
+constexpr std::uint32_t c_no_index = UINT32_MAX;
 
 }  // namespace
 
 void FaceList::add_position(const glm::vec3& position) {
   positions_.push_back(position);
-  new_index_.push_back(c_none);
+  new_index_.push_back(c_no_index);
 }
 
 std::string FaceList::divide(std::span<const Corner> corners) {
@@ -48,7 +48,7 @@ void FaceList::append(std::uint32_t material, Mesh& mesh) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Corner& corner = corners_[triangle[i]];
       std::uint32_t& index = new_index_[corner.position];
-      if (index == c_none) {
+      if (index == c_no_index) {
         index = static_cast<std::uint32_t>(mesh.positions.size());
         mesh.positions.emplace_back(positions_[corner.position]);
       }

@@ -36,7 +36,7 @@ class FaceList {
 
  private:
   std::vector<glm::vec3> positions_;
-  std::vector<std::uint32_t> new_index_;  ///< of each vertex in the mesh, or c_none before its first use
+  std::vector<std::uint32_t> new_index_;  ///< of each vertex in the mesh, or c_no_index before its first use
   std::span<const Corner> corners_;
   std::vector<glm::vec3> places_;
   std::vector<Triangulator::Triangle> divided_;

@@ -65,14 +65,14 @@ Status check_highlights(const Scene& scene) {
 }
 
 // Removes units that serve only effects that the hardware does not have.
-HardwareKey without_idle_units(HardwareKey key) {
+HardwareKey without_idle_processors(HardwareKey key) {
   ProcessorUnits& p = key.processors;
   if (!p.diffuse && !p.specular) p.directional = p.positional = p.spots = 0;
   if (p.lights() == 0) p.diffuse = p.specular = p.normalize = p.shadows = false;
   return key;
 }
 
-HardwareKey everything(HardwareKey key, unsigned lights) {
+HardwareKey every_processor(HardwareKey key, unsigned lights) {
   ProcessorUnits& p = key.processors;
   key.channels = 3;
   // Hardware for a spot can also draw the other kinds of light.
@@ -82,9 +82,9 @@ HardwareKey everything(HardwareKey key, unsigned lights) {
   return key;
 }
 
-class Planner {
+class ProcessorsPlanner {
  public:
-  Planner(const SceneCalls& calls, const Call& normalize, const Plan& plan)
+  ProcessorsPlanner(const SceneCalls& calls, const Call& normalize, const Plan& plan)
       : calls_(calls), normalize_(normalize), key_(plan.key) {}
 
   PlannedEffect effect_of(Effect effect) const {
@@ -157,7 +157,7 @@ class Planner {
   PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
     PlannedEffect out = in_hardware(effect, std::move(how));
     out.elaborated = elaborated;
-    out.other = without_idle_units(other);
+    out.other = without_idle_processors(other);
     return out;
   }
   PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {
@@ -220,9 +220,9 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   const unsigned most = request.lights.value_or(std::max(lights, 1U));
   if (most < std::max(lights, 1U) || most > c_most_lights)
     return bad_input(fmt::format("--lights: {} is not {} to {}", most, std::max(lights, 1U), c_most_lights));
-  plan.everything = everything(key, most);
+  plan.everything = every_processor(key, most);
   plan.key = request.all_effects ? plan.everything : plan.called_for;
-  const Planner planner(calls, normalize, plan);
+  const ProcessorsPlanner planner(calls, normalize, plan);
   for (std::size_t i = 0; i < c_effects; ++i)
     plan.effects.push_back(planner.effect_of(static_cast<Effect>(i)));
   return plan;

@@ -34,14 +34,14 @@ Scene with_lights(std::size_t directional, std::size_t positional = 0, std::size
   return scene;
 }
 
-Plan planned(const Scene& scene, PlanRequest request = {}) {
+Plan planned_processors(const Scene& scene, PlanRequest request = {}) {
   request.shader = Shader::processors;
   const auto plan = plan_scene(scene, request);
   EXPECT_TRUE(plan) << plan.error().message;
   return plan ? *plan : Plan{};
 }
 std::string key(const Scene& scene, const PlanRequest& request = {}) {
-  return planned(scene, request).key.name();
+  return planned_processors(scene, request).key.name();
 }
 std::string refusal(const Scene& scene, PlanRequest request = {}) {
   request.shader = Shader::processors;
@@ -51,7 +51,7 @@ std::string refusal(const Scene& scene, PlanRequest request = {}) {
   EXPECT_EQ(plan.error().code, ExitCode::bad_input);
   return plan.error().message;
 }
-const PlannedEffect& effect(const Plan& plan, Effect which) {
+const PlannedEffect& processors_effect(const Plan& plan, Effect which) {
   return *std::ranges::find(plan.effects, which, &PlannedEffect::effect);
 }
 
@@ -73,7 +73,8 @@ TEST(PlanProcessors, NoProcessorsForTermsThatNoMaterialReflects) {
   scene.materials[0].diffuse = 0.0;
   scene.shadows = true;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
-  EXPECT_EQ(effect(planned(scene), Effect::normalization).why, "no material reflects a light");
+  EXPECT_EQ(processors_effect(planned_processors(scene), Effect::normalization).why,
+            "no material reflects a light");
   scene.materials[0].specular = 0.3;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled");
 }
@@ -83,8 +84,8 @@ TEST(PlanProcessors, NormalizesIfNormalsDifferOrAsPublishedForLightsWithAPlace) 
   curved.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const auto normalization = [&](const Scene& scene) {
-      const Plan plan = planned(scene, {.preset = preset});
-      const PlannedEffect& e = effect(plan, Effect::normalization);
+      const Plan plan = planned_processors(scene, {.preset = preset});
+      const PlannedEffect& e = processors_effect(plan, Effect::normalization);
       EXPECT_EQ(e.called_for, plan.key.processors.normalize);
       EXPECT_EQ(e.elaborated, plan.key.processors.normalize);
       return e;
@@ -108,10 +109,10 @@ TEST(PlanProcessors, ShadowsWhereALightIsReflected) {
   Scene scene = with_lights(1);
   scene.shadows = true;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled");
-  EXPECT_EQ(effect(planned(scene), Effect::shadow).by, DoneBy::hardware);
-  EXPECT_TRUE(effect(planned(scene), Effect::shadow).elaborated);
+  EXPECT_EQ(processors_effect(planned_processors(scene), Effect::shadow).by, DoneBy::hardware);
+  EXPECT_TRUE(processors_effect(planned_processors(scene), Effect::shadow).elaborated);
   scene.directional.clear();
-  EXPECT_FALSE(planned(scene).key.processors.shadows);
+  EXPECT_FALSE(planned_processors(scene).key.processors.shadows);
 }
 
 TEST(PlanProcessors, OnlyBlinnHighlightsAreSupported) {
@@ -140,7 +141,7 @@ TEST(PlanProcessors, AllEffectsUsesSpotHardwareForEveryLight) {
     EXPECT_EQ(all(flat_scene()), begin + "1-d-s-n-shadows-unrolled");
     EXPECT_EQ(all(with_lights(2, 1, 1)), begin + "4-d-s-n-shadows-unrolled");
     EXPECT_EQ(all(with_lights(2, 1, 1), 16), begin + "16-d-s-n-shadows-unrolled");
-    EXPECT_EQ(planned(with_lights(1), {.preset = preset}).everything.name(), all(with_lights(1)));
+    EXPECT_EQ(planned_processors(with_lights(1), {.preset = preset}).everything.name(), all(with_lights(1)));
   }
   EXPECT_EQ(refusal(with_lights(3), {.all_effects = true, .lights = 2}), "--lights: 2 is not 3 to 16");
   EXPECT_EQ(refusal(with_lights(3), {.all_effects = true, .lights = 17}), "--lights: 17 is not 3 to 16");
@@ -166,7 +167,7 @@ TEST(PlanProcessors, EveryEffectStatesItsReasonAndHardware) {
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const bool all_effects : {false, true})
       for (const Scene& scene : {flat_scene(), with_lights(1), with_lights(0, 2), shaded}) {
-        const Plan plan = planned(scene, {.preset = preset, .all_effects = all_effects});
+        const Plan plan = planned_processors(scene, {.preset = preset, .all_effects = all_effects});
         ASSERT_EQ(plan.effects.size(), c_effects);
         for (const PlannedEffect& e : plan.effects) {
           SCOPED_TRACE(plan.key.name() + ": " + to_string(e.effect));

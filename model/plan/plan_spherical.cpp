@@ -75,7 +75,7 @@ std::string names(const SphericalUnits& units) {
 }
 
 // Removes units that serve only effects that the hardware does not have.
-HardwareKey without_idle_units(HardwareKey key) {
+HardwareKey without_idle_lights(HardwareKey key) {
   SphericalUnits& s = key.spherical;
   if (!s.records()) {
     s.lights = 0;
@@ -91,7 +91,7 @@ unsigned every_power(const HardwareKey& key) {
   return key.preset == Preset::exact ? c_every_power : c_squared;
 }
 
-HardwareKey everything(HardwareKey key, unsigned lights) {
+HardwareKey every_spherical_unit(HardwareKey key, unsigned lights) {
   SphericalUnits& s = key.spherical;
   key.channels = s.highlight_channels = 3;
   s.lights = lights;
@@ -100,9 +100,9 @@ HardwareKey everything(HardwareKey key, unsigned lights) {
   return key;
 }
 
-class Planner {
+class SphericalPlanner {
  public:
-  Planner(const SceneCalls& calls, const Plan& plan)
+  SphericalPlanner(const SceneCalls& calls, const Plan& plan)
       : calls_(calls), key_(plan.key), called_for_(plan.called_for.spherical) {}
 
   PlannedEffect effect_of(Effect effect) const {
@@ -174,7 +174,7 @@ class Planner {
   PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
     PlannedEffect out = in_hardware(effect, std::move(how));
     out.elaborated = elaborated;
-    out.other = without_idle_units(other);
+    out.other = without_idle_lights(other);
     return out;
   }
   // The slices of a light are the same for all kinds.
@@ -232,9 +232,9 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
   const unsigned most = request.lights.value_or(std::max(lights, 1U));
   if (most < std::max(lights, 1U) || most > c_most_lights)
     return bad_input(fmt::format("--lights: {} is not {} to {}", most, std::max(lights, 1U), c_most_lights));
-  plan.everything = everything(key, most);
+  plan.everything = every_spherical_unit(key, most);
   plan.key = request.all_effects ? plan.everything : plan.called_for;
-  const Planner planner(calls, plan);
+  const SphericalPlanner planner(calls, plan);
   for (std::size_t i = 0; i < c_effects; ++i)
     plan.effects.push_back(planner.effect_of(static_cast<Effect>(i)));
   return plan;

@@ -27,7 +27,7 @@
 namespace halfway {
 namespace {
 
-constexpr FrameSize c_frame{70, 53};
+constexpr FrameSize c_spherical_frame{70, 53};
 
 std::vector<SphericalMethod> all_methods() {
   std::vector<SphericalMethod> methods;
@@ -151,15 +151,15 @@ TEST(SphericalRenderer, MatchesTheFormulas) {
   for (int i = 0; i < 60; ++i) {
     const Scene scene =
         one_triangle(random, std::array{Brdf::blinn, Brdf::phong, Brdf::cook_torrance}[i % 3]);
-    const auto triangles = Projector(scene, c_frame, {}).project_all();
+    const auto triangles = Projector(scene, c_spherical_frame, {}).project_all();
     if (triangles.size() != 1) continue;
     const ScreenTriangle& triangle = triangles[0];
     for (const SphericalMethod& method : all_methods()) {
-      const ReferenceImage image = render_spherical(scene, triangles, {.frame = c_frame}, method);
-      for (std::uint32_t y = 0; y < c_frame.height; ++y) {
-        const auto line = image.mask.begin() + y * c_frame.width;
-        const auto first = std::find(line, line + c_frame.width, 1) - line;
-        const auto count = std::count(line, line + c_frame.width, 1);
+      const ReferenceImage image = render_spherical(scene, triangles, {.frame = c_spherical_frame}, method);
+      for (std::uint32_t y = 0; y < c_spherical_frame.height; ++y) {
+        const auto line = image.mask.begin() + y * c_spherical_frame.width;
+        const auto first = std::find(line, line + c_spherical_frame.width, 1) - line;
+        const auto count = std::count(line, line + c_spherical_frame.width, 1);
         if (count == 0) continue;
         // Ends: the first and the last pixel, or the edges at this line.
         double begin = static_cast<double>(first) + 0.5, end = begin + static_cast<double>(count - 1);
@@ -204,8 +204,8 @@ TEST(SphericalRenderer, MatchesTheFormulas) {
           ++pixels;
           lit += colour.x > 0.1;
           for (int k = 0; k < 3; ++k)
-            ASSERT_NEAR(image.frame.rgb[3 * (y * c_frame.width + x) + k], 255.0 * std::min(1.0, colour[k]),
-                        0.5 + 1e-6)
+            ASSERT_NEAR(image.frame.rgb[3 * (y * c_spherical_frame.width + x) + k],
+                        255.0 * std::min(1.0, colour[k]), 0.5 + 1e-6)
                 << "triangle " << i << " pixel " << x << ',' << y << " scheme " << int(method.vectors)
                 << " ends " << int(method.ends) << " curve " << int(method.curve);
         }
@@ -240,10 +240,11 @@ Scene hard_scene() {
 TEST(SphericalRenderer, CoverageEqualsTheReferences) {
   for (const char* name : {"spheres", "matte"}) {
     const Scene scene = builtin(name);
-    const auto triangles = Projector(scene, c_frame, {}).project_all();
-    const ReferenceImage reference = render_reference(scene, triangles, {.frame = c_frame});
+    const auto triangles = Projector(scene, c_spherical_frame, {}).project_all();
+    const ReferenceImage reference = render_reference(scene, triangles, {.frame = c_spherical_frame});
     for (const SphericalMethod& method : all_methods())
-      EXPECT_EQ(render_spherical(scene, triangles, {.frame = c_frame}, method).mask, reference.mask);
+      EXPECT_EQ(render_spherical(scene, triangles, {.frame = c_spherical_frame}, method).mask,
+                reference.mask);
   }
 }
 
@@ -264,14 +265,14 @@ TEST(SphericalRenderer, TheNumberOfThreadsDoesNotMatter) {
 TEST(SphericalRenderer, ALightAtAVertexLeavesItsEdgesDark) {
   Scene scene = hard_scene();
   scene.ambient = glm::dvec3(0.0);
-  const auto triangles = Projector(scene, c_frame, {}).project_all();
+  const auto triangles = Projector(scene, c_spherical_frame, {}).project_all();
   ASSERT_GT(triangles.size(), 10u);
   for (const SphericalMethod& method : all_methods()) {
     int lit = 0;
     for (const ScreenTriangle& triangle : triangles) {
       scene.positional[0].position_world = triangle.vertex[0].position_world;
       for (std::uint8_t v :
-           render_spherical(scene, std::array{triangle}, {.frame = c_frame}, method).frame.rgb)
+           render_spherical(scene, std::array{triangle}, {.frame = c_spherical_frame}, method).frame.rgb)
         lit += v > 0;
     }
     EXPECT_EQ(lit > 0, method.ends == SpanEnds::on_surface) << lit;

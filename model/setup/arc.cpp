@@ -9,7 +9,6 @@
 namespace halfway {
 namespace {
 
-constexpr double c_pi = std::numbers::pi;
 // Below this sine two unit vectors are taken as parallel or opposite: a few roundings of their components.
 constexpr double c_no_plane = 1e-15;
 constexpr CosineArc c_dark{0.0, 0.0, 0.0};
@@ -61,11 +60,11 @@ Turn turn_between(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 middle) {
 /// The cosine between v and a direction that turns away from u1.
 CosineArc arc_seen_from(glm::dvec3 v, glm::dvec3 u1, const Turn& turn) {
   const double cosine = glm::dot(u1, v);
-  if (turn.is_still()) return {std::min(std::abs(cosine), 1.0), 0.0, cosine < 0.0 ? c_pi : 0.0};
+  if (turn.is_still()) return {std::min(std::abs(cosine), 1.0), 0.0, cosine < 0.0 ? std::numbers::pi : 0.0};
   const double sine = glm::dot(turn.tangent, v);
   const double sweep = turn.angle();
   double phase = std::atan2(sine, cosine);
-  if (0.5 * sweep - phase > c_pi) phase += 2.0 * c_pi;
+  if (0.5 * sweep - phase > std::numbers::pi) phase += 2.0 * std::numbers::pi;
   return {std::min(std::hypot(cosine, sine), 1.0), sweep, phase};
 }
 

@@ -18,6 +18,7 @@
 #include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/shadow_volume.hpp"
+#include "setup/unit_vector.hpp"
 #include "setup/walk.hpp"
 #include "shading/effects.hpp"
 
@@ -58,20 +59,11 @@ bool holds(double value, const golden::Field& f) {
   return std::floor(std::ldexp(value, f.fraction_bits) + 0.5) <= static_cast<double>(largest(f));
 }
 
-double largest_component(glm::dvec3 v) {
-  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
 // The exponent e for which v = m * 2^e with m in [1/2, 1). 0 if there is none.
 int exponent_of(double v) {
   int e = 0;
   if (std::isfinite(v)) std::frexp(v, &e);
   return e;
-}
-
-glm::dvec3 unit_or_zero(glm::dvec3 v) {
-  const double scale = largest_component(v);
-  return scale > 0.0 && std::isfinite(scale) ? glm::normalize(v / scale) : glm::dvec3(0.0);
 }
 
 class ViewSpace {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/to_integer.hpp"
+#include "setup/unit_vector.hpp"
 
 namespace halfway {
 namespace {
@@ -37,12 +38,6 @@ bool faces_away(const Vertex& a, const Vertex& b, const Vertex& c) {
 bool representable(double v) {
   return std::abs(v) <= c_largest_coordinate;
 }  // false for NaN
-
-/// Scales before squaring, so that edges of length 1e-200 have a direction too.
-glm::dvec3 unit_or_zero(glm::dvec3 v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return largest > 0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
-}
 
 glm::dvec3 geometric_normal_world(const ScreenTriangle& triangle) {
   const auto& [a, b, c] = triangle.vertex;

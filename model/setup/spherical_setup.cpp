@@ -51,15 +51,15 @@ bool is_there(glm::dvec3 direction) {
 }
 
 // Where the triangle's edges cross the centre of a line, left and right, and the position along the edge.
-struct Crossing {
+struct EdgeCrossing {
   double x;  // pixels
   std::size_t top, bottom;
   double t;
 };
 
-std::array<Crossing, 2> crossings(const ScreenTriangle& triangle, int subpixel_bits, std::uint32_t y) {
+std::array<EdgeCrossing, 2> crossings(const ScreenTriangle& triangle, int subpixel_bits, std::uint32_t y) {
   const double unit = 1 << subpixel_bits, centre = (y + 0.5) * unit;
-  std::array<Crossing, 2> side{};
+  std::array<EdgeCrossing, 2> side{};
   bool any = false;
   for (std::size_t i = 0; i < 3; ++i) {
     std::size_t top = i, bottom = (i + 1) % 3;
@@ -67,7 +67,7 @@ std::array<Crossing, 2> crossings(const ScreenTriangle& triangle, int subpixel_b
     const ScreenVertex &a = triangle.vertex[top], &b = triangle.vertex[bottom];
     if (a.y == b.y || centre < a.y || centre > b.y) continue;
     const double t = (centre - a.y) / (b.y - a.y);
-    const Crossing here{(a.x + t * (b.x - a.x)) / unit, top, bottom, t};
+    const EdgeCrossing here{(a.x + t * (b.x - a.x)) / unit, top, bottom, t};
     if (!any || here.x < side[0].x) side[0] = here;
     if (!any || here.x > side[1].x) side[1] = here;
     any = true;

@@ -41,42 +41,42 @@ class Random {
 };
 
 /// A number of 300 bits.
-class Real {
+class Real300 {
  public:
-  Real(double v = 0.0) {
+  Real300(double v = 0.0) {
     mpfr_init2(v_, 300);
     mpfr_set_d(v_, v, MPFR_RNDN);
   }
-  Real(const Real& other) : Real() { mpfr_set(v_, other.v_, MPFR_RNDN); }
-  Real& operator=(const Real& other) {
+  Real300(const Real300& other) : Real300() { mpfr_set(v_, other.v_, MPFR_RNDN); }
+  Real300& operator=(const Real300& other) {
     mpfr_set(v_, other.v_, MPFR_RNDN);
     return *this;
   }
-  ~Real() { mpfr_clear(v_); }
+  ~Real300() { mpfr_clear(v_); }
 
-  static Real pi() {
+  static Real300 pi() {
     return made([](mpfr_ptr out) { mpfr_const_pi(out, MPFR_RNDN); });
   }
-  friend Real operator+(const Real& a, const Real& b) { return made(mpfr_add, a, b); }
-  friend Real operator-(const Real& a, const Real& b) { return made(mpfr_sub, a, b); }
-  friend Real operator*(const Real& a, const Real& b) { return made(mpfr_mul, a, b); }
-  friend Real operator/(const Real& a, const Real& b) { return made(mpfr_div, a, b); }
-  friend Real pow(const Real& a, const Real& b) { return made(mpfr_pow, a, b); }
-  friend Real cos(const Real& a) {
+  friend Real300 operator+(const Real300& a, const Real300& b) { return made(mpfr_add, a, b); }
+  friend Real300 operator-(const Real300& a, const Real300& b) { return made(mpfr_sub, a, b); }
+  friend Real300 operator*(const Real300& a, const Real300& b) { return made(mpfr_mul, a, b); }
+  friend Real300 operator/(const Real300& a, const Real300& b) { return made(mpfr_div, a, b); }
+  friend Real300 pow(const Real300& a, const Real300& b) { return made(mpfr_pow, a, b); }
+  friend Real300 cos(const Real300& a) {
     return made([&](mpfr_ptr out) { mpfr_cos(out, a.v_, MPFR_RNDN); });
   }
-  friend bool operator<(const Real& a, const Real& b) { return mpfr_less_p(a.v_, b.v_) != 0; }
+  friend bool operator<(const Real300& a, const Real300& b) { return mpfr_less_p(a.v_, b.v_) != 0; }
   double rounded() const { return mpfr_get_d(v_, MPFR_RNDN); }
 
  private:
   template <class Put>
-  static Real made(Put put) {
-    Real out;
+  static Real300 made(Put put) {
+    Real300 out;
     put(out.v_);
     return out;
   }
-  static Real made(int (*operation)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t), const Real& a,
-                   const Real& b) {
+  static Real300 made(int (*operation)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t), const Real300& a,
+                      const Real300& b) {
     return made([&](mpfr_ptr out) { operation(out, a.v_, b.v_, MPFR_RNDN); });
   }
   mpfr_t v_;
@@ -96,10 +96,10 @@ TEST(PublishedScale, Table1) {
 
 /// The right side of the equation as printed, times n + 1.
 double equation(double n, double a) {
-  const Real four_a2 = Real(4.0) * Real(a) * Real(a);
-  const Real versine = Real(1.0) - cos(Real::pi() / (Real(2.0) * Real(a)));
-  const Real right = (four_a2 / Real(2.0) * versine - Real(1.0)) / (four_a2 - Real(1.0));
-  return ((Real(n) + Real(1.0)) * right - Real(1.0)).rounded();
+  const Real300 four_a2 = Real300(4.0) * Real300(a) * Real300(a);
+  const Real300 versine = Real300(1.0) - cos(Real300::pi() / (Real300(2.0) * Real300(a)));
+  const Real300 right = (four_a2 / Real300(2.0) * versine - Real300(1.0)) / (four_a2 - Real300(1.0));
+  return ((Real300(n) + Real300(1.0)) * right - Real300(1.0)).rounded();
 }
 
 TEST(PublishedScale, SolvesTheEquation) {
@@ -361,11 +361,11 @@ TEST(FitError, IsSlightlyAboveTheSampledError) {
   std::cout << "bounds are at most " << most << " above the greatest sample\n";
 }
 
-Real exact_error(double n, const Bell& bell, double x) {
-  const Real zero, half_pi = Real::pi() / Real(2.0), u = Real(bell.scale) * Real(x);
-  const Real truth = Real(x) < half_pi ? pow(cos(Real(x)), Real(n)) : zero;
-  const Real approximation = u < half_pi ? Real(bell.gain) * pow(cos(u), Real(bell.power)) : zero;
-  const Real error = truth - approximation;
+Real300 exact_error(double n, const Bell& bell, double x) {
+  const Real300 zero, half_pi = Real300::pi() / Real300(2.0), u = Real300(bell.scale) * Real300(x);
+  const Real300 truth = Real300(x) < half_pi ? pow(cos(Real300(x)), Real300(n)) : zero;
+  const Real300 approximation = u < half_pi ? Real300(bell.gain) * pow(cos(u), Real300(bell.power)) : zero;
+  const Real300 error = truth - approximation;
   return error < zero ? zero - error : error;
 }
 
@@ -377,8 +377,8 @@ TEST(FitError, BoundsExactErrors) {
     for (const Bell& bell : bells_to_bound(n, random)) {
       const double bound = fit_error(n, bell);
       const auto expect_bounded = [&](double x) {
-        const Real error = exact_error(n, bell, x);
-        EXPECT_FALSE(Real(bound) < error)
+        const Real300 error = exact_error(n, bell, x);
+        EXPECT_FALSE(Real300(bound) < error)
             << "n = " << n << ": power " << bell.power << ", scale " << bell.scale << ", gain " << bell.gain
             << ", at " << x << ": " << error.rounded() << ", not " << bound;
         return error.rounded();

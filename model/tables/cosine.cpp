@@ -14,6 +14,7 @@
 
 #include "common/cosine_power.hpp"
 #include "common/to_integer.hpp"
+#include "tables/formats.hpp"
 #include "tables/wrapped_numbers.hpp"
 
 namespace halfway::tables {
@@ -79,10 +80,6 @@ std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
   return to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
 }
 
-constexpr std::string_view preset_name(bool exact) {
-  return exact ? "exact" : "published";
-}
-
 std::string constant_name(const CosineTable& table) {
   return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.address_bits,
                      table.data_bits);
@@ -93,7 +90,7 @@ std::string bound_comment(const CosineTable& table, std::string_view mark) {
                      error_bound(table), exponent_of(table));
 }
 
-constexpr std::string_view c_notice = "Made by `make tables` from model/tables/cosine.cpp; edit that.";
+constexpr std::string_view c_cosine_notice = "Made by `make tables` from model/tables/cosine.cpp; edit that.";
 
 CosineTable made_table(CosineTable table) {
   const auto within = [](int bits, int smallest, int largest) { return bits >= smallest && bits <= largest; };
@@ -182,7 +179,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       "  function cosine_address_bits (exact : boolean) return positive;\n\n"
       "  function cosine_data_bits (exact : boolean) return positive;\n\n"
       "end package;\n\npackage body cosine_pkg is\n\n",
-      c_notice);
+      c_cosine_notice);
   auto to = std::back_inserter(out);
   for (const CosineTable& table : tables)  // 120 columns including the closing bracket
     fmt::format_to(to, "  {}\n  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n",
@@ -232,7 +229,7 @@ std::string cosine_cpp_header(const CosineSizes& sizes) {
       "struct CosineTable {{\n  bool exact;\n  int power, address_bits, data_bits;\n"
       "  std::span<const std::uint16_t> entries;\n}};\n\n"
       "// The default size.\n",
-      c_notice);
+      c_cosine_notice);
   auto to = std::back_inserter(out);
   for (const bool exact : {true, false}) {
     const CosineSize& size = (exact ? sizes.exact : sizes.published).front();

@@ -16,6 +16,7 @@
 
 #include "golden/cosine_tables.hpp"
 #include "sim/system/file.hpp"
+#include "tables/test/real.hpp"
 
 namespace halfway::tables {
 namespace {
@@ -30,19 +31,6 @@ std::string name_of(bool exact, int power, int address_bits, int data_bits) {
 std::string name_of(const CosineTable& table) {
   return name_of(table.exact, table.power, table.address_bits, table.data_bits);
 }
-
-// A number with more precision than needed: the least distance of any entry from a tie is 2^-22.
-class Real {
- public:
-  Real() { mpfr_init2(value_, 256); }
-  ~Real() { mpfr_clear(value_); }
-  Real(const Real&) = delete;
-  Real& operator=(const Real&) = delete;
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
-};
 
 // The angle at the middle of an entry's cell is pi * `odd` / 2^`shift`.
 struct Angle {

@@ -10,6 +10,14 @@
 #include <stdexcept>
 
 namespace halfway::tables {
+
+const Format& format_of(const PresetFormats& preset, std::string_view name) {
+  const auto it = std::ranges::find(preset.formats, name, &Format::name);
+  if (it == preset.formats.end())
+    throw std::logic_error(fmt::format("format '{}' is not in the table", name));
+  return *it;
+}
+
 namespace {
 
 // Formats common to both presets.
@@ -309,13 +317,6 @@ std::vector<Format> joined(std::vector<Format> a, const std::vector<Format>& b) 
   return a;
 }
 
-const Format& format_of(const PresetFormats& preset, std::string_view name) {
-  const auto it = std::ranges::find(preset.formats, name, &Format::name);
-  if (it == preset.formats.end())
-    throw std::logic_error(fmt::format("format '{}' is not in the table", name));
-  return *it;
-}
-
 // Fields of the spherical shader, except those of the walk: one word per channel after the header of `init`;
 // then for each line and light a diffuse and a specular part. Angles are in units of half a bell: the bell
 // reaches zero at 1.
@@ -518,7 +519,8 @@ std::string names_in_bounds(std::string_view indent) {
   return text;
 }
 
-constexpr std::string_view c_notice = "Made by `make tables` from model/tables/formats.cpp; edit that.";
+constexpr std::string_view c_formats_notice =
+    "Made by `make tables` from model/tables/formats.cpp; edit that.";
 
 }  // namespace
 
@@ -573,7 +575,7 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
       "-- the preset does not have.\n{}\nlibrary ieee;\n  use ieee.std_logic_1164.all;\n\npackage "
       "formats_pkg "
       "is\n\n",
-      c_notice, names_in_bounds("-- "));
+      c_formats_notice, names_in_bounds("-- "));
   auto to = std::back_inserter(out);
   out += "  type format_t is record\n    bits     : natural;\n    fraction : natural;\n  end record;\n\n";
   out += "  type slice_t is record\n    high : integer;\n    low  : natural;\n  end record;\n\n";
@@ -650,7 +652,7 @@ std::string cpp_header(const std::vector<PresetFormats>& presets) {
       "start.\n"
       "struct Field {{\n  std::string_view name;\n  int low, bits;\n  bool is_signed;\n  int "
       "fraction_bits;\n}};\n\n",
-      c_notice, names_in_bounds("// "));
+      c_formats_notice, names_in_bounds("// "));
   auto to = std::back_inserter(out);
   for (const PresetFormats& preset : presets) {
     fmt::format_to(to, "struct {} {{\n  static constexpr std::string_view c_name = \"{}\";\n",

@@ -40,11 +40,18 @@ struct Layout {
   std::vector<Field> header, channel;
 };
 
+constexpr std::string_view preset_name(bool exact) {
+  return exact ? "exact" : "published";
+}
+
 struct PresetFormats {
   std::string_view name;
   std::vector<Format> formats;
   std::vector<Layout> layouts;
 };
+
+/// The format of this name; throws std::logic_error if there is none.
+const Format& format_of(const PresetFormats& preset, std::string_view name);
 
 /// Both presets. Each format name exists in both.
 std::vector<PresetFormats> preset_formats();

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "common/to_integer.hpp"
+#include "tables/formats.hpp"
 #include "tables/wrapped_numbers.hpp"
 
 namespace halfway::tables {
@@ -53,15 +54,12 @@ FunctionTable made(FunctionTable table) {
   return table;
 }
 
-constexpr std::string_view preset_name(bool exact) {
-  return exact ? "exact" : "published";
-}
-
-std::string constant_name(const FunctionTable& table) {
+std::string function_constant_name(const FunctionTable& table) {
   return fmt::format("c_{}_{}", preset_name(table.exact), to_string(table.function));
 }
 
-constexpr std::string_view c_notice = "Made by `make tables` from model/tables/functions.cpp; edit that.";
+constexpr std::string_view c_functions_notice =
+    "Made by `make tables` from model/tables/functions.cpp; edit that.";
 
 // Half the error of a Newton step for twice the root, from an entry of 1/sqrt(x): 3/2 of the squared relative
 // error of the entry, in units of 2^-23. The error of the entry is sqrt(2) u / 2 (rounding) plus w / 2
@@ -131,7 +129,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
       "cell, and\n"
       "-- one more value follows the last cell; without, it is the function at the middle of the cell.\n\n"
       "package function_pkg is\n\n",
-      c_notice);
+      c_functions_notice);
   auto to = std::back_inserter(out);
   for (const Function function : c_functions)
     fmt::format_to(to, "  constant c_{} : natural := {};\n", to_string(function), static_cast<int>(function));
@@ -147,7 +145,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
       "end package;\n\npackage body function_pkg is\n\n";
   for (const FunctionTable& table : tables)
     fmt::format_to(to, "  -- {}, w a cell\n  constant {} : function_table_t(0 to {}) := (\n{});\n\n",
-                   to_string(table.error), constant_name(table), table.values.size() - 1,
+                   to_string(table.error), function_constant_name(table), table.values.size() - 1,
                    wrapped_numbers(table.values, "    ", 118));
   const auto choose = [&](std::string_view name, std::string_view type, const auto& text_of) {
     fmt::format_to(to, "  function {} (exact : boolean; which : natural) return {} is\n  begin\n", name,
@@ -164,7 +162,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
     return fmt::format("({}, {}, {}, {})", table.address_bits, table.value_bits, table.fraction_bits,
                        table.slope_bits);
   });
-  choose("function_table", "function_table_t", constant_name);
+  choose("function_table", "function_table_t", function_constant_name);
   out += "  function root_raise (exact : boolean) return natural is\n  begin\n";
   for (const FunctionTable& table : tables)
     if (table.function == Function::reciprocal_root)
@@ -185,7 +183,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
       "#pragma once\n\n#include <array>\n#include <cstdint>\n#include <span>\n\n"
       "namespace halfway::golden {{\n\n"
       "enum class Function {{ ",
-      c_notice);
+      c_functions_notice);
   auto to = std::back_inserter(out);
   for (const Function function : c_functions)
     fmt::format_to(to, "{}{}", to_string(function), function == c_functions.back() ? " };\n\n" : ", ");
@@ -196,7 +194,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
   for (const FunctionTable& table : tables)
     fmt::format_to(
         to, "\n// {}, w a cell\ninline constexpr std::array<std::uint32_t, {}> {}_values = {{\n{}\n}};\n",
-        to_string(table.error), table.values.size(), constant_name(table),
+        to_string(table.error), table.values.size(), function_constant_name(table),
         wrapped_numbers(table.values, "    ", 110));
   out +=
       "\n// Added to twice a root after a Newton step, in units of 2^-23: half of its largest shortfall.\n";
@@ -211,7 +209,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
     for (const FunctionTable& table : tables)
       if (table.exact == exact)
         fmt::format_to(to, "    {{{}, {}, {}, {}, {}_values}},\n", table.address_bits, table.value_bits,
-                       table.fraction_bits, table.slope_bits, constant_name(table));
+                       table.fraction_bits, table.slope_bits, function_constant_name(table));
     out += "}};\n";
   }
   out += "\n}  // namespace halfway::golden\n";

@@ -13,21 +13,10 @@
 #include "golden/formats.hpp"
 #include "golden/function_rom.hpp"
 #include "sim/system/file.hpp"
+#include "tables/test/real.hpp"
 
 namespace halfway::tables {
 namespace {
-
-class Real {
- public:
-  Real() { mpfr_init2(value_, 256); }
-  ~Real() { mpfr_clear(value_); }
-  Real(const Real&) = delete;
-  Real& operator=(const Real&) = delete;
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
-};
 
 std::string name_of(const FunctionTable& table) {
   return fmt::format("{} {}", table.exact ? "exact" : "published", to_string(table.function));

@@ -88,10 +88,6 @@ constexpr MaterialWord c_material[] = {
      "k_s: specular coefficient times the highlight's colour"},
 };
 
-const Format& format_of(const PresetFormats& preset, std::string_view name) {
-  return *std::ranges::find(preset.formats, name, &Format::name);
-}
-
 const Layout& layout_of(const PresetFormats& preset, std::string_view name) {
   return *std::ranges::find(preset.layouts, name, &Layout::name);
 }

@@ -368,7 +368,7 @@ void draw_figure_15(const Context& context, Drawing& out) {
 
 // ---- Figure 16 ----
 
-constexpr FrameSize c_mesh_size{144, 108};
+constexpr FrameSize c_bump_size{144, 108};
 
 constexpr std::array c_figure_16_ways{"the method in double against Phong shading",
                                       "the published hardware, whose angle wraps, against Phong shading",
@@ -378,7 +378,7 @@ constexpr std::array c_figure_16_ways{"the method in double against Phong shadin
 void draw_figure_16(const Context& context, Drawing& out) {
   std::vector<Frame> pictures;
   for (const auto& [name, scene] : {std::pair{"hen", hen_scene()}, {"teapot", teapot_scene(context)}})
-    for (const FrameSize size : {c_compared_size, c_mesh_size}) {
+    for (const FrameSize size : {c_compared_size, c_bump_size}) {
       const bool compared = size.width == c_compared_size.width;
       if (context.quick && compared) continue;
       const ReferenceImage phong = draw_in_software(scene, size, context.threads).phong;

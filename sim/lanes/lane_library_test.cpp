@@ -12,13 +12,13 @@
 
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
+#include "sim/system/test/source_folder.hpp"
 #include "sim/verilator/verilated_library.hpp"
 
 namespace halfway {
 namespace {
 
-const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
-const std::filesystem::path c_cache = c_root / "build" / "cache";
+const std::filesystem::path c_cache = c_source_folder / "build" / "cache";
 constexpr unsigned c_stimulus_words = 5, c_response_words = 100;
 constexpr std::size_t c_vectors = 500;  // per lane
 
@@ -194,7 +194,7 @@ class Lanes : public testing::Test {
             .top = "m",
             .ports = {.fixed = {}, .outputs = {"response"}},
             .harness = scratch_->path() / "harness.cpp",
-            .source = c_root,
+            .source = c_source_folder,
             .definitions = {},
             .fast = false,
             .vectors = vectors,
@@ -263,8 +263,8 @@ TEST_P(LanesOfVectors, EveryOperationGivesVerilatorsResult) {
   const auto verilated = open_verilated({.name = "lanes_test",
                                          .netlist = verilog,
                                          .top = "m",
-                                         .harness = c_root / "tb/netlist/netlist_harness.cpp",
-                                         .include_folder = c_root,
+                                         .harness = c_source_folder / "tb/netlist/netlist_harness.cpp",
+                                         .include_folder = c_source_folder,
                                          .harness_headers = {},
                                          .definitions = {},
                                          .fast = false,

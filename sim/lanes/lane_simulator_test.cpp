@@ -11,12 +11,12 @@
 #include "plan/plan.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
-const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
-const SimulatorFolders c_folders{c_root, c_root / "build" / "cache"};
+const SimulatorFolders c_folders{c_source_folder, c_source_folder / "build" / "cache"};
 constexpr std::size_t c_most = std::size_t{1} << 24;
 
 struct Case {
@@ -28,7 +28,7 @@ struct Case {
 class ShadersInLanes : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    auto scene = load_scene(GetParam().scene, c_root / "sim" / "scenes");
+    auto scene = load_scene(GetParam().scene, c_source_folder / "sim" / "scenes");
     ASSERT_TRUE(scene) << scene.error().message;
     const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
     ASSERT_TRUE(plan) << plan.error().message;

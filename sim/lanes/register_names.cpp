@@ -15,11 +15,11 @@
 namespace halfway {
 namespace {
 
-using Words = std::vector<std::string>;
+using TextWords = std::vector<std::string>;
 
-Words words_of(const std::string& line) {
+TextWords words_of(const std::string& line) {
   std::istringstream text(line);
-  Words words;
+  TextWords words;
   for (std::string word; text >> word;) words.push_back(word);
   return words;
 }
@@ -72,7 +72,7 @@ class RegisterNames::Reader {
   void read(std::string_view netlist) {
     std::istringstream lines{std::string(netlist)};
     for (std::string line; std::getline(lines, line);) {
-      const Words words = words_of(line);
+      const TextWords words = words_of(line);
       if (words.size() < 2) continue;
       if (words[0] == "--")
         read_position(words[1]);
@@ -90,9 +90,9 @@ class RegisterNames::Reader {
   }
 
   /// Labels and signals of a file, each at the start of a line.
-  void read_declarations(const Words& lines) {
+  void read_declarations(const TextWords& lines) {
     for (const std::string& line : lines) {
-      const Words words = words_of(line);
+      const TextWords words = words_of(line);
       if (words.size() > 6 && words[1] == ":" && words[2] == "for" && words[6] == "to")
         entity_->copies[words[0]] = static_cast<unsigned>(std::strtoul(words[5].c_str(), nullptr, 10));
       else if (words.size() > 2 && words[1] == ":" && (words[2] == "if" || words[2] == "case"))
@@ -105,7 +105,7 @@ class RegisterNames::Reader {
     }
   }
 
-  void read_statement(const Words& words) {
+  void read_statement(const TextWords& words) {
     const bool assigns = words.size() >= 3 && words[1] == "<=";
     if (words[0] == "architecture" && words.size() >= 4) {
       entity_ = &names_.entities_[words[3]];
@@ -126,7 +126,7 @@ class RegisterNames::Reader {
   }
 
   /// x <= signal (7 downto 0);
-  void read_slice(const Words& words) {
+  void read_slice(const TextWords& words) {
     const auto number = [](const std::string& word) {
       return static_cast<unsigned>(std::strtoul(word.c_str(), nullptr, 10));
     };
@@ -142,7 +142,7 @@ class RegisterNames::Reader {
     if (second == position.npos || first == position.npos) return std::nullopt;
     const std::size_t line = std::strtoul(position.c_str() + first + 1, nullptr, 10),
                       column = std::strtoul(position.c_str() + second + 1, nullptr, 10);
-    const Words& lines = lines_of(position.substr(0, first));
+    const TextWords& lines = lines_of(position.substr(0, first));
     if (line == 0 || line > lines.size() || column < 3 || column > lines[line - 1].size())
       return std::nullopt;
     const std::string& text = lines[line - 1];
@@ -160,7 +160,7 @@ class RegisterNames::Reader {
     return text.substr(begin, end - begin);
   }
 
-  const Words& lines_of(const std::string& file) {
+  const TextWords& lines_of(const std::string& file) {
     const auto [found, fresh] = files_.try_emplace(file);
     if (const auto text = fresh ? read_file(source_ / file) : Result<std::string>(std::string())) {
       std::istringstream lines(*text);
@@ -174,7 +174,7 @@ class RegisterNames::Reader {
   Entity* entity_ = nullptr;
   std::string position_;  ///< in the line above
   std::string file_;      ///< of the last position
-  std::map<std::string, Words> files_;
+  std::map<std::string, TextWords> files_;
 };
 
 RegisterNames::RegisterNames(std::string_view netlist, const std::filesystem::path& source) {

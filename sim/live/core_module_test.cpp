@@ -2,7 +2,6 @@
 // Tests of the core in a browser: it makes the init vectors of the program, and takes a hardware's fragments.
 #include "sim/live/core_module.hpp"
 
-#include <OpenImageIO/strutil.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,15 +11,16 @@
 #include <string>
 #include <vector>
 
+#include "sim/live/test/base64.hpp"
 #include "sim/live_core/golden_engine_test.hpp"
 #include "sim/live_core/live_frame.hpp"
 #include "sim/pages/headless_browser.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::live {
 namespace {
 
-const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 constexpr int c_width = 96, c_height = 72;
 
 // A page with the core. `drawn` are the words that the core gives to the hardware; `fragments` are those that
@@ -69,12 +69,6 @@ const pixels = (kind, count) => base64(bytes_at(core.live_pixels(kind), 4 * coun
 const figures = () => [...new Float64Array(core.memory.buffer, core.live_figures(), 16)];
 )";
 
-template <class Items>
-std::string base64(const Items& items) {
-  return OIIO::Strutil::base64_encode(
-      {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0])});
-}
-
 std::vector<std::uint8_t> with_alpha(const Frame& frame) {
   std::vector<std::uint8_t> rgba;
   for (std::size_t i = 0; i < frame.rgb.size(); i += 3)
@@ -86,7 +80,7 @@ class CoreModule : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
-    const auto module = build_core_module({c_root, c_root / "build" / "cache"});
+    const auto module = build_core_module({c_source_folder, c_source_folder / "build" / "cache"});
     ASSERT_TRUE(module) << module.error().message;
     const auto bytes = read_file(*module);
     ASSERT_TRUE(bytes) << bytes.error().message;
@@ -113,7 +107,7 @@ class CoreModule : public testing::Test {
     ASSERT_EQ(evaluate("scene(" + quoted(name) + ", " + quoted(content) + ")"), 0) << text();
   }
   void load_built_in(const std::string& name) {
-    load(name + ".toml", *read_file(c_root / "sim/scenes" / (name + ".toml")));
+    load(name + ".toml", *read_file(c_source_folder / "sim/scenes" / (name + ".toml")));
   }
   HardwareKey plan(Shader shader, Preset preset) {
     const auto key = live_.plan({.shader = shader, .preset = preset});

@@ -2,7 +2,6 @@
 // Tests of hardware modules in a browser: each shader draws a scene's fragments as the golden model does.
 #include "sim/live/hardware_module.hpp"
 
-#include <OpenImageIO/strutil.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,17 +15,18 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
+#include "sim/live/test/base64.hpp"
 #include "sim/live_core/stream_parts.hpp"
 #include "sim/pages/headless_browser.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 #include "sim/verilator/harness_api.h"
 
 namespace halfway {
 namespace {
 
-const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
-const SimulatorFolders c_folders{c_root, c_root / "build" / "cache"};
+const SimulatorFolders c_folders{c_source_folder, c_source_folder / "build" / "cache"};
 
 // A page with a module and the data of a frame. `draw` returns the status, then the words of the fragments.
 constexpr const char* c_page = R"(<!DOCTYPE html><meta charset="utf-8"><title>module</title><script>
@@ -60,12 +60,6 @@ const words = wordsOf('{}'), parts = wordsOf('{}'), loads = wordsOf('{}');
 const started = start('{}');
 </script>)";
 
-template <class Items>
-std::string base64(const Items& items) {
-  return OIIO::Strutil::base64_encode(
-      {reinterpret_cast<const char*>(items.data()), items.size() * sizeof(items[0])});
-}
-
 struct Drawn {
   int status = 0;
   std::vector<Fragment> fragments;
@@ -87,7 +81,7 @@ class HardwareModule : public testing::TestWithParam<Case> {
     auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "hardware_module");
     ASSERT_TRUE(made) << made.error().message;
     folder_.emplace(std::move(*made));
-    const auto scene = load_scene(GetParam().scene, c_root / "sim" / "scenes");
+    const auto scene = load_scene(GetParam().scene, c_source_folder / "sim" / "scenes");
     ASSERT_TRUE(scene) << scene.error().message;
     const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
     ASSERT_TRUE(plan) << plan.error().message;

@@ -23,7 +23,7 @@
 namespace halfway::live {
 namespace {
 
-constexpr double c_largest_exponent = 1e15;
+constexpr double c_largest_scaled_exponent = 1e15;
 
 bool is_side(double value) {
   return value >= 1.0 && value <= c_max_frame_side && value == std::floor(value);
@@ -87,7 +87,8 @@ Status LiveScene::apply(const Settings& settings) {
   scene_.materials = own_.materials;
   if (settings.exponent_factor != 1.0)
     for (Material& material : scene_.materials)
-      material.exponent = std::clamp(settings.exponent_factor * material.exponent, 1.0, c_largest_exponent);
+      material.exponent =
+          std::clamp(settings.exponent_factor * material.exponent, 1.0, c_largest_scaled_exponent);
   turn_lights(settings);
   return Ok{};
 }

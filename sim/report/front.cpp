@@ -20,18 +20,14 @@ constexpr const char* c_cells = "cells";
 constexpr const char* c_cycles = "cycles";
 
 // Columns of a study's table that the front contains.
-constexpr std::array c_columns = {
+constexpr std::array c_front_columns = {
     "scene",         "scene_hash",    "tools",     "point",          "method",   "preset", "address_bits",
     "data_bits",     "form",          "threshold", "exponent",       "width",    "height", "angle_bits",
     "fraction_bits", "seed_bits",     "newton",    "tessellation",   "hardware", c_cells,  c_cycles,
     "rms",           "largest_error", "psnr_db",   "highlight_test", "span_ends"};
 
-bool is_hardware(const Table& table, std::size_t row) {
-  return !table.text(row, "hardware").empty();
-}
-
 // Error against cells; against clocks if cells were not counted.
-Plot plot_of(const Table& front) {
+Plot front_plot(const Table& front) {
   bool counted = true;
   for (std::size_t row = 0; row < front.rows.size(); ++row)
     counted = counted && (!is_hardware(front, row) || front.number(row, c_cells));
@@ -49,6 +45,10 @@ Plot plot_of(const Table& front) {
 }
 
 }  // namespace
+
+bool is_hardware(const Table& table, std::size_t row) {
+  return !table.text(row, "hardware").empty();
+}
 
 std::string series_of(const Table& table, std::size_t row) {
   const std::string& method = table.text(row, "method");
@@ -86,23 +86,23 @@ std::string commonest_picture(const Table& study) {
 
 Table front_of(const Table& study) {
   const std::string picture = commonest_picture(study);
-  Table front{{c_columns.begin(), c_columns.end()}, {}};
+  Table front{{c_front_columns.begin(), c_front_columns.end()}, {}};
   for (std::size_t row = 0; row < study.rows.size(); ++row) {
     if (picture_of(study, row) != picture) continue;
     std::vector<std::string>& values = front.rows.emplace_back();
-    for (const char* column : c_columns) values.push_back(study.text(row, column));
+    for (const char* column : c_front_columns) values.push_back(study.text(row, column));
   }
   return front;
 }
 
 Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch) {
-  const Plot plot = plot_of(front);
+  const Plot plot = front_plot(front);
   if (plot.points.empty()) return bad_input("front: no design has both a cost and an error to plot");
   return draw_plot(plot, scratch);
 }
 
 Result<std::string> page_front(const Table& front) {
-  const Plot plot = plot_of(front);
+  const Plot plot = front_plot(front);
   for (const PlotPoint& point : plot.points)
     if (!front.number(point.number, c_cells))
       return bad_input("front: not all cells are counted; install Yosys");
@@ -146,7 +146,7 @@ Result<std::string> page_front(const Table& front) {
 Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
                                 const std::filesystem::path& scratch) {
   const Table front = front_of(study);
-  const std::size_t designs = plot_of(front).points.size();
+  const std::size_t designs = front_plot(front).points.size();
   if (designs == 0) return designs;
   const auto svg = draw_front(front, scratch);
   if (!svg) return svg.error();

@@ -13,6 +13,8 @@
 
 namespace halfway::report {
 
+/// False if the point is software.
+bool is_hardware(const Table& table, std::size_t row);
 /// Name of a point's series in a plot: its hardware without table sizes and thresholds.
 std::string series_of(const Table& table, std::size_t row);
 /// Text that is equal for points with equal pictures.

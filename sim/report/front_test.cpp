@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 // Two pictures with two and three hardware designs.
-constexpr const char* c_study = R"(point,method,preset,scene_hash,exponent,hardware,cells,cycles,rms,record
+constexpr const char* c_front_study =
+    R"(point,method,preset,scene_hash,exponent,hardware,cells,cycles,rms,record
 p,phong,,7,5,,,0,0,a
 q5,quadratic,exact,7,5,q,100,10,4,b
 s5,spherical,exact,7,5,s,200,10,2,c
@@ -32,7 +33,7 @@ dear,spherical,published,7,20,d,300,15,4,g
 using FrontTest = TableTest;
 
 TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
-  const Table study = read(c_study);
+  const Table study = read(c_front_study);
   const Table front = front_of(study);
   ASSERT_EQ(front.rows.size(), 4U);
   EXPECT_EQ(front.text(1, "point"), "q");
@@ -55,12 +56,12 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   EXPECT_THAT(*words, AllOf(HasSubstr("each of 3 designs"),
                             HasSubstr("1/255 of white):\nq (100 cells, 8);\ns (200 cells, 2)."),
                             Not(HasSubstr("dear")), Not(HasSubstr("Equal in both figures"))));
-  std::string equal = c_study;
+  std::string equal = c_front_study;
   equal += "twin,adaptive,exact,7,20,q,100,10,8,h\n";
   EXPECT_THAT(*page_front(front_of(read(equal))),
               AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("Equal in both figures: q and twin.")));
   // If one count is missing, the axis shows clocks instead of cells.
-  std::string uncounted = c_study;
+  std::string uncounted = c_front_study;
   uncounted.replace(uncounted.find(",300,"), 5, ",,");
   const auto clocks = draw_front(front_of(read(uncounted)), here());
   ASSERT_TRUE(clocks) << clocks.error().message;

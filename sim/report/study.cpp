@@ -81,7 +81,7 @@ constexpr std::array c_told = {
 };
 
 // Columns of the table of all points.
-constexpr std::array c_columns = {
+constexpr std::array c_shown_columns = {
     std::pair{"front", "on the front"},
     std::pair{"frame_ns", "ns per frame"},
     std::pair{"cycles", "clocks"},
@@ -288,7 +288,7 @@ Status add_study(Page& page) {
     const PointLook look = look_of(s);
     legend.push_back({{"shape", look.shape - 1}, {"colour", look.colour}, {"name", series[s]}});
   }
-  for (const auto& [column, words] : c_columns) columns.push_back(words);
+  for (const auto& [column, words] : c_shown_columns) columns.push_back(words);
   bool others = false;
   std::size_t of = 0;  // the last row with the picture
   for (std::size_t row = 0; row < points->rows.size(); ++row) {
@@ -297,7 +297,7 @@ Status add_study(Page& page) {
     else
       others = true;
     Json cells = Json::array();
-    for (const auto& [column, words] : c_columns) {
+    for (const auto& [column, words] : c_shown_columns) {
       const std::string text = text_of(*points, row, column);
       cells.push_back(text.empty() ? "–" : text);
     }

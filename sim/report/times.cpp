@@ -41,15 +41,12 @@ std::string millions(const Table& table, std::size_t row, const char* column) {
 double rms(const Table& table, std::size_t row) {
   return table.number(row, "rms").value_or(0.0);
 }
-bool is_hardware(const Table& table, std::size_t row) {
-  return !table.text(row, "hardware").empty();
-}
 
 bool is_phong(const Table& table, std::size_t row) {
   return table.text(row, "method").starts_with("phong");
 }
 
-Plot plot_of(const Table& picture) {
+Plot times_plot(const Table& picture) {
   Plot plot{.x_label = "milliseconds per frame: host and hardware, overlapped",
             .y_label = "rms error, steps of 1/255"};
   for (std::size_t row = 0; row < picture.rows.size(); ++row) {
@@ -163,7 +160,7 @@ std::string plot_name(const Table& picture) {
 }
 
 Result<std::string> draw_times(const Table& picture, const std::filesystem::path& scratch) {
-  return draw_plot(plot_of(picture), scratch);
+  return draw_plot(times_plot(picture), scratch);
 }
 
 Result<std::string> readme_times(const Table& times) {

@@ -24,7 +24,7 @@
 namespace halfway {
 namespace {
 
-constexpr FrameSize c_frame{40, 30};
+constexpr FrameSize c_effects_frame{40, 30};
 
 /// The lights and effects of a scene.
 struct Subset {
@@ -126,7 +126,7 @@ struct Drawing {
 
 Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) {
   Drawing out;
-  const auto setup = make_setup(scene, c_frame, key, {});
+  const auto setup = make_setup(scene, c_effects_frame, key, {});
   std::optional<VerilatorSimulator> rtl;
   const auto sure = [](const Status& status) {
     if (!status) throw std::runtime_error(status.error().message);

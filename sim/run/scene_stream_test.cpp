@@ -17,7 +17,7 @@
 namespace halfway {
 namespace {
 
-constexpr FrameSize c_frame{160, 120};
+constexpr FrameSize c_stream_frame{160, 120};
 
 HardwareKey key_of(const Scene& scene, Shader shader) {
   const auto plan = plan_scene(scene, {.shader = shader});
@@ -31,7 +31,7 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
       const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
       ASSERT_TRUE(scene) << scene.error().message;
       const HardwareKey key = key_of(*scene, shader);
-      const auto setup = make_setup(*scene, c_frame, key, {});
+      const auto setup = make_setup(*scene, c_stream_frame, key, {});
       SCOPED_TRACE(key.name());
       EXPECT_EQ(setup->units_are_lines(), key.processors.shadows);
       std::vector<std::uint32_t> words;

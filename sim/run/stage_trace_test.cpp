@@ -14,14 +14,13 @@
 #include "plan/plan.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 
 struct Case {
   const char* scene;
@@ -39,7 +38,7 @@ class Stages : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     const Case& c = GetParam();
-    auto scene = load_scene(c.scene, c_source / "sim" / "scenes");
+    auto scene = load_scene(c.scene, c_source_folder / "sim" / "scenes");
     ASSERT_TRUE(scene) << scene.error().message;
     const auto plan = plan_scene(*scene, {.shader = c.shader, .preset = c.preset, .form = c.form});
     ASSERT_TRUE(plan) << plan.error().message;
@@ -70,8 +69,8 @@ TEST_P(Stages, AreEqualInGoldenModelAndRtl) {
     EXPECT_EQ(golden.back()[i].words,
               (std::vector<std::uint64_t>{f.triangle, f.y, f.x, f.z, f.red, f.green, f.blue}));
   }
-  const auto rtl =
-      trace_stages(key_, *stages, {c_source, c_source / "build" / "cache"}, vectors_, golden_.size());
+  const auto rtl = trace_stages(key_, *stages, {c_source_folder, c_source_folder / "build" / "cache"},
+                                vectors_, golden_.size());
   ASSERT_TRUE(rtl) << rtl.error().message;
   EXPECT_THAT(rtl->fault, IsEmpty());
   for (std::size_t s = 0; s < golden.size(); ++s) {

@@ -17,15 +17,15 @@
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/verilator_frame.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
-constexpr FrameSize c_frame{64, 48};
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
+constexpr FrameSize c_tile_frame{64, 48};
 
 Scene scene_of(const std::string& name) {
-  auto scene = load_scene(name, c_source / "sim" / "scenes", {.tessellation = 0.25});
+  auto scene = load_scene(name, c_source_folder / "sim" / "scenes", {.tessellation = 0.25});
   EXPECT_TRUE(scene) << scene.error().message;
   return *scene;
 }
@@ -106,8 +106,8 @@ TEST(TileSetup, TilesTogetherEqualTheFrame) {
         const Scene scene = scene_of(name);
         const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
         if (!plan) continue;  // no hardware can draw it
-        EXPECT_GT(expect_tiles_are_the_frame(scene, plan->key, c_frame, {20, 20}), 500U);
-        if (preset == Preset::exact) expect_tiles_are_the_frame(scene, plan->key, c_frame, {17, 100});
+        EXPECT_GT(expect_tiles_are_the_frame(scene, plan->key, c_tile_frame, {20, 20}), 500U);
+        if (preset == Preset::exact) expect_tiles_are_the_frame(scene, plan->key, c_tile_frame, {17, 100});
       }
 }
 
@@ -123,7 +123,7 @@ TEST(TileSetup, TilesTogetherEqualTheFrameOfHardScenes) {
     for (const Shader shader : c_shaders)
       for (const Preset preset : {Preset::exact, Preset::published}) {
         const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
-        if (plan) fragments += expect_tiles_are_the_frame(scene, plan->key, c_frame, {23, 16});
+        if (plan) fragments += expect_tiles_are_the_frame(scene, plan->key, c_tile_frame, {23, 16});
       }
   }
   EXPECT_GT(fragments, 20'000U);
@@ -138,12 +138,12 @@ TEST(TileSetup, ATriangleIsInEachTileThatItTouches) {
   scene.camera = {.eye_world = {0.0, 0.0, 4.0}, .target_world = {0.0, 0.0, 0.0}};
   for (const Shader shader : c_shaders) {
     const HardwareKey key = key_of(scene, shader, Preset::exact);
-    const auto setup = make_setup(scene, c_frame, key, {});
-    const Drawn whole(*setup, key, c_frame, whole_frame(c_frame));
+    const auto setup = make_setup(scene, c_tile_frame, key, {});
+    const Drawn whole(*setup, key, c_tile_frame, whole_frame(c_tile_frame));
     std::size_t middle = 0, empty = 0;
-    for (const Tile& tile : tiles_of(c_frame, {16, 16})) {
+    for (const Tile& tile : tiles_of(c_tile_frame, {16, 16})) {
       const TileSetup part(*setup, make_golden_model(key), tile);
-      const Drawn drawn(part, key, c_frame, tile);
+      const Drawn drawn(part, key, c_tile_frame, tile);
       if (drawn.inside.empty()) {
         ++empty;
         EXPECT_EQ(drawn.assembler.fragments(), 0U);
@@ -158,16 +158,16 @@ TEST(TileSetup, ATriangleIsInEachTileThatItTouches) {
 }
 
 TEST(TileSetup, TheRtlDrawsThem) {
-  const SimulatorFolders folders{c_source, c_source / "build" / "cache"};
+  const SimulatorFolders folders{c_source_folder, c_source_folder / "build" / "cache"};
   const Scene scene = scene_of("shadows");
   for (const Shader shader : c_shaders) {
     const HardwareKey key = key_of(scene, shader, Preset::exact);
-    const auto whole = draw_in_verilator(scene, c_frame, key, {}, folders, 1);
+    const auto whole = draw_in_verilator(scene, c_tile_frame, key, {}, folders, 1);
     ASSERT_TRUE(whole) << whole.error().message;
-    Frame frame(c_frame), mask(c_frame);
+    Frame frame(c_tile_frame), mask(c_tile_frame);
     std::uint64_t fragments = 0, cycles = 0;
-    for (const Tile& tile : tiles_of(c_frame, {37, 29})) {
-      const auto drawn = draw_in_verilator(scene, c_frame, key, {}, folders, 1, tile);
+    for (const Tile& tile : tiles_of(c_tile_frame, {37, 29})) {
+      const auto drawn = draw_in_verilator(scene, c_tile_frame, key, {}, folders, 1, tile);
       ASSERT_TRUE(drawn) << drawn.error().message;
       put_tile(frame, drawn->frame, tile);
       fragments += drawn->fragments;

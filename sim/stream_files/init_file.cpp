@@ -11,7 +11,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::string_view c_magic = "halfway-init";
+constexpr std::string_view c_init_magic = "halfway-init";
 
 /// The value of each hexadecimal digit; 16 for any other character.
 constexpr std::array<std::uint8_t, 256> c_digit_values = [] {
@@ -31,7 +31,7 @@ Result<InitFileWriter> InitFileWriter::open(const std::filesystem::path& path, s
                                             unsigned bits) {
   auto writer = LineWriter::open(path);
   if (!writer) return writer.error();
-  writer->append(fmt::format("{} 1 {} {}\n", c_magic, key_name, bits));
+  writer->append(fmt::format("{} 1 {} {}\n", c_init_magic, key_name, bits));
   return InitFileWriter(std::move(*writer), bits);
 }
 
@@ -68,7 +68,7 @@ Result<InitFileReader> InitFileReader::open(const std::filesystem::path& path, s
       break;
   }
   const bool spaced = ends_in_space(line);
-  if (take_field(line) != c_magic)
+  if (take_field(line) != c_init_magic)
     return reader->at("no init file; the first line must begin with halfway-init");
   if (take_field(line) != "1") return reader->at("an init file of another version; write it again");
   const std::string found_key(take_field(line));

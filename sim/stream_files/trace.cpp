@@ -11,7 +11,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::string_view c_magic = "halfway-trace";
+constexpr std::string_view c_trace_magic = "halfway-trace";
 constexpr std::size_t c_longest_line = 256;
 constexpr std::size_t c_longest_fragment = 10 + 2 * 5 + 10 + 3 * 3 + 7;
 
@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 7> c_names = {"triangle", "y", "x", "z", 
 Result<TraceWriter> TraceWriter::open(const std::filesystem::path& path, std::string_view key_name) {
   auto writer = LineWriter::open(path);
   if (!writer) return writer.error();
-  writer->append(fmt::format("{} 1 {}\n", c_magic, key_name));
+  writer->append(fmt::format("{} 1 {}\n", c_trace_magic, key_name));
   return TraceWriter(std::move(*writer));
 }
 
@@ -61,7 +61,7 @@ Result<TraceReader> TraceReader::open(const std::filesystem::path& path, std::st
       break;
   }
   const bool spaced = ends_in_space(line);
-  if (take_field(line) != c_magic)
+  if (take_field(line) != c_trace_magic)
     return reader->at("no trace; the first line must begin with halfway-trace");
   if (take_field(line) != "1") return reader->at("a trace of another version; run the simulation again");
   const std::string found_key(take_field(line));

@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-constexpr double c_infinity = std::numeric_limits<double>::infinity();
+constexpr double c_unbounded = std::numeric_limits<double>::infinity();
 
 // Draw costs from a few values, so that points tie in one, several or all costs.
 std::vector<Costs> random_points(std::mt19937& random) {
@@ -22,7 +22,7 @@ std::vector<Costs> random_points(std::mt19937& random) {
   std::vector<Costs> points(1 + random() % 40);
   for (Costs& point : points)
     for (std::size_t i = 0; i < figures; ++i)
-      point.push_back(random() % 16 == 0 ? c_infinity : static_cast<double>(random() % 6));
+      point.push_back(random() % 16 == 0 ? c_unbounded : static_cast<double>(random() % 6));
   return points;
 }
 

@@ -15,6 +15,7 @@
 #include "sim/study/study.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
@@ -22,8 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using ::testing::ElementsAre;
-
-const fs::path c_source = HALFWAY_SOURCE_DIR;
 
 // Fast replacements for Yosys and nextpnr with given results. The clock of a placement is 100 to 104 MHz and
 // depends on the seed.
@@ -53,17 +52,17 @@ class HardwareFiguresTest : public ::testing::Test {
     folders_ = {folder_->path() / "source", folder_->path() / "cache"};
     // This tree has its own folders for pinned clocks.
     for (const char* name : {"tb/synth", "sim/studies"}) ASSERT_TRUE(make_folders(folders_.source / name));
-    fs::create_directory_symlink(c_source / "rtl", folders_.source / "rtl");
-    for (const auto& entry : fs::directory_iterator(c_source / "sim"))
+    fs::create_directory_symlink(c_source_folder / "rtl", folders_.source / "rtl");
+    for (const auto& entry : fs::directory_iterator(c_source_folder / "sim"))
       if (entry.is_directory() && entry.path().filename() != "studies")
         fs::create_directory_symlink(entry.path(), folders_.source / "sim" / entry.path().filename());
     // Share GHDL's cache, because analysis takes longest.
     ASSERT_TRUE(make_folders(folders_.cache));
-    ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
-    fs::create_directory_symlink(c_source / "build/cache/ghdl", folders_.cache / "ghdl");
+    ASSERT_TRUE(make_folders(c_source_folder / "build/cache/ghdl"));
+    fs::create_directory_symlink(c_source_folder / "build/cache/ghdl", folders_.cache / "ghdl");
     pin("");
     put_tools("4", "30", "40");
-    const auto scene = drawn_scene(scene_, c_source / "sim/scenes", point_);
+    const auto scene = drawn_scene(scene_, c_source_folder / "sim/scenes", point_);
     ASSERT_TRUE(scene) << scene.error().message;
     const auto hardware = hardware_of(point_, *scene);
     ASSERT_TRUE(hardware) << hardware.error().message;
@@ -102,7 +101,7 @@ class HardwareFiguresTest : public ::testing::Test {
   Result<GhdlLibrary> synthesis_library() const {
     const auto tool = GhdlTool::find();
     if (!tool) return tool.error();
-    const auto sources = read_rtl_sources(c_source);
+    const auto sources = read_rtl_sources(c_source_folder);
     if (!sources) return sources.error();
     return GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
   }
@@ -113,7 +112,7 @@ class HardwareFiguresTest : public ::testing::Test {
   }
 
   const std::string path_ = std::getenv("PATH");
-  const std::string scene_ = c_source / "sim/studies/sphere.toml";
+  const std::string scene_ = c_source_folder / "sim/studies/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
   const Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
   SimulatorFolders folders_;
@@ -256,16 +255,16 @@ TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
 
 // The pinned clocks must match the netlists of the current RTL.
 TEST(StudyClocks, MatchTheSmallStudysHardware) {
-  const auto pins = synth::read_pins(c_source / synth::c_study_pins);
+  const auto pins = synth::read_pins(c_source_folder / synth::c_study_pins);
   ASSERT_TRUE(pins) << pins.error().message;
-  const auto points = read_space((c_source / "sim/studies/small.toml").string());
+  const auto points = read_space((c_source_folder / "sim/studies/small.toml").string());
   ASSERT_TRUE(points) << points.error().message;
-  const std::string scene = c_source / "sim/studies/sphere.toml";
-  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  const std::string scene = c_source_folder / "sim/studies/sphere.toml";
+  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   std::vector<Record> records;
   for (const DesignPoint& point : *points) {
     if (!in_hardware(point.method)) continue;
-    const auto drawn = drawn_scene(scene, c_source / "sim/scenes", point);
+    const auto drawn = drawn_scene(scene, c_source_folder / "sim/scenes", point);
     ASSERT_TRUE(drawn) << drawn.error().message;
     const auto hardware = hardware_of(point, *drawn);
     if (!hardware) continue;  // this hardware cannot draw the scene
@@ -327,7 +326,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_EQ(placements(), synth::c_seeds);
   // Changing the RTL makes the piece open again.
   fs::remove(folders_.source / "rtl");
-  fs::copy(c_source / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
+  fs::copy(c_source_folder / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
   ASSERT_TRUE(write_file(folders_.source / "rtl/notes", "another"));
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
 }

@@ -79,7 +79,7 @@ struct Corner {
   std::uint32_t position, normal;
   auto operator<=>(const Corner&) const = default;
 };
-using Edge = std::pair<Corner, Corner>;
+using MeshEdge = std::pair<Corner, Corner>;
 
 struct Sides {
   glm::dvec2 begin{0.0}, end{0.0};  ///< pixels
@@ -92,8 +92,8 @@ glm::dvec2 on_screen(const ScreenVertex& v) {
 
 // Edges between triangles that are not clipped. Both triangles must have the same normals at the edge's
 // corners. Otherwise the surface has a crease there, and a jump in brightness is intended.
-std::map<Edge, Sides> shared_edges(const Scene& scene, std::span<const ScreenTriangle> triangles) {
-  std::map<Edge, Sides> edges;
+std::map<MeshEdge, Sides> shared_edges(const Scene& scene, std::span<const ScreenTriangle> triangles) {
+  std::map<MeshEdge, Sides> edges;
   for (const ScreenTriangle& t : triangles) {
     const SceneTriangle& source = scene.triangles[t.source];
     std::array<std::optional<glm::dvec2>, 3> corners;

@@ -18,15 +18,14 @@
 #include "sim/pictures/image_library.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
-
 Scene scene_of_everything() {
-  auto scene = load_scene((c_source / "sim/studies/sphere.toml").string(), c_source / "sim/scenes",
-                          {.tessellation = 0.25});
+  auto scene = load_scene((c_source_folder / "sim/studies/sphere.toml").string(),
+                          c_source_folder / "sim/scenes", {.tessellation = 0.25});
   EXPECT_TRUE(scene) << scene.error().message;
   scene->positional.resize(2);
   scene->spots.resize(2);
@@ -201,11 +200,11 @@ TEST_F(RecordsTest, ProvenanceCoversTheProgram) {
   ASSERT_TRUE(mine);
   const auto images = read_file(image_library_file());
   ASSERT_TRUE(images);
-  const auto provenance = provenance_of(scene_of_everything(), {c_source, folder_->path()});
+  const auto provenance = provenance_of(scene_of_everything(), {c_source_folder, folder_->path()});
   ASSERT_TRUE(provenance) << provenance.error().message;
   EXPECT_THAT(provenance->tools,
               ::testing::ContainsRegex("GHDL .*Verilator .*OpenImageIO [0-9]+[.][0-9]+[.][0-9]+"));
-  const auto mesa = read_file(mesa_program(c_source));
+  const auto mesa = read_file(mesa_program(c_source_folder));
   ASSERT_TRUE(mesa) << mesa.error().message;
   EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).add(*mesa).hex());
   EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).add(*mesa).hex());

@@ -19,6 +19,7 @@
 #include "sim/system/file.hpp"
 #include "sim/system/sanitizers.hpp"
 #include "sim/system/subprocess.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
@@ -27,8 +28,6 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
-
 std::string table_of(const Study& study) {
   return to_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
 }
@@ -36,11 +35,11 @@ std::string table_of(const Study& study) {
 class StudyTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    settings_.scene = c_source / "sim/studies/sphere.toml";
+    settings_.scene = c_source_folder / "sim/studies/sphere.toml";
     settings_.out = folder_->path();
     settings_.threads = 2;
     settings_.on_note = [this](const std::string& note) { notes_.push_back(note); };
-    settings_.folders = {c_source, c_source / "build" / "cache"};
+    settings_.folders = {c_source_folder, c_source_folder / "build" / "cache"};
     for (const Method method : {Method::phong, Method::gouraud, Method::quadratic, Method::adaptive})
       settings_.points.push_back(
           {.method = method, .tessellation = 0.5, .exponent = 50.0, .size = {160, 120}});
@@ -362,7 +361,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
-  const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source, folder_->path());
+  const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source_folder, folder_->path());
   ASSERT_TRUE(folder) << folder.error().message;
   const std::filesystem::path package = *folder / "rtl/tables/cosine_pkg.vhd";
   auto text = read_file(package);

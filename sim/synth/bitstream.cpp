@@ -20,12 +20,13 @@ using nlohmann::json;
 
 constexpr const char* c_top = "board_top";
 constexpr const char* c_constraints = "rtl/board/board.pcf";
-constexpr std::chrono::minutes c_timeout{60};
+constexpr std::chrono::minutes c_bitstream_timeout{60};
 // The placement of this seed meets the clock.
 constexpr const char* c_seed = "1";
 
 Result<std::string> run(const std::filesystem::path& folder, std::vector<std::string> arguments) {
-  const Command command{.arguments = std::move(arguments), .working_folder = folder, .timeout = c_timeout};
+  const Command command{
+      .arguments = std::move(arguments), .working_folder = folder, .timeout = c_bitstream_timeout};
   const auto end = run_process(command, c_install_board_tools);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;

@@ -18,28 +18,28 @@
 namespace halfway::synth {
 namespace {
 
-using json = nlohmann::ordered_json;  // keeps Yosys's order, because a placement depends on it
+using nlohmann::ordered_json;  // keeps Yosys's order, because a placement depends on it
 using Net = std::int64_t;
 
-bool is_net(const json& bit) {
+bool is_net(const ordered_json& bit) {
   return bit.is_number_integer();
 }  // otherwise a constant, such as "0"
 
 // std::nullopt if the pin is missing or constant.
-std::optional<Net> net_at(const json& cell, const char* pin) {
-  const json& pins = cell.at("connections");
+std::optional<Net> net_at(const ordered_json& cell, const char* pin) {
+  const ordered_json& pins = cell.at("connections");
   const auto found = pins.find(pin);
   if (found == pins.end() || found->empty() || !is_net(found->front())) return {};
   return found->front().get<Net>();
 }
 
 // The nets driven by the lookup tables of full sums.
-std::set<Net> full_sums(const json& cells) {
+std::set<Net> full_sums(const ordered_json& cells) {
   std::set<Net> carries, sums;
-  for (const json& cell : cells)
+  for (const ordered_json& cell : cells)
     if (cell.at("type") == "SB_CARRY")
       if (const auto carry = net_at(cell, "CO")) carries.insert(*carry);
-  for (const json& cell : cells) {
+  for (const ordered_json& cell : cells) {
     if (cell.at("type") != "SB_LUT4") continue;
     const auto carry = net_at(cell, "I3"), sum = net_at(cell, "O");
     if (carry && sum && carries.contains(*carry) && net_at(cell, "I0") && net_at(cell, "I1") &&
@@ -55,17 +55,17 @@ struct Enable {
   Net net = 0;
 };
 
-std::vector<Enable> chosen_enables(const json& module) {
-  const json& cells = module.at("cells");
+std::vector<Enable> chosen_enables(const ordered_json& module) {
+  const ordered_json& cells = module.at("cells");
   const std::set<Net> sums = full_sums(cells);
   std::map<Net, Enable> enables;
-  for (const json& cell : cells) {
+  for (const ordered_json& cell : cells) {
     if (!is_register(cell)) continue;
     const auto enable = net_at(cell, "E"), input = net_at(cell, "D");
     if (enable && input && sums.contains(*input)) ++enables[*enable].sums;
   }
   for (const auto& [name, named] : module.at("netnames").items()) {
-    const json& bits = named.at("bits");
+    const ordered_json& bits = named.at("bits");
     for (std::size_t i = 0; i < bits.size(); ++i) {
       const auto found = is_net(bits[i]) ? enables.find(bits[i].get<Net>()) : enables.end();
       if (found == enables.end()) continue;
@@ -88,28 +88,28 @@ std::vector<Enable> chosen_enables(const json& module) {
 
 class Buffers {
  public:
-  explicit Buffers(json& module) : cells_(module.at("cells")), names_(module.at("netnames")) {
-    for (const json& cell : cells_)
-      for (const json& bits : cell.at("connections"))
-        for (const json& bit : bits)
+  explicit Buffers(ordered_json& module) : cells_(module.at("cells")), names_(module.at("netnames")) {
+    for (const ordered_json& cell : cells_)
+      for (const ordered_json& bits : cell.at("connections"))
+        for (const ordered_json& bit : bits)
           if (is_net(bit)) last_ = std::max(last_, bit.get<Net>());
-    for (const json& named : names_)
-      for (const json& bit : named.at("bits"))
+    for (const ordered_json& named : names_)
+      for (const ordered_json& bit : named.at("bits"))
         if (is_net(bit)) last_ = std::max(last_, bit.get<Net>());
   }
 
   void insert_clock(Net net) {
     const Net buffered = ++last_;
-    for (json& cell : cells_)
+    for (ordered_json& cell : cells_)
       for (auto& [pin, bits] : cell.at("connections").items())
         if (cell.at("port_directions").at(pin) == "input")
-          std::replace(bits.begin(), bits.end(), json(net), json(buffered));
+          std::replace(bits.begin(), bits.end(), ordered_json(net), ordered_json(buffered));
     add("clk", net, buffered);
   }
 
   void insert_enable(const Enable& enable) {
     const Net buffered = ++last_;
-    for (json& cell : cells_)
+    for (ordered_json& cell : cells_)
       if (is_register(cell) && net_at(cell, "E") == enable.net) cell["connections"]["E"] = {buffered};
     add(enable.name, enable.net, buffered);
   }
@@ -120,17 +120,18 @@ class Buffers {
     cells_[buffer] = {
         {"hide_name", 0},
         {"type", "SB_GB"},
-        {"parameters", json::object()},
-        {"attributes", json::object()},
+        {"parameters", ordered_json::object()},
+        {"attributes", ordered_json::object()},
         {"port_directions", {{"USER_SIGNAL_TO_GLOBAL_BUFFER", "input"}, {"GLOBAL_BUFFER_OUTPUT", "output"}}},
         {"connections",
-         {{"USER_SIGNAL_TO_GLOBAL_BUFFER", json::array({from})},
-          {"GLOBAL_BUFFER_OUTPUT", json::array({to})}}}};
-    names_[buffer + "_O"] = {{"hide_name", 0}, {"bits", json::array({to})}, {"attributes", json::object()}};
+         {{"USER_SIGNAL_TO_GLOBAL_BUFFER", ordered_json::array({from})},
+          {"GLOBAL_BUFFER_OUTPUT", ordered_json::array({to})}}}};
+    names_[buffer + "_O"] = {
+        {"hide_name", 0}, {"bits", ordered_json::array({to})}, {"attributes", ordered_json::object()}};
   }
 
-  json& cells_;
-  json& names_;
+  ordered_json& cells_;
+  ordered_json& names_;
   Net last_ = 0;
 };
 
@@ -138,15 +139,15 @@ class Buffers {
 
 Result<std::string> with_global_buffers(std::string_view netlist) {
   try {
-    json design = json::parse(netlist);
-    json& module = design.at("modules").at("wrapped");
+    ordered_json design = ordered_json::parse(netlist);
+    ordered_json& module = design.at("modules").at("wrapped");
     const Net clock = module.at("ports").at("clk").at("bits").at(0).get<Net>();
     const std::vector<Enable> enables = chosen_enables(module);
     Buffers buffers(module);
     buffers.insert_clock(clock);
     for (const Enable& enable : enables) buffers.insert_enable(enable);
     return design.dump();
-  } catch (const json::exception& error) {
+  } catch (const ordered_json::exception& error) {
     return tool_failed(fmt::format("not a netlist to place, by Yosys with a clock clk: {}", error.what()));
   }
 }

@@ -107,7 +107,7 @@ struct Buffered {
   }
 };
 
-using Pins = std::map<std::string, int>;
+using PinWidths = std::map<std::string, int>;
 
 TEST(SynthGlobalBuffers, AreForTheClockOnlyWithoutAnEnableOfFullSums) {
   Netlist netlist;
@@ -120,7 +120,7 @@ TEST(SynthGlobalBuffers, AreForTheClockOnlyWithoutAnEnableOfFullSums) {
   netlist.registers(partial, 9, "aaaa");
   netlist.registers(partial, 9, "aaxa");
   const Buffered buffered(netlist.text());
-  EXPECT_EQ(buffered.pins, (Pins{{"clk_SB_GB", 7 + 5 * 9}}));
+  EXPECT_EQ(buffered.pins, (PinWidths{{"clk_SB_GB", 7 + 5 * 9}}));
   EXPECT_THAT(buffered.users(Netlist::c_clock), IsEmpty());
 }
 
@@ -131,8 +131,9 @@ TEST(SynthGlobalBuffers, AreForTheFourLargestOfFiveEnables) {
   netlist.enable("c", 10);
   netlist.enable("d", 12);
   netlist.enable("e", 11);
-  EXPECT_EQ(Buffered(netlist.text()).pins,
-            (Pins{{"clk_SB_GB", 50}, {"a_SB_GB", 9}, {"c_SB_GB", 10}, {"d_SB_GB", 12}, {"e_SB_GB", 11}}));
+  EXPECT_EQ(
+      Buffered(netlist.text()).pins,
+      (PinWidths{{"clk_SB_GB", 50}, {"a_SB_GB", 9}, {"c_SB_GB", 10}, {"d_SB_GB", 12}, {"e_SB_GB", 11}}));
 }
 
 TEST(SynthGlobalBuffers, AreForTheFirstNameOfEqualEnables) {
@@ -140,10 +141,11 @@ TEST(SynthGlobalBuffers, AreForTheFirstNameOfEqualEnables) {
   const int several = netlist.enable("z", 8);
   for (const char* name : {"e", "d", "c", "b"}) netlist.enable(name, 8);
   EXPECT_EQ(Buffered(netlist.text()).pins,
-            (Pins{{"clk_SB_GB", 40}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}, {"e_SB_GB", 8}}));
+            (PinWidths{{"clk_SB_GB", 40}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}, {"e_SB_GB", 8}}));
   netlist.name("a", {Netlist::c_input, several});
-  EXPECT_EQ(Buffered(netlist.text()).pins,
-            (Pins{{"clk_SB_GB", 40}, {"a[1]_SB_GB", 8}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}}));
+  EXPECT_EQ(
+      Buffered(netlist.text()).pins,
+      (PinWidths{{"clk_SB_GB", 40}, {"a[1]_SB_GB", 8}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}}));
 }
 
 TEST(SynthGlobalBuffers, DriveOnlyTheRegistersOfAnEnable) {
@@ -154,7 +156,7 @@ TEST(SynthGlobalBuffers, DriveOnlyTheRegistersOfAnEnable) {
   netlist.cell("SB_DFFSR", {{"C", {Netlist::c_clock}}, {"D", {Netlist::c_input}}, {"R", {enable}}}, "Q");
   netlist.cell("SB_RAM40_4K", {{"RCLK", {Netlist::c_clock}}, {"WE", {enable}}}, "RDATA");
   const Buffered buffered(netlist.text());
-  EXPECT_EQ(buffered.pins, (Pins{{"clk_SB_GB", 8 + 3 + 2 + 2}, {"enable_SB_GB", 10}}));
+  EXPECT_EQ(buffered.pins, (PinWidths{{"clk_SB_GB", 8 + 3 + 2 + 2}, {"enable_SB_GB", 10}}));
   EXPECT_THAT(buffered.users(enable), ::testing::UnorderedElementsAre("I0", "R", "WE"));
   EXPECT_THAT(buffered.users(other), ElementsAre("E", "E", "E"));
 }
@@ -207,7 +209,7 @@ TEST(SynthGlobalBuffers, ADesignWithoutClockIsRefused) {
 }
 
 // Two sums with one enable each, and registers with a third enable, to which nextpnr would give a buffer.
-constexpr const char* c_entity = R"(library ieee;
+constexpr const char* c_buffered_entity = R"(library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 
@@ -251,7 +253,7 @@ TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
   const fs::path root = folder->path(), cache = root / "cache";
   ASSERT_TRUE(make_folders(root / "rtl"));
   ASSERT_TRUE(write_file(root / "rtl/files.f", "sums.vhd\n"));
-  ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_entity));
+  ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_buffered_entity));
   const auto synthesizer = Synthesizer::open({root, cache}, true);
   ASSERT_TRUE(synthesizer) << synthesizer.error().message;
   const auto packing = synthesizer->pack({.name = "sums", .entity = "sums", .generics = {}});

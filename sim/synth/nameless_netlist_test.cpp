@@ -9,7 +9,7 @@
 namespace halfway::synth {
 namespace {
 
-constexpr const char* c_netlist =
+constexpr const char* c_named_netlist =
     "module top\n"
     "  (input  clk,\n"
     "   output [7:0] sum);\n"
@@ -20,7 +20,7 @@ constexpr const char* c_netlist =
     "endmodule\n";
 
 TEST(NamelessNetlist, HasNoCommentsAndIsRenumbered) {
-  EXPECT_EQ(nameless(c_netlist),
+  EXPECT_EQ(nameless(c_named_netlist),
             "module module$0\n"
             "  (input  clk,\n"
             "   output [7:0] sum);\n"
@@ -41,7 +41,7 @@ TEST(NamelessNetlist, IgnoresNumbersAndPositions) {
       "\n"
       "  assign sum = n3_o ? n4 : 8'b00000001;\n"
       "endmodule";
-  EXPECT_EQ(nameless(other), nameless(c_netlist));
+  EXPECT_EQ(nameless(other), nameless(c_named_netlist));
 }
 
 TEST(NamelessNetlist, DistinguishesOtherHardware) {

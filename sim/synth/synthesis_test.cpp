@@ -11,13 +11,13 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr const char* c_netlist =
+constexpr const char* c_leaf_netlist =
     "module other\n  (input  clk);\nendmodule\nmodule top\n  (input  clk,\n   input  go,\n   input  [2:0] "
     "a,\n"
     "   output [1:0] sum,\n   output done);\nendmodule\n";
 
 TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
-  const auto text = wrapper(c_netlist, "top", 256);
+  const auto text = wrapper(c_leaf_netlist, "top", 256);
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_THAT(*text, HasSubstr("reg [3:0] in;"));
   EXPECT_THAT(*text, HasSubstr("assign go = {in[0]};"));
@@ -35,15 +35,15 @@ TEST(SynthWrapper, ConnectsTheClockOfAxi) {
 }
 
 TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {
-  const auto text = wrapper(c_netlist, "top", 3);
+  const auto text = wrapper(c_leaf_netlist, "top", 3);
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_THAT(*text, HasSubstr("reg [2:0] in;"));
   EXPECT_THAT(*text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
 }
 
 TEST(SynthWrapper, RefusesAMissingModuleOrOutput) {
-  EXPECT_FALSE(wrapper(c_netlist, "absent", 256));
-  EXPECT_FALSE(wrapper(c_netlist, "other", 256));  // no output
+  EXPECT_FALSE(wrapper(c_leaf_netlist, "absent", 256));
+  EXPECT_FALSE(wrapper(c_leaf_netlist, "other", 256));  // no output
 }
 
 // Two flip-flops, with a lookup table and a carry between them.

@@ -10,7 +10,7 @@ namespace {
 using evidence::Fields;
 
 constexpr FrameSize c_size{640, 480};
-constexpr const char* c_none = "–";
+constexpr const char* c_no_number = "–";
 
 constexpr const char* c_spheres = "sim/scenes/spheres.toml";
 constexpr const char* c_sphere = "sim/studies/sphere.toml";
@@ -27,7 +27,7 @@ std::string largest(const FrameDistance& error) {
 }
 
 Fields quadratic_fields(const std::string& shader, const FrameDistance& error, const Drawn* drawn) {
-  const auto count = [&](std::uint64_t number) { return drawn == nullptr ? c_none : grouped(number); };
+  const auto count = [&](std::uint64_t number) { return drawn == nullptr ? c_no_number : grouped(number); };
   const Drawn counts = drawn == nullptr ? Drawn{} : *drawn;
   return {{"shader", shader},
           {"PSNR, dB", decibels(error)},

@@ -195,8 +195,8 @@ double angle_bound(double cut, double half) {
 }
 
 template <class P>
-Finding angle(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-              const tables::Bound&) {
+Finding direction_angle(const Context& context, const tables::PresetFormats&, const tables::Format& format,
+                        const tables::Bound&) {
   Finding finding;
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(false, starts, finding);
@@ -276,8 +276,8 @@ std::vector<Check> root_checks() {
        component<Published>},
       {"exact", "direction", "length", "every root, and a derivation; hill climbing", length<Exact>},
       {"published", "direction", "length", "every root, and a derivation; hill climbing", length<Published>},
-      {"exact", "direction", "angle", "boxes of directions; hill climbing", angle<Exact>},
-      {"published", "direction", "angle", "boxes of directions; hill climbing", angle<Published>},
+      {"exact", "direction", "angle", "boxes of directions; hill climbing", direction_angle<Exact>},
+      {"published", "direction", "angle", "boxes of directions; hill climbing", direction_angle<Published>},
       {"exact", "offset", "", "random places; a rounding and a cut", offset},
   };
 }

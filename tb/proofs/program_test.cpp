@@ -11,14 +11,13 @@
 #include "prover.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::proofs {
 namespace {
 
 using testing::HasSubstr;
 using testing::Not;
-
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 
 class ProofProgram : public ::testing::Test {
  protected:
@@ -28,10 +27,10 @@ class ProofProgram : public ::testing::Test {
     folder_.emplace(std::move(*folder));
     std::filesystem::create_directories(source() / "tb");
     constexpr auto c_all = std::filesystem::copy_options::recursive;
-    std::filesystem::copy(c_source / "rtl", source() / "rtl", c_all);
-    std::filesystem::copy(c_source / "tb/proofs", source() / "tb/proofs", c_all);
+    std::filesystem::copy(c_source_folder / "rtl", source() / "rtl", c_all);
+    std::filesystem::copy(c_source_folder / "tb/proofs", source() / "tb/proofs", c_all);
     std::filesystem::create_directories(source() / "docs/results");
-    std::filesystem::copy(c_source / "docs/results/proofs.md", page());
+    std::filesystem::copy(c_source_folder / "docs/results/proofs.md", page());
   }
   std::filesystem::path source() const { return folder_->path() / "source"; }
 

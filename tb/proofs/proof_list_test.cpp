@@ -12,11 +12,10 @@
 #include "proof_files.hpp"
 #include "prover.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::proofs {
 namespace {
-
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 
 std::string without_comments(const std::string& vhdl) {
   return std::regex_replace(vhdl, std::regex("--[^\n]*"), "");
@@ -56,10 +55,10 @@ std::string assertions(const std::string& unit) {
 class ProofList : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto rtl = read_rtl_sources(c_source);
+    auto rtl = read_rtl_sources(c_source_folder);
     ASSERT_TRUE(rtl) << rtl.error().message;
     rtl_ = std::move(*rtl);
-    auto proofs = read_proofs(c_source);
+    auto proofs = read_proofs(c_source_folder);
     ASSERT_TRUE(proofs) << proofs.error().message;
     proofs_ = std::move(*proofs);
   }
@@ -71,7 +70,7 @@ class ProofList : public ::testing::Test {
       if (proof.entity == entity) names.insert(proof.unit);
     std::string units;
     for (const std::string& name : names) {
-      const auto unit = read_file(c_source / "tb/proofs" / name);
+      const auto unit = read_file(c_source_folder / "tb/proofs" / name);
       EXPECT_TRUE(unit) << unit.error().message;
       if (unit) units += without_comments(*unit);
     }
@@ -119,7 +118,7 @@ TEST(StreamPorts, AreFoundInTheEntity) {
 
 TEST_F(ProofList, HasFaultsThatOccurInTheRtl) {
   for (const Proof& proof : proofs_) {
-    const auto rtl = read_sources({.source = c_source, .scratch = {}}, proof);
+    const auto rtl = read_sources({.source = c_source_folder, .scratch = {}}, proof);
     ASSERT_TRUE(rtl) << rtl.error().message;
     for (const Fault& fault : proof.faults) {
       const auto text = text_with_fault(*rtl, fault);

@@ -26,16 +26,15 @@
 #include "sim/synth/pinned.hpp"
 #include "sim/synth/synthesis.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path c_source = HALFWAY_SOURCE_DIR;
-
 std::string text_of(const std::string& file) {
-  const auto text = read_file(c_source / file);
+  const auto text = read_file(c_source_folder / file);
   EXPECT_TRUE(text) << text.error().message;
   return text ? *text : std::string();
 }
@@ -53,7 +52,7 @@ std::string words_of(std::string_view text) {
 
 // A measured value of a row of evidence.
 std::string measured(const std::string& file, const std::string& name, const std::string& column) {
-  const auto rows = evidence::read_rows(c_source / file);
+  const auto rows = evidence::read_rows(c_source_folder / file);
   EXPECT_TRUE(rows) << rows.error().message;
   for (const evidence::Row& row : rows ? *rows : std::vector<evidence::Row>())
     for (const auto& [key, value] : row.fields)
@@ -75,7 +74,7 @@ double number_of(const std::string& text) {
 }
 
 double pinned_mhz(const std::string& design) {
-  const auto pins = synth::read_pins(c_source / synth::c_pins);
+  const auto pins = synth::read_pins(c_source_folder / synth::c_pins);
   EXPECT_TRUE(pins) << pins.error().message;
   return pins ? pins->at(design).mhz : 0;
 }
@@ -270,13 +269,13 @@ const std::map<std::string, std::string>& written_from() {
 }
 
 // What a person writes of each page and each template of a page.
-std::map<std::string, HandWritten> all_pages() {
+std::map<std::string, HandWritten> hand_written_pages() {
   std::map<std::string, HandWritten> pages;
-  for (fs::recursive_directory_iterator it(c_source), end; it != end; ++it) {
+  for (fs::recursive_directory_iterator it(c_source_folder), end; it != end; ++it) {
     const std::string name = it->path().filename();
     if (it->is_directory() && (name == "build" || name.starts_with('.'))) it.disable_recursion_pending();
     if (!name.ends_with(".md") && !name.ends_with(".md.mustache")) continue;
-    const std::string page = fs::relative(it->path(), c_source);
+    const std::string page = fs::relative(it->path(), c_source_folder);
     std::string text = text_of(page);
     if (const auto written = written_from().find(page); written != written_from().end()) {
       const std::size_t from = text.find(written->second);
@@ -289,7 +288,7 @@ std::map<std::string, HandWritten> all_pages() {
 }
 
 TEST(Pages, FiguresHaveASource) {
-  const std::map<std::string, HandWritten> pages = all_pages();
+  const std::map<std::string, HandWritten> pages = hand_written_pages();
   std::vector<Sourced> list = formed();
   std::ranges::copy(quoted(), std::back_inserter(list));
   for (const Sourced& figure : list) {

@@ -11,18 +11,17 @@
 #include <vector>
 
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path c_source = HALFWAY_SOURCE_DIR;
-
 // Every Markdown file of the checkout, build folders and dot folders left out.
 std::vector<fs::path> all_pages() {
   std::vector<fs::path> pages;
-  for (fs::recursive_directory_iterator it(c_source), end; it != end; ++it) {
+  for (fs::recursive_directory_iterator it(c_source_folder), end; it != end; ++it) {
     const std::string name = it->path().filename();
     if (it->is_directory() && (name == "build" || name.starts_with('.'))) it.disable_recursion_pending();
     if (name.ends_with(".md")) pages.push_back(it->path());
@@ -76,13 +75,13 @@ TEST(Pages, LinksLeadToFilesAndHeadings) {
 
 // The measured RTL may be older than today's.
 TEST(Pages, SpeedNamesTheRtlThatItMeasured) {
-  const auto speed = read_file(c_source / "docs/results/speed.md");
+  const auto speed = read_file(c_source_folder / "docs/results/speed.md");
   ASSERT_TRUE(speed) << speed.error().message;
   EXPECT_TRUE(std::regex_search(*speed, std::regex("\nRTL: `[0-9a-f]{32}`, ")));
 }
 
 TEST(Pages, ReadmeHasAtMostTenKilobytes) {
-  EXPECT_LE(fs::file_size(c_source / "README.md"), 10'240U);
+  EXPECT_LE(fs::file_size(c_source_folder / "README.md"), 10'240U);
 }
 
 }  // namespace

@@ -24,13 +24,13 @@ namespace {
 
 using golden::ColourTerms, golden::Exact, golden::Published;
 
-struct Strobes {
+struct SpanStrobes {
   bool span_load, span_step, sample_step;
 };
 
 /// The first three strobes fill the stages one after the other.
 constexpr int c_filling = 3;
-Strobes random_strobes(Random& random, int i) {
+SpanStrobes random_span_strobes(Random& random, int i) {
   if (i < c_filling) return {i == 0, i == 1, i == 2};
   const bool flowing = i / 300 % 2 == 0;
   return {random.one_in(i / 150 % 2 == 0 ? 3 : 25), flowing || !random.one_in(3),
@@ -61,7 +61,7 @@ Status write_diffuse(const std::filesystem::path& folder, const SliceSize& size)
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_diffuse_part<Preset>(part, random, size.channels, 1, 0);
-    const Strobes s = random_strobes(random, i);
+    const SpanStrobes s = random_span_strobes(random, i);
     file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
     file.flag(twin.lit());
     add_products(file, multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
@@ -93,7 +93,7 @@ Status write_specular(const std::filesystem::path& folder, const SliceSize& size
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_specular_part<Preset>(part, random, size.channels, 1, 0);
-    const Strobes s = random_strobes(random, i);
+    const SpanStrobes s = random_span_strobes(random, i);
     const bool lit = !random.one_in(5);
     file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
     file.flag(lit);
@@ -115,26 +115,26 @@ Status write_specular(const std::filesystem::path& folder, const SliceSize& size
 }
 
 // A light. tb/shaders/spherical_light_tb.vhd has the same list.
-struct Light {
+struct LightWords {
   const char* name;
   golden::SphericalConfig config;
 };
 
-constexpr Light c_exact_lights[] = {
+constexpr LightWords c_exact_lights[] = {
     {"coloured_highlights", {3, 1, true, true, 3, 18, 9, 8}},
     {"white_highlights", {3, 1, true, true, 1, 2, 9, 8}},
     {"grey", {1, 1, true, true, 1, 16, 9, 8}},
     {"highlights", {3, 1, false, true, 3, 9, 9, 8}},
     {"matte", {3, 1, true, false, 1, 2, 9, 8}},
 };
-constexpr Light c_published_lights[] = {
+constexpr LightWords c_published_lights[] = {
     {"published", {3, 1, true, true, 1, 2, 6, 6}},
     {"published_highlights", {1, 1, false, true, 1, 2, 4, 4}},
 };
 
 // A line: checked, part, span_load, span_step, sample_step; terms, before the edge.
 template <class Preset>
-Status write_light(const std::filesystem::path& folder, const Light& light) {
+Status write_light(const std::filesystem::path& folder, const LightWords& light) {
   using Groups = std::vector<ColourTerms>;
   const golden::SphericalConfig& config = light.config;
   const golden::SphericalLayout<Preset> layout(config);
@@ -154,7 +154,7 @@ Status write_light(const std::filesystem::path& folder, const Light& light) {
       put_diffuse_part<Preset>(part, random, layout.diffuse_channels(), 1, layout.diffuse_low(0));
     if (config.specular)
       put_specular_part<Preset>(part, random, config.highlight_channels, 1, layout.specular_low(0));
-    const Strobes s = random_strobes(random, i);
+    const SpanStrobes s = random_span_strobes(random, i);
     file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
     for (const ColourTerms& group : multiplied)
       add_products(file, group, config.channels, Preset::c_factor_bits + config.data_bits);
@@ -263,9 +263,9 @@ Status write_specular_slice(const std::filesystem::path& folder) {
 }
 
 Status write_spherical_light(const std::filesystem::path& folder) {
-  for (const Light& light : c_exact_lights)
+  for (const LightWords& light : c_exact_lights)
     if (auto s = write_light<Exact>(folder, light); !s) return s;
-  for (const Light& light : c_published_lights)
+  for (const LightWords& light : c_published_lights)
     if (auto s = write_light<Published>(folder, light); !s) return s;
   return Ok{};
 }

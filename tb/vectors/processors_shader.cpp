@@ -26,7 +26,7 @@ struct Processors {
   std::int64_t pixels;
 };
 
-constexpr Processors c_exact_shaders[] = {
+constexpr Processors c_exact_processors[] = {
     {"directional", {3, 1, 0, 0, true, true, true, false}, 112},
     {"all_kinds", {3, 1, 1, 1, true, true, true, false}, 112},
     {"grey", {1, 2, 0, 0, true, false, false, false}, 112},
@@ -34,7 +34,7 @@ constexpr Processors c_exact_shaders[] = {
     {"shadows", {3, 1, 1, 0, true, true, true, true}, 112},
     {"folded", {3, 0, 1, 0, true, true, true, false}, 64},
 };
-constexpr Processors c_published_shaders[] = {
+constexpr Processors c_published_processors[] = {
     {"published", {3, 1, 1, 1, true, true, true, false}, 64},
     {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, 112},
     {"published_shadows", {3, 0, 1, 0, false, true, true, true}, 64},
@@ -339,13 +339,13 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
 template <class Write>
 Status write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
-    Host<Exact> host(c_exact_shaders[i]);
-    draw_set(host, c_exact_shaders[i], Mix::mixed);
+    Host<Exact> host(c_exact_processors[i]);
+    draw_set(host, c_exact_processors[i], Mix::mixed);
     host.draw_again();
     if (auto s = write(host); !s) return s;
   }
-  Host<Published> host(c_published_shaders[0]);
-  draw_set(host, c_published_shaders[0], Mix::mixed);
+  Host<Published> host(c_published_processors[0]);
+  draw_set(host, c_published_processors[0], Mix::mixed);
   host.draw_again();
   return write(host);
 }
@@ -388,8 +388,8 @@ Status write_fragment_output(const std::filesystem::path& folder) {
 }
 
 Status write_processors_shader(const std::filesystem::path& folder) {
-  if (auto s = write_all<Exact>(folder, c_exact_shaders); !s) return s;
-  return write_all<Published>(folder, c_published_shaders);
+  if (auto s = write_all<Exact>(folder, c_exact_processors); !s) return s;
+  return write_all<Published>(folder, c_published_processors);
 }
 
 }  // namespace halfway::vectors

@@ -123,7 +123,7 @@ struct Spherical {
   std::int64_t pixels;
 };
 
-constexpr Spherical c_exact_shaders[] = {
+constexpr Spherical c_exact_spherical[] = {
     {"white_highlights", {3, 1, true, true, 1, 2, 9, 8}, 700},
     {"two_lights", {3, 2, true, true, 3, 22, 9, 8}, 700},
     {"grey", {1, 1, true, true, 1, 16, 9, 8}, 700},
@@ -133,7 +133,7 @@ constexpr Spherical c_exact_shaders[] = {
     {"sixteen_lights", {3, 16, true, true, 1, 3, 9, 8}, 150},
     {"no_effect", {3, 2, false, false, 1, 2, 9, 8}, 200},
 };
-constexpr Spherical c_published_shaders[] = {
+constexpr Spherical c_published_spherical[] = {
     {"published", {3, 1, true, true, 3, 2, 6, 6}, 700},
     {"published_4_4", {3, 2, true, true, 1, 2, 4, 4}, 500},
     {"published_highlights", {1, 1, false, true, 1, 2, 6, 6}, 500},
@@ -232,9 +232,9 @@ Status write_quadratic_shader(const std::filesystem::path& folder) {
 }
 
 Status write_spherical_shader(const std::filesystem::path& folder) {
-  for (const Spherical& spherical : c_exact_shaders)
+  for (const Spherical& spherical : c_exact_spherical)
     if (auto s = write_spherical<Exact>(folder, spherical); !s) return s;
-  for (const Spherical& spherical : c_published_shaders)
+  for (const Spherical& spherical : c_published_spherical)
     if (auto s = write_spherical<Published>(folder, spherical); !s) return s;
   return Ok{};
 }

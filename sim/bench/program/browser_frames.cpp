@@ -11,9 +11,9 @@
 namespace halfway {
 namespace {
 
-constexpr const char* c_scene = "spheres";
-constexpr FrameSize c_size{640, 480};
-constexpr int c_repetitions = 5;
+constexpr const char* c_browser_scene = "spheres";
+constexpr FrameSize c_browser_size{640, 480};
+constexpr int c_browser_repetitions = 5;
 constexpr unsigned c_turn_seconds = 4;  // the page's rate is that of the last two seconds
 
 // Statistics of one shader on the page: medians of the repetitions.
@@ -36,8 +36,8 @@ double number(HeadlessBrowser& browser, const std::string& expression) {
 void measure(const std::filesystem::path& page, Shader shader, PageTimes& times) {
   const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   HeadlessBrowser browser(scratch.path());
-  browser.open(fmt::format("{}#scene={}.toml&shader={}&size={}x{}", page.string(), c_scene, to_string(shader),
-                           c_size.width, c_size.height));
+  browser.open(fmt::format("{}#scene={}.toml&shader={}&size={}x{}", page.string(), c_browser_scene,
+                           to_string(shader), c_browser_size.width, c_browser_size.height));
   if (!browser.becomes_true("halfwayIsStill()"))
     throw Failure{{ExitCode::differs, "the page of make live draws nothing"}};
   times.first.push_back(number(browser, "firstFrameAt"));
@@ -63,22 +63,23 @@ void measure_browser(Json& speed) {
   const std::filesystem::path page = c_scratch / "live.html";
   fmt::print(stderr, "building the page of make live\n");
   must(live::write_live(
-      {.page = page, .scenes = {c_scene}, .meshes = false, .folders = c_folders, .threads = 2}));
+      {.page = page, .scenes = {c_browser_scene}, .meshes = false, .folders = c_folders, .threads = 2}));
   Json rows = Json::array();
   for (const Shader shader : c_shaders) {
     PageTimes times;
-    for (int repetition = 0; repetition < c_repetitions; ++repetition) {
-      fmt::print(stderr, "{} in a browser: {} of {}\n", to_string(shader), repetition + 1, c_repetitions);
+    for (int repetition = 0; repetition < c_browser_repetitions; ++repetition) {
+      fmt::print(stderr, "{} in a browser: {} of {}\n", to_string(shader), repetition + 1,
+                 c_browser_repetitions);
       measure(page, shader, times);
     }
     rows.push_back({to_string(shader), figure(median(times.first)), figure(median(times.setup)),
                     figure(median(times.golden)), figure(median(times.hardware)), figure(median(times.alone)),
                     figure(median(times.rate))});
   }
-  speed["browser"] = {{"scene", c_scene},
-                      {"width", c_size.width},
-                      {"height", c_size.height},
-                      {"repetitions", c_repetitions},
+  speed["browser"] = {{"scene", c_browser_scene},
+                      {"width", c_browser_size.width},
+                      {"height", c_browser_size.height},
+                      {"repetitions", c_browser_repetitions},
                       {"rows", rows}};
 }
 
