@@ -42,6 +42,7 @@ takes_board := PIN JOBS
 takes_bench := JOBS
 takes_build := JOBS
 takes_program := JOBS
+takes_studies := JOBS
 takes_generator := JOBS
 
 # The text of `make help` for each variable.
@@ -130,7 +131,7 @@ synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,-
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help sim view live board-sim compare why plan verilog savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test test-all testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program generator mcode configure \
+  check-tables test test-all testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program studies generator mcode configure \
   setup doctor format check-format clean
 
 help: ## this list
@@ -173,7 +174,7 @@ verilog: program ## write the hardware of a scene as Verilog in build/verilog/KE
 savings: program ## measure the tables of docs/effects.md again (minutes)
 	@build/halfway savings $(call option,THREADS,--threads)
 
-study: program ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
+study: studies ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/studies/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
 	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) $(call flag,PIN,--pin) \
@@ -202,7 +203,7 @@ check-report: build ## test the page of make report in headless Chromium, with m
 diagrams: setup ## draw the shaders' block diagrams in rtl/diagrams from their text
 	@scripts/diagrams.sh build/diagrams
 
-gallery: program ## draw the pictures in docs/results/gallery by the RTL, and measure the plots of README.md and docs/accuracy.md, again
+gallery: studies ## draw the pictures in docs/results/gallery by the RTL, and measure the plots of README.md and docs/accuracy.md, again
 	@scripts/gallery.sh build/gallery
 	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
 	@build/halfway report --study build/gallery/study --front docs/results/gallery --page docs/accuracy.md
@@ -307,6 +308,9 @@ build: program ## build program and tests
 
 program: configure
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway
+
+studies: configure
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_studies
 
 generator: configure
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_generator

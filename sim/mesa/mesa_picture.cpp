@@ -46,7 +46,7 @@ Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesyst
       .environment = {
           {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "0"}}};
   if (request.exponent) command.arguments.push_back(fmt::format("{}", *request.exponent));
-  const auto end = run_process(command, "apt-get install libegl-dev libgles-dev, then make program");
+  const auto end = run_process(command, "apt-get install libegl-dev libgles-dev, then make study");
   if (!end) return end.error();
   MesaPicture picture{.frame = Frame(request.size)};
   std::istringstream said(end->output);

@@ -224,7 +224,7 @@ Status time_hosts(const StudySettings& settings, const Records& kept, std::vecto
 // The reason why Mesa does not draw the scene here; empty if it does.
 std::string no_mesa(const Scene& scene, const SimulatorFolders& folders) {
   if (const std::string lacks = mesa_lacks(folders.source); !lacks.empty())
-    return fmt::format("phong-mesa: halfway_mesa is not built; install {} and run make program", lacks);
+    return fmt::format("phong-mesa: halfway_mesa is not built; install {} and run make study", lacks);
   const Status draws = mesa_draws(scene);
   return draws ? "" : fmt::format("phong-mesa: {}", draws.error().message);
 }
