@@ -230,7 +230,8 @@ testbench: configure ## run one VHDL testbench in GHDL, with vectors from the go
 # Warnings of clang-tidy and of GHDL are errors.
 lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors rtl_lint_test
-	@scripts/lint.sh build "$(jobs)" "$$FILES"
+	@$(lock) cmake --log-level=NOTICE --preset lint
+	@scripts/lint.sh build/lint "$(jobs)" "$$FILES"
 	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^rtl_lint_test$$'
 
 sanitize: setup ## run every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
