@@ -133,12 +133,9 @@ TEST(Functions, TheTestbenchReadsEveryFunction) {
   const auto testbench = read_file(source / "tb/tables/function_rom_tb.vhd");
   const auto vectors = read_file(source / "tb/vectors/shading.cpp");
   ASSERT_TRUE(testbench && vectors);
-  const char* last = to_string(c_functions.back());
-  for (const std::string& text :
-       {fmt::format("which in c_{} to c_{} generate", to_string(c_functions.front()), last),
-        fmt::format("finished(c_{} + 1 + which)", last),
-        fmt::format("finished : boolean_vector(0 to {})", 2 * c_functions.size() - 1)})
-    EXPECT_THAT(*testbench, ::testing::HasSubstr(text));
+  EXPECT_THAT(*testbench, ::testing::HasSubstr(fmt::format("which in c_{} to c_{} generate",
+                                                           to_string(c_functions.front()),
+                                                           to_string(c_functions.back()))));
   for (const Function function : c_functions)
     EXPECT_THAT(*vectors, ::testing::HasSubstr(fmt::format("golden::Function::{}", to_string(function))));
 }
