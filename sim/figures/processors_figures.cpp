@@ -165,7 +165,7 @@ constexpr std::array<Table4Row, 8> c_table_4 = {
 // Clocks by "run, preset", as reported by the testbench.
 std::map<std::string, int> clocks_in_ghdl(const Context& context) {
   const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
-  must(vectors::write_table4(scratch.path()));
+  vectors::write_table4(scratch.path());
   const std::string output =
       run_testbench(context, "table4_tb", must(read_rtl_sources(context.folders.source)),
                     {"tb/tb_pkg.vhd", "tb/illumination/table4_tb.vhd"},

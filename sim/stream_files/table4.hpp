@@ -13,7 +13,7 @@ namespace halfway::vectors {
 
 /// One row per line: a word of preset, kind of processor (3: none works), positional, spot, N normalized,
 /// view vector; then the clocks.
-inline Status write_table4(const std::filesystem::path& folder) {
+inline void write_table4(const std::filesystem::path& folder) {
   VectorFile file;
   for (const ProcessorClocks& row : c_processor_clocks)
     for (const Preset preset : {Preset::published, Preset::exact}) {
@@ -26,7 +26,7 @@ inline Status write_table4(const std::filesystem::path& folder) {
         work = work << 1 | (flag ? 1 : 0);
       file.word(work, 7).word(*clocks, 32).end_vector();
     }
-  return file.write(folder / "table4.txt");
+  file.write(folder / "table4.txt");
 }
 
 }  // namespace halfway::vectors

@@ -11,6 +11,7 @@
 
 #include "golden/word.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::vectors {
 
@@ -41,9 +42,9 @@ class VectorFile {
     ++count_;
   }
   std::size_t size() const { return count_; }
-  Status write(const std::filesystem::path& path) const {
-    if (auto made = make_folders(path.parent_path()); !made) return made;
-    return write_file(path, text_ + "end " + std::to_string(count_) + '\n');
+  void write(const std::filesystem::path& path) const {
+    must(make_folders(path.parent_path()));
+    must(write_file(path, text_ + "end " + std::to_string(count_) + '\n'));
   }
 
  private:

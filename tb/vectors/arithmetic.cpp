@@ -19,7 +19,7 @@ namespace {
 using golden::Exact, golden::Published;
 
 template <int W, int FractionBits, int ResultBits>
-Status write_saturate(const std::filesystem::path& folder) {
+void write_saturate(const Folder& folder) {
   VectorFile file;
   const auto add = [&](std::uint64_t bits) {
     const auto value = golden::Word<W>::from_bits(bits);
@@ -44,13 +44,13 @@ Status write_saturate(const std::filesystem::path& folder) {
     }
     for (int i = 0; i < 4000; ++i) add(random.word(W));
   }
-  return file.write(folder / (std::to_string(W) + '_' + std::to_string(FractionBits) + '_' +
-                              std::to_string(ResultBits) + ".txt"));
+  file.write(folder / (std::to_string(W) + '_' + std::to_string(FractionBits) + '_' +
+                       std::to_string(ResultBits) + ".txt"));
 }
 
 // A line: checked, enable, a, b; product, before the edge. At full speed all products, or random ones; then
 // random ones with pauses.
-Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
+void write_multiplier_of(const Folder& folder, int a_bits, int b_bits) {
   Random random(static_cast<std::uint64_t>(a_bits + b_bits));
   VectorFile file;
   std::uint64_t quarters = 0, halves = 0, product = 0;
@@ -75,12 +75,12 @@ Status write_multiplier_of(const std::filesystem::path& folder, int a_bits, int 
     for (int i = 0; i < 3000; ++i) add(true, random.word(a_bits), random.word(b_bits));
   }
   for (int i = 0; i < 1000; ++i) add(random.one_in(2), random.word(a_bits), random.word(b_bits));
-  return file.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
+  file.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
 }
 
 // A line: angle; address, in_range.
 template <class Preset>
-Status write_angle_address(const std::filesystem::path& folder, int address_bits) {
+void write_angle_address(const Folder& folder, int address_bits) {
   constexpr int c_bits = Preset::c_angle_bits, c_fraction = Preset::c_angle_fraction_bits;
   VectorFile file;
   const auto add = [&](std::uint64_t bits) {
@@ -109,12 +109,11 @@ Status write_angle_address(const std::filesystem::path& folder, int address_bits
     }
     for (int i = 0; i < 4000; ++i) add(random.word(c_bits));
   }
-  return file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, address_bits));
+  file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, address_bits));
 }
 
 // A line: the terms as one flat word, the last term first; result.
-Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bits, int fraction_bits,
-                    int result_bits) {
+void write_sum_of(const Folder& folder, int terms, int term_bits, int fraction_bits, int result_bits) {
   Random random(static_cast<std::uint64_t>(terms * term_bits));
   Random enables(static_cast<std::uint64_t>(terms));
   Pipeline pipeline(1);
@@ -176,50 +175,48 @@ Status write_sum_of(const std::filesystem::path& folder, int terms, int term_bit
       add();
     }
   }
-  return pipeline.write(folder /
-                        fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
+  pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
 }
 
-}  // namespace
-
-Status write_saturate(const std::filesystem::path& folder) {
-  if (auto s = write_saturate<16, 4, 8>(folder); !s) return s;
-  if (auto s = write_saturate<12, 2, 8>(folder); !s) return s;  // the fewest bits: no spare bit
-  if (auto s = write_saturate<11, 0, 8>(folder); !s) return s;
-  if (auto s =
-          write_saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(
-              folder);
-      !s)
-    return s;
-  return write_saturate<Published::c_intensity_bits, Published::c_intensity_fraction_bits,
-                        Published::c_colour_bits>(folder);
+void write_saturate(const Folder& folder) {
+  write_saturate<16, 4, 8>(folder);
+  write_saturate<12, 2, 8>(folder);  // the fewest bits: no spare bit
+  write_saturate<11, 0, 8>(folder);
+  write_saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(folder);
+  write_saturate<Published::c_intensity_bits, Published::c_intensity_fraction_bits, Published::c_colour_bits>(
+      folder);
 }
 
-Status write_multiplier(const std::filesystem::path& folder) {
+void write_multiplier(const Folder& folder) {
   for (const auto& [a, b] : {std::pair{1, 1}, std::pair{8, 8}, std::pair{4, 9}, std::pair{8, 18},
                              std::pair{18, 12}, std::pair{8, 24}, std::pair{12, 24}, std::pair{32, 32}})
-    if (auto s = write_multiplier_of(folder, a, b); !s) return s;
-  return Ok{};
+    write_multiplier_of(folder, a, b);
 }
 
-Status write_angle_address(const std::filesystem::path& folder) {
-  for (const int address_bits : {3, 9, 12})
-    if (auto s = write_angle_address<Exact>(folder, address_bits); !s) return s;
-  for (const int address_bits : {4, 6, 12})
-    if (auto s = write_angle_address<Published>(folder, address_bits); !s) return s;
-  return Ok{};
+void write_angle_address(const Folder& folder) {
+  for (const int address_bits : {3, 9, 12}) write_angle_address<Exact>(folder, address_bits);
+  for (const int address_bits : {4, 6, 12}) write_angle_address<Published>(folder, address_bits);
 }
 
-Status write_saturating_sum(const std::filesystem::path& folder) {
+void write_saturating_sum(const Folder& folder) {
   struct Sizes {
     int terms, term_bits, fraction_bits, result_bits;
   };
   for (const Sizes& s :
        {Sizes{1, 16, 4, 8}, Sizes{2, 8, 2, 6}, Sizes{2, 6, 0, 6}, Sizes{3, 5, 1, 4}, Sizes{5, 3, 0, 4},
         Sizes{3, 24, 14, 8}, Sizes{33, 26, 16, 8}, Sizes{33, 32, 16, 8}, Sizes{3, 36, 20, 8}})
-    if (auto written = write_sum_of(folder, s.terms, s.term_bits, s.fraction_bits, s.result_bits); !written)
-      return written;
-  return Ok{};
+    write_sum_of(folder, s.terms, s.term_bits, s.fraction_bits, s.result_bits);
+}
+
+}  // namespace
+
+std::vector<Entity> arithmetic_entities() {
+  return {
+      {"saturate", write_saturate},
+      {"multiplier", write_multiplier},
+      {"angle_address", write_angle_address},
+      {"saturating_sum", write_saturating_sum},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -7,9 +7,10 @@
 #include "vectors/triangles.hpp"
 
 namespace halfway::vectors {
+namespace {
 
 // A line: y, x, z, red, green, blue; inside, place, depth, colour.
-Status write_fragment_pixel(const std::filesystem::path& folder) {
+void write_fragment_pixel(const Folder& folder) {
   Random random(1);
   VectorFile file;
   const auto add = [&](std::uint32_t y, std::uint32_t x) {
@@ -33,12 +34,12 @@ Status write_fragment_pixel(const std::filesystem::path& folder) {
     for (const std::uint32_t x : {319U, 320U, 511U, 512U, 831U, 4095U}) add(y, x);
   for (int i = 0; i < 2000; ++i)
     add(static_cast<std::uint32_t>(random.bits(9)), static_cast<std::uint32_t>(random.bits(9)));
-  return file.write(folder / "fragments.txt");
+  file.write(folder / "fragments.txt");
 }
 
 // A line: colour; red, green, blue of the dots (0, 0), (1, 0), (0, 1), (1, 1) in (x, y). One line per level
 // of a channel, and others.
-Status write_scan_out(const std::filesystem::path& folder) {
+void write_scan_out(const Folder& folder) {
   Random random(2);
   VectorFile file;
   const auto add = [&](std::uint32_t colour) {
@@ -55,11 +56,11 @@ Status write_scan_out(const std::filesystem::path& folder) {
     if (level < 32) add(level);
   }
   for (int i = 0; i < 1152; ++i) add(static_cast<std::uint32_t>(random.bits(16)));
-  return file.write(folder / "colours.txt");
+  file.write(folder / "colours.txt");
 }
 
 // Init vectors of large triangles inside the frame, for planes of three channels.
-Status write_drawing_rate(const std::filesystem::path& folder) {
+void write_drawing_rate(const Folder& folder) {
   using Shader = golden::QuadraticShader<golden::Exact, 3, 1>;
   constexpr std::size_t c_triangles = 3;
   constexpr std::int64_t c_least_pixels = 3000;
@@ -76,7 +77,18 @@ Status write_drawing_rate(const std::filesystem::path& folder) {
     }
     if (inside && pixels >= c_least_pixels) file.words_of(init, Shader::c_init_bits).end_vector();
   }
-  return file.write(folder / "init.txt");
+  file.write(folder / "init.txt");
+}
+
+}  // namespace
+
+std::vector<Entity> board_entities() {
+  return {
+      {"fragment_pixel", write_fragment_pixel},
+      {"scan_out", write_scan_out},
+      {"board_top", write_scan_out},
+      {"drawing_rate", write_drawing_rate},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -59,7 +59,7 @@ struct Abilities {
 // Calls write.operator()<Preset>(processor, abilities, random, file) for all processors with the unit, in
 // both presets.
 template <class Preset, class Has, class Write>
-Status write_preset(const std::filesystem::path& folder, const Has& has, const Write& write) {
+void write_preset(const Folder& folder, const Has& has, const Write& write) {
   for (const Processor& processor : processors()) {
     const Abilities<Preset> can(processor);
     if (!has(can)) continue;
@@ -68,14 +68,13 @@ Status write_preset(const std::filesystem::path& folder, const Has& has, const W
                                    static_cast<int>(processor.term) * 10 + processor.light));
     VectorFile file;
     write.template operator()<Preset>(processor, can, random, file);
-    if (auto s = file.write(folder / (name_of<Preset>(processor) + ".txt")); !s) return s;
+    file.write(folder / (name_of<Preset>(processor) + ".txt"));
   }
-  return Ok{};
 }
 template <class Has, class Write>
-Status write_units(const std::filesystem::path& folder, const Has& has, const Write& write) {
-  if (auto s = write_preset<Exact>(folder, has, write); !s) return s;
-  return write_preset<Published>(folder, has, write);
+void write_units(const Folder& folder, const Has& has, const Write& write) {
+  write_preset<Exact>(folder, has, write);
+  write_preset<Published>(folder, has, write);
 }
 
 constexpr auto c_all = [](const auto&) { return true; };
@@ -221,12 +220,10 @@ Axes wrapped(const Axes& v, int bits) {
   return result;
 }
 
-}  // namespace
-
 // A line: object, normalize, defined, positional, spot, lit, above; clocks, first, second, cone, complete.
 // All combinations; those of an ambient processor are lit.
-Status write_shading_sequence(const std::filesystem::path& folder) {
-  return write_units(
+void write_shading_sequence(const Folder& folder) {
+  write_units(
       folder, c_all,
       []<class Preset>(const Processor&, const Abilities<Preset>& can, Random&, VectorFile& file) {
         for (unsigned i = 0; i < 128; ++i) {
@@ -243,8 +240,8 @@ Status write_shading_sequence(const std::filesystem::path& folder) {
 
 // A line: object, defined, token, unit vectors 1 and 2, products; the token in the next clock, and at the
 // end.
-Status write_token_register(const std::filesystem::path& folder) {
-  return write_units(
+void write_token_register(const Folder& folder) {
+  write_units(
       folder, c_all,
       []<class Preset>(const Processor& p, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         TokenMaker<Preset> maker(p.config, random.bits(32));
@@ -289,8 +286,8 @@ Status write_token_register(const std::filesystem::path& folder) {
 
 // A line: step (0 none, 1 and 2 a sum, 3 and 4 a unit vector), positional, token, light, products, unit
 // vector; of sum, L and H, before the edge, whether each is known, and each.
-Status write_shared_adder(const std::filesystem::path& folder) {
-  return write_units(
+void write_shared_adder(const Folder& folder) {
+  write_units(
       folder, c_of_light,
       []<class Preset>(const Processor& p, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         constexpr bool c_exact = Abilities<Preset>::c_exact;
@@ -347,9 +344,9 @@ Status write_shared_adder(const std::filesystem::path& folder) {
 
 // A line: operands (0 N and A, 1 and 2 the shifted vector, 3 L and the axis, 4 N and L), shifted vector, N,
 // L, H, axis; whether the last product is known, and the last product.
-Status write_shared_dot_product(const std::filesystem::path& folder) {
+void write_shared_dot_product(const Folder& folder) {
   const auto has = [](const auto& can) { return can.of_light() || can.normalizes(); };
-  return write_units(
+  write_units(
       folder, has,
       []<class Preset>(const Processor&, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         std::optional<std::int64_t> last;
@@ -381,8 +378,8 @@ Status write_shared_dot_product(const std::filesystem::path& folder) {
 // A line: product (0 k I, 1 and 2 vector times 1/sqrt, 3 place times distance, 4 weight times factor, 5 k I
 // times weight), token, light, shifted vector, 1/sqrt, weight, factor; the number of known components of the
 // last product, and its components in 64 bits.
-Status write_shared_multiplier(const std::filesystem::path& folder) {
-  return write_units(
+void write_shared_multiplier(const Folder& folder) {
+  write_units(
       folder, c_all,
       []<class Preset>(const Processor& p, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         TokenMaker<Preset> maker(p.config, random.bits(32));
@@ -441,8 +438,8 @@ Status write_shared_multiplier(const std::filesystem::path& folder) {
 
 // A line: step (0 none, 1 and 2 shift), vector, dot product, products; whether the shifted vector is known,
 // and the shifted vector; the same of 1/sqrt; the unit vector.
-Status write_shared_normalizer(const std::filesystem::path& folder) {
-  return write_units(
+void write_shared_normalizer(const Folder& folder) {
+  write_units(
       folder, c_normalizing,
       []<class Preset>(const Processor&, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         constexpr int c_scaled_bits = Preset::c_direction_bits + Preset::c_root_bits + 2;
@@ -479,8 +476,8 @@ Status write_shared_normalizer(const std::filesystem::path& folder) {
 
 // A line: spot, outer, slope, exponent, the dot products of N and A and of L and the axis, weight times
 // factor; weight of the cosine, factor, weight of the term.
-Status write_shared_weight(const std::filesystem::path& folder) {
-  return write_units(
+void write_shared_weight(const Folder& folder) {
+  write_units(
       folder, c_of_light,
       []<class Preset>(const Processor&, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         constexpr int c_dot_bits = 2 * Preset::c_direction_bits + 1;
@@ -513,6 +510,17 @@ Status write_shared_weight(const std::filesystem::path& folder) {
           file.end_vector();
         }
       });
+}
+
+}  // namespace
+
+std::vector<Entity> folded_entities() {
+  return {
+      {"shading_sequence", write_shading_sequence},   {"token_register", write_token_register},
+      {"shared_adder", write_shared_adder},           {"shared_dot_product", write_shared_dot_product},
+      {"shared_multiplier", write_shared_multiplier}, {"shared_normalizer", write_shared_normalizer},
+      {"shared_weight", write_shared_weight},
+  };
 }
 
 }  // namespace halfway::vectors

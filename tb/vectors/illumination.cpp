@@ -40,6 +40,13 @@ SpanStrobes random_span_strobes(Random& random, int i) {
 /// The products of a pixel: in the sample stage, or in a stage after it.
 using Products = std::array<std::uint64_t, 3>;
 
+template <class Product>
+Products products_of(int channels, const Product& product) {
+  Products products{};
+  for (int c = 0; c < channels; ++c) products[static_cast<std::size_t>(c)] = product(c);
+  return products;
+}
+
 struct SliceSize {
   int channels;
   unsigned powers;  ///< of a specular slice
@@ -50,68 +57,76 @@ void add_products(VectorFile& file, const Products& products, int channels, int 
   for (int c = 0; c < channels; ++c) file.word(products[static_cast<std::size_t>(c)], bits);
 }
 
-// A line: checked, part, span_load, span_step, sample_step; lit, products, before the edge.
-template <class Preset>
-Status write_diffuse(const std::filesystem::path& folder, const SliceSize& size) {
-  const int bits = Preset::c_diffuse_header_bits + size.channels * Preset::c_diffuse_channel_bits;
-  Random random(static_cast<std::uint64_t>(bits));
-  VectorFile file;
-  golden::DiffuseSlice<Preset> twin(size.channels, size.address_bits, size.data_bits);
-  Products sampled{}, quarters{}, halves{}, multiplied{};
-  for (int i = 0; i < 3000; ++i) {
-    InitVector part = random_vector(random, bits);
-    put_diffuse_part<Preset>(part, random, size.channels, 1, 0);
-    const SpanStrobes s = random_span_strobes(random, i);
-    file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
-    file.flag(twin.lit());
-    add_products(file, multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
-    file.end_vector();
-    // Each stage loads the previous stage's old value, so update the last stage first.
+/// Columns part, span_load, span_step, sample_step of one clock, after `checked`.
+void add_slice_clock(VectorFile& file, int i, const InitVector& part, int bits, const SpanStrobes& s) {
+  file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
+}
+
+/// The products, or terms, in the stages after the sample stage.
+template <class Products>
+struct Multiplier {
+  Products sampled, quarters = sampled, halves = sampled, multiplied = sampled;
+
+  /// One clock. Each stage loads the previous stage's old value, so update the last stage first, and then the
+  /// twin. `sample()` gives the products of the twin.
+  template <class Twin, class Sample>
+  void clock(const SpanStrobes& s, Twin& twin, const InitVector& part, const Sample& sample) {
     multiplied = halves;
     halves = quarters;
     if (s.sample_step) quarters = sampled;
-    if (s.span_step) {
-      for (int c = 0; c < size.channels; ++c) sampled[static_cast<std::size_t>(c)] = twin.product(c);
-    }
+    if (s.span_step) sampled = sample();
     if (s.span_load)
       twin.span_load(part, 0);
     else if (s.span_step)
       twin.span_step();
   }
-  return file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.address_bits,
-                                         size.data_bits));
+};
+
+// A line: checked, part, span_load, span_step, sample_step; lit, products, before the edge.
+template <class Preset>
+void write_diffuse(const Folder& folder, const SliceSize& size) {
+  const int bits = Preset::c_diffuse_header_bits + size.channels * Preset::c_diffuse_channel_bits;
+  Random random(bits);
+  VectorFile file;
+  golden::DiffuseSlice<Preset> twin(size.channels, size.address_bits, size.data_bits);
+  Multiplier<Products> multiplier{};
+  for (int i = 0; i < 3000; ++i) {
+    InitVector part = random_vector(random, bits);
+    put_diffuse_part<Preset>(part, random, size.channels, 1, 0);
+    const SpanStrobes s = random_span_strobes(random, i);
+    add_slice_clock(file, i, part, bits, s);
+    file.flag(twin.lit());
+    add_products(file, multiplier.multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
+    file.end_vector();
+    multiplier.clock(s, twin, part,
+                     [&] { return products_of(size.channels, [&](int c) { return twin.product(c); }); });
+  }
+  file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.address_bits,
+                                  size.data_bits));
 }
 
 // A line: checked, part, span_load, span_step, sample_step, lit; products, before the edge.
 template <class Preset>
-Status write_specular(const std::filesystem::path& folder, const SliceSize& size) {
+void write_specular(const Folder& folder, const SliceSize& size) {
   const int bits = Preset::c_specular_header_bits + size.channels * Preset::c_specular_channel_bits;
-  Random random(static_cast<std::uint64_t>(bits));
+  Random random(bits);
   VectorFile file;
   golden::SpecularSlice<Preset> twin(size.channels, size.powers, size.address_bits, size.data_bits);
-  Products sampled{}, quarters{}, halves{}, multiplied{};
+  Multiplier<Products> multiplier{};
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     put_specular_part<Preset>(part, random, size.channels, 1, 0);
     const SpanStrobes s = random_span_strobes(random, i);
     const bool lit = !random.one_in(5);
-    file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
+    add_slice_clock(file, i, part, bits, s);
     file.flag(lit);
-    add_products(file, multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
+    add_products(file, multiplier.multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
     file.end_vector();
-    multiplied = halves;
-    halves = quarters;
-    if (s.sample_step) quarters = sampled;
-    if (s.span_step) {
-      for (int c = 0; c < size.channels; ++c) sampled[static_cast<std::size_t>(c)] = twin.product(c, lit);
-    }
-    if (s.span_load)
-      twin.span_load(part, 0);
-    else if (s.span_step)
-      twin.span_step();
+    multiplier.clock(s, twin, part,
+                     [&] { return products_of(size.channels, [&](int c) { return twin.product(c, lit); }); });
   }
-  return file.write(folder / fmt::format("{}_{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.powers,
-                                         size.address_bits, size.data_bits));
+  file.write(folder / fmt::format("{}_{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.powers,
+                                  size.address_bits, size.data_bits));
 }
 
 // A light. tb/shaders/spherical_light_tb.vhd has the same list.
@@ -134,7 +149,7 @@ constexpr LightWords c_published_lights[] = {
 
 // A line: checked, part, span_load, span_step, sample_step; terms, before the edge.
 template <class Preset>
-Status write_light(const std::filesystem::path& folder, const LightWords& light) {
+void write_light(const Folder& folder, const LightWords& light) {
   using Groups = std::vector<ColourTerms>;
   const golden::SphericalConfig& config = light.config;
   const golden::SphericalLayout<Preset> layout(config);
@@ -147,7 +162,7 @@ Status write_light(const std::filesystem::path& folder, const LightWords& light)
     twin.add_terms([&](const ColourTerms& group) { groups.push_back(group); });
     return groups;
   };
-  Groups sampled = terms(), quarters = sampled, halves = sampled, multiplied = sampled;
+  Multiplier<Groups> multiplier{terms()};
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
     if (layout.has_diffuse_part())
@@ -155,26 +170,18 @@ Status write_light(const std::filesystem::path& folder, const LightWords& light)
     if (config.specular)
       put_specular_part<Preset>(part, random, config.highlight_channels, 1, layout.specular_low(0));
     const SpanStrobes s = random_span_strobes(random, i);
-    file.flag(i > c_filling + 1).words_of(part, bits).flag(s.span_load).flag(s.span_step).flag(s.sample_step);
-    for (const ColourTerms& group : multiplied)
+    add_slice_clock(file, i, part, bits, s);
+    for (const ColourTerms& group : multiplier.multiplied)
       add_products(file, group, config.channels, Preset::c_factor_bits + config.data_bits);
     file.end_vector();
-    // As in write_diffuse.
-    multiplied = halves;
-    halves = quarters;
-    if (s.sample_step) quarters = sampled;
-    if (s.span_step) sampled = terms();
-    if (s.span_load)
-      twin.span_load(part, 0);
-    else if (s.span_step)
-      twin.span_step();
+    multiplier.clock(s, twin, part, terms);
   }
-  return file.write(folder / fmt::format("{}.txt", light.name));
+  file.write(folder / fmt::format("{}.txt", light.name));
 }
 
 // A line: checked, ambient, span_load; terms, before the edge.
 template <class Preset>
-Status write_ambient(const std::filesystem::path& folder, int channels, int data_bits, int depth) {
+void write_ambient(const Folder& folder, int channels, int data_bits, int depth) {
   const int bits = channels * Preset::c_ambient_channel_bits;
   Random random(static_cast<std::uint64_t>(bits + depth));
   VectorFile file;
@@ -186,16 +193,16 @@ Status write_ambient(const std::filesystem::path& folder, int channels, int data
     file.flag(i > depth).words_of(ambient, bits).flag(span_load);
     add_products(file, delay.delayed(), channels, Preset::c_factor_bits + data_bits);
     file.end_vector();
-    // As in write_diffuse.
+    // As in Multiplier.
     delay.step(twin.terms());
     if (span_load) twin.span_load(ambient, 0);
   }
-  return file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, channels, data_bits, depth));
+  file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, channels, data_bits, depth));
 }
 
 // Inputs: terms.
 template <class Preset>
-Status write_colour_sum_of(const std::filesystem::path& folder, int channels, int terms, int data_bits) {
+void write_colour_sum_of(const Folder& folder, int channels, int terms, int data_bits) {
   const int bits = Preset::c_factor_bits + data_bits;
   const std::int64_t white = std::int64_t{300} << (Preset::c_factor_fraction_bits + data_bits);
   Random random(static_cast<std::uint64_t>(channels * terms + bits));
@@ -219,13 +226,11 @@ Status write_colour_sum_of(const std::filesystem::path& folder, int channels, in
     for (const std::uint8_t colour : sum.colours()) colours.add(colour, Preset::c_colour_bits);
     pipeline.clock(!random.one_in(4), {words}, colours);
   }
-  return pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, channels, terms, data_bits));
+  pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, channels, terms, data_bits));
 }
 
-}  // namespace
-
 // A line: checked, enable, address; sample, before the edge.
-Status write_cosine_rom(const std::filesystem::path& folder) {
+void write_cosine_rom(const Folder& folder) {
   for (const golden::CosineTable& table : golden::c_cosine_tables) {
     VectorFile file;
     Random random(table.entries.size());
@@ -243,44 +248,48 @@ Status write_cosine_rom(const std::filesystem::path& folder) {
     }
     const auto name = fmt::format("{}_{}_{}_{}.txt", table.exact ? "exact" : "published", table.power,
                                   table.address_bits, table.data_bits);
-    if (auto s = file.write(folder / name); !s) return s;
+    file.write(folder / name);
   }
-  return Ok{};
 }
 
-Status write_diffuse_slice(const std::filesystem::path& folder) {
-  for (const int channels : {0, 1, 3})
-    if (auto s = write_diffuse<Exact>(folder, {channels, 0, 9, 8}); !s) return s;
-  if (auto s = write_diffuse<Published>(folder, {3, 0, 6, 6}); !s) return s;
-  return write_diffuse<Published>(folder, {1, 0, 4, 4});
+void write_diffuse_slice(const Folder& folder) {
+  for (const int channels : {0, 1, 3}) write_diffuse<Exact>(folder, {channels, 0, 9, 8});
+  write_diffuse<Published>(folder, {3, 0, 6, 6});
+  write_diffuse<Published>(folder, {1, 0, 4, 4});
 }
 
-Status write_specular_slice(const std::filesystem::path& folder) {
+void write_specular_slice(const Folder& folder) {
   for (const auto& [channels, powers] : {std::pair{3, 31u}, std::pair{3, 18u}, std::pair{1, 8u}})
-    if (auto s = write_specular<Exact>(folder, {channels, powers, 9, 8}); !s) return s;
-  if (auto s = write_specular<Published>(folder, {3, 2, 6, 6}); !s) return s;
-  return write_specular<Published>(folder, {1, 2, 4, 4});
+    write_specular<Exact>(folder, {channels, powers, 9, 8});
+  write_specular<Published>(folder, {3, 2, 6, 6});
+  write_specular<Published>(folder, {1, 2, 4, 4});
 }
 
-Status write_spherical_light(const std::filesystem::path& folder) {
-  for (const LightWords& light : c_exact_lights)
-    if (auto s = write_light<Exact>(folder, light); !s) return s;
-  for (const LightWords& light : c_published_lights)
-    if (auto s = write_light<Published>(folder, light); !s) return s;
-  return Ok{};
+void write_spherical_light(const Folder& folder) {
+  for (const LightWords& light : c_exact_lights) write_light<Exact>(folder, light);
+  for (const LightWords& light : c_published_lights) write_light<Published>(folder, light);
 }
 
-Status write_ambient_light(const std::filesystem::path& folder) {
-  if (auto s = write_ambient<Exact>(folder, 3, 8, 4); !s) return s;
-  if (auto s = write_ambient<Exact>(folder, 1, 8, 4); !s) return s;
-  return write_ambient<Published>(folder, 3, 6, 2);
+void write_ambient_light(const Folder& folder) {
+  write_ambient<Exact>(folder, 3, 8, 4);
+  write_ambient<Exact>(folder, 1, 8, 4);
+  write_ambient<Published>(folder, 3, 6, 2);
 }
 
-Status write_colour_sum(const std::filesystem::path& folder) {
-  for (const int terms : {1, 3, 5})
-    if (auto s = write_colour_sum_of<Exact>(folder, 3, terms, 8); !s) return s;
-  if (auto s = write_colour_sum_of<Exact>(folder, 1, 3, 8); !s) return s;
-  return write_colour_sum_of<Published>(folder, 3, 3, 6);
+void write_colour_sum(const Folder& folder) {
+  for (const int terms : {1, 3, 5}) write_colour_sum_of<Exact>(folder, 3, terms, 8);
+  write_colour_sum_of<Exact>(folder, 1, 3, 8);
+  write_colour_sum_of<Published>(folder, 3, 3, 6);
+}
+
+}  // namespace
+
+std::vector<Entity> illumination_entities() {
+  return {
+      {"cosine_rom", write_cosine_rom},         {"diffuse_slice", write_diffuse_slice},
+      {"specular_slice", write_specular_slice}, {"spherical_light", write_spherical_light},
+      {"ambient_light", write_ambient_light},   {"colour_sum", write_colour_sum},
+  };
 }
 
 }  // namespace halfway::vectors

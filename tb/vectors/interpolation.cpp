@@ -20,7 +20,7 @@ using golden::Exact, golden::Published;
 
 // A line: checked, load, start, step, increment; value, before the edge that may load or step.
 template <int W>
-Status write_line(const std::filesystem::path& folder) {
+void write_line(const Folder& folder) {
   Random random(W);
   VectorFile file;
   golden::LineInterpolator<W> twin;
@@ -33,13 +33,13 @@ Status write_line(const std::filesystem::path& folder) {
     else if (step)
       twin.step(increment);
   }
-  return file.write(folder / (std::to_string(W) + ".txt"));
+  file.write(folder / (std::to_string(W) + ".txt"));
 }
 
 // A line: checked, load, start, step, increment, carry_in; value, whether the last clock stepped, its carry,
 // before the edge that may load or step.
 template <int W>
-Status write_part(const std::filesystem::path& folder) {
+void write_part(const Folder& folder) {
   Random random(W);
   VectorFile file;
   golden::PartInterpolator<W> twin;
@@ -54,30 +54,29 @@ Status write_part(const std::filesystem::path& folder) {
     else if (step)
       twin.step(increment, carry);
   }
-  return file.write(folder / (std::to_string(W) + ".txt"));
+  file.write(folder / (std::to_string(W) + ".txt"));
 }
 
 // Writes BITS_PARTS.txt. `vector(i)` writes a vector except its first column, `checked`, which is 1 once all
 // parts hold words of the file.
 template <class Vector>
-Status write_skewed(const std::filesystem::path& folder, VectorFile& file, int bits, int parts,
-                    Vector&& vector) {
+void write_skewed(const Folder& folder, VectorFile& file, int bits, int parts, Vector&& vector) {
   for (int i = 0; i < 3000; ++i) {
     file.flag(i >= parts);
     vector(i);
     file.end_vector();
   }
-  return file.write(folder / (std::to_string(bits) + "_" + std::to_string(parts) + ".txt"));
+  file.write(folder / (std::to_string(bits) + "_" + std::to_string(parts) + ".txt"));
 }
 
 // A line: checked, load, start, step, increment; value, before the edge that may load or step.
 template <int W>
-Status write_skewed_interpolator(const std::filesystem::path& folder, int parts) {
+void write_skewed_interpolator(const Folder& folder, int parts) {
   Random random(W);
   VectorFile file;
   golden::LineInterpolator<W> twin;
   Skew skew_start(W, parts), skew_increment(W, parts), skew_value(W, parts);
-  return write_skewed(folder, file, W, parts, [&](int i) {
+  write_skewed(folder, file, W, parts, [&](int i) {
     const bool load = i == 0 || random.one_in(12), step = !load && !random.one_in(5);
     const auto start = random.word<W>(), increment = random.word<W>();
     file.flag(load).word(skew_start(start.bits()), W).flag(step).word(skew_increment(increment.bits()), W);
@@ -90,12 +89,12 @@ Status write_skewed_interpolator(const std::filesystem::path& folder, int parts)
 }
 
 // A line: checked, load, start, value, before the edge that may load. Contains two words next to each other.
-Status write_skewed_register(const std::filesystem::path& folder, int bits, int parts) {
+void write_skewed_register(const Folder& folder, int bits, int parts) {
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   golden::ParameterRegister<std::array<std::uint64_t, 2>> twin;
   std::array<Skew, 2> skew_start{Skew(bits, parts), Skew(bits, parts)}, skew_value = skew_start;
-  return write_skewed(folder, file, bits, parts, [&](int i) {
+  write_skewed(folder, file, bits, parts, [&](int i) {
     const bool load = i == 0 || random.one_in(3);
     const std::array start = {random.word(bits), random.word(bits)};
     const auto skewed = [&](std::array<Skew, 2>& skew, const std::array<std::uint64_t, 2>& words) {
@@ -109,11 +108,11 @@ Status write_skewed_register(const std::filesystem::path& folder, int bits, int 
 }
 
 // A line: checked, select_b, a, b; value, before the edge.
-Status write_skewed_multiplexer(const std::filesystem::path& folder, int bits, int parts) {
+void write_skewed_multiplexer(const Folder& folder, int bits, int parts) {
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   Skew skew_a(bits, parts), skew_b(bits, parts), skew_value(bits, parts);
-  return write_skewed(folder, file, bits, parts, [&](int) {
+  write_skewed(folder, file, bits, parts, [&](int) {
     const bool select_b = random.one_in(2);
     const std::uint64_t a = random.word(bits), b = random.word(bits);
     file.flag(select_b).word(skew_a(a), bits).word(skew_b(b), bits).word(skew_value(select_b ? b : a), bits);
@@ -121,23 +120,23 @@ Status write_skewed_multiplexer(const std::filesystem::path& folder, int bits, i
 }
 
 // A line: checked, strobe; strobes, before the edge. The strobes are a word with one bit per part.
-Status write_skewed_strobe(const std::filesystem::path& folder, int parts) {
+void write_skewed_strobe(const Folder& folder, int parts) {
   Random random(static_cast<std::uint64_t>(parts));
   VectorFile file;
   Skew skew(parts, parts);
-  return write_skewed(folder, file, 1, parts, [&](int) {
+  write_skewed(folder, file, 1, parts, [&](int) {
     const bool strobe = random.one_in(2);
     file.flag(strobe).word(skew(strobe ? golden::low_bits(~std::uint64_t{0}, parts) : 0), parts);
   });
 }
 
 // A line: checked, skewed; word, before the edge.
-Status write_deskew(const std::filesystem::path& folder, int bits, int parts) {
+void write_deskew(const Folder& folder, int bits, int parts) {
   Random random(static_cast<std::uint64_t>(bits));
   VectorFile file;
   Skew skew(bits, parts);
   std::vector<std::uint64_t> words(static_cast<std::size_t>(parts));
-  return write_skewed(folder, file, bits, parts, [&](int) {
+  write_skewed(folder, file, bits, parts, [&](int) {
     words.insert(words.begin(), random.word(bits));
     words.pop_back();
     file.word(skew(words.front()), bits).word(words.back(), bits);
@@ -163,156 +162,151 @@ Strobes random_strobes(Random& random, int i) {
           !span_load && !random.one_in(4)};
 }
 
-// The span stage loads the line stage's old value, so update it first.
-template <class Twin, class LineLoad>
-void strobe(Twin& twin, const Strobes& s, LineLoad&& line_load) {
-  if (s.span_load)
-    twin.span_load();
-  else if (s.span_step)
-    twin.span_step();
-  if (s.line_load)
-    line_load();
-  else if (s.line_step)
-    twin.line_step(s.line_carry);
+// A line: checked, init, strobes; value, before the edge. `draw(init)` draws init words, when no part of the
+// last ones is still to be loaded; `line_load(init)` loads them into the twin.
+template <int Bits, class Twin, class Draw, class LineLoad>
+void write_strobed(const std::filesystem::path& path, Random& random, int clocks, Twin& twin,
+                   const Draw& draw, const LineLoad& line_load) {
+  VectorFile file;
+  std::array<std::uint32_t, (Bits + 31) / 32> init{};
+  int held = 0;
+  for (int i = 0; i < clocks; ++i) {
+    if (held == 0) draw(init);
+    const Strobes s = random_strobes(random, i);
+    held = s.line_load ? c_held : std::max(held - 1, 0);
+    file.flag(i > 1).words_of(init, Bits);
+    file.flag(s.line_load).flag(s.line_step).flag(s.line_carry).flag(s.span_load).flag(s.span_step);
+    file.word(twin.value()).end_vector();
+    // The span stage loads the line stage's old value, so update it first.
+    if (s.span_load)
+      twin.span_load();
+    else if (s.span_step)
+      twin.span_step();
+    if (s.line_load)
+      line_load(init);
+    else if (s.line_step)
+      twin.line_step(s.line_carry);
+  }
+  file.write(path);
 }
 
-void add_strobes(VectorFile& file, const Strobes& s) {
-  file.flag(s.line_load).flag(s.line_step).flag(s.line_carry).flag(s.span_load).flag(s.span_step);
-}
-
-// A line: checked, plane, strobes; value, before the edge.
 template <int W, bool Carries>
-Status write_plane(const std::filesystem::path& path) {
+void write_plane(const std::filesystem::path& path) {
   constexpr int c_bits = (Carries ? 4 : 3) * W;
   Random random(W);
-  VectorFile file;
   golden::PlaneInterpolator<W> twin;
-  std::array<std::uint32_t, (c_bits + 31) / 32> plane{};
   std::array<golden::Word<W>, 4> words;
-  int held = 0;
-  for (int i = 0; i < 2500; ++i) {
-    for (int w = 0; held == 0 && w < 4; ++w) {
+  const auto draw = [&](auto& plane) {
+    for (int w = 0; w < 4; ++w) {
       words[static_cast<std::size_t>(w)] = random.word<W>();
       if (w * W < c_bits)
         golden::set_bits(plane, {"", w * W, W, true, 0}, words[static_cast<std::size_t>(w)].bits());
     }
-    const Strobes s = random_strobes(random, i);
-    held = s.line_load ? c_held : std::max(held - 1, 0);
-    file.flag(i > 1).words_of(plane, c_bits);
-    add_strobes(file, s);
-    file.word(twin.value()).end_vector();
-    strobe(twin, s, [&] { twin.line_load(words[0], words[1], words[2], words[Carries ? 3 : 2]); });
-  }
-  return file.write(path);
+  };
+  write_strobed<c_bits>(path, random, 2500, twin, draw, [&](const auto&) {
+    twin.line_load(words[0], words[1], words[2], words[Carries ? 3 : 2]);
+  });
 }
 
-// A line: checked, init, strobes; value, before the edge.
 template <class Preset>
-Status write_z(const std::filesystem::path& folder) {
+void write_z(const Folder& folder) {
   using At = typename Preset::init_header_at;
   Random random(40);
-  VectorFile file;
   golden::ZInterpolator<Preset> twin;
-  std::array<std::uint32_t, (Preset::c_init_header_bits + 31) / 32> init;
-  int held = 0;
-  for (int i = 0; i < 2500; ++i) {
-    if (held == 0) {
-      random.fill(init);
-      for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
-        set_bits(init, *field, random.word(field->bits));
-    }
-    const Strobes s = random_strobes(random, i);
-    held = s.line_load ? c_held : std::max(held - 1, 0);
-    file.flag(i > 1).words_of(init, Preset::c_init_header_bits);
-    add_strobes(file, s);
-    file.word(twin.value()).end_vector();
-    strobe(twin, s, [&] { twin.line_load(init); });
-  }
-  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+  const auto draw = [&](auto& init) {
+    random.fill(init);
+    for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
+      set_bits(init, *field, random.word(field->bits));
+  };
+  write_strobed<Preset::c_init_header_bits>(folder / (std::string(Preset::c_name) + ".txt"), random, 2500,
+                                            twin, draw, [&](const auto& init) { twin.line_load(init); });
 }
 
-// A line: checked, init, strobes; value, before the edge.
 template <class Preset>
-Status write_quadratic(const std::filesystem::path& folder) {
+void write_quadratic(const Folder& folder) {
   Random random(41);
-  VectorFile file;
   golden::QuadraticInterpolator<Preset> twin;
-  std::array<std::uint32_t, (Preset::c_init_channel_bits + 31) / 32> init;
-  int held = 0;
-  for (int i = 0; i < 3000; ++i) {
-    if (held == 0) {
-      random.fill(init);
-      for (const golden::Field& field : Preset::c_init_channel)
-        set_bits(init, field, random.word(field.bits));
-    }
-    const Strobes s = random_strobes(random, i);
-    held = s.line_load ? c_held : std::max(held - 1, 0);
-    file.flag(i > 1).words_of(init, Preset::c_init_channel_bits);
-    add_strobes(file, s);
-    file.word(twin.value()).end_vector();
-    strobe(twin, s, [&] { twin.line_load(init, 0); });
-  }
-  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+  const auto draw = [&](auto& init) {
+    random.fill(init);
+    for (const golden::Field& field : Preset::c_init_channel) set_bits(init, field, random.word(field.bits));
+  };
+  write_strobed<Preset::c_init_channel_bits>(folder / (std::string(Preset::c_name) + ".txt"), random, 3000,
+                                             twin, draw, [&](const auto& init) { twin.line_load(init, 0); });
+}
+
+void write_line_interpolator(const Folder& folder) {
+  write_line<3>(folder);
+  write_line<Published::c_intensity_bits>(folder);
+  write_line<Exact::c_intensity_bits>(folder);
+}
+
+void write_part_interpolator(const Folder& folder) {
+  write_part<3>(folder);
+  write_part<Published::c_intensity_bits / 2>(folder);
+  write_part<Exact::c_intensity_bits / 2>(folder);
+}
+
+void write_skewed_interpolator(const Folder& folder) {
+  write_skewed_interpolator<7>(folder, 3);
+  write_skewed_interpolator<Published::c_intensity_bits>(folder, 1);
+  write_skewed_interpolator<Exact::c_intensity_bits>(folder, 2);
+}
+
+void write_skewed_register(const Folder& folder) {
+  write_skewed_register(folder, 7, 3);
+  write_skewed_register(folder, 32, 1);
+  write_skewed_register(folder, 20, 2);
+}
+
+void write_skewed_multiplexer(const Folder& folder) {
+  write_skewed_multiplexer(folder, 7, 3);
+  write_skewed_multiplexer(folder, 32, 1);
+  write_skewed_multiplexer(folder, 40, 2);
+}
+
+void write_skewed_strobe(const Folder& folder) {
+  write_skewed_strobe(folder, 1);
+  write_skewed_strobe(folder, 2);
+  write_skewed_strobe(folder, 3);
+}
+
+void write_deskew(const Folder& folder) {
+  write_deskew(folder, 7, 3);
+  write_deskew(folder, 32, 1);
+  write_deskew(folder, 40, 2);
+}
+
+void write_plane_interpolator(const Folder& folder) {
+  write_plane<Exact::c_plane_sum_bits, true>(folder / "exact.txt");
+  write_plane<Published::c_plane_sum_bits, true>(folder / "published.txt");
+  write_plane<7, false>(folder / "without_carry.txt");
+}
+
+void write_z_interpolator(const Folder& folder) {
+  write_z<Exact>(folder);
+  write_z<Published>(folder);
+}
+
+void write_quadratic_interpolator(const Folder& folder) {
+  write_quadratic<Exact>(folder);
+  write_quadratic<Published>(folder);
 }
 
 }  // namespace
 
-Status write_line_interpolator(const std::filesystem::path& folder) {
-  if (auto s = write_line<3>(folder); !s) return s;
-  if (auto s = write_line<Published::c_intensity_bits>(folder); !s) return s;
-  return write_line<Exact::c_intensity_bits>(folder);
-}
-
-Status write_part_interpolator(const std::filesystem::path& folder) {
-  if (auto s = write_part<3>(folder); !s) return s;
-  if (auto s = write_part<Published::c_intensity_bits / 2>(folder); !s) return s;
-  return write_part<Exact::c_intensity_bits / 2>(folder);
-}
-
-Status write_skewed_interpolator(const std::filesystem::path& folder) {
-  if (auto s = write_skewed_interpolator<7>(folder, 3); !s) return s;
-  if (auto s = write_skewed_interpolator<Published::c_intensity_bits>(folder, 1); !s) return s;
-  return write_skewed_interpolator<Exact::c_intensity_bits>(folder, 2);
-}
-
-Status write_skewed_register(const std::filesystem::path& folder) {
-  if (auto s = write_skewed_register(folder, 7, 3); !s) return s;
-  if (auto s = write_skewed_register(folder, 32, 1); !s) return s;
-  return write_skewed_register(folder, 20, 2);
-}
-
-Status write_skewed_multiplexer(const std::filesystem::path& folder) {
-  if (auto s = write_skewed_multiplexer(folder, 7, 3); !s) return s;
-  if (auto s = write_skewed_multiplexer(folder, 32, 1); !s) return s;
-  return write_skewed_multiplexer(folder, 40, 2);
-}
-
-Status write_skewed_strobe(const std::filesystem::path& folder) {
-  if (auto s = write_skewed_strobe(folder, 1); !s) return s;
-  if (auto s = write_skewed_strobe(folder, 2); !s) return s;
-  return write_skewed_strobe(folder, 3);
-}
-
-Status write_deskew(const std::filesystem::path& folder) {
-  if (auto s = write_deskew(folder, 7, 3); !s) return s;
-  if (auto s = write_deskew(folder, 32, 1); !s) return s;
-  return write_deskew(folder, 40, 2);
-}
-
-Status write_plane_interpolator(const std::filesystem::path& folder) {
-  if (auto s = write_plane<Exact::c_plane_sum_bits, true>(folder / "exact.txt"); !s) return s;
-  if (auto s = write_plane<Published::c_plane_sum_bits, true>(folder / "published.txt"); !s) return s;
-  return write_plane<7, false>(folder / "without_carry.txt");
-}
-
-Status write_z_interpolator(const std::filesystem::path& folder) {
-  if (auto s = write_z<Exact>(folder); !s) return s;
-  return write_z<Published>(folder);
-}
-
-Status write_quadratic_interpolator(const std::filesystem::path& folder) {
-  if (auto s = write_quadratic<Exact>(folder); !s) return s;
-  return write_quadratic<Published>(folder);
+std::vector<Entity> interpolation_entities() {
+  return {
+      {"line_interpolator", write_line_interpolator},
+      {"part_interpolator", write_part_interpolator},
+      {"skewed_strobe", write_skewed_strobe},
+      {"skewed_register", write_skewed_register},
+      {"skewed_multiplexer", write_skewed_multiplexer},
+      {"deskew", write_deskew},
+      {"skewed_interpolator", write_skewed_interpolator},
+      {"plane_interpolator", write_plane_interpolator},
+      {"z_interpolator", write_z_interpolator},
+      {"quadratic_interpolator", write_quadratic_interpolator},
+  };
 }
 
 }  // namespace halfway::vectors

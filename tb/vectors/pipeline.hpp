@@ -56,7 +56,7 @@ class Pipeline {
   /// An input changes that must be stable while words are in the stages: the words in the stages are not
   /// checked.
   void restart() { due_ = golden::DelayLine<Flat>(latency_); }
-  Status write(const std::filesystem::path& path) const { return file_.write(path); }
+  void write(const std::filesystem::path& path) const { return file_.write(path); }
 
  private:
   VectorFile file_;

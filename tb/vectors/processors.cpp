@@ -24,8 +24,7 @@ constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
 
 // A line: token; the output token, fault afterwards.
 template <class Preset>
-Status write_processor(const std::filesystem::path& folder, const Processor& processor, int tokens,
-                       bool faults) {
+void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults) {
   const auto& [config, term, light] = processor;
   const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits * 8 + static_cast<int>(term) * 3 + light));
@@ -45,16 +44,15 @@ Status write_processor(const std::filesystem::path& folder, const Processor& pro
     twin.process(words);
     file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
   }
-  return file.write(folder / (name_of<Preset>(processor) + ".txt"));
+  file.write(folder / (name_of<Preset>(processor) + ".txt"));
 }
 
 template <class Preset>
-Status write_processors(const std::filesystem::path& folder, int tokens) {
+void write_processors(const Folder& folder, int tokens) {
   for (const Processor& processor : processors()) {
     const bool faults = processor.light == 1 && processor.term == Term::diffuse;
-    if (auto s = write_processor<Preset>(folder, processor, tokens, faults); !s) return s;
+    write_processor<Preset>(folder, processor, tokens, faults);
   }
-  return Ok{};
 }
 
 // Tokens for the parts of a processor: one configuration with several lights.
@@ -73,7 +71,7 @@ Flat flat_terms(const golden::Terms& terms) {
 
 // Inputs: light, token; of the output token: terms, N, view vector (published: 0).
 template <class Preset>
-Status write_ambient_term_of(const std::filesystem::path& folder) {
+void write_ambient_term_of(const Folder& folder) {
   constexpr bool c_exact = golden::ProcessorsLayout<Preset>::c_exact;
   const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), 5);
@@ -96,12 +94,12 @@ Status write_ambient_term_of(const std::filesystem::path& folder) {
         result.add(static_cast<std::uint64_t>(component), Preset::c_direction_bits);
     pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
   }
-  return pipeline.write(folder / fmt::format("{}.txt", Preset::c_name));
+  pipeline.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
 // Inputs: light, token; above, terms (0 if the light is not above the horizon).
 template <class Preset>
-Status write_light_term_of(const std::filesystem::path& folder, Term term, int light_number, int latency) {
+void write_light_term_of(const Folder& folder, Term term, int light_number, int latency) {
   const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), static_cast<std::uint64_t>(latency));
   const golden::LightTerm<Preset> twin(part_config(), term, light_number);
@@ -122,14 +120,13 @@ Status write_light_term_of(const std::filesystem::path& folder, Term term, int l
       result.add(t, Preset::c_reflected_bits + Preset::c_weight_bits);
     pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
   }
-  return pipeline.write(folder /
-                        fmt::format("{}_{}{}.txt", Preset::c_name, static_cast<int>(term), light_number));
+  pipeline.write(folder / fmt::format("{}_{}{}.txt", Preset::c_name, static_cast<int>(term), light_number));
 }
 
 // A line: token; object, changes; after the token was accepted: defined, light (valid if defined), lit (valid
 // if object and defined), fault.
 template <class Preset>
-Status write_light_state_of(const std::filesystem::path& folder) {
+void write_light_state_of(const Folder& folder) {
   constexpr int c_tokens = 1500;
   constexpr std::uint32_t c_light = 2;
   const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
@@ -150,12 +147,12 @@ Status write_light_state_of(const std::filesystem::path& folder) {
     file.words_of(words, bits).flag(token.is_object()).flag(changes).flag(twin.defined());
     file.words_of(light.words, light.bits).flag(lit).flag(twin.fault()).end_vector();
   }
-  return file.write(folder / fmt::format("{}.txt", Preset::c_name));
+  file.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
 // A line: token, comes; the output object (valid if comes), fault afterwards.
 template <class Preset>
-Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfig& config, bool faults) {
+void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool faults) {
   constexpr int c_tokens = 240;
   const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits));
@@ -175,29 +172,25 @@ Status write_pipeline(const std::filesystem::path& folder, const ProcessorsConfi
     if (comes) token.encode(config, words);
     file.words_of(words, bits).flag(twin.fault()).end_vector();
   }
-  return file.write(folder / (name_of<Preset>(config) + ".txt"));
+  file.write(folder / (name_of<Preset>(config) + ".txt"));
 }
 
 template <class Preset>
-Status write_pipelines(const std::filesystem::path& folder) {
+void write_pipelines(const Folder& folder) {
   // The list of tb/shaders/shading_pipeline_tb.vhd.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
                                       {3, 0, 0, 0, false, false, true, false}};
-  for (const ProcessorsConfig& config : configs)
-    if (auto s = write_pipeline<Preset>(folder, config, config.shadows); !s) return s;
-  return Ok{};
+  for (const ProcessorsConfig& config : configs) write_pipeline<Preset>(folder, config, config.shadows);
 }
 
-}  // namespace
-
-Status write_ambient_term(const std::filesystem::path& folder) {
-  if (auto s = write_ambient_term_of<Exact>(folder); !s) return s;
-  return write_ambient_term_of<Published>(folder);
+void write_ambient_term(const Folder& folder) {
+  write_ambient_term_of<Exact>(folder);
+  write_ambient_term_of<Published>(folder);
 }
 
-Status write_light_term(const std::filesystem::path& folder) {
+void write_light_term(const Folder& folder) {
   struct Case {
     Term term;
     int light, exact, published;  // clocks
@@ -207,20 +200,19 @@ Status write_light_term(const std::filesystem::path& folder) {
                               {Term::diffuse, 2, 13, 9},  {Term::specular, 2, 27, 10},
                               {Term::diffuse, 3, 17, 13}, {Term::specular, 3, 28, 13}};
   for (const Case& c : c_cases) {
-    if (auto s = write_light_term_of<Exact>(folder, c.term, c.light, c.exact); !s) return s;
-    if (auto s = write_light_term_of<Published>(folder, c.term, c.light, c.published); !s) return s;
+    write_light_term_of<Exact>(folder, c.term, c.light, c.exact);
+    write_light_term_of<Published>(folder, c.term, c.light, c.published);
   }
-  return Ok{};
 }
 
-Status write_light_state(const std::filesystem::path& folder) {
-  if (auto s = write_light_state_of<Exact>(folder); !s) return s;
-  return write_light_state_of<Published>(folder);
+void write_light_state(const Folder& folder) {
+  write_light_state_of<Exact>(folder);
+  write_light_state_of<Published>(folder);
 }
 
 // A line: reset, step, clear, counts, opens, takes, x, around_eye for the previous column, clocks until
 // ready; then, before the edge: counted, lit (valid if counted), fault.
-Status write_shadow_counter(const std::filesystem::path& folder) {
+void write_shadow_counter(const Folder& folder) {
   constexpr int c_columns = 1 << Exact::c_pixel_x_bits;
   constexpr int c_most = (1 << (Exact::c_shadow_count_bits - 1)) - 1;
   Random random(9);
@@ -301,18 +293,32 @@ Status write_shadow_counter(const std::filesystem::path& folder) {
       line(false, true, false, counts, opens, false, 100);
   }
   for (int i = 0; i < 3; ++i) line(false, false, false, false, false, false, 0);
-  return file.write(folder / "columns.txt");
+  file.write(folder / "columns.txt");
 }
 
-Status write_shading_processor(const std::filesystem::path& folder) {
+void write_shading_processor(const Folder& folder) {
   constexpr int c_tokens = 280;
-  if (auto s = write_processors<Exact>(folder, c_tokens); !s) return s;
-  return write_processors<Published>(folder, c_tokens);
+  write_processors<Exact>(folder, c_tokens);
+  write_processors<Published>(folder, c_tokens);
 }
 
-Status write_shading_pipeline(const std::filesystem::path& folder) {
-  if (auto s = write_pipelines<Exact>(folder); !s) return s;
-  return write_pipelines<Published>(folder);
+void write_shading_pipeline(const Folder& folder) {
+  write_pipelines<Exact>(folder);
+  write_pipelines<Published>(folder);
+}
+
+}  // namespace
+
+std::vector<Entity> processors_entities() {
+  return {
+      {"shadow_counter", write_shadow_counter},
+      {"ambient_term", write_ambient_term},
+      {"light_term", write_light_term},
+      {"light_state", write_light_state},
+      {"shading_processor", write_shading_processor},
+      {"unrolled_shading_processor", write_shading_processor},
+      {"shading_pipeline", write_shading_pipeline},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -127,20 +127,20 @@ class Host {
   bool fault() const { return twin_.fault(); }
 
   // Files of the testbenches of the shader's parts.
-  Status write_rasterizer(const std::filesystem::path& folder) const {
-    if (auto s = triangles_.write(folder / (name_of<Preset>(p_.config) + "_init.txt")); !s) return s;
+  void write_rasterizer(const Folder& folder) const {
+    triangles_.write(folder / (name_of<Preset>(p_.config) + "_init.txt"));
     return tokens_.write(folder / (name_of<Preset>(p_.config) + "_tokens.txt"));
   }
-  Status write_order(const std::filesystem::path& folder) const {
+  void write_order(const Folder& folder) const {
     return ordered_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
   }
-  Status write_output(const std::filesystem::path& folder) const {
+  void write_output(const Folder& folder) const {
     return shaded_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
   }
-  Status write(const std::filesystem::path& folder, const char* set) {
+  void write(const Folder& folder, const char* set) {
     const std::string stem = fmt::format("{}_{}", p_.name, set);
-    if (fragments_.size() == 0) return tool_failed(stem + ": no fragment");
-    if (auto s = inits_.write(folder / (stem + "_init.txt")); !s) return s;
+    if (fragments_.size() == 0) throw Failure{tool_failed(stem + ": no fragment")};
+    inits_.write(folder / (stem + "_init.txt"));
     return fragments_.write(folder / (stem + "_fragments.txt"));
   }
 
@@ -337,59 +337,67 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
 // The parts of the shader with all words of tokens and with shadows, in both presets.
 // tb/tb_processors_pkg.vhd has the same list.
 template <class Write>
-Status write_parts(const Write& write) {
+void write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
     Host<Exact> host(c_exact_processors[i]);
     draw_set(host, c_exact_processors[i], Mix::mixed);
     host.draw_again();
-    if (auto s = write(host); !s) return s;
+    write(host);
   }
   Host<Published> host(c_published_processors[0]);
   draw_set(host, c_published_processors[0], Mix::mixed);
   host.draw_again();
-  return write(host);
+  write(host);
 }
 
 template <class Preset>
-Status write_set(const std::filesystem::path& folder, const Processors& processors, const char* set) {
+void write_set(const Folder& folder, const Processors& processors, const char* set) {
   Host<Preset> host(processors);
   if (set == std::string_view("fault")) {
     host.go_wrong();
-    if (!host.fault()) return tool_failed(fmt::format("{}: nothing went wrong", processors.name));
+    if (!host.fault()) throw Failure{tool_failed(fmt::format("{}: nothing went wrong", processors.name))};
     return host.write(folder, set);
   }
   draw_set(host, processors, set == std::string_view("dense") ? Mix::dense : Mix::mixed);
-  if (host.fault()) return tool_failed(fmt::format("{}: a fault in the set {}", processors.name, set));
+  if (host.fault())
+    throw Failure{tool_failed(fmt::format("{}: a fault in the set {}", processors.name, set))};
   return host.write(folder, set);
 }
 
 template <class Preset>
-Status write_all(const std::filesystem::path& folder, std::span<const Processors> shaders) {
+void write_all(const Folder& folder, std::span<const Processors> shaders) {
   for (const Processors& processors : shaders)
     for (const char* set : {"dense", "mixed", "fault"}) {
       if (set == std::string_view("fault") && !processors.config.shadows) continue;
-      if (auto s = write_set<Preset>(folder, processors, set); !s) return s;
+      write_set<Preset>(folder, processors, set);
     }
-  return Ok{};
+}
+
+void write_token_rasterizer(const Folder& folder) {
+  write_parts([&](const auto& host) { return host.write_rasterizer(folder); });
+}
+
+void write_token_order(const Folder& folder) {
+  write_parts([&](const auto& host) { return host.write_order(folder); });
+}
+
+void write_fragment_output(const Folder& folder) {
+  write_parts([&](const auto& host) { return host.write_output(folder); });
+}
+
+void write_processors_shader(const Folder& folder) {
+  write_all<Exact>(folder, c_exact_processors);
+  write_all<Published>(folder, c_published_processors);
 }
 
 }  // namespace
 
-Status write_token_rasterizer(const std::filesystem::path& folder) {
-  return write_parts([&](const auto& host) { return host.write_rasterizer(folder); });
-}
-
-Status write_token_order(const std::filesystem::path& folder) {
-  return write_parts([&](const auto& host) { return host.write_order(folder); });
-}
-
-Status write_fragment_output(const std::filesystem::path& folder) {
-  return write_parts([&](const auto& host) { return host.write_output(folder); });
-}
-
-Status write_processors_shader(const std::filesystem::path& folder) {
-  if (auto s = write_all<Exact>(folder, c_exact_processors); !s) return s;
-  return write_all<Published>(folder, c_published_processors);
+std::vector<Entity> processors_shader_entities() {
+  return {
+      {"token_rasterizer", write_token_rasterizer}, {"token_order", write_token_order},
+      {"fragment_output", write_fragment_output},   {"processors_shader", write_processors_shader},
+      {"processors_axi", write_processors_shader},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -56,10 +56,10 @@ struct WalkFiles {
       fragments.word(static_cast<std::uint64_t>(first + i), 32).end_vector();
     }
   }
-  Status write(const std::filesystem::path& folder, const std::string& stem) const {
-    if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
-    if (auto s = lines.write(folder / (stem + "_lines.txt")); !s) return s;
-    return fragments.write(folder / (stem + "_fragments.txt"));
+  void write(const Folder& folder, const std::string& stem) const {
+    inits.write(folder / (stem + "_init.txt"));
+    lines.write(folder / (stem + "_lines.txt"));
+    fragments.write(folder / (stem + "_fragments.txt"));
   }
 };
 
@@ -88,7 +88,7 @@ std::vector<InitVector> walker_triangles(Random& random, Mix mix) {
 // init: the header, and the clock in which it is accepted at full speed. Clocks count from the first accepted
 // init vector, one clock before its triangle starts.
 template <class Preset>
-Status write_walker(const std::filesystem::path& folder) {
+void write_walker(const Folder& folder) {
   Random random(Preset::c_init_header_bits);
   for (const auto& [mix, name] : {std::pair{Mix::dense, "dense"}, {Mix::mixed, "mixed"}}) {
     WalkFiles files;
@@ -110,18 +110,18 @@ Status write_walker(const std::filesystem::path& folder) {
       // Check the promise in the header of triangle_walker.vhd: a triangle takes at least two clocks.
       if (const std::int64_t lost = losses.triangle(first_clock, pixels);
           mix == Mix::dense && (lost < 0 || lost > (pixels_before == 1 ? 1 : 0)))
-        return tool_failed(fmt::format("triangle_walker: {} clocks lost before clock {}", lost, first_clock));
+        throw Failure{
+            tool_failed(fmt::format("triangle_walker: {} clocks lost before clock {}", lost, first_clock))};
       pixels_before = pixels;
     }
-    if (auto s = files.write(folder, std::string(Preset::c_name) + '_' + name); !s) return s;
+    files.write(folder, std::string(Preset::c_name) + '_' + name);
   }
-  return Ok{};
 }
 
 // A line: reset, init_valid, init, advance; init_ready, step, load, section_change, valid, first, triangle,
 // y, before the clock's edge.
 template <class Preset>
-Status write_counter(const std::filesystem::path& folder) {
+void write_counter(const Folder& folder) {
   Random random(61);
   VectorFile file;
   for (const Mix mix : {Mix::dense, Mix::mixed}) {
@@ -154,14 +154,14 @@ Status write_counter(const std::filesystem::path& folder) {
       if (reset) valid = first = false;
     }
   }
-  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+  file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
 
 // A line: checked, load, init, section_change, step; empty, start, stop, remaining, backward, carry, before
 // the clock's edge. While load or section_change waits for its step, init may differ from the init vector
 // that is loaded.
 template <class Preset>
-Status write_pair(const std::filesystem::path& folder) {
+void write_pair(const Folder& folder) {
   Random random(62);
   VectorFile file;
   golden::EdgePair<Preset> twin;
@@ -193,7 +193,7 @@ Status write_pair(const std::filesystem::path& folder) {
       lines.step();
     }
   }
-  return file.write(folder / (std::string(Preset::c_name) + ".txt"));
+  file.write(folder / (std::string(Preset::c_name) + ".txt"));
 }
 
 // A line record as in line_pkg, with random words.
@@ -221,7 +221,7 @@ struct LineRecord {
 
 // In: clear, token. Out: the output tokens.
 template <class Preset>
-Status write_objects(const std::filesystem::path& folder) {
+void write_objects(const Folder& folder) {
   using At = typename Preset::pixel_header_at;
   using golden::Command;
   constexpr int c_bits = Preset::c_pixel_header_bits + 37;
@@ -276,14 +276,12 @@ Status write_objects(const std::filesystem::path& folder) {
     for (int round = 0; round < 2; ++round)
       for (const Span& s : drawn) put(Command::draw, s.x, s.z, s.triangle);
   }
-  if (auto s = in.write(folder / (std::string(Preset::c_name) + "_in.txt")); !s) return s;
-  return out.write(folder / (std::string(Preset::c_name) + "_out.txt"));
+  in.write(folder / (std::string(Preset::c_name) + "_in.txt"));
+  out.write(folder / (std::string(Preset::c_name) + "_out.txt"));
 }
 
-}  // namespace
-
 // A line: checked, load, x, quotient, remainder, divisor, error, carry, step; x, carry, before the edge.
-Status write_edge_walker(const std::filesystem::path& folder) {
+void write_edge_walker(const Folder& folder) {
   Random random(14);
   VectorFile file;
   golden::EdgeWalker twin;
@@ -311,11 +309,11 @@ Status write_edge_walker(const std::filesystem::path& folder) {
       twin.step();
     }
   }
-  return file.write(folder / "edges.txt");
+  file.write(folder / "edges.txt");
 }
 
 // A line: checked, load, x, slope, step; x, before the edge. Random words, so that sums wrap.
-Status write_slope_walker(const std::filesystem::path& folder) {
+void write_slope_walker(const Folder& folder) {
   using EdgeX = golden::SlopeWalker::EdgeX;
   Random random(15);
   VectorFile file;
@@ -339,22 +337,22 @@ Status write_slope_walker(const std::filesystem::path& folder) {
       twin.step();
     }
   }
-  return file.write(folder / "edges.txt");
+  file.write(folder / "edges.txt");
 }
 
-Status write_line_counter(const std::filesystem::path& folder) {
-  if (auto s = write_counter<Exact>(folder); !s) return s;
-  return write_counter<Published>(folder);
+void write_line_counter(const Folder& folder) {
+  write_counter<Exact>(folder);
+  write_counter<Published>(folder);
 }
 
-Status write_edge_pair(const std::filesystem::path& folder) {
-  if (auto s = write_pair<Exact>(folder); !s) return s;
-  return write_pair<Published>(folder);
+void write_edge_pair(const Folder& folder) {
+  write_pair<Exact>(folder);
+  write_pair<Published>(folder);
 }
 
 // A line: reset, enable, in_valid, in_line, line_ready, span_last_next; advance, step, span_load, valid,
 // line, before the clock's edge.
-Status write_line_stage(const std::filesystem::path& folder) {
+void write_line_stage(const Folder& folder) {
   Random random(63);
   VectorFile file;
   bool valid = false, span_last = true;
@@ -382,12 +380,12 @@ Status write_line_stage(const std::filesystem::path& folder) {
     if (reset) valid = false;
     span_last = span_last_next;
   }
-  return file.write(folder / "lines.txt");
+  file.write(folder / "lines.txt");
 }
 
 // A line: reset, enable, load, line; last_next, valid, triangle, y, x, before the clock's edge. Spans of up
 // to six pixels, and a few of any length.
-Status write_span_stage(const std::filesystem::path& folder) {
+void write_span_stage(const Folder& folder) {
   Random random(64);
   VectorFile file;
   LineRecord line{};
@@ -419,17 +417,28 @@ Status write_span_stage(const std::filesystem::path& folder) {
     file.flag(last()).flag(shown_valid).word(shown.triangle, Exact::c_triangle_bits);
     file.word(shown.y, Exact::c_pixel_y_bits).word(x, Exact::c_span_x_bits).end_vector();
   }
-  return file.write(folder / "spans.txt");
+  file.write(folder / "spans.txt");
 }
 
-Status write_object_stage(const std::filesystem::path& folder) {
-  if (auto s = write_objects<Exact>(folder); !s) return s;
-  return write_objects<Published>(folder);
+void write_object_stage(const Folder& folder) {
+  write_objects<Exact>(folder);
+  write_objects<Published>(folder);
 }
 
-Status write_triangle_walker(const std::filesystem::path& folder) {
-  if (auto s = write_walker<Exact>(folder); !s) return s;
-  return write_walker<Published>(folder);
+void write_triangle_walker(const Folder& folder) {
+  write_walker<Exact>(folder);
+  write_walker<Published>(folder);
+}
+
+}  // namespace
+
+std::vector<Entity> raster_entities() {
+  return {
+      {"edge_walker", write_edge_walker},   {"slope_walker", write_slope_walker},
+      {"object_stage", write_object_stage}, {"line_counter", write_line_counter},
+      {"edge_pair", write_edge_pair},       {"line_stage", write_line_stage},
+      {"span_stage", write_span_stage},     {"triangle_walker", write_triangle_walker},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -76,7 +76,7 @@ class QuadraticClock {
 };
 
 template <class Preset, int Channels, int Degree>
-Status write_quadratic(const std::filesystem::path& folder) {
+void write_quadratic(const Folder& folder) {
   using Shader = golden::QuadraticShader<Preset, Channels, Degree>;
   Random random(Shader::c_init_bits);
   for (const auto& [mix, name] : c_sets) {
@@ -101,8 +101,8 @@ Status write_quadratic(const std::filesystem::path& folder) {
         const auto pixels = static_cast<std::int64_t>(clocks.size());
         const std::int64_t lost = losses.triangle(clocks.front(), pixels);
         if (lost < 0 || lost > may_lose)
-          return tool_failed(
-              fmt::format("quadratic_shader: {} clocks lost before clock {}", lost, clocks.front()));
+          throw Failure{tool_failed(
+              fmt::format("quadratic_shader: {} clocks lost before clock {}", lost, clocks.front()))};
         may_lose = QuadraticClock::may_lose(pixels);
       }
       auto at = clocks.begin();
@@ -110,10 +110,9 @@ Status write_quadratic(const std::filesystem::path& folder) {
     }
     const std::string stem =
         std::string(Preset::c_name) + std::to_string(Channels) + (Degree == 1 ? "_planes_" : "_") + name;
-    if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
-    if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
+    inits.write(folder / (stem + "_init.txt"));
+    fragments.write(folder / (stem + "_fragments.txt"));
   }
-  return Ok{};
 }
 
 // A configuration of the spherical shader. tb/shaders/spherical_shader_tb.vhd has the same list.
@@ -154,7 +153,7 @@ InitVector random_record(const golden::SphericalConfig& config, Random& random) 
 }
 
 template <class Preset>
-Status write_spherical(const std::filesystem::path& folder, const Spherical& spherical) {
+void write_spherical(const Folder& folder, const Spherical& spherical) {
   using Shader = golden::SphericalShader<Preset>;
   const golden::SphericalLayout<Preset> layout(spherical.config);
   // Choose the seed so that the first triangle of each set covers a pixel on its first line: the checker
@@ -191,8 +190,8 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
         for (std::int64_t i = 0; i < line.pixels(); ++i) clocks.push_back(first + i);
       }
       if (twin.group(group) * twin.init_words() != group.size())
-        return tool_failed(fmt::format("{}: a group of {} vectors, expected {}", spherical.name,
-                                       twin.group(group), group.size() / twin.init_words()));
+        throw Failure{tool_failed(fmt::format("{}: a group of {} vectors, expected {}", spherical.name,
+                                              twin.group(group), group.size() / twin.init_words()))};
       // Check the promise in the header of spherical_shader.vhd.
       for (std::size_t i = 0; mix == Mix::dense && i < clocks.size(); ++i) {
         const std::int64_t lost = given == 0 ? 0 : clocks[i] - given - 1;
@@ -203,8 +202,8 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
                                   : pixels_before == 1        ? 1
                                                               : 0;
         if (lost < 0 || lost > most || (layout.record_bits() != 0 && given != 0 && lost != most))
-          return tool_failed(
-              fmt::format("{}: {} clocks lost before clock {}", spherical.name, lost, clocks[i]));
+          throw Failure{tool_failed(
+              fmt::format("{}: {} clocks lost before clock {}", spherical.name, lost, clocks[i]))};
         given = clocks[i];
       }
       last_pixels = lines.back().pixels();
@@ -213,30 +212,35 @@ Status write_spherical(const std::filesystem::path& folder, const Spherical& sph
       twin.draw(group, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); });
     }
     const std::string stem = std::string(spherical.name) + '_' + name;
-    if (auto s = inits.write(folder / (stem + "_init.txt")); !s) return s;
-    if (auto s = fragments.write(folder / (stem + "_fragments.txt")); !s) return s;
+    inits.write(folder / (stem + "_init.txt"));
+    fragments.write(folder / (stem + "_fragments.txt"));
   }
-  return Ok{};
+}
+
+void write_quadratic_shader(const Folder& folder) {
+  write_quadratic<Exact, 3, 2>(folder);
+  write_quadratic<Exact, 1, 2>(folder);
+  write_quadratic<Published, 3, 2>(folder);
+  write_quadratic<Published, 1, 2>(folder);
+  write_quadratic<Exact, 3, 1>(folder);
+  write_quadratic<Exact, 1, 1>(folder);
+  write_quadratic<Published, 3, 1>(folder);
+}
+
+void write_spherical_shader(const Folder& folder) {
+  for (const Spherical& spherical : c_exact_spherical) write_spherical<Exact>(folder, spherical);
+  for (const Spherical& spherical : c_published_spherical) write_spherical<Published>(folder, spherical);
 }
 
 }  // namespace
 
-Status write_quadratic_shader(const std::filesystem::path& folder) {
-  if (auto s = write_quadratic<Exact, 3, 2>(folder); !s) return s;
-  if (auto s = write_quadratic<Exact, 1, 2>(folder); !s) return s;
-  if (auto s = write_quadratic<Published, 3, 2>(folder); !s) return s;
-  if (auto s = write_quadratic<Published, 1, 2>(folder); !s) return s;
-  if (auto s = write_quadratic<Exact, 3, 1>(folder); !s) return s;
-  if (auto s = write_quadratic<Exact, 1, 1>(folder); !s) return s;
-  return write_quadratic<Published, 3, 1>(folder);
-}
-
-Status write_spherical_shader(const std::filesystem::path& folder) {
-  for (const Spherical& spherical : c_exact_spherical)
-    if (auto s = write_spherical<Exact>(folder, spherical); !s) return s;
-  for (const Spherical& spherical : c_published_spherical)
-    if (auto s = write_spherical<Published>(folder, spherical); !s) return s;
-  return Ok{};
+std::vector<Entity> shaders_entities() {
+  return {
+      {"quadratic_shader", write_quadratic_shader},
+      {"spherical_shader", write_spherical_shader},
+      {"quadratic_axi", write_quadratic_shader},
+      {"spherical_axi", write_spherical_shader},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -27,7 +27,7 @@ std::string file_of() {
 
 // Inputs: address.
 template <class Preset>
-Status write_function_rom(const std::filesystem::path& folder, golden::Function function) {
+void write_function_rom(const Folder& folder, golden::Function function) {
   const golden::FunctionTable& table = golden::function_table<Preset>(function);
   Random random(static_cast<std::uint64_t>(table.value_bits));
   Pipeline pipeline(1);
@@ -41,11 +41,11 @@ Status write_function_rom(const std::filesystem::path& folder, golden::Function 
   for (std::uint32_t address = 0; address < entries; ++address) add(true, address);
   for (std::uint32_t i = 0; i < entries; ++i)
     add(random.one_in(2), static_cast<std::uint32_t>(random.bits(table.address_bits)));
-  return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, static_cast<int>(function)));
+  pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, static_cast<int>(function)));
 }
 
 // Inputs: a, b.
-Status write_dot_product_of(const std::filesystem::path& folder, int bits) {
+void write_dot_product_of(const Folder& folder, int bits) {
   Random random(static_cast<std::uint64_t>(bits));
   Pipeline pipeline(1);
   run(random, [&](bool enable) {
@@ -53,11 +53,11 @@ Status write_dot_product_of(const std::filesystem::path& folder, int bits) {
     const auto sum = static_cast<std::uint64_t>(golden::dot_product(a, b));
     pipeline.clock(enable, {flat(a, bits), flat(b, bits)}, {sum, 2 * bits + 1});
   });
-  return pipeline.write(folder / fmt::format("{}.txt", bits));
+  pipeline.write(folder / fmt::format("{}.txt", bits));
 }
 
 // Inputs: a, b.
-Status write_vector_multiply_of(const std::filesystem::path& folder, int a_bits, int b_bits) {
+void write_vector_multiply_of(const Folder& folder, int a_bits, int b_bits) {
   Random random(static_cast<std::uint64_t>(a_bits + b_bits));
   Pipeline pipeline(1);
   run(random, [&](bool enable) {
@@ -65,7 +65,7 @@ Status write_vector_multiply_of(const std::filesystem::path& folder, int a_bits,
     pipeline.clock(enable, {flat(a, a_bits), flat(b, b_bits)},
                    flat(golden::vector_multiply(a, b), a_bits + b_bits));
   });
-  return pipeline.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
+  pipeline.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
 }
 
 // Each shift, for each component and both signs; then vectors of any kind.
@@ -84,7 +84,7 @@ void run_axes(Random& random, const Add& add) {
 
 // Inputs: components.
 template <int VectorBits, int ResultBits>
-Status write_vector_shift_of(const std::filesystem::path& folder) {
+void write_vector_shift_of(const Folder& folder) {
   Random random(VectorBits + ResultBits);
   Pipeline pipeline(1);
   const auto add = [&](bool enable, const Axes& v) {
@@ -98,24 +98,24 @@ Status write_vector_shift_of(const std::filesystem::path& folder) {
         for (std::int64_t z = -c_half; z < c_half; ++z) add(true, {x, y, z});
   }
   run_axes<VectorBits>(random, add);
-  return pipeline.write(folder / fmt::format("{}_{}.txt", VectorBits, ResultBits));
+  pipeline.write(folder / fmt::format("{}_{}.txt", VectorBits, ResultBits));
 }
 
 // Inputs: components.
 template <class Preset, int VectorBits>
-Status write_unit_vector_of(const std::filesystem::path& folder, int latency) {
+void write_unit_vector_of(const Folder& folder, int latency) {
   Random random(VectorBits);
   Pipeline pipeline(latency);
   run_axes<VectorBits>(random, [&](bool enable, const Axes& v) {
     pipeline.clock(enable, {flat(v, VectorBits)},
                    flat(golden::normalized<Preset, VectorBits>(v), Preset::c_direction_bits));
   });
-  return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, VectorBits));
+  pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, VectorBits));
 }
 
 // Inputs: square.
 template <class Preset>
-Status write_reciprocal_root_of(const std::filesystem::path& folder, int latency) {
+void write_reciprocal_root_of(const Folder& folder, int latency) {
   constexpr int c_bits = Preset::c_square_bits;
   Random random(c_bits);
   Pipeline pipeline(latency);
@@ -134,12 +134,12 @@ Status write_reciprocal_root_of(const std::filesystem::path& folder, int latency
     for (int bit = 0; bit < c_bits; ++bit) add(true, std::uint64_t{1} << bit);
   }
   run(random, [&](bool enable) { add(enable, random.word(c_bits)); });
-  return pipeline.write(folder / file_of<Preset>());
+  pipeline.write(folder / file_of<Preset>());
 }
 
 // Inputs: base, exponent.
 template <class Preset>
-Status write_power_of(const std::filesystem::path& folder, int latency) {
+void write_power_of(const Folder& folder, int latency) {
   using Power = golden::Power<Preset>;
   Random random(Preset::c_exponent_bits);
   Pipeline pipeline(latency);
@@ -174,12 +174,12 @@ Status write_power_of(const std::filesystem::path& folder, int latency) {
     }
   for (int i = 0; i < c_running; ++i) any(true);
   run(random, any);
-  return pipeline.write(folder / file_of<Preset>());
+  pipeline.write(folder / file_of<Preset>());
 }
 
 // Inputs: axis_sum, outer, slope.
 template <class Preset>
-Status write_spot_cone_of(const std::filesystem::path& folder) {
+void write_spot_cone_of(const Folder& folder) {
   constexpr int c_sum_bits = 2 * Preset::c_direction_bits + 1, c_slope_bits = Preset::c_spot_slope_bits;
   constexpr int c_fraction = Preset::c_direction_fraction_bits;
   Random random(c_sum_bits);
@@ -206,11 +206,11 @@ Status write_spot_cone_of(const std::filesystem::path& folder) {
       sum = signed_word(random, c_sum_bits);
     add(enable, sum, outer, random.one_in(50) ? 0 : slope);
   });
-  return pipeline.write(folder / file_of<Preset>());
+  pipeline.write(folder / file_of<Preset>());
 }
 
 // Inputs: word.
-Status write_delay_line_of(const std::filesystem::path& folder, int bits, int depth) {
+void write_delay_line_of(const Folder& folder, int bits, int depth) {
   Random random(static_cast<std::uint64_t>(bits + depth));
   Pipeline pipeline(depth);
   run(random, [&](bool enable) {
@@ -218,12 +218,12 @@ Status write_delay_line_of(const std::filesystem::path& folder, int bits, int de
     for (int left = bits; left > 0; left -= 64) word.add(random.bits(64), std::min(left, 64));
     pipeline.clock(enable, {word}, word);
   });
-  return pipeline.write(folder / fmt::format("{}_{}.txt", bits, depth));
+  pipeline.write(folder / fmt::format("{}_{}.txt", bits, depth));
 }
 
 // A line: dot; its cosine, positive.
 template <class Preset>
-Status write_cosine(const std::filesystem::path& folder) {
+void write_cosine(const Folder& folder) {
   constexpr int c_bits = 2 * Preset::c_direction_bits + 1, c_fraction = Preset::c_direction_fraction_bits;
   Random random(c_bits);
   VectorFile file;
@@ -244,73 +244,83 @@ Status write_cosine(const std::filesystem::path& folder) {
     add(c_one - random.between(-3, 1) * (std::int64_t{1} << (c_fraction - 1)) - random.between(0, 2));
     add(signed_word(random, c_bits));
   }
-  return file.write(folder / file_of<Preset>());
+  file.write(folder / file_of<Preset>());
+}
+
+void write_function_rom(const Folder& folder) {
+  for (const auto function :
+       {golden::Function::reciprocal_root, golden::Function::logarithm, golden::Function::decay}) {
+    write_function_rom<Exact>(folder, function);
+    write_function_rom<Published>(folder, function);
+  }
+}
+
+void write_dot_product(const Folder& folder) {
+  for (const int bits : {4, 16, 24, 30}) write_dot_product_of(folder, bits);
+}
+
+void write_vector_multiply(const Folder& folder) {
+  for (const auto& [a, b] : {std::pair{2, 5}, {16, 11}, {24, 26}, {28, 30}, {13, 26}})
+    write_vector_multiply_of(folder, a, b);
+}
+
+void write_vector_shift(const Folder& folder) {
+  write_vector_shift_of<5, 5>(folder);
+  write_vector_shift_of<30, 24>(folder);
+  write_vector_shift_of<25, 24>(folder);
+  write_vector_shift_of<17, 16>(folder);
+  write_vector_shift_of<16, 24>(folder);
+}
+
+void write_unit_vector(const Folder& folder) {
+  constexpr int c_exact = 8, c_published = 5;  // clocks
+  write_unit_vector_of<Exact, Exact::c_vector_bits>(folder, c_exact);
+  write_unit_vector_of<Exact, Exact::c_offset_bits>(folder, c_exact);
+  write_unit_vector_of<Exact, Exact::c_direction_bits + 1>(folder, c_exact);
+  write_unit_vector_of<Published, Published::c_vector_bits>(folder, c_published);
+  write_unit_vector_of<Published, Published::c_offset_bits>(folder, c_published);
+}
+
+void write_reciprocal_root(const Folder& folder) {
+  write_reciprocal_root_of<Exact>(folder, 4);
+  write_reciprocal_root_of<Published>(folder, 1);
+}
+
+void write_power(const Folder& folder) {
+  write_power_of<Exact>(folder, 6);
+  write_power_of<Published>(folder, 2);
+}
+
+void write_spot_cone(const Folder& folder) {
+  write_spot_cone_of<Exact>(folder);
+  write_spot_cone_of<Published>(folder);
+}
+
+void write_delay_line(const Folder& folder) {
+  for (const auto& [bits, depth] : {std::pair{8, 0}, {8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})
+    write_delay_line_of(folder, bits, depth);
+}
+
+void write_shading_pkg(const Folder& folder) {
+  write_cosine<Exact>(folder);
+  write_cosine<Published>(folder);
 }
 
 }  // namespace
 
-Status write_function_rom(const std::filesystem::path& folder) {
-  for (const auto function :
-       {golden::Function::reciprocal_root, golden::Function::logarithm, golden::Function::decay}) {
-    if (auto s = write_function_rom<Exact>(folder, function); !s) return s;
-    if (auto s = write_function_rom<Published>(folder, function); !s) return s;
-  }
-  return Ok{};
-}
-
-Status write_dot_product(const std::filesystem::path& folder) {
-  for (const int bits : {4, 16, 24, 30})
-    if (auto s = write_dot_product_of(folder, bits); !s) return s;
-  return Ok{};
-}
-
-Status write_vector_multiply(const std::filesystem::path& folder) {
-  for (const auto& [a, b] : {std::pair{2, 5}, {16, 11}, {24, 26}, {28, 30}, {13, 26}})
-    if (auto s = write_vector_multiply_of(folder, a, b); !s) return s;
-  return Ok{};
-}
-
-Status write_vector_shift(const std::filesystem::path& folder) {
-  if (auto s = write_vector_shift_of<5, 5>(folder); !s) return s;
-  if (auto s = write_vector_shift_of<30, 24>(folder); !s) return s;
-  if (auto s = write_vector_shift_of<25, 24>(folder); !s) return s;
-  if (auto s = write_vector_shift_of<17, 16>(folder); !s) return s;
-  return write_vector_shift_of<16, 24>(folder);
-}
-
-Status write_unit_vector(const std::filesystem::path& folder) {
-  constexpr int c_exact = 8, c_published = 5;  // clocks
-  if (auto s = write_unit_vector_of<Exact, Exact::c_vector_bits>(folder, c_exact); !s) return s;
-  if (auto s = write_unit_vector_of<Exact, Exact::c_offset_bits>(folder, c_exact); !s) return s;
-  if (auto s = write_unit_vector_of<Exact, Exact::c_direction_bits + 1>(folder, c_exact); !s) return s;
-  if (auto s = write_unit_vector_of<Published, Published::c_vector_bits>(folder, c_published); !s) return s;
-  return write_unit_vector_of<Published, Published::c_offset_bits>(folder, c_published);
-}
-
-Status write_reciprocal_root(const std::filesystem::path& folder) {
-  if (auto s = write_reciprocal_root_of<Exact>(folder, 4); !s) return s;
-  return write_reciprocal_root_of<Published>(folder, 1);
-}
-
-Status write_power(const std::filesystem::path& folder) {
-  if (auto s = write_power_of<Exact>(folder, 6); !s) return s;
-  return write_power_of<Published>(folder, 2);
-}
-
-Status write_spot_cone(const std::filesystem::path& folder) {
-  if (auto s = write_spot_cone_of<Exact>(folder); !s) return s;
-  return write_spot_cone_of<Published>(folder);
-}
-
-Status write_delay_line(const std::filesystem::path& folder) {
-  for (const auto& [bits, depth] : {std::pair{8, 0}, {8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})
-    if (auto s = write_delay_line_of(folder, bits, depth); !s) return s;
-  return Ok{};
-}
-
-Status write_shading_pkg(const std::filesystem::path& folder) {
-  if (auto s = write_cosine<Exact>(folder); !s) return s;
-  return write_cosine<Published>(folder);
+std::vector<Entity> shading_entities() {
+  return {
+      {"function_rom", write_function_rom},
+      {"dot_product", write_dot_product},
+      {"vector_multiply", write_vector_multiply},
+      {"vector_shift", write_vector_shift},
+      {"unit_vector", write_unit_vector},
+      {"reciprocal_root", write_reciprocal_root},
+      {"power", write_power},
+      {"spot_cone", write_spot_cone},
+      {"delay_line", write_delay_line},
+      {"shading_pkg", write_shading_pkg},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -24,7 +24,7 @@ FlatWord<Bits> random_word(Random& random) {
 
 // A line: checked, load, start; value, before the edge that may load.
 template <int Bits>
-Status write_parameter(const std::filesystem::path& folder) {
+void write_parameter(const Folder& folder) {
   Random random(Bits);
   VectorFile file;
   golden::ParameterRegister<FlatWord<Bits>> twin;
@@ -34,12 +34,12 @@ Status write_parameter(const std::filesystem::path& folder) {
     file.flag(i > 0).flag(load).words_of(start, Bits).words_of(twin.value(), Bits).end_vector();
     if (load) twin.load(start);
   }
-  return file.write(folder / (std::to_string(Bits) + ".txt"));
+  file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
 // A line: reset, in_valid, in_data, out_ready; in_ready, out_valid, out_data (valid if out_valid).
 template <int Bits>
-Status write_stream(const std::filesystem::path& folder) {
+void write_stream(const Folder& folder) {
   Random random(Bits);
   VectorFile file;
   golden::StreamRegister<FlatWord<Bits>> twin;
@@ -55,13 +55,13 @@ Status write_stream(const std::filesystem::path& folder) {
     file.flag(twin.in_ready(out_ready)).flag(twin.out_valid()).words_of(twin.out_data(), Bits).end_vector();
     twin.clock(reset, in_valid, data, out_ready);
   }
-  return file.write(folder / (std::to_string(Bits) + ".txt"));
+  file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
 // A line: reset, claim, in_valid, in_data, out_ready; room, pending, out_valid, out_data (valid if
 // out_valid).
 template <int Bits, int IndexBits>
-Status write_queue(const std::filesystem::path& folder) {
+void write_queue(const Folder& folder) {
   Random random(Bits);
   VectorFile file;
   golden::StreamQueue<FlatWord<Bits>> twin((1 << IndexBits) - 1);
@@ -83,28 +83,36 @@ Status write_queue(const std::filesystem::path& folder) {
     claimed = reset ? 0 : claimed + claim - comes;
     before = {claim && !reset, before.front() && !reset};
   }
-  return file.write(folder / (std::to_string(Bits) + ".txt"));
+  file.write(folder / (std::to_string(Bits) + ".txt"));
+}
+
+void write_parameter_register(const Folder& folder) {
+  write_parameter<1>(folder);
+  write_parameter<40>(folder);
+  write_parameter<83>(folder);
+}
+
+void write_stream_register(const Folder& folder) {
+  write_stream<1>(folder);
+  write_stream<32>(folder);
+  write_stream<497>(folder);
+}
+
+void write_stream_queue(const Folder& folder) {
+  write_queue<1, 2>(folder);
+  write_queue<32, 3>(folder);
+  write_queue<97, 3>(folder);
+  write_queue<98, 4>(folder);
 }
 
 }  // namespace
 
-Status write_parameter_register(const std::filesystem::path& folder) {
-  if (auto s = write_parameter<1>(folder); !s) return s;
-  if (auto s = write_parameter<40>(folder); !s) return s;
-  return write_parameter<83>(folder);
-}
-
-Status write_stream_register(const std::filesystem::path& folder) {
-  if (auto s = write_stream<1>(folder); !s) return s;
-  if (auto s = write_stream<32>(folder); !s) return s;
-  return write_stream<497>(folder);
-}
-
-Status write_stream_queue(const std::filesystem::path& folder) {
-  if (auto s = write_queue<1, 2>(folder); !s) return s;
-  if (auto s = write_queue<32, 3>(folder); !s) return s;
-  if (auto s = write_queue<97, 3>(folder); !s) return s;
-  return write_queue<98, 4>(folder);
+std::vector<Entity> stream_entities() {
+  return {
+      {"parameter_register", write_parameter_register},
+      {"stream_register", write_stream_register},
+      {"stream_queue", write_stream_queue},
+  };
 }
 
 }  // namespace halfway::vectors

@@ -39,7 +39,7 @@ std::uint32_t unsigned_word(Random& random, int bits) {
 
 // Inputs: positional, place, shift, point, distance. `can`: the light may be positional.
 template <class Preset>
-Status write_light_vector_of(const std::filesystem::path& folder, bool can) {
+void write_light_vector_of(const Folder& folder, bool can) {
   constexpr bool c_exact = Preset::c_light_shift_bits > 0;
   Random random(Preset::c_light_place_bits + can);
   Pipeline pipeline(can ? 1 + c_exact + c_unit_latency<Preset> : 0);
@@ -65,12 +65,12 @@ Status write_light_vector_of(const std::filesystem::path& folder, bool can) {
                    flat(golden::light_vector<Preset>(can && positional, place, shift, point, distance),
                         Preset::c_direction_bits));
   });
-  return pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, can));
+  pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, can));
 }
 
 // Inputs: positional, to_light, to_eye. `depends`: H depends on the point.
 template <class Preset>
-Status write_half_vector_of(const std::filesystem::path& folder, bool depends) {
+void write_half_vector_of(const Folder& folder, bool depends) {
   constexpr bool c_exact = Preset::c_light_shift_bits > 0;
   constexpr int c_light_bits = c_exact ? Preset::c_direction_bits : Preset::c_offset_bits;
   Random random(c_light_bits + depends);
@@ -89,12 +89,12 @@ Status write_half_vector_of(const std::filesystem::path& folder, bool depends) {
     pipeline.clock(enable, {{positional, 1}, flat(a, c_light_bits), flat(to_eye, Preset::c_direction_bits)},
                    flat(sum ? golden::half_vector<Preset>(a, to_eye) : to_eye, Preset::c_direction_bits));
   });
-  return pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, depends));
+  pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, depends));
 }
 
 // Inputs: normal, direction, exponent.
 template <class Preset>
-Status write_cosine_power_of(const std::filesystem::path& folder, bool highlight) {
+void write_cosine_power_of(const Folder& folder, bool highlight) {
   Random random(Preset::c_exponent_bits + highlight);
   Pipeline pipeline(!highlight ? 2 : Preset::c_light_shift_bits > 0 ? 7 : 3);
   run(random, [&](bool enable) {
@@ -108,12 +108,12 @@ Status write_cosine_power_of(const std::filesystem::path& folder, bool highlight
                     {exponent, Preset::c_exponent_bits}},
                    {result, Preset::c_weight_bits});
   });
-  return pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, highlight));
+  pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, highlight));
 }
 
 // Inputs: spot, axis, outer, slope, to_light, cosine. The cosine follows to_light after `lead` clocks.
 template <class Preset>
-Status write_light_weight_of(const std::filesystem::path& folder, int lead) {
+void write_light_weight_of(const Folder& folder, int lead) {
   Random random(static_cast<std::uint64_t>(Preset::c_spot_slope_bits + lead));
   Pipeline pipeline(std::max(5, lead) + 1);
   bool spot = false;
@@ -150,12 +150,12 @@ Status write_light_weight_of(const std::filesystem::path& folder, int lead) {
                     {cosine, Preset::c_weight_bits}},
                    {weight, Preset::c_weight_bits});
   });
-  return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, lead));
+  pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, lead));
 }
 
 // Inputs: coefficients, intensities, weight. The weight follows its coefficients after one clock.
 template <class Preset>
-Status write_reflected_term_of(const std::filesystem::path& folder, int channels, bool weighted) {
+void write_reflected_term_of(const Folder& folder, int channels, bool weighted) {
   Random random(static_cast<std::uint64_t>(Preset::c_coefficient_bits + channels));
   Pipeline pipeline(weighted ? 2 : 1);
   golden::Axes intensities{};
@@ -180,12 +180,12 @@ Status write_reflected_term_of(const std::filesystem::path& folder, int channels
     }
     pipeline.clock(enable, {k, i, {weight, Preset::c_weight_bits}}, terms);
   });
-  return pipeline.write(folder / fmt::format("{}_{}_{:d}.txt", Preset::c_name, channels, weighted));
+  pipeline.write(folder / fmt::format("{}_{}_{:d}.txt", Preset::c_name, channels, weighted));
 }
 
 // Inputs: add, radiance, terms.
 template <class Preset>
-Status write_radiance_sum_of(const std::filesystem::path& folder, int channels) {
+void write_radiance_sum_of(const Folder& folder, int channels) {
   constexpr int c_term_bits = Preset::c_reflected_bits + Preset::c_weight_bits;
   Random random(static_cast<std::uint64_t>(Preset::c_radiance_bits + channels));
   Pipeline pipeline(1);
@@ -201,72 +201,61 @@ Status write_radiance_sum_of(const std::filesystem::path& folder, int channels) 
     }
     pipeline.clock(enable, {{add, 1}, radiance, terms}, result);
   });
-  return pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, channels));
+  pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, channels));
 }
 
-// Runs both presets.
-template <class ForExact, class ForPublished>
-Status both(const ForExact& exact, const ForPublished& published) {
-  if (auto s = exact(); !s) return s;
-  return published();
+void write_light_vector(const Folder& folder) {
+  for (const bool can : {false, true}) {
+    write_light_vector_of<Exact>(folder, can);
+    write_light_vector_of<Published>(folder, can);
+  }
+}
+
+void write_half_vector(const Folder& folder) {
+  for (const bool depends : {false, true}) {
+    write_half_vector_of<Exact>(folder, depends);
+    write_half_vector_of<Published>(folder, depends);
+  }
+}
+
+void write_cosine_power(const Folder& folder) {
+  for (const bool highlight : {false, true}) {
+    write_cosine_power_of<Exact>(folder, highlight);
+    write_cosine_power_of<Published>(folder, highlight);
+  }
+}
+
+void write_light_weight(const Folder& folder) {
+  // Diffuse, where the factor of the cone is ready last, and specular.
+  for (const int lead : {2, 16}) {
+    write_light_weight_of<Exact>(folder, lead);
+    write_light_weight_of<Published>(folder, lead);
+  }
+}
+
+void write_reflected_term(const Folder& folder) {
+  for (const bool weighted : {false, true})
+    for (const int channels : {1, 3}) {
+      write_reflected_term_of<Exact>(folder, channels, weighted);
+      write_reflected_term_of<Published>(folder, channels, weighted);
+    }
+}
+
+void write_radiance_sum(const Folder& folder) {
+  for (const int channels : {1, 3}) {
+    write_radiance_sum_of<Exact>(folder, channels);
+    write_radiance_sum_of<Published>(folder, channels);
+  }
 }
 
 }  // namespace
 
-Status write_light_vector(const std::filesystem::path& folder) {
-  for (const bool can : {false, true})
-    if (auto s = both([&] { return write_light_vector_of<Exact>(folder, can); },
-                      [&] { return write_light_vector_of<Published>(folder, can); });
-        !s)
-      return s;
-  return Ok{};
-}
-
-Status write_half_vector(const std::filesystem::path& folder) {
-  for (const bool depends : {false, true})
-    if (auto s = both([&] { return write_half_vector_of<Exact>(folder, depends); },
-                      [&] { return write_half_vector_of<Published>(folder, depends); });
-        !s)
-      return s;
-  return Ok{};
-}
-
-Status write_cosine_power(const std::filesystem::path& folder) {
-  for (const bool highlight : {false, true})
-    if (auto s = both([&] { return write_cosine_power_of<Exact>(folder, highlight); },
-                      [&] { return write_cosine_power_of<Published>(folder, highlight); });
-        !s)
-      return s;
-  return Ok{};
-}
-
-Status write_light_weight(const std::filesystem::path& folder) {
-  // Diffuse, where the factor of the cone is ready last, and specular.
-  for (const int lead : {2, 16})
-    if (auto s = both([&] { return write_light_weight_of<Exact>(folder, lead); },
-                      [&] { return write_light_weight_of<Published>(folder, lead); });
-        !s)
-      return s;
-  return Ok{};
-}
-
-Status write_reflected_term(const std::filesystem::path& folder) {
-  for (const bool weighted : {false, true})
-    for (const int channels : {1, 3})
-      if (auto s = both([&] { return write_reflected_term_of<Exact>(folder, channels, weighted); },
-                        [&] { return write_reflected_term_of<Published>(folder, channels, weighted); });
-          !s)
-        return s;
-  return Ok{};
-}
-
-Status write_radiance_sum(const std::filesystem::path& folder) {
-  for (const int channels : {1, 3})
-    if (auto s = both([&] { return write_radiance_sum_of<Exact>(folder, channels); },
-                      [&] { return write_radiance_sum_of<Published>(folder, channels); });
-        !s)
-      return s;
-  return Ok{};
+std::vector<Entity> terms_entities() {
+  return {
+      {"light_vector", write_light_vector},     {"half_vector", write_half_vector},
+      {"cosine_power", write_cosine_power},     {"light_weight", write_light_weight},
+      {"reflected_term", write_reflected_term}, {"radiance_sum", write_radiance_sum},
+  };
 }
 
 }  // namespace halfway::vectors
