@@ -216,10 +216,10 @@ tables: generator ## write the generated ROMs and formats
 check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
-test: build mcode ## run the tests of every change: each feature, entity and shader (TESTS: only some, of all tests)
+test: build mcode ## test each feature, entity and shader, if not tested on these files before (TESTS: only some, of all tests)
 	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh quick "$(jobs)" "$$TESTS"
 
-test-all: build mcode ## run every test that has not passed on this tree: continues an interrupted run
+test-all: build mcode ## run every test that has not passed on these files: continues an interrupted run
 	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh all "$(jobs)"
 
 testbench: configure ## run one VHDL testbench in GHDL, with vectors from the golden model (ENTITY)

@@ -17,6 +17,9 @@ struct Entity {
   void (*write)(const Folder& folder);  ///< `folder` belongs to the entity
 };
 
+/// Folders short/ENTITY have the stimulus of `make test`: as many pixels or tokens, divided by this.
+inline constexpr int c_short = 4;
+
 std::vector<Entity> arithmetic_entities();
 std::vector<Entity> board_entities();
 std::vector<Entity> folded_entities();

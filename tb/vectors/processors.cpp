@@ -152,17 +152,16 @@ void write_light_state_of(const Folder& folder) {
 
 // A line: token, comes; the output object (valid if comes), fault afterwards.
 template <class Preset>
-void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool faults) {
-  constexpr int c_tokens = 240;
+void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool faults, int tokens) {
   const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits));
   golden::ShadingPipeline<Preset> twin(config);
   VectorFile file;
-  const int last = c_tokens + (faults ? c_too_many : 0);
+  const int last = tokens + (faults ? c_too_many : 0);
   for (int done = 0; done < last; ++done) {
     const int light = static_cast<int>(maker.random().between(0, config.lights()));
     // Define all lights first.
-    auto token = done >= c_tokens          ? maker.opening(static_cast<std::uint32_t>(config.lights()))
+    auto token = done >= tokens            ? maker.opening(static_cast<std::uint32_t>(config.lights()))
                  : done <= config.lights() ? maker.load(Command::define, static_cast<std::uint32_t>(done))
                                            : maker.token(light);
     auto words = maker.words(token, bits);
@@ -176,13 +175,14 @@ void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool f
 }
 
 template <class Preset>
-void write_pipelines(const Folder& folder) {
+void write_pipelines(const Folder& folder, int tokens) {
   // The list of tb/shaders/shading_pipeline_tb.vhd.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
                                       {3, 0, 0, 0, false, false, true, false}};
-  for (const ProcessorsConfig& config : configs) write_pipeline<Preset>(folder, config, config.shadows);
+  for (const ProcessorsConfig& config : configs)
+    write_pipeline<Preset>(folder, config, config.shadows, tokens);
 }
 
 void write_ambient_term(const Folder& folder) {
@@ -302,9 +302,11 @@ void write_shading_processor(const Folder& folder) {
   write_processors<Published>(folder, c_tokens);
 }
 
+template <int divisor>
 void write_shading_pipeline(const Folder& folder) {
-  write_pipelines<Exact>(folder);
-  write_pipelines<Published>(folder);
+  constexpr int c_tokens = 240 / divisor;
+  write_pipelines<Exact>(folder, c_tokens);
+  write_pipelines<Published>(folder, c_tokens);
 }
 
 }  // namespace
@@ -317,7 +319,8 @@ std::vector<Entity> processors_entities() {
       {"light_state", write_light_state},
       {"shading_processor", write_shading_processor},
       {"unrolled_shading_processor", write_shading_processor},
-      {"shading_pipeline", write_shading_pipeline},
+      {"shading_pipeline", write_shading_pipeline<1>},
+      {"short/shading_pipeline", write_shading_pipeline<c_short>},
   };
 }
 

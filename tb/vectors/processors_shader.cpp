@@ -365,12 +365,14 @@ void write_set(const Folder& folder, const Processors& processors, const char* s
 }
 
 template <class Preset>
-void write_all(const Folder& folder, std::span<const Processors> shaders) {
-  for (const Processors& processors : shaders)
+void write_all(const Folder& folder, std::span<const Processors> shaders, std::int64_t divisor) {
+  for (Processors processors : shaders) {
+    processors.pixels /= divisor;
     for (const char* set : {"dense", "mixed", "fault"}) {
       if (set == std::string_view("fault") && !processors.config.shadows) continue;
       write_set<Preset>(folder, processors, set);
     }
+  }
 }
 
 void write_token_rasterizer(const Folder& folder) {
@@ -385,18 +387,22 @@ void write_fragment_output(const Folder& folder) {
   write_parts([&](const auto& host) { return host.write_output(folder); });
 }
 
+template <int divisor>
 void write_processors_shader(const Folder& folder) {
-  write_all<Exact>(folder, c_exact_processors);
-  write_all<Published>(folder, c_published_processors);
+  write_all<Exact>(folder, c_exact_processors, divisor);
+  write_all<Published>(folder, c_published_processors, divisor);
 }
 
 }  // namespace
 
 std::vector<Entity> processors_shader_entities() {
   return {
-      {"token_rasterizer", write_token_rasterizer}, {"token_order", write_token_order},
-      {"fragment_output", write_fragment_output},   {"processors_shader", write_processors_shader},
-      {"processors_axi", write_processors_shader},
+      {"token_rasterizer", write_token_rasterizer},
+      {"token_order", write_token_order},
+      {"fragment_output", write_fragment_output},
+      {"processors_shader", write_processors_shader<1>},
+      {"short/processors_shader", write_processors_shader<c_short>},
+      {"processors_axi", write_processors_shader<1>},
   };
 }
 
