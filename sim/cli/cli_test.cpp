@@ -499,7 +499,7 @@ TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
       outcome = run(arguments);
       ended = true;
     });
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(60);
     while (!ended && !is_waited_for(folder / ".lock") && std::chrono::steady_clock::now() < deadline)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_FALSE(ended) << arguments[0] << " did not wait";

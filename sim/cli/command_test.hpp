@@ -54,7 +54,7 @@ class CommandTest : public ::testing::Test {
   }
 
   Outcome run_as(std::vector<std::string> arguments, Environment environment = {},
-                 std::chrono::milliseconds timeout = std::chrono::minutes(5)) const {
+                 std::chrono::milliseconds timeout = std::chrono::minutes(60)) const {
     Command command;
     command.arguments = std::move(arguments);
     command.working_folder = folder_->path();

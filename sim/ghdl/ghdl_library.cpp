@@ -18,7 +18,7 @@ const std::vector<std::string> c_analysis_flags = {
     "--std=08", "-Wlibrary", "-Wdefault-binding", "-Wbinding", "-Wport", "-Wunused",
     "-Whide",   "-Wshared",  "-Wstatic",          "-Wuseless", "-Werror"};
 
-constexpr std::chrono::minutes c_analysis_timeout{10};
+constexpr std::chrono::minutes c_analysis_timeout{60};
 
 Result<std::string> run_ghdl(Command command, const std::string& doing) {
   command.timeout = c_analysis_timeout;
@@ -77,7 +77,7 @@ Result<std::string> run_on(Command command, const std::vector<VhdlSource>& sourc
 }  // namespace
 
 Result<GhdlTool> GhdlTool::find(const std::string& program) {
-  Command command{.arguments = {program, "--version"}, .timeout = std::chrono::seconds(30)};
+  Command command{.arguments = {program, "--version"}, .timeout = std::chrono::minutes(5)};
   const auto end = run_process(command, c_install_ghdl);
   if (!end) return end.error();
   if (!end->succeeded()) {

@@ -176,7 +176,7 @@ class HeadlessBrowser {
   std::vector<std::string> requests;
 
  private:
-  static constexpr std::chrono::seconds c_longest{300};  // of any wait, on a slow machine
+  static constexpr std::chrono::seconds c_longest{3600};  // of any wait, on a slow machine
 
   Json receive() {
     char* message = nullptr;

@@ -9,7 +9,7 @@
 namespace halfway {
 namespace {
 
-constexpr std::chrono::minutes c_build_timeout{20};
+constexpr std::chrono::minutes c_build_timeout{120};
 
 }  // namespace
 

@@ -25,7 +25,7 @@ class TablesCommand : public CommandTest {
  protected:
   Outcome run(std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), {HALFWAY_PROGRAM, "--source", source(), "tables"});
-    return run_as(std::move(arguments), {}, std::chrono::minutes(1));
+    return run_as(std::move(arguments));
   }
   std::filesystem::path source() const { return folder_->path() / "source"; }
   std::string text_of(const char* name) const {

@@ -11,7 +11,7 @@ std::optional<std::string> gappa(const Context& context, std::string_view script
   if (context.quick) return std::nullopt;
   const std::filesystem::path file = context.scratch / "bound.gappa";
   if (const auto written = write_file(file, script); !written) return written.error().message;
-  const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(1)},
+  const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(60)},
                                "apt-get install gappa");
   if (!end) return end.error().message;
   // The last part of Gappa's output names what it could not prove.
@@ -23,7 +23,7 @@ std::optional<std::string> sollya(const Context& context, std::string_view scrip
   if (context.quick) return std::nullopt;
   const std::filesystem::path file = context.scratch / "bound.sollya";
   if (const auto written = write_file(file, script); !written) return written.error().message;
-  const auto end = run_process({.arguments = {"sollya", file.string()}, .timeout = std::chrono::minutes(2)},
+  const auto end = run_process({.arguments = {"sollya", file.string()}, .timeout = std::chrono::minutes(60)},
                                "apt-get install sollya");
   if (!end) return end.error().message;
   return end->succeeded() ? end->output : "it ended with " + end->how();

@@ -114,7 +114,7 @@ class NetlistConstructs : public testing::Test {
     command.arguments.push_back("-gg_stimuli=" + in.string());
     command.arguments.push_back("-gg_responses=" + out.string());
     command.arguments.emplace_back("--ieee-asserts=disable");
-    command.timeout = std::chrono::minutes(5);
+    command.timeout = std::chrono::minutes(60);
     const auto end = run_process(command, c_install_ghdl);
     EXPECT_TRUE(end) << end.error().message;
     EXPECT_TRUE(end->succeeded()) << end->how() << '\n' << end->output;

@@ -76,7 +76,7 @@ class ProofProgram : public ::testing::Test {
     if (!name.empty()) command.arguments.push_back(name);
     command.working_folder = folder_->path();
     command.environment = std::move(environment);
-    command.timeout = std::chrono::minutes(5);
+    command.timeout = std::chrono::minutes(60);
     const auto end = run_process(command, "");
     if (!end) return {-1, end.error().message};
     return {end->exit_status, end->output};

@@ -20,7 +20,7 @@ namespace halfway::proofs {
 namespace {
 
 constexpr const char* c_install = "apt-get install yosys cvc5 gappa";
-constexpr std::chrono::minutes c_timeout{10};
+constexpr std::chrono::minutes c_timeout{60};
 constexpr const char* c_timed_out = "no answer within 10 minutes";
 constexpr const char* c_formats = "rtl/tables/formats_pkg.vhd";
 
