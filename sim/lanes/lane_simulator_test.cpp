@@ -155,12 +155,13 @@ TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShadersInLanes,
+INSTANTIATE_TEST_SUITE_P(Quick, ShadersInLanes,
                          testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
-                                         Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"spheres", Shader::spherical, Preset::exact},
+                                         Case{"spheres", Shader::processors, Preset::exact}));
+INSTANTIATE_TEST_SUITE_P(Whole, ShadersInLanes,
+                         testing::Values(Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"lights", Shader::spherical, Preset::published},
-                                         Case{"spheres", Shader::processors, Preset::exact},
                                          Case{"shadows", Shader::processors, Preset::published}));
 
 }  // namespace

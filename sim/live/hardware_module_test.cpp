@@ -177,12 +177,13 @@ TEST_P(HardwareModule, ABitThatSticksIsSeenInTheFragments) {
   EXPECT_TRUE(draw(golden_.size()).fragments == golden_);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, HardwareModule,
+INSTANTIATE_TEST_SUITE_P(Quick, HardwareModule,
                          testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
-                                         Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"spheres", Shader::spherical, Preset::exact},
+                                         Case{"spheres", Shader::processors, Preset::exact}));
+INSTANTIATE_TEST_SUITE_P(Whole, HardwareModule,
+                         testing::Values(Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"lights", Shader::spherical, Preset::published},
-                                         Case{"spheres", Shader::processors, Preset::exact},
                                          Case{"shadows", Shader::processors, Preset::published}));
 
 }  // namespace
