@@ -26,10 +26,6 @@ TEST(Formats, TheCommittedFilesEqualTheGenerators) {
   }
 }
 
-const Format& format_of(const PresetFormats& preset, std::string_view name) {
-  return *std::ranges::find(preset.formats, name, &Format::name);
-}
-
 // Checks the fields that the golden model uses: each layout has no gap and no overlap, and the width of its
 // formats.
 template <std::size_t Count>
