@@ -84,22 +84,28 @@ TEST_P(Stages, AreEqualInGoldenModelAndRtl) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, Stages,
-    ::testing::Values(
-        Case{"spheres", Shader::quadratic, Preset::exact}, Case{"matte", Shader::quadratic, Preset::exact},
-        Case{"lights", Shader::quadratic, Preset::published},
-        Case{"lights", Shader::spherical, Preset::exact}, Case{"matte", Shader::spherical, Preset::exact},
-        Case{"spheres", Shader::spherical, Preset::published},
-        Case{"lights", Shader::processors, Preset::exact}, Case{"shadows", Shader::processors, Preset::exact},
-        Case{"spheres", Shader::processors, Preset::exact, ProcessorForm::folded},
-        Case{"lights", Shader::processors, Preset::published},
-        Case{"spheres", Shader::processors, Preset::published, ProcessorForm::folded}),
-    [](const auto& test) {
-      std::string name = ::testing::PrintToString(test.param);
-      std::ranges::replace(name, ' ', '_');
-      return name;
-    });
+const auto c_name_of_case = [](const auto& test) {
+  std::string name = ::testing::PrintToString(test.param);
+  std::ranges::replace(name, ' ', '_');
+  return name;
+};
+INSTANTIATE_TEST_SUITE_P(Quick, Stages,
+                         ::testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
+                                           Case{"lights", Shader::quadratic, Preset::published},
+                                           Case{"matte", Shader::spherical, Preset::exact},
+                                           Case{"spheres", Shader::spherical, Preset::published},
+                                           Case{"shadows", Shader::processors, Preset::exact},
+                                           Case{"spheres", Shader::processors, Preset::published,
+                                                ProcessorForm::folded}),
+                         c_name_of_case);
+INSTANTIATE_TEST_SUITE_P(Whole, Stages,
+                         ::testing::Values(Case{"matte", Shader::quadratic, Preset::exact},
+                                           Case{"lights", Shader::spherical, Preset::exact},
+                                           Case{"lights", Shader::processors, Preset::exact},
+                                           Case{"spheres", Shader::processors, Preset::exact,
+                                                ProcessorForm::folded},
+                                           Case{"lights", Shader::processors, Preset::published}),
+                         c_name_of_case);
 
 // Vectors of random bits with few lines: registers wrap, and spans run in both directions and outside the
 // frame.

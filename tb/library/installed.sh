@@ -38,7 +38,8 @@ compare() {
 }
 compare spheres quadratic exact 128 96
 compare matte spherical published 93 69
-compare lights processors exact 33 25
+compare lights quadratic published 33 25
+compare spheres processors exact 33 25
 # The nearest fragment of each pixel, the first of equal ones, over the background.
 built/draw spheres quadratic exact 128 96 trace | awk '
   { at = $2 * 128 + $3; if (!(at in z) || $4 < z[at]) { z[at] = $4; colour[at] = $5 " " $6 " " $7 } }
