@@ -175,14 +175,14 @@ void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool f
 }
 
 template <class Preset>
-void write_pipelines(const Folder& folder, int tokens) {
+void write_pipelines(const Folder& folder, int tokens, bool faults) {
   // The list of tb/shaders/shading_pipeline_tb.vhd.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
                                       {3, 0, 0, 0, false, false, true, false}};
   for (const ProcessorsConfig& config : configs)
-    write_pipeline<Preset>(folder, config, config.shadows, tokens);
+    write_pipeline<Preset>(folder, config, faults && config.shadows, tokens);
 }
 
 void write_ambient_term(const Folder& folder) {
@@ -305,8 +305,10 @@ void write_shading_processor(const Folder& folder) {
 template <int divisor>
 void write_shading_pipeline(const Folder& folder) {
   constexpr int c_tokens = 240 / divisor;
-  write_pipelines<Exact>(folder, c_tokens);
-  write_pipelines<Published>(folder, c_tokens);
+  // A fault needs many tokens. The testbenches of processors have it too.
+  constexpr bool c_faults = divisor == 1;
+  write_pipelines<Exact>(folder, c_tokens, c_faults);
+  write_pipelines<Published>(folder, c_tokens, c_faults);
 }
 
 }  // namespace
