@@ -10,14 +10,14 @@ using Weights = QuadraticStart::Weights;
 
 // Samples that have a weight: the other vertices, then the midpoints, each between two vertices.
 constexpr std::array<std::size_t, 2> c_vertices = {1, 2};
-constexpr std::array<std::pair<std::size_t, std::size_t>, 3> c_edges = {{{0, 1}, {0, 2}, {1, 2}}};
+constexpr std::array<std::pair<std::size_t, std::size_t>, 3> c_edge_ends = {{{0, 1}, {0, 2}, {1, 2}}};
 
 // The symmetric bilinear form whose value for (l, l) is the quadratic part of the weights at l.
 Weights products(const Barycentric& p, const Barycentric& q) {
   Weights w;
   auto weight = w.begin();
   for (const std::size_t i : c_vertices) *weight++ = 2 * (Int128{p[i]} * q[i]);
-  for (const auto& [i, j] : c_edges) *weight++ = 2 * (Int128{p[i]} * q[j] + Int128{p[j]} * q[i]);
+  for (const auto& [i, j] : c_edge_ends) *weight++ = 2 * (Int128{p[i]} * q[j] + Int128{p[j]} * q[i]);
   return w;
 }
 Weights doubled(Weights w) {

@@ -179,13 +179,13 @@ TEST(Shade, BeckmannIsAProjectedDensity) {
   // The integral over the hemisphere, weighted by the cosine, is one.
   for (double m : {0.1, 0.3, 1.0}) {
     double sum = 0.0;
-    constexpr int c_steps = 200000;
-    for (int i = 0; i < c_steps; ++i) {
-      const double angle = (i + 0.5) / c_steps * std::numbers::pi / 2;
+    constexpr int c_angles = 200000;
+    for (int i = 0; i < c_angles; ++i) {
+      const double angle = (i + 0.5) / c_angles * std::numbers::pi / 2;
       sum +=
           beckmann(std::cos(angle), std::sin(angle) * std::sin(angle), m) * std::cos(angle) * std::sin(angle);
     }
-    EXPECT_NEAR(sum * 2 * std::numbers::pi * (std::numbers::pi / 2) / c_steps, 1.0, 1e-6) << m;
+    EXPECT_NEAR(sum * 2 * std::numbers::pi * (std::numbers::pi / 2) / c_angles, 1.0, 1e-6) << m;
   }
   EXPECT_EQ(beckmann(0.0, 1.0, 0.3), 0.0);
   EXPECT_EQ(beckmann(1e-200, 1.0, 0.3), 0.0);

@@ -13,17 +13,17 @@
 #include "sim/run/open_engine.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 constexpr FrameSize c_size{32, 24};
 
 class WayTest : public testing::TestWithParam<Way> {
  protected:
   WayTest() {
-    scene_ = *load_scene("matte", c_source / "sim/scenes");
+    scene_ = *load_scene("matte", c_source_folder / "sim/scenes");
     batches_ = *make_batches(scene_, c_size, {.shader = Shader::quadratic});
     scratch_ = std::filesystem::path(testing::TempDir()) / ("halfway-ways-" + std::to_string(::getpid()));
     EXPECT_TRUE(make_folders(scratch_));
@@ -34,7 +34,7 @@ class WayTest : public testing::TestWithParam<Way> {
     return {.scene = &scene_,
             .size = size_,
             .batches = &batches_,
-            .folders = {c_source, c_source / "build/cache"},
+            .folders = {c_source_folder, c_source_folder / "build/cache"},
             .scratch = scratch_,
             .fast = false};
   }
@@ -48,7 +48,7 @@ class WayTest : public testing::TestWithParam<Way> {
 TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   const Way way = GetParam();
   if (way == Way::mesa) {  // a frame with more inside than outline
-    scene_ = *load_scene("spheres", c_source / "sim/scenes");
+    scene_ = *load_scene("spheres", c_source_folder / "sim/scenes");
     size_ = {160, 120};
   }
   const std::string lacks = lacking(way, input().folders);
@@ -77,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(Bench, WayTest, testing::ValuesIn(c_ways),
                          [](const auto& test) { return short_name(test.param); });
 
 TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
-  const SimulatorFolders folders{c_source, c_source / "build/cache"};
-  const Scene scene = *load_scene("matte", c_source / "sim/scenes");
+  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
+  const Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
   const auto batches = make_batches(scene, c_size, {.shader = Shader::quadratic});
   ASSERT_TRUE(batches);
   const auto engine = open_engine(EngineKind::verilator, batches->key, folders);
@@ -96,15 +96,15 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   EXPECT_GT(cost->memory_bytes, 7U * c_size.width * c_size.height);
 
   // Hardware for three channels: other vectors.
-  const auto other = make_batches(*load_scene("spheres", c_source / "sim/scenes"), c_size, {});
+  const auto other = make_batches(*load_scene("spheres", c_source_folder / "sim/scenes"), c_size, {});
   ASSERT_TRUE(other);
   EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *engine, *batches));
 }
 
 // Each thread draws frames of its own; every frame is compared.
 TEST(BenchWorkload, FramesAreDrawnOnAllThreads) {
-  const SimulatorFolders folders{c_source, c_source / "build/cache"};
-  const Scene scene = *load_scene("matte", c_source / "sim/scenes");
+  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
+  const Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
   const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
   const auto engine = open_engine(EngineKind::verilator, key, folders);
   ASSERT_TRUE(engine) << engine.error().message;
@@ -117,14 +117,14 @@ TEST(BenchWorkload, FramesAreDrawnOnAllThreads) {
   // Both engines have drawn: the clocks of both have advanced.
   for (const std::shared_ptr<Engine>& each : engines) EXPECT_GT(each->cycles(), 0U);
   // The key of other hardware: golden model and set-up differ from the engines.
-  const HardwareKey other = plan_scene(*load_scene("spheres", c_source / "sim/scenes"), {})->key;
+  const HardwareKey other = plan_scene(*load_scene("spheres", c_source_folder / "sim/scenes"), {})->key;
   EXPECT_FALSE(frame_rate(scene, c_size, other, engines, 2));
 }
 
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
-  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   for (const Shader shader : c_shaders) {
-    Scene scene = *load_scene("matte", c_source / "sim/scenes");
+    Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
     const auto batches = make_batches(scene, {96, 72}, {.shader = shader});
     ASSERT_TRUE(batches);
     const WalkCounts walk = count_walk(*batches);

@@ -19,6 +19,7 @@
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/figures/timing_diagram.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -30,7 +31,7 @@ using testing::IsEmpty;
 
 using Kind = Criterion::Kind;
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR, c_folder = c_source / "docs/results/figures";
+const std::filesystem::path c_folder = c_source_folder / "docs/results/figures";
 
 TEST(Figures, ACriterionHoldsUpToItsLimit) {
   const auto holds = [](const Criterion& criterion, double value) { return criterion.holds(value); };
@@ -105,7 +106,7 @@ TEST(Figures, ARowThatHoldsByConstructionDoesNotAgree) {
   EXPECT_THAT(draw(made, measured(60, "{}")), HasSubstr("was measured: remove by_construction"));
   const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {made}, {}}, {}, {{made, same}}}};
   EXPECT_THAT(to_json(entries), HasSubstr("\"verdict\": \"by construction\""));
-  const auto page = to_page(entries, c_source);
+  const auto page = to_page(entries, c_source_folder);
   ASSERT_TRUE(page) << page.error().message;
   EXPECT_THAT(*page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction."));
   EXPECT_THAT(*page, HasSubstr("| by construction (exactly): 60 = 6 · 10 |"));
@@ -143,7 +144,7 @@ TEST(Figures, AClaimsFileIsReadStrictly) {
 }
 
 std::vector<Figure> figures() {
-  auto all = all_figures(c_source);
+  auto all = all_figures(c_source_folder);
   EXPECT_TRUE(all) << all.error().message;
   return *all;
 }
@@ -181,7 +182,7 @@ std::vector<Entry> committed() {
 
 // The claims print the words of the trace, restored ones in brackets.
 TEST(Figures, Figure7PublishesTheWordsOfTheTrace) {
-  const auto trace = read_figure7(c_source / "tb/published/figure7.txt");
+  const auto trace = read_figure7(c_source_folder / "tb/published/figure7.txt");
   ASSERT_TRUE(trace) << trace.error().message;
   int registers = 0;
   for (const Figure& figure : figures())
@@ -231,7 +232,7 @@ TEST(Figures, EveryVerdictCanChange) {
 }
 
 TEST(Figures, TheTableHasNoEmptyCell) {
-  const auto page = to_page(committed(), c_source);
+  const auto page = to_page(committed(), c_source_folder);
   ASSERT_TRUE(page) << page.error().message;
   const std::string table = page->substr(0, page->find("\n## The figures"));
   EXPECT_THAT(table, testing::Not(HasSubstr("|  |")));
@@ -302,11 +303,11 @@ class Stale : public testing::Test {
   }
   void write(const std::vector<Entry>& entries) {
     ASSERT_TRUE(write_file(there_ / "figures.json", to_json(entries)));
-    ASSERT_TRUE(write_file(there_ / "README.md", *to_page(entries, c_source)));
+    ASSERT_TRUE(write_file(there_ / "README.md", *to_page(entries, c_source_folder)));
   }
   std::vector<std::string> found() {
     std::vector<std::string> notes;
-    const auto wrong = stale(quick_, there_, here_, c_source, notes);
+    const auto wrong = stale(quick_, there_, here_, c_source_folder, notes);
     EXPECT_TRUE(wrong) << wrong.error().message;
     return wrong ? *wrong : std::vector<std::string>{};
   }
@@ -322,7 +323,7 @@ TEST_F(Stale, NewOutputHasNoDifferences) {
 }
 
 TEST_F(Stale, AnotherPageIsFound) {
-  ASSERT_TRUE(write_file(there_ / "README.md", *to_page(whole_, c_source) + "\nand more\n"));
+  ASSERT_TRUE(write_file(there_ / "README.md", *to_page(whole_, c_source_folder) + "\nand more\n"));
   EXPECT_THAT(found(), ElementsAre(HasSubstr("README.md is not the page")));
 }
 

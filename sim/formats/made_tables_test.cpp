@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"
 
@@ -18,8 +19,6 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-const fs::path c_source = HALFWAY_SOURCE_DIR;
 
 TEST(MadeTables, EqualTheCompiledTables) {
   std::size_t compared = 0;
@@ -43,13 +42,13 @@ TEST(MadeTables, EqualTheCompiledTables) {
 TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
   auto cache = TemporaryFolder::make(fs::temp_directory_path());
   ASSERT_TRUE(cache) << cache.error().message;
-  const auto folder = rtl_with_tables(false, {5, 4}, c_source, cache->path());
+  const auto folder = rtl_with_tables(false, {5, 4}, c_source_folder, cache->path());
   ASSERT_TRUE(folder) << folder.error().message;
   std::size_t files = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(c_source / "rtl")) {
+  for (const auto& entry : fs::recursive_directory_iterator(c_source_folder / "rtl")) {
     if (!entry.is_regular_file()) continue;
     ++files;
-    const fs::path name = entry.path().lexically_relative(c_source / "rtl");
+    const fs::path name = entry.path().lexically_relative(c_source_folder / "rtl");
     const auto theirs = read_file(*folder / "rtl" / name), ours = read_file(entry.path());
     ASSERT_TRUE(theirs && ours) << name;
     if (name != "tables/cosine_pkg.vhd") {
@@ -62,10 +61,10 @@ TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
   }
   EXPECT_GT(files, 20U);
   EXPECT_TRUE(fs::exists(*folder / "sim/verilator/harness.cpp"));
-  const auto again = rtl_with_tables(false, {5, 4}, c_source, cache->path());
+  const auto again = rtl_with_tables(false, {5, 4}, c_source_folder, cache->path());
   ASSERT_TRUE(again);
   EXPECT_EQ(*again, *folder);
-  EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source, cache->path()), *folder);
+  EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source_folder, cache->path()), *folder);
 }
 
 TEST(MadeWords, ChangeOnePresetOnly) {
@@ -109,7 +108,7 @@ TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
 TEST(MadeWords, AreInTheCopiedRtl) {
   auto cache = TemporaryFolder::make(fs::temp_directory_path());
   ASSERT_TRUE(cache) << cache.error().message;
-  const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source, cache->path());
+  const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache->path());
   ASSERT_TRUE(folder) << folder.error().message;
   const auto formats = read_file(*folder / "rtl/tables/formats_pkg.vhd");
   ASSERT_TRUE(formats);

@@ -18,7 +18,7 @@
 namespace halfway {
 namespace {
 
-constexpr const char* c_scenes = HALFWAY_SOURCE_DIR "/sim/scenes";
+constexpr const char* c_scene_folder = HALFWAY_SOURCE_DIR "/sim/scenes";
 constexpr const char* c_timing = HALFWAY_SOURCE_DIR "/sim/report/timing.toml";
 constexpr FrameSize c_frame{64, 48};
 
@@ -28,7 +28,7 @@ using VectorsPointer = std::unique_ptr<halfway_vectors, decltype(&halfway_free_v
 using FragmentsPointer = std::unique_ptr<halfway_fragments, decltype(&halfway_free_fragments)>;
 
 ScenePointer loaded(const char* name) {
-  return {halfway_load_scene(name, c_scenes, nullptr), halfway_free_scene};
+  return {halfway_load_scene(name, c_scene_folder, nullptr), halfway_free_scene};
 }
 
 HardwarePointer quadratic(int channels, int degree) {
@@ -74,7 +74,7 @@ halfway_screen_triangle mirrored(halfway_screen_triangle t) {
 }
 
 TEST(Library, ScreenTrianglesGiveTheVectorsOfTheSetUp) {
-  const auto scene = load_scene(c_timing, c_scenes);
+  const auto scene = load_scene(c_timing, c_scene_folder);
   ASSERT_TRUE(scene);
   const std::vector<halfway_screen_triangle> triangles = screen_triangles(*scene);
   ASSERT_GE(triangles.size(), 2u);
@@ -184,7 +184,7 @@ TEST(Library, RefusesFragmentsOutsideTheFrame) {
 }
 
 TEST(Library, AnErrorMayBeNull) {
-  EXPECT_EQ(halfway_load_scene("no such scene", c_scenes, nullptr), nullptr);
+  EXPECT_EQ(halfway_load_scene("no such scene", c_scene_folder, nullptr), nullptr);
   EXPECT_EQ(halfway_make_scene(nullptr, nullptr), nullptr);
   EXPECT_EQ(halfway_quadratic(2, 2, nullptr), nullptr);
   halfway_free_scene(nullptr);

@@ -21,6 +21,7 @@
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stages/word_trace.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::live {
 namespace {
@@ -28,7 +29,6 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 constexpr const char* c_scenes[] = {"spheres", "highlights", "teapot", "lights", "matte", "shadows"};
 constexpr double c_width = 96, c_height = 72;
 
@@ -44,7 +44,7 @@ Settings small() {
 }
 
 std::string text_of(const std::string& scene) {
-  return *read_file(c_source / "sim/scenes" / (scene + ".toml"));
+  return *read_file(c_source_folder / "sim/scenes" / (scene + ".toml"));
 }
 
 // What `halfway sim` draws: the golden model's frame of the scene's stream.
@@ -53,7 +53,7 @@ struct Drawn {
   Frame frame;
 };
 Drawn drawn_by_program(const std::string& name, const HardwareKey& key) {
-  const auto scene = load_scene(name, c_source / "sim/scenes");
+  const auto scene = load_scene(name, c_source_folder / "sim/scenes");
   const FrameSize size = small().size();
   const auto setup = make_setup(*scene, size, key, {});
   SceneStream stream(*setup, key, 1);
@@ -67,7 +67,7 @@ Drawn drawn_by_program(const std::string& name, const HardwareKey& key) {
   return drawn;
 }
 
-LiveFrame loaded(const std::string& scene) {
+LiveFrame loaded_frame(const std::string& scene) {
   LiveFrame live(no_clock);
   const Status status = live.load(scene + ".toml", text_of(scene));
   EXPECT_TRUE(status) << status.error().message;
@@ -76,7 +76,7 @@ LiveFrame loaded(const std::string& scene) {
 
 TEST(LiveFrame, DrawsTheFramesOfTheProgram) {
   for (const char* scene : c_scenes) {
-    LiveFrame live = loaded(scene);
+    LiveFrame live = loaded_frame(scene);
     for (const Shader shader : c_shaders)
       for (const Preset preset : {Preset::exact, Preset::published}) {
         const auto key = live.plan({.shader = shader, .preset = preset});
@@ -99,7 +99,7 @@ TEST(LiveFrame, DrawsTheFramesOfTheProgram) {
 
 // Hardware without events: the way has the golden model's values alone.
 TEST(LiveFrame, TheWayOfAPixelIsThatOfItsTriangles) {
-  LiveFrame live = loaded("teapot");
+  LiveFrame live = loaded_frame("teapot");
   const auto key = live.plan({});
   ASSERT_TRUE(key);
   GoldenEngine engine(*key);
@@ -143,9 +143,9 @@ TEST(LiveFrame, TheWayOfAPixelIsThatOfItsTriangles) {
 }
 
 TEST(LiveFrame, DrawsByVerilator) {
-  const SimulatorFolders folders{c_source, c_source / "build/cache"};
+  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   for (const Shader shader : c_shaders) {
-    LiveFrame live = loaded("matte");
+    LiveFrame live = loaded_frame("matte");
     const auto key = live.plan({.shader = shader});
     ASSERT_TRUE(key);
     const auto engine = open_engine(EngineKind::verilator, *key, folders);
@@ -170,7 +170,7 @@ TEST(LiveFrame, DrawsByVerilator) {
 }
 
 TEST(LiveFrame, ReportsAFaultWithTheFirstFragmentThatDiffers) {
-  LiveFrame live = loaded("matte");
+  LiveFrame live = loaded_frame("matte");
   const auto key = live.plan({});
   GoldenEngine engine(*key);
   engine.change = [](std::vector<Fragment>& fragments) { fragments.at(150).blue ^= 4; };
@@ -204,7 +204,7 @@ TEST(LiveFrame, ReportsAFaultWithTheFirstFragmentThatDiffers) {
 }
 
 TEST(LiveFrame, RefusesBadTextAndDrawsTheNextScene) {
-  LiveFrame live = loaded("matte");
+  LiveFrame live = loaded_frame("matte");
   const auto refusal = [&](const std::string& file, const std::string& text, double tessellation = 1.0) {
     const Status status = live.load(file, text, tessellation);
     if (status) return std::string("loaded");
@@ -238,7 +238,7 @@ TEST(LiveFrame, RefusesBadTextAndDrawsTheNextScene) {
 }
 
 TEST(LiveFrame, RefusesSettingsOutOfRange) {
-  LiveFrame live = loaded("matte");
+  LiveFrame live = loaded_frame("matte");
   GoldenEngine engine(*live.plan({}));
   for (double Settings::*value :
        {&Settings::width, &Settings::height, &Settings::azimuth, &Settings::elevation,
@@ -261,7 +261,7 @@ TEST(LiveFrame, RefusesSettingsOutOfRange) {
 // Settings change the frame, not the hardware, and their neutral values bring the scene's own frame back.
 TEST(LiveFrame, SettingsNeedNoOtherHardware) {
   for (const Shader shader : c_shaders) {
-    LiveFrame live = loaded("spheres");
+    LiveFrame live = loaded_frame("spheres");
     GoldenEngine engine(*live.plan({.shader = shader}));
     ASSERT_TRUE(live.draw(small(), engine));
     const auto own = live.picture(Picture::hardware)->rgb;
@@ -286,7 +286,7 @@ TEST(LiveFrame, SettingsNeedNoOtherHardware) {
 // The hardware of this scene has the table of cos^16 alone, and the best bells of these exponents have
 // others.
 TEST(LiveFrame, OtherExponentsUseTheTablesOfTheHardware) {
-  LiveFrame live = loaded("teapot");
+  LiveFrame live = loaded_frame("teapot");
   const auto key = live.plan({.shader = Shader::spherical});
   ASSERT_EQ(key->spherical.powers, 16U);
   GoldenEngine engine(*key);
@@ -300,7 +300,7 @@ TEST(LiveFrame, OtherExponentsUseTheTablesOfTheHardware) {
 }
 
 TEST(LiveFrame, AHigherThresholdSplitsLess) {
-  LiveFrame live = loaded("spheres");
+  LiveFrame live = loaded_frame("spheres");
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
     GoldenEngine engine(*live.plan({.shader = shader}));
     Settings settings = small();
@@ -314,7 +314,7 @@ TEST(LiveFrame, AHigherThresholdSplitsLess) {
 }
 
 TEST(LiveFrame, ReferenceAndDifference) {
-  LiveFrame live = loaded("spheres");
+  LiveFrame live = loaded_frame("spheres");
   GoldenEngine engine(*live.plan({}));
   EXPECT_FALSE(live.draw_reference());
   ASSERT_TRUE(live.draw(small(), engine));
@@ -333,7 +333,7 @@ TEST(LiveFrame, ReferenceAndDifference) {
 }
 
 TEST(LiveFrame, SplitTrianglesHaveColoursOfTheirOwn) {
-  LiveFrame live = loaded("spheres");
+  LiveFrame live = loaded_frame("spheres");
   GoldenEngine engine(*live.plan({}));
   const auto colours = [&](double threshold) {
     Settings settings = small();
@@ -353,7 +353,7 @@ TEST(LiveFrame, SplitTrianglesHaveColoursOfTheirOwn) {
 TEST(StreamParts, CoverTheStreamUnitByUnit) {
   for (const char* scene : {"matte", "shadows"})
     for (const Shader shader : c_shaders) {
-      LiveFrame live = loaded(scene);
+      LiveFrame live = loaded_frame(scene);
       const auto key = live.plan({.shader = shader});
       GoldenEngine engine(*key);
       ASSERT_TRUE(live.draw(small(), engine));

@@ -158,12 +158,12 @@ struct Vectors {
   std::vector<std::uint32_t> words;
   std::vector<Fragment> golden;
 };
-constexpr FrameSize c_size{48, 36};
+constexpr FrameSize c_rtl_size{48, 36};
 
 Vectors vectors_of(Shader shader) {
   const auto scene = load_scene("matte", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
   const auto plan = plan_scene(*scene, {.shader = shader});
-  const auto setup = make_setup(*scene, c_size, plan->key, {});
+  const auto setup = make_setup(*scene, c_rtl_size, plan->key, {});
   Vectors all{plan->key, {}, {}};
   SceneStream stream(*setup, all.key, 1);
   for (Batch batch; stream.next(batch);) {
@@ -185,7 +185,7 @@ TEST(RtlFrame, DrawsGoldenFragmentsWhenTheyAreNeeded) {
         const auto engine = stand_in(drawn, late);
         for (const bool compare : {true, false}) {
           engine->limits.clear();
-          RtlFrame frame(engine, c_size, {}, {.golden = make_golden_model(all.key), .compare = compare});
+          RtlFrame frame(engine, c_rtl_size, {}, {.golden = make_golden_model(all.key), .compare = compare});
           ASSERT_TRUE(frame.add(all.words));
           ASSERT_TRUE(frame.finish());
           const SimulatorRun run = frame.result();

@@ -99,11 +99,11 @@ std::string gltf(const std::string& buffer = c_buffer) {
 }
 
 std::string glb() {
-  std::string json = gltf_json("");
-  while (json.size() % 4 != 0) json += ' ';
+  std::string chunk = gltf_json("");
+  while (chunk.size() % 4 != 0) chunk += ' ';
   const auto size = [](std::size_t n) { return static_cast<std::uint32_t>(n); };
-  return "glTF" + bytes(std::vector<std::uint32_t>{2, size(12 + 8 + json.size() + 8 + c_buffer.size())}) +
-         bytes(std::vector<std::uint32_t>{size(json.size()), 0x4e4f534a}) + json +
+  return "glTF" + bytes(std::vector<std::uint32_t>{2, size(12 + 8 + chunk.size() + 8 + c_buffer.size())}) +
+         bytes(std::vector<std::uint32_t>{size(chunk.size()), 0x4e4f534a}) + chunk +
          bytes(std::vector<std::uint32_t>{size(c_buffer.size()), 0x004e4942}) + c_buffer;
 }
 

@@ -15,9 +15,9 @@ namespace {
 constexpr double c_ms = 1e-6;  // ns to ms
 
 // A line's values with the names of their columns.
-using Line = std::vector<std::pair<const char*, std::string>>;
+using TimeLine = std::vector<std::pair<const char*, std::string>>;
 
-Line line_of(const Provenance& provenance, const Record& record, const FrameTime& time) {
+TimeLine line_of(const Provenance& provenance, const Record& record, const FrameTime& time) {
   const auto& [p, m, picture] = record;
   const bool has_hardware = time.hardware_ns.has_value();
   const auto of_hardware = [&](const auto& value) {
@@ -135,7 +135,7 @@ std::string times_csv(const Provenance& provenance, std::span<const Record> reco
   Table table;
   for (const PictureTimes& picture : pictures)
     for (const FrameTime& time : picture.times) {
-      const Line line = line_of(provenance, records[time.record], time);
+      const TimeLine line = line_of(provenance, records[time.record], time);
       if (table.columns.empty())
         for (const auto& [column, value] : line) table.columns.emplace_back(column);
       std::vector<std::string>& row = table.rows.emplace_back();
