@@ -4,99 +4,61 @@
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-builtin-rules --no-print-directory
 
-# The variables that each target uses. A variable on the command line that no given target uses is an error:
-# otherwise it would be ignored.
-drawing := SCENE SHADER DEGREE FORM PRESET SIZE ALL_EFFECTS LIGHTS
-takes_sim := $(drawing) OWN_TABLES SIMULATOR OUT THREADS JOBS
-takes_view := $(drawing) SIMULATOR OUT THREADS FRAMES VIDEO RATE TERMINAL JOBS
-takes_live := THREADS JOBS
-takes_board-sim := SCENE SIMULATOR OUT JOBS
-takes_compare := SCENE SHADER ALL_EFFECTS OUT JOBS
-takes_why := $(drawing) PIXEL OUT JOBS
-takes_plan := $(drawing) SIMULATOR THREADS MEASURE OBJECTS RATE JOBS
-takes_verilog := $(drawing) AXI OUT JOBS
-takes_savings := THREADS JOBS
-takes_study := SCENE SIZE OUT THREADS SPACE FULL TILE ERROR PSNR TIME CLOCK PLACE PIN EXECUTOR PARTS JOBS
-takes_slurm-test := JOBS
-takes_figures := JOBS
-takes_report := JOBS
-takes_check-report := JOBS
-takes_gallery := THREADS JOBS
-takes_tables := PRESET ADDRESS_BITS DATA_BITS JOBS
-takes_check-tables := $(takes_tables)
-takes_test := TESTS JOBS
-takes_test-all := JOBS
-takes_testbench := ENTITY JOBS
-takes_lint := FILES JOBS
-takes_sanitize := TESTS JOBS
-takes_fuzz := SECONDS TARGET JOBS
-takes_kills := JOBS
-takes_mutate := DESIGN FULL JOBS
-takes_prove := PROOF JOBS
-takes_evidence := JOBS
-takes_stability := JOBS
-takes_search := TRIANGLES SEED JOBS
-takes_bounds := JOBS
-takes_synth := DESIGN SEEDS PIN JOBS
-takes_board := PIN JOBS
-takes_bench := JOBS
-takes_build := JOBS
-takes_program := JOBS
-takes_studies := JOBS
-takes_generator := JOBS
+# Each variable: the targets that use it, and its help text. A variable on the command line that no given target uses is
+# an error: otherwise it would be ignored.
+about_SCENE := sim,view,board-sim,compare,why,plan,verilog,study a built-in scene, a TOML file or a mesh file (default: all built-in scenes)
+about_SHADER := sim,view,compare,why,plan,verilog quadratic, spherical or processors (default: quadratic)
+about_DEGREE := sim,view,why,plan,verilog degree of the quadratic shader: 2, or 1 for planes (Gouraud shading) (default: 2)
+about_FORM := sim,view,why,plan,verilog folded or unrolled shading processors (default: unrolled)
+about_PRESET := sim,view,why,plan,verilog,tables,check-tables exact or published (default: exact; make tables: both, or with a size one of them)
+about_SIZE := sim,view,why,plan,verilog,study WIDTHxHEIGHT in pixels (default: 640x480)
+about_OWN_TABLES := sim 1: spherical shader with a table for each exponent of the scene: within one colour step
+about_ALL_EFFECTS := sim,view,compare,why,plan,verilog 1: hardware with every effect, whether or not the scene needs it
+about_LIGHTS := sim,view,why,plan,verilog with ALL_EFFECTS: the number of lights of the hardware
+about_SIMULATOR := sim,view,board-sim,plan ghdl, verilator or lanes; make view: auto, verilator or lanes (default: ghdl and verilator; auto)
+about_OUT := sim,view,board-sim,compare,why,verilog,study the folder for results (default: build/out)
+about_THREADS := sim,view,live,plan,savings,study,gallery threads for setup and golden model; make view: for whole frames (default: all cores)
+about_FRAMES := view steps of one turn of the camera (default: 36)
+about_VIDEO := view a file for a video
+about_RATE := view,plan frames per second: of the video; make plan: that the shading processors draw
+about_TERMINAL := view 1: draw in the terminal
+about_AXI := verilog 1: make verilog: the top with AXI4-Stream ports
+about_PIXEL := why x,y of the pixel that make why explains
+about_MEASURE := plan 1: count cells by Yosys, and cycles and seconds by simulation
+about_OBJECTS := plan objects per pixel that the shading processors draw
+about_SPACE := study a TOML file of designs
+about_FULL := study,mutate 1: make study: the whole space of designs; make mutate: all faults
+about_TILE := study larger frames are drawn in tiles of WIDTHxHEIGHT (default: 1280x960)
+about_ERROR := study query: the cheapest hardware with a largest error of at most this many steps of 1/255
+about_PSNR := study query: the cheapest hardware with at least this PSNR in dB
+about_TIME := study query: the best hardware that draws a frame in this time, such as 10ms
+about_CLOCK := study MHz assumed for hardware whose clock is unknown
+about_PLACE := study 1: place and route hardware for its clock, minutes for each design
+about_PIN := study,synth,board 1: store the figures instead of comparing them; make study PLACE=1: store the clocks
+about_EXECUTOR := study local or slurm (a job array) (default: local)
+about_PARTS := study tasks of the job array (default: 64)
+about_ADDRESS_BITS := tables,check-tables address bits of the cosine tables (default: 9; published 6)
+about_DATA_BITS := tables,check-tables data bits of the cosine tables (default: 8; published 6)
+about_TESTS := test,sanitize a regular expression: only the tests that match, of both tiers
+about_ENTITY := testbench the entity whose testbench runs, such as triangle_walker
+about_FILES := lint only C++ files with this text in their paths (default: all)
+about_SECONDS := fuzz seconds for each fuzzer (default: 60)
+about_TARGET := fuzz only this fuzzer
+about_TRIANGLES := search number of random triangles (default: 10000000)
+about_SEED := search seed of the random triangles (default: 1)
+about_PROOF := prove only proofs with this text in their names, such as raster/edge_walker (default: all)
+about_DESIGN := mutate,synth only designs with this text in their names (default: all)
+about_SEEDS := synth number of placement seeds (default: 3)
+about_PAGE := evidence only this page: bounds, cells, accuracy, transcripts, figures, gallery, hard_cases, proofs, mutants; or speed, clocks (default: all but speed and clocks)
+about_AGAIN := evidence 1: measure pages of this commit, too
+about_JOBS := sim,view,live,board-sim,compare,why,plan,verilog,savings,study,figures,report,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
 
-# The text of `make help` for each variable.
-about_SCENE := a built-in scene, a TOML file or a mesh file   (default: all built-in scenes)
-about_SHADER := quadratic, spherical or processors   (default: quadratic)
-about_DEGREE := degree of the quadratic shader: 2, or 1 for planes (Gouraud shading)   (default: 2)
-about_FORM := folded or unrolled shading processors   (default: unrolled)
-about_PRESET := exact or published   (default: exact; make tables: both, or with a size one of them)
-about_SIZE := WIDTHxHEIGHT in pixels   (default: 640x480)
-about_OWN_TABLES := 1: spherical shader with a table for each exponent of the scene: within one colour step
-about_ALL_EFFECTS := 1: hardware with every effect, whether or not the scene needs it
-about_LIGHTS := with ALL_EFFECTS: the number of lights of the hardware
-about_SIMULATOR := ghdl, verilator or lanes; make view: auto, verilator or lanes   (default: ghdl and verilator; auto)
-about_OUT := the folder for results   (default: build/out)
-about_THREADS := threads for setup and golden model; make view: for whole frames   (default: all cores)
-about_FRAMES := steps of one turn of the camera   (default: 36)
-about_VIDEO := a file for a video
-about_RATE := frames per second: of the video; make plan: that the shading processors draw
-about_TERMINAL := 1: draw in the terminal
-about_AXI := 1: make verilog: the top with AXI4-Stream ports
-about_PIXEL := x,y of the pixel that make why explains
-about_MEASURE := 1: count cells by Yosys, and cycles and seconds by simulation
-about_OBJECTS := objects per pixel that the shading processors draw
-about_SPACE := a TOML file of designs
-about_FULL := 1: make study: the whole space of designs; make mutate: all faults
-about_TILE := larger frames are drawn in tiles of WIDTHxHEIGHT   (default: 1280x960)
-about_ERROR := query: the cheapest hardware with a largest error of at most this many steps of 1/255
-about_PSNR := query: the cheapest hardware with at least this PSNR in dB
-about_TIME := query: the best hardware that draws a frame in this time, such as 10ms
-about_CLOCK := MHz assumed for hardware whose clock is unknown
-about_PLACE := 1: place and route hardware for its clock, minutes for each design
-about_PIN := 1: store the figures instead of comparing them; make study PLACE=1: store the clocks
-about_EXECUTOR := local or slurm (a job array)   (default: local)
-about_PARTS := tasks of the job array   (default: 64)
-about_ADDRESS_BITS := address bits of the cosine tables   (default: 9; published 6)
-about_DATA_BITS := data bits of the cosine tables   (default: 8; published 6)
-about_TESTS := a regular expression: only the tests that match, of both tiers
-about_ENTITY := the entity whose testbench runs, such as triangle_walker
-about_FILES := only C++ files with this text in their paths   (default: all)
-about_SECONDS := seconds for each fuzzer   (default: 60)
-about_TARGET := only this fuzzer
-about_TRIANGLES := number of random triangles   (default: 10000000)
-about_SEED := seed of the random triangles   (default: 1)
-about_PROOF := only proofs with this text in their names, such as raster/edge_walker   (default: all)
-about_DESIGN := only designs with this text in their names   (default: all)
-about_SEEDS := number of placement seeds   (default: 3)
-about_JOBS := parallel compilations, tests and fuzzers   (default: all cores)
-
-variables_in_order = $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
-variables := $(patsubst about_%,%,$(filter about_%,$(.VARIABLES)))
-targets := $(patsubst takes_%,%,$(sort $(filter takes_%,$(.VARIABLES))))
-users_of = $(strip $(foreach target,$(targets),$(if $(filter $(1),$(takes_$(target))),$(target))))
+variables := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
+comma := ,
+users_of = $(subst $(comma), ,$(firstword $(about_$(1))))
+text_of = $(wordlist 2,$(words $(about_$(1))),$(about_$(1)))
 goals := $(or $(MAKECMDGOALS),help)
-used := $(foreach goal,$(goals),$(takes_$(goal)))
+used := $(foreach name,$(variables),$(if $(filter $(goals),$(call users_of,$(name))),$(name)))
 given := $(filter-out -%,$(foreach name,$(.VARIABLES),$(if $(filter command,$(origin $(name))),$(name))))
 unused := $(firstword $(filter-out $(used),$(given)))
 ifneq ($(unused),)
@@ -120,6 +82,11 @@ lock = mkdir -p build && { flock -n build/make.lock true || echo 'waiting for an
 # The build with sanitizers, which make sanitize and make fuzz share.
 sanitized = $(lock) sh -c 'cmake --log-level=NOTICE -S . -B build/sanitize -G Ninja -DHALFWAY_SANITIZE=ON \
   -DCMAKE_CXX_COMPILER=clang++ && cmake --build build/sanitize -j "$$@"' make "$(jobs)"
+build_targets = { [ -z "$$targets" ] || { $(lock) cmake --build build -j "$(jobs)" --target $$targets; }; }
+# Measures a page of evidence. With options, which variables give, its program only prints.
+measure = set -- $(2); if [ $$\# -gt 0 ]; then targets=$$(scripts/evidence.sh programs "$(1)") && $(build_targets) && \
+  scripts/evidence.sh run "$(1)" "$(jobs)" "$$@"; else $(lock) cmake --build build -j "$(jobs)" --target halfway_page && \
+  targets=$$(scripts/evidence.sh targets "$(1)") && $(build_targets) && scripts/evidence.sh measure "$(1)" "$(jobs)"; fi
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
   $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
@@ -130,17 +97,25 @@ table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--add
 synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
   --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
-.PHONY: help sim view live board-sim compare why plan verilog savings study slurm-test figures report check-report diagrams gallery tables \
-  check-tables test test-all testbench lint sanitize fuzz kills mutate prove evidence stability search bounds synth board bench build program studies generator mcode configure \
-  setup doctor format check-format clean
+.PHONY: help help-all $(sort $(foreach name,$(variables),$(call users_of,$(name)))) mcode configure setup diagrams doctor format \
+  check-format clean
 
-help: ## this list
+# The targets of make help; make help-all lists all.
+first_targets := sim view live why plan verilog study report test testbench evidence doctor clean
+list = sed -n 's/^\([a-z0-9-]*\):.*\#\# \(.*\)/  make \1	\2/p' Makefile | expand -t 22
+
+help: ## the most used targets
 	@echo 'Halfway: shading hardware in VHDL, checked bit for bit against C++'
 	@echo
-	@sed -n 's/^\([a-z0-9-]*\):.*## \(.*\)/  make \1	\2/p' Makefile | expand -t 22
+	@$(list) | grep -E '^  make ($(subst $(subst ,, ),|,$(first_targets))) '
 	@echo
-	@echo 'Variables, e.g. make sim SCENE=path/to/mesh.obj SIZE=800x600, and the targets that use each'
-	@printf '  %s\t%s   [%s]\n' $(foreach name,$(variables_in_order),'$(name)' '$(about_$(name))' \
+	@echo 'make help-all lists all targets, and the variables, e.g. make sim SCENE=path/to/mesh.obj SIZE=800x600'
+
+help-all: ## all targets and variables
+	@$(list)
+	@echo
+	@echo 'Variables, and the targets that use each'
+	@printf '  %s\t%s   [%s]\n' $(foreach name,$(variables),'$(name)' '$(call text_of,$(name))' \
 	  '$(if $(filter JOBS,$(name)),every target that builds,$(call users_of,$(name)))') | expand -t 16
 
 sim: program ## draw scenes by golden model, GHDL and Verilator, compare, write frames
@@ -181,12 +156,8 @@ study: studies ## measure accuracy and time over the design space (FULL=1; SCENE
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 
-slurm-test: configure ## test a study as a job array, on a Slurm that the test starts and stops on this machine
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway
-	@tb/slurm/slurm.sh build/halfway . build/tb/slurm
-
-figures: program ## draw and measure the papers' figures and tables again; write docs/results/figures
-	@build/halfway figures --out build/figures --page docs/results/figures
+figures: configure ## make evidence PAGE=figures: draw and measure the papers' figures and tables again
+	@$(call measure,figures)
 
 # Missing parts of the page are made first. The shading processors are drawn only by Verilator: GHDL needs minutes.
 report: program ## write one HTML page: frames, accuracy against time, effects, figures, waveforms, tables
@@ -197,18 +168,11 @@ report: program ## write one HTML page: frames, accuracy against time, effects, 
 	@[ -f build/figures/figures.json ] || [ -f docs/results/figures/figures.json ] || $(MAKE) figures
 	@build/halfway report
 
-check-report: build ## test the page of make report in headless Chromium, with mouse and keys
-	@ctest --test-dir build --output-on-failure --no-tests=error -C cases -R '^ReportPage'
-
 diagrams: setup ## draw the shaders' block diagrams in rtl/diagrams from their text
 	@scripts/diagrams.sh build/diagrams
 
-gallery: studies ## draw the pictures in docs/results/gallery by the RTL, and measure the plots of README.md and docs/accuracy.md, again
-	@scripts/gallery.sh build/gallery
-	@build/halfway study --out build/gallery/study $(call option,THREADS,--threads)
-	@build/halfway report --study build/gallery/study --front docs/results/gallery --page docs/accuracy.md
-	@build/halfway study --space sim/studies/times.toml --out build/gallery/times $(call option,THREADS,--threads)
-	@build/halfway report --study build/gallery/times --times docs/results/gallery --page docs/accuracy.md --readme README.md
+gallery: configure ## make evidence PAGE=gallery: draw the pictures and plots of the pages again (THREADS)
+	@export threads="$$THREADS"; $(call measure,gallery)
 
 tables: generator ## write the generated ROMs and formats
 	@build/halfway_generator tables $(table_options)
@@ -244,47 +208,25 @@ fuzz: setup ## run libFuzzer on every kind of input (SECONDS each; TARGET: only 
 	@$(sanitized) --target halfway_fuzz_targets
 	@scripts/fuzz.sh "$${SECONDS:-60}" "$(jobs)" $${TARGET:+"$$TARGET"}
 
-kills: build ## run the long form of the tests with kill -9: 60 moments instead of a few
-	@tb/robustness/kill.sh build/halfway build/halfway_generator . build/tb/kills 60
+mutate: configure ## make evidence PAGE=mutants; FULL=1 or DESIGN: print what finds all faults of all or some netlists
+	@$(call measure,mutants,$(call flag,FULL,--step 1) $${DESIGN:+"$$DESIGN"})
 
-mutate: configure ## insert small faults into the hardware, which the tests must find: a sample, or thousands (FULL=1)
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_mutants halfway_vectors
-	@build/tb/halfway_vectors all build/tb/vectors
-	@build/tb/halfway_mutants --step "$$(case "$$FULL$$DESIGN" in ('' | 0) echo 10 ;; (*) echo 1 ;; esac)" --jobs "$(jobs)" \
-	  --evidence all . build/tb/vectors build/tb/mutants $${DESIGN:+"$$DESIGN"}
+prove: configure ## make evidence PAGE=proofs; PROOF: only print some proofs and the faults that they refute
+	@$(call measure,proofs,$${PROOF:+"$$PROOF"})
 
-prove: configure ## prove properties of the RTL; each proof must also refute faults (PROOF: only some)
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_proofs
-	@build/tb/halfway_proofs --evidence all . build/proofs $${PROOF:+"$$PROOF"}
+evidence: configure $(if $(filter speed,$(PAGE)),mcode) ## measure the pages of evidence that are not of this commit, 45 minutes for all; may be interrupted (PAGE: one)
+	@export again="$$AGAIN"; $(call measure,$${PAGE:-all})
 
-evidence: configure ## measure the stale rows of the pages of evidence again: accuracy, bounds, hard cases, proofs, mutants, cells (two hours at most; may be interrupted)
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_accuracy halfway_bounds halfway_stability halfway_proofs \
-	  halfway_mutants halfway_vectors halfway_synth
-	@build/tb/halfway_vectors all build/tb/vectors
-	@end=0; build/tb/halfway_synth --evidence stale --jobs "$(jobs)" --pin --readme docs/performance.md . build/cache || end=$$?; \
-	build/tb/halfway_bounds --gtest_brief=1 --evidence=stale || end=$$?; \
-	build/tb/halfway_accuracy --gtest_brief=1 --evidence=stale || end=$$?; \
-	tb/examples/transcripts.sh write "$$(pwd -P)/build/halfway" "$$(pwd -P)" "$$(pwd -P)/build/tb/transcripts" || end=$$?; \
-	tb/examples/block_clocks.sh write "$$(pwd -P)" "$$(pwd -P)/build/tb/block_clocks" || end=$$?; \
-	$(call sweep,stale) || end=$$?; \
-	build/tb/halfway_proofs --evidence stale . build/proofs || end=$$?; \
-	build/tb/halfway_mutants --evidence stale --step 10 --jobs "$(jobs)" . build/tb/vectors build/tb/mutants || end=$$?; exit "$$end"
-
-families := edges quadratic spherical processors shadows illumination arithmetic conversions
-sweep = printf '%s\n' $(families) | xargs -P "$(jobs)" -I{} build/tb/halfway_stability --gtest_brief=1 --evidence=$(1) --part={}/
-stability: configure ## test hard cases in specification, golden model and RTL
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_stability
-	@$(call sweep,all)
+stability: configure ## make evidence PAGE=hard_cases: hard cases in specification, golden model and RTL
+	@$(call measure,hard_cases)
 
 search: configure ## test random triangles and scenes in the golden model, some of them in the RTL; reduce and store a failing input (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
 	  --page=docs/results/hard_cases.md --keep=tb/stability/regressions .
 
-bounds: configure ## check every error bound of formats and tables: derivation, proof, largest error found
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_bounds
-	@build/tb/halfway_bounds --gtest_brief=1 '--gtest_filter=Checks.*'
-	@build/tb/halfway_bounds --gtest_brief=1 --evidence=all
+bounds: configure ## make evidence PAGE=bounds: error bounds of formats and tables
+	@$(call measure,bounds)
 
 synth: configure ## compare cells on two FPGAs and the clock on one with the stored figures (DESIGN, SEEDS, PIN=1)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
@@ -296,9 +238,8 @@ board: configure ## make the bitstream of the board and compare its figures with
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_board
 	@build/tb/halfway_board $(call flag,PIN,--pin) . build/cache build/board/board.bin
 
-bench: configure mcode ## measure speed: ways to the same picture, growth, small triangles, cores; write the page
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway halfway_bench
-	@build/halfway_bench --jobs "$(jobs)" --page docs/results/speed.md
+bench: configure mcode ## make evidence PAGE=speed: ways to the same picture, growth, small triangles, cores
+	@$(call measure,speed)
 
 # GHDL's other back end, in addition to the installed one.
 mcode: setup
@@ -324,11 +265,11 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
-with_tools := bench board bounds check-report diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
-  savings slurm-test study synth test test-all
+with_tools := bench board bounds diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
+  savings study synth test test-all
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \
-	  $(if $(filter test test-all check-report sanitize slurm-test,$(MAKECMDGOALS)),test) \
+	  $(if $(filter test test-all sanitize,$(MAKECMDGOALS)),test) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,tools)) \
 	  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,tools))
 

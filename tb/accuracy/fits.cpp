@@ -17,7 +17,7 @@
 namespace halfway::accuracy {
 namespace {
 
-using evidence::Fields;
+using page::Fields;
 
 constexpr double c_steps = 255.0, c_largest = 1000.0;
 constexpr std::size_t c_samples = 160;
@@ -182,7 +182,7 @@ struct Fit {
 };
 
 Row row(const std::string& id, const std::string& hardware, const std::function<Fit()>& fit) {
-  return {.id = id, .reads = {}, .measure = [=]() -> Fields {
+  return {.id = id, .measure = [=]() -> Fields {
             const auto [highlight, worst] = fit();
             return {{"highlight", highlight},
                     {"hardware for each light", hardware},

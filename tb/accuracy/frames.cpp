@@ -7,7 +7,7 @@
 namespace halfway::accuracy {
 namespace {
 
-using evidence::Fields;
+using page::Fields;
 
 constexpr FrameSize c_size{640, 480};
 constexpr const char* c_no_number = "–";
@@ -39,23 +39,17 @@ Fields quadratic_fields(const std::string& shader, const FrameDistance& error, c
 
 Row quadratic_row(const std::string& id, const std::string& split, HighlightTest test) {
   const PlanRequest request{.shader = Shader::quadratic};
-  return {.id = id,
-          .reads = {c_spheres},
-          .measure =
-              [=] {
-                SetupOptions options;
-                options.quadratic.test = test;
-                const Drawn d = drawn(spheres(), c_size, request, options);
-                return quadratic_fields("quadratic, " + split, d.error, &d);
-              },
-          .draws = [=] { return std::vector<study::HardwareSource>{planned(spheres(), request)}; }};
+  return {.id = id, .measure = [=] {
+            SetupOptions options;
+            options.quadratic.test = test;
+            const Drawn d = drawn(spheres(), c_size, request, options);
+            return quadratic_fields("quadratic, " + split, d.error, &d);
+          }};
 }
 
 Row spherical_row(const std::string& id, const std::string& shader, Preset preset, SpanEnds ends) {
   const PlanRequest request{.shader = Shader::spherical, .preset = preset};
-  return {.id = id,
-          .reads = {c_spheres},
-          .measure = [=]() -> Fields {
+  return {.id = id, .measure = [=]() -> Fields {
             SetupOptions options;
             options.spherical.ends = ends;
             const Drawn d = drawn(spheres(), c_size, request, options);
@@ -66,17 +60,14 @@ Row spherical_row(const std::string& id, const std::string& shader, Preset prese
                     {"init vectors + line records",
                      fmt::format("{} + {}", grouped(d.setup.vectors), grouped(d.setup.records))},
                     {"cycles", grouped(d.cycles)}};
-          },
-          .draws = [=] { return std::vector<study::HardwareSource>{planned(spheres(), request)}; }};
+          }};
 }
 
 Row processors_row(const std::string& id, const std::string& processors, Preset preset) {
   const auto request = [preset](ProcessorForm form) {
     return PlanRequest{.shader = Shader::processors, .preset = preset, .form = form};
   };
-  return {.id = id,
-          .reads = {c_spheres},
-          .measure = [=]() -> Fields {
+  return {.id = id, .measure = [=]() -> Fields {
             const Drawn folded = drawn(spheres(), c_size, request(ProcessorForm::folded));
             const Drawn unrolled = drawn(spheres(), c_size, request(ProcessorForm::unrolled));
             return {{"shading processors", processors},
@@ -86,13 +77,7 @@ Row processors_row(const std::string& id, const std::string& processors, Preset 
                      grouped(unrolled.setup.vectors)},
                     {"cycles, folded", grouped(folded.cycles)},
                     {"cycles, unrolled", grouped(unrolled.cycles)}};
-          },
-          .draws =
-              [=] {
-                return std::vector<study::HardwareSource>{
-                    planned(spheres(), request(ProcessorForm::folded)),
-                    planned(spheres(), request(ProcessorForm::unrolled))};
-              }};
+          }};
 }
 
 // The study's sphere without highlights.
@@ -106,23 +91,18 @@ Scene matte_sphere(double intensity) {
 Row bright_row(int intensity) {
   const PlanRequest request{.shader = Shader::spherical};
   constexpr FrameSize c_small{320, 240};
-  return {
-      .id = fmt::format("intensity_{}", intensity),
-      .reads = {c_sphere},
-      .measure = [=]() -> Fields {
-        const Drawn d = drawn(matte_sphere(intensity), c_small, request);
-        return {{"intensity", std::to_string(intensity)},
-                {"PSNR, dB", decibels(d.error)},
-                {"largest error", largest(d.error)}};
-      },
-      .draws = [=] { return std::vector<study::HardwareSource>{planned(matte_sphere(intensity), request)}; }};
+  return {.id = fmt::format("intensity_{}", intensity), .measure = [=]() -> Fields {
+            const Drawn d = drawn(matte_sphere(intensity), c_small, request);
+            return {{"intensity", std::to_string(intensity)},
+                    {"PSNR, dB", decibels(d.error)},
+                    {"largest error", largest(d.error)}};
+          }};
 }
 
 }  // namespace
 
 std::vector<Row> quadratic_rows() {
   return {{.id = "gouraud",
-           .reads = {c_spheres},
            .measure =
                [] {
                  return quadratic_fields("Gouraud, in software", gouraud_error(spheres(), c_size), nullptr);

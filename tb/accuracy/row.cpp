@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "evidence/test_rows.hpp"
 #include "frame/frame.hpp"
 #include "reference/renderer.hpp"
 #include "setup/project.hpp"
@@ -86,32 +85,9 @@ std::string grouped(std::uint64_t number) {
   return text;
 }
 
-const std::map<std::string, Row>& all_rows() {
-  static const std::map<std::string, Row> c_rows = [] {
-    std::map<std::string, Row> rows;
-    const auto add = [&](const char* family, const std::vector<Row>& of_family) {
-      for (const Row& row : of_family) rows.emplace(fmt::format("{}/{}", family, row.id), row);
-    };
-    add("quadratic_shader", quadratic_rows());
-    add("spherical_shader", spherical_rows());
-    add("cosine_tables", cosine_rows());
-    add("fits", fit_rows());
-    add("within_one_step", one_step_rows());
-    add("bright_lights", bright_rows());
-    add("shading_processors", processors_rows());
-    add("root_tables", root_rows());
-    return rows;
-  }();
-  return c_rows;
-}
-
 TEST_P(Accuracy, Full) {
-  const std::string suite = testing::UnitTest::GetInstance()->current_test_info()->test_suite_name();
-  const std::string name = fmt::format("{}/{}", suite.substr(0, suite.find('/')), GetParam().id);
-  ASSERT_TRUE(all_rows().contains(name));
   try {
     for (const auto& [column, value] : GetParam().measure()) RecordProperty(column, value);
-    RecordProperty(std::string(evidence::c_details_property), name);
   } catch (const Failure& failure) {
     FAIL() << failure.error.message;
   }

@@ -7,13 +7,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <ostream>
 #include <string>
 #include <vector>
 
-#include "evidence/evidence.hpp"
 #include "frame/metrics.hpp"
+#include "page/page.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
@@ -25,16 +24,11 @@ namespace halfway::accuracy {
 const SimulatorFolders& folders();
 
 struct Row {
-  std::string id;                             ///< unique in its family
-  std::vector<std::string> reads;             ///< files that it depends on, relative to the project's root
-  std::function<evidence::Fields()> measure;  ///< columns and their values
-  std::function<std::vector<study::HardwareSource>()> draws{};  ///< hardware that it draws with; empty: none
+  std::string id;                         ///< unique in its family
+  std::function<page::Fields()> measure;  ///< columns and their values
 
   friend void PrintTo(const Row& row, std::ostream* out) { *out << row.id; }
 };
-
-/// Every row of the page by its name, FAMILY/ID, for the hash of what a row depends on.
-const std::map<std::string, Row>& all_rows();
 
 /// The scene of a file, relative to the project's root.
 Scene loaded(const std::string& file);

@@ -17,7 +17,7 @@
 namespace halfway::accuracy {
 namespace {
 
-using evidence::Fields;
+using page::Fields;
 using study::DesignPoint;
 
 constexpr const char* c_near = "sim/studies/sphere.toml";
@@ -38,9 +38,7 @@ int seed_bits(const DesignPoint& point) {
 std::vector<Row> rows_of(const std::string& space, Row (*row)(const DesignPoint&)) {
   auto points = study::read_space(folders().source / space);
   if (!points)
-    return {{.id = "space", .reads = {space}, .measure = [error = points.error()]() -> Fields {
-               throw Failure{error};
-             }}};
+    return {{.id = "space", .measure = [error = points.error()]() -> Fields { throw Failure{error}; }}};
   std::ranges::stable_sort(*points, {}, seed_bits);
   std::vector<Row> rows;
   for (const DesignPoint& point : *points) rows.push_back(row(point));
@@ -54,9 +52,7 @@ std::string cells_text(const study::HardwareFigures& figures) {
 
 Row cosine_row(const DesignPoint& point) {
   const TableSize size = *point.tables;
-  return {.id = fmt::format("size_{}x{}", size.address_bits, size.data_bits),
-          .reads = {c_cosine_space, c_near, synth::c_pins, synth::c_study_pins},
-          .measure = [=]() -> Fields {
+  return {.id = fmt::format("size_{}x{}", size.address_bits, size.data_bits), .measure = [=]() -> Fields {
             const tables::CosineSizes defaults;
             const tables::CosineSize own = defaults.exact.front();
             const bool is_default = own.address_bits == size.address_bits && own.data_bits == size.data_bits;
@@ -75,8 +71,7 @@ Row cosine_row(const DesignPoint& point) {
                 {"cycles", grouped(d.cycles)},
                 {"time of the frame, µs",
                  f.mhz ? fmt::format("{:.1f}", static_cast<double>(d.cycles) / *f.mhz) : c_none}};
-          },
-          .draws = [=] { return std::vector<study::HardwareSource>{point_hardware(point, loaded(c_near))}; }};
+          }};
 }
 
 Row one_step_row(const DesignPoint& point) {
@@ -84,7 +79,6 @@ Row one_step_row(const DesignPoint& point) {
   const int angle_bits = point.words.angle_bits.value_or(golden::Exact::c_angle_fraction_bits);
   return {.id = fmt::format("{}_{}x{}_angle_{}", point.own_tables ? "own" : "fitted", size.address_bits,
                             size.data_bits, angle_bits),
-          .reads = {c_one_step_space, c_near, synth::c_pins, synth::c_study_pins},
           .measure = [=]() -> Fields {
             const study::HighlightError e = study::worst_highlight_error(size, point.own_tables, angle_bits);
             const Drawn d = drawn(point, loaded(c_near));
@@ -105,8 +99,7 @@ Row one_step_row(const DesignPoint& point) {
                 {"clock, MHz", f.mhz ? fmt::format("{:.1f}", *f.mhz) : c_none},
                 {"ms per frame",
                  f.mhz ? fmt::format("{:.3f}", static_cast<double>(d.cycles) / *f.mhz / 1e3) : c_none}};
-          },
-          .draws = [=] { return std::vector<study::HardwareSource>{point_hardware(point, loaded(c_near))}; }};
+          }};
 }
 
 std::string error_text(const DesignPoint& point, const char* scene) {
@@ -123,15 +116,12 @@ std::string version_text(const DesignPoint& point) {
 
 Row root_row(const DesignPoint& point) {
   const int bits = seed_bits(point);
-  return {.id = bits == 0 ? "version_1" : fmt::format("version_2_bits_{}", bits),
-          .reads = {c_root_space, c_near, c_distant},
-          .measure = [=]() -> Fields {
+  return {.id = bits == 0 ? "version_1" : fmt::format("version_2_bits_{}", bits), .measure = [=]() -> Fields {
             return {{"version, entries × bits of the table", version_text(point)},
                     {"rms error, near eye", error_text(point, c_near)},
                     {"rms error, distant eye", error_text(point, c_distant)},
                     {"cells", cells_text(figures_of(point, c_near))}};
-          },
-          .draws = [=] { return std::vector<study::HardwareSource>{point_hardware(point, loaded(c_near))}; }};
+          }};
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "mutants/replay.hpp"
 #include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
+#include "page/measured.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/threads.hpp"
@@ -27,14 +28,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Limit of one proof. The quick form has a longer one, so that a busy machine does not change its result.
-constexpr std::chrono::seconds c_proof_time{2}, c_quick_proof_time{60};
+constexpr std::chrono::seconds c_proof_time{1}, c_quick_proof_time{60};
 constexpr unsigned c_fewest = 25;     // faults that a row is of, if the netlist has so many
 constexpr unsigned c_quick_step = 8;  // the quick form replays every eighth fault
 
 struct Options {
   std::filesystem::path source, vectors, scratch;
-  evidence::Mode mode = evidence::Mode::none;
-  std::string part;  ///< only netlists and testbenches whose name contains it
+  bool evidence = false;  ///< store rows of all faults of the step, and write the page
+  std::string part;       ///< only netlists and testbenches whose name contains it
   unsigned jobs = 1, seed = 1;
   unsigned step = 1;      ///< replay every step-th fault of each netlist
   std::uint32_t one = 0;  ///< the number of the only fault; 0: all
@@ -87,7 +88,7 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
   NetlistResult result;
   result.step = options.step;
   // A row is of some faults at least.
-  if (options.mode != evidence::Mode::none)
+  if (options.evidence)
     result.step =
         std::min(options.step, std::max(1U, static_cast<unsigned>(netlist->faults.size() / c_fewest)));
   if (options.one > netlist->faults.size())
@@ -118,32 +119,20 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
   return result;
 }
 
-// The fields that the description gives.
-evidence::Today described(const Design& design) {
-  return {.name = design.name,
-          .section = std::string(c_netlist_section),
-          .fields = {{"netlist", "`" + design.name + "`"}}};
-}
 std::string row_name(const std::string& test) {
   return "sources of " + test;
 }
-evidence::Today described(const std::string& test, std::size_t faults) {
-  return {.name = row_name(test),
-          .section = std::string(c_source_section),
-          .fields = {{"testbench", "`" + test + "_tb`"}, {"faults", std::to_string(faults)}}};
-}
 
-evidence::Row row_of(const Design& design, const NetlistResult& result, const Reasons& reasons) {
-  evidence::Row row = described(design);
+page::Row row_of(const Design& design, const NetlistResult& result, const Reasons& reasons) {
+  page::Row row{.name = design.name, .section = std::string(c_netlist_section)};
   const auto count = [&](End end) { return std::to_string(result.count(end)); };
-  const evidence::Fields fields = {
-      {"replayed", result.step == 1 ? "all" : fmt::format("1 of {}", result.step)},
-      {"faults", std::to_string(result.outcomes.size())},
-      {"found", count(End::found)},
-      {"equivalent", count(End::equivalent)},
-      {"survived", count(End::survived)},
-      {"seconds", fmt::format("{:.0f}", result.seconds)}};
-  row.fields.insert(row.fields.end(), fields.begin(), fields.end());
+  row.fields = {{"netlist", "`" + design.name + "`"},
+                {"replayed", result.step == 1 ? "all" : fmt::format("1 of {}", result.step)},
+                {"faults", std::to_string(result.outcomes.size())},
+                {"found", count(End::found)},
+                {"equivalent", count(End::equivalent)},
+                {"survived", count(End::survived)},
+                {"seconds", fmt::format("{:.0f}", result.seconds)}};
   std::map<std::string, NetlistResult> kinds;
   for (const Outcome& outcome : result.outcomes) kinds[outcome.fault.kind].outcomes.push_back(outcome);
   for (const auto& [kind, part] : kinds)
@@ -163,7 +152,6 @@ class Run {
 
   ExitCode all() {
     if (const Status done = open(); !done) return fail(done.error());
-    if (options_.mode == evidence::Mode::check) return report(*evidence_);
     if (options_.netlists)
       if (const Status done = run_netlists(); !done) return fail(done.error());
     if (options_.sources)
@@ -177,7 +165,7 @@ class Run {
     return error.code;
   }
 
-  /// Reads descriptions and rows. Hashes what the selected rows depend on.
+  /// Reads descriptions, and the rows that are measured.
   Status open() {
     auto reasons = Reasons::read(options_.source);
     if (!reasons) return reasons.error();
@@ -193,10 +181,11 @@ class Run {
     if (!designs) return designs.error();
     auto faults = read_source_faults(options_.source / "tb/mutants/source_faults.toml");
     if (!faults) return faults.error();
-    if (const Status opened = open_evidence(*designs, *faults); !opened) return opened;
+    if (options_.evidence)
+      if (const Status opened = open_page(*designs, *faults); !opened) return opened;
     const auto is_left_out = [&](const std::string& name, const std::string& row, bool quick) {
-      return !is_selected(name) || (options_.quick && !quick) ||
-             (options_.mode == evidence::Mode::stale && !evidence_->is_stale(row));
+      return name.find(options_.part) == std::string::npos || (options_.quick && !quick) ||
+             (measured_ && measured_->has(row));
     };
     std::erase_if(*designs, [&](const Design& d) { return is_left_out(d.name, d.name, d.quick); });
     std::erase_if(*faults,
@@ -206,62 +195,35 @@ class Run {
     return Ok{};
   }
 
-  bool is_selected(const std::string& name) const { return name.find(options_.part) != std::string::npos; }
-
-  Status open_evidence(const std::vector<Design>& designs, const std::vector<SourceFault>& faults) {
-    std::vector<evidence::Today> today;
-    for (const Design& design : designs) today.push_back(described(design));
-    std::map<std::string, std::size_t> tests;
-    for (const SourceFault& fault : faults) ++tests[fault.test];
-    for (const auto& [test, count] : tests) today.push_back(described(test, count));
-    if (options_.mode != evidence::Mode::none) {
-      const auto programs = programs_hash(options_.source);
-      if (!programs) return programs.error();
-      const RowFolders folders{options_.source, options_.vectors};
-      const auto hash_of = [&](std::size_t i) -> Result<std::string> {
-        if (i < designs.size())
-          return is_selected(designs[i].name) ? design_hash(designs[i], *library_, folders, *programs)
-                                              : Result<std::string>(std::string());
-        const std::string& test =
-            std::next(tests.begin(), static_cast<std::ptrdiff_t>(i - designs.size()))->first;
-        return is_selected(test) ? testbench_hash(test, faults, folders, *programs)
-                                 : Result<std::string>(std::string());
-      };
-      const Status hashed = for_each_on_threads(options_.jobs, today.size(), [&](std::size_t i) -> Status {
-        auto hash = hash_of(i);
-        if (!hash) return hash.error();
-        today[i].hash = std::move(*hash);
-        return Ok{};
-      });
-      if (!hashed) return hashed;
-    }
-    auto evidence = evidence::Evidence::open(
-        {.root = options_.source,
-         .rows = "tb/mutants/evidence.txt",
-         .page = "docs/results/mutants.md",
-         .sections =
-             [this](std::span<const evidence::Row> rows) { return mutant_sections(rows, *reasons_); }},
-        std::move(today));
-    if (!evidence) return evidence.error();
-    evidence_ = std::move(*evidence);
+  Status open_page(const std::vector<Design>& designs, const std::vector<SourceFault>& faults) {
+    std::vector<std::string> rows;
+    for (const Design& design : designs) rows.push_back(design.name);
+    std::set<std::string> tests;
+    for (const SourceFault& fault : faults) tests.insert(row_name(fault.test));
+    rows.insert(rows.end(), tests.begin(), tests.end());
+    auto measured = page::Measured::open(
+        {.name = "mutants",
+         .root = options_.source,
+         .file = "docs/results/mutants.md",
+         .tools = {"ghdl", "yosys", "verilator"},
+         .rows = std::move(rows),
+         .sections = [this](std::span<const page::Row> of) { return mutant_sections(of, *reasons_); },
+         .values = mutant_values});
+    if (!measured) return measured.error();
+    measured_ = std::move(*measured);
     return Ok{};
   }
 
-  /// Stores a measured row with today's hash.
-  Status store(evidence::Row row) const {
-    if (options_.mode == evidence::Mode::none) return Ok{};
-    row.hash = evidence_->hash_of(row.name);
-    return evidence_->put(row);
-  }
+  Status store(const page::Row& row) const { return measured_ ? measured_->put(row) : Status(Ok{}); }
 
   Status run_netlists() {
-    std::size_t done = 0;
+    page::Countdown countdown(designs_.size());
     return for_each_on_threads(options_.jobs, designs_.size(), [&](std::size_t i) -> Status {
       const Design& design = designs_[i];
       auto result = run_netlist(options_, design, *library_);
       if (!result) return result.error();
       const std::scoped_lock lock(mutex_);
-      fmt::print("[{}/{}] ", ++done, designs_.size());
+      fmt::print("{} ", countdown.next());
       print(design.name, *result);
       if (const Status stored = store(row_of(design, *result, *reasons_)); !stored) return stored;
       netlists_[design.name] = std::move(*result);
@@ -318,11 +280,12 @@ class Run {
         sources_found_ += right;
       }
       if (--remaining[test] > 0) return Ok{};
-      evidence::Row row = described(test, count_of[test]);
-      row.fields.emplace_back("found", row.fields.back().second);
-      if (missed.contains(test))
-        return options_.mode == evidence::Mode::none ? Ok{} : evidence_->remove(row.name);
-      return store(std::move(row));
+      if (missed.contains(test)) return Ok{};
+      const std::string count_text = std::to_string(count_of[test]);
+      return store(
+          {.name = row_name(test),
+           .section = std::string(c_source_section),
+           .fields = {{"testbench", "`" + test + "_tb`"}, {"faults", count_text}, {"found", count_text}}});
     });
   }
 
@@ -340,19 +303,19 @@ class Run {
                           "tb/mutants/survivors.toml",
                           name, to_string(outcome), outcome.fault.place));
     }
-    if (!netlists_.empty() && found == 0 && options_.one == 0)
+    if (!netlists_.empty() && found == 0 && options_.one == 0 && !options_.evidence)
       wrong.emplace_back("no fault of any netlist is found");
     if (options_.sources) fmt::print("sources: {} faults, {} found\n", sources_, sources_found_);
     for (const std::string& what : wrong) fmt::print("{}\n", what);
-    if (options_.mode != evidence::Mode::none)
-      if (const Status written = evidence_->finish(); !written) return fail(written.error());
-    return wrong.empty() ? ExitCode::equal : ExitCode::differs;
+    if (!wrong.empty() || !measured_) return wrong.empty() ? ExitCode::equal : ExitCode::differs;
+    const auto end = measured_->finish();
+    return end ? *end : fail(end.error());
   }
 
   const Options& options_;
   std::optional<Reasons> reasons_;
   std::optional<GhdlLibrary> library_;
-  std::optional<evidence::Evidence> evidence_;
+  std::optional<page::Measured> measured_;
   std::vector<Design> designs_;
   std::vector<SourceFault> faults_;
   std::mutex mutex_;
@@ -386,7 +349,8 @@ int main(int argc, char** argv) {
   app.add_option("SCRATCH", options.scratch, "folder for netlists and what is built from them")->required();
   app.add_option("PART", options.part, "only netlists and testbenches whose names hold it");
   // A row is of the usual seed, with proofs.
-  evidence::add_option(app, options.mode)->excludes(quick, one, seed, no_proofs);
+  app.add_flag("--evidence", options.evidence, "measure the rows that are missing, and write the page")
+      ->excludes(quick, one, seed, no_proofs);
   int exit_code = 0;
   app.callback([&] {
     for (auto* folder : {&options.source, &options.vectors, &options.scratch})

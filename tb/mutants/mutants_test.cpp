@@ -124,18 +124,18 @@ TEST(Designs, HaveEveryEntityOrTheReason) {
 // The page of two rows of netlists and one of a testbench.
 TEST(Rows, BecomeThePage) {
   const auto netlist = [](const std::string& name, const std::string& details) {
-    return evidence::Row{.name = name,
-                         .section = std::string(c_netlist_section),
-                         .details = details,
-                         .fields = {{"netlist", name},
-                                    {"replayed", "all"},
-                                    {"faults", "10"},
-                                    {"found", "7"},
-                                    {"equivalent", "2"},
-                                    {"survived", "1"},
-                                    {"seconds", "3"}}};
+    return page::Row{.name = name,
+                     .section = std::string(c_netlist_section),
+                     .fields = {{"netlist", name},
+                                {"replayed", "all"},
+                                {"faults", "10"},
+                                {"found", "7"},
+                                {"equivalent", "2"},
+                                {"survived", "1"},
+                                {"seconds", "3"}},
+                     .details = details};
   };
-  const std::vector<evidence::Row> rows = {
+  const std::vector<page::Row> rows = {
       netlist("a",
               "kind\tinv\t10\t7\t2\t1\nsurvivor\tstream/count.vhd: if reset = '1' then\t4 inv Y n1[0]\n"),
       netlist("b",
@@ -163,34 +163,13 @@ TEST(Rows, BecomeThePage) {
   EXPECT_THAT(sections[1].body, testing::HasSubstr("| c_tb | 2 | 2 |"));
   EXPECT_THAT(sections[2].body, testing::HasSubstr("| `a` | 1 | `4 inv Y n1[0]` | starts at zero |"));
   EXPECT_THAT(sections[2].body, testing::HasSubstr("| `x.vhd: y;` | `b` | 1 | `5 const0 A n2[0]` |  |"));
-}
-
-// A row of source faults depends on what its testbench uses, and not on comments or other files.
-TEST(Rows, OfSourceFaultsDependOnWhatTheTestbenchUses) {
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const auto root = folder->path() / "root";
-  const auto hash = [&](const std::string& file, const std::string& text) {
-    const std::map<std::string, std::string> texts = {
-        {"rtl/files.f", "a.vhd\nb.vhd\nc.vhd\n"},
-        {"rtl/a.vhd", "entity a is\nend;\n"},
-        {"rtl/b.vhd", "entity b is\nend;\narchitecture x of b is\nbegin\n  p : entity work.a;\nend;\n"},
-        {"rtl/c.vhd", "entity c is\nend;\n"},
-        {"tb/b_tb.vhd",
-         "entity b_tb is\nend;\narchitecture x of b_tb is\nbegin\n  p : entity work.b;\nend;\n"},
-        {"vectors/b/x.txt", "1\n"}};
-    for (const auto& [name, content] : texts)
-      EXPECT_TRUE(make_folders((root / name).parent_path()) &&
-                  write_file(root / name, name == file ? text : content));
-    const auto result = testbench_hash("b", {}, {root, root / "vectors"}, "programs");
-    return result ? *result : result.error().message;
-  };
-  const std::string one = hash("", "");
-  EXPECT_EQ(one.size(), 32U) << one;
-  EXPECT_EQ(hash("rtl/a.vhd", "-- comment\nentity  a is\n\nend;\n"), one);
-  EXPECT_EQ(hash("rtl/c.vhd", "entity c is\n  port (x : in bit);\nend;\n"), one);
-  EXPECT_NE(hash("rtl/a.vhd", "entity a is\n  port (x : in bit);\nend;\n"), one);
-  EXPECT_NE(hash("vectors/b/x.txt", "2\n"), one);
+  // Thresholds judge the faults found of all faults.
+  const auto values = mutant_values(rows);
+  ASSERT_EQ(values.size(), 3U);
+  EXPECT_EQ(values[0].name, "a");
+  EXPECT_THAT(values[0].numbers, testing::ElementsAre(70));
+  EXPECT_EQ(values[2].name, "all netlists");
+  EXPECT_THAT(values[2].numbers, testing::ElementsAre(70));
 }
 
 TEST(Survivors, NameLinesOfTheSources) {

@@ -7,14 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <regex>
-#include <set>
 #include <sstream>
 
-#include "evidence/inputs.hpp"
-#include "sim/ghdl/rtl_hash.hpp"
 #include "sim/pages/template.hpp"
-#include "sim/synth/nameless_netlist.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::mutants {
@@ -31,43 +26,6 @@ Cells words_of(const std::string& line, char separator) {
   return words;
 }
 
-// Adds the files of the folder, sorted by name.
-Status add_files(const std::filesystem::path& folder, ContentHash& hash) {
-  const auto files = files_below(folder);
-  if (!files) return files.error();
-  for (const auto& file : *files) {
-    const auto text = read_file(folder / file);
-    if (!text) return text.error();
-    hash.add(file.string()).add(*text);
-  }
-  return Ok{};
-}
-
-// The named source and all that it uses by `work.NAME`, each once.
-void add_used(const std::string& text, const std::map<std::string, const VhdlSource*>& units,
-              std::set<std::string>& added, ContentHash& hash) {
-  static const std::regex c_use(R"(\bwork\.(\w+))");
-  hash.add(text);
-  for (std::sregex_iterator at(text.begin(), text.end(), c_use), last; at != last; ++at) {
-    const auto unit = units.find((*at)[1]);
-    if (unit != units.end() && added.insert(unit->second->name).second)
-      add_used(bare_vhdl(unit->second->content), units, added, hash);
-  }
-}
-
-Result<std::vector<VhdlSource>> all_sources(const std::filesystem::path& source) {
-  auto sources = read_rtl_sources(source);
-  if (!sources) return sources;
-  const auto files = files_below(source / "tb", ".vhd");
-  if (!files) return files.error();
-  for (const auto& file : *files) {
-    auto one = read_vhdl_source(source, (std::filesystem::path("tb") / file).string());
-    if (!one) return one.error();
-    sources->push_back(std::move(*one));
-  }
-  return sources;
-}
-
 // A row of numbers, summed over rows.
 using Sum = std::array<unsigned long, 4>;  // faults, found, equivalent, survived
 
@@ -81,68 +39,6 @@ Cells row_of(const std::string& name, const Sum& sum) {
 }
 
 }  // namespace
-
-Result<std::string> programs_hash(const std::filesystem::path& source) {
-  constexpr std::string_view c_tools[] = {"ghdl", "yosys", "verilator"};
-  const auto versions = evidence::versions(c_tools);
-  if (!versions) return versions.error();
-  ContentHash hash;
-  hash.add(*versions);
-  for (const char* file : {"netlist_faults.cpp", "replay.cpp", "model_harness.cpp", "source_faults.cpp"}) {
-    const auto text = read_file(source / "tb/mutants" / file);
-    if (!text) return text.error();
-    hash.add(file).add(evidence::bare_cpp(*text));
-  }
-  return hash.hex();
-}
-
-Result<std::string> design_hash(const Design& design, const GhdlLibrary& library, const RowFolders& folders,
-                                std::string_view programs) {
-  const auto netlist = library.synthesize(design.entity, design.generics);
-  if (!netlist) return netlist.error();
-  ContentHash hash;
-  hash.add("mutants 1").add(programs).add(synth::nameless(*netlist)).add(design.rows).add(design.stalled);
-  hash.add(fmt::format("{} {} {}", design.faults, design.skip, design.reset));
-  std::vector<Stream> streams{design.input};
-  streams.insert(streams.end(), design.outputs.begin(), design.outputs.end());
-  for (const Stream& stream : streams)
-    hash.add(stream.port).add(stream.file).add(stream.columns).add(stream.prompt ? "prompt" : "");
-  if (!design.rows.empty()) streams = {Stream{}};
-  for (const std::string& set : design.sets)
-    for (const Stream& stream : streams) {
-      const auto text = read_file(folders.vectors / (set + stream.file + ".txt"));
-      if (!text) return text.error();
-      hash.add(set).add(*text);
-    }
-  return hash.hex();
-}
-
-Result<std::string> testbench_hash(const std::string& test, std::span<const SourceFault> faults,
-                                   const RowFolders& folders, std::string_view programs) {
-  const auto sources = all_sources(folders.source);
-  if (!sources) return sources.error();
-  static const std::regex c_unit(R"((?:^|\n)(?:entity|package)\s+(\w+)\s+is)");
-  std::map<std::string, const VhdlSource*> units;
-  for (const VhdlSource& source : *sources)
-    for (std::sregex_iterator at(source.content.begin(), source.content.end(), c_unit), last; at != last;
-         ++at)
-      units[(*at)[1]] = &source;
-  const auto testbench = units.find(test + "_tb");
-  if (testbench == units.end())
-    return bad_input(fmt::format("source_faults.toml: {}: there is no testbench of this name", test));
-  ContentHash hash;
-  hash.add("sources 1").add(programs);
-  std::set<std::string> added{testbench->second->name};
-  add_used(bare_vhdl(testbench->second->content), units, added, hash);
-  for (const SourceFault& fault : faults)
-    if (fault.test == test)
-      hash.add(fault.file)
-          .add(fault.old_text)
-          .add(fault.new_text)
-          .add(fmt::format("{} {} {}", fault.line, fault.word, fault.in_vectors));
-  if (const Status done = add_files(folders.vectors / test, hash); !done) return done.error();
-  return hash.hex();
-}
 
 Result<Reasons> Reasons::read(const std::filesystem::path& source) {
   const auto listed = read_survivors(source / "tb/mutants/survivors.toml");
@@ -172,14 +68,14 @@ std::string Reasons::of(std::string_view line) const {
   return {};
 }
 
-std::vector<page::Section> mutant_sections(std::span<const evidence::Row> rows, const Reasons& reasons) {
+std::vector<page::Section> mutant_sections(std::span<const page::Row> rows, const Reasons& reasons) {
   constexpr std::size_t c_first_count = 2;  // of a row's fields
   std::vector<Cells> netlists, testbenches, kind_rows, survivor_rows;
   Cells columns, testbench_columns;
   Sum all{};
   std::map<std::string, Sum> kinds;
   std::map<std::pair<std::string, std::string>, Cells> survivors;
-  for (const evidence::Row& row : rows) {
+  for (const page::Row& row : rows) {
     const bool is_netlist = row.section == c_netlist_section;
     Cells names, cells;
     for (const auto& [key, value] : row.fields) {
@@ -225,6 +121,21 @@ std::vector<page::Section> mutant_sections(std::span<const evidence::Row> rows, 
     sections.push_back({std::string(c_source_section), markdown_table(testbench_columns, testbenches)});
   sections.push_back({"Survivors", markdown_table(survivor_columns, survivor_rows)});
   return sections;
+}
+
+std::vector<page::Value> mutant_values(std::span<const page::Row> rows) {
+  constexpr double c_percent = 100;
+  std::vector<page::Value> values;
+  double faults = 0, found = 0;
+  for (const page::Row& row : rows) {
+    if (row.section != c_netlist_section) continue;
+    const double of_row = std::stod(row.field("faults")), found_of_row = std::stod(row.field("found"));
+    values.push_back({"mutants", row.name, {c_percent * found_of_row / of_row}});
+    faults += of_row;
+    found += found_of_row;
+  }
+  if (faults > 0) values.push_back({"mutants", "all netlists", {c_percent * found / faults}});
+  return values;
 }
 
 }  // namespace halfway::mutants

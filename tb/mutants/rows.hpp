@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of evidence of mutants: what they depend on, and their page.
+// The page of mutants: its tables, and the values that thresholds judge.
 #pragma once
 
 #include <filesystem>
@@ -9,28 +9,11 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "evidence/evidence.hpp"
 #include "mutants/design.hpp"
-#include "mutants/source_faults.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "page/page.hpp"
+#include "page/thresholds.hpp"
 
 namespace halfway::mutants {
-
-struct RowFolders {
-  std::filesystem::path source, vectors;
-};
-
-/// Hash of the programs that make and replay faults, and of the tools' versions.
-Result<std::string> programs_hash(const std::filesystem::path& source);
-
-/// Hash of what the outcomes of a netlist's faults depend on: `programs`, the netlist without names, the
-/// design's description and its vectors.
-Result<std::string> design_hash(const Design& design, const GhdlLibrary& library, const RowFolders& folders,
-                                std::string_view programs);
-
-/// The same for the source faults of one testbench: the sources that it uses, the faults and the vectors.
-Result<std::string> testbench_hash(const std::string& test, std::span<const SourceFault> faults,
-                                   const RowFolders& folders, std::string_view programs);
 
 /// The reasons for survivors, by file and text of the VHDL line: survivors.toml.
 class Reasons {
@@ -55,6 +38,10 @@ inline constexpr std::string_view c_netlist_section = "Netlist faults", c_source
 inline constexpr std::string_view c_kind = "kind", c_survivor = "survivor";
 
 /// The tables of the page: netlists with their sum, kinds of faults, testbenches, survivors with reasons.
-std::vector<page::Section> mutant_sections(std::span<const evidence::Row> rows, const Reasons& reasons);
+std::vector<page::Section> mutant_sections(std::span<const page::Row> rows, const Reasons& reasons);
+
+/// The share of the faults that are found of each netlist and of all, in %. Faults that are proved equivalent
+/// count as not found: how many are proved depends on the machine's speed.
+std::vector<page::Value> mutant_values(std::span<const page::Row> rows);
 
 }  // namespace halfway::mutants

@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Tests a page of evidence: a run that is killed continues, a tree with changes is refused, a broken threshold fails.
-# evidence.sh PROGRAM WORK_FOLDER: the program is small_page.
+# Then scripts/evidence.sh, with small programs in place of those that measure.
+# evidence.sh SMALL_PAGE HALFWAY_PAGE ROOT WORK_FOLDER
 set -eu
-program=$1 work=$2
+program=$1 halfway_page=$2 root=$3 work=$4
 rm -rf "$work"
 mkdir -p "$work/tb" "$work/build"
 cd "$work"
@@ -68,4 +69,45 @@ cmp page.md before.md || fail 'a page was written although a row is missing'
 echo 7 >build/c
 run 0 'small: page.md is written'
 [ "$(measured)" = abcabc ] || fail "measured again: $(measured)"
+
+# scripts/evidence.sh.
+mkdir -p scripts build/tb docs/results
+cp "$root/scripts/evidence.sh" scripts
+ln -s "$halfway_page" build/tb/halfway_page
+for page in bounds proofs mutants; do printf '# Page\n' >docs/results/$page.md; done
+git add . && git commit -m three
+commit=$(command git rev-parse HEAD)
+fake() { # program, shell text
+  printf '#!/bin/sh\necho "$0 $*" >>build/calls\n%s\n' "$2" >build/tb/"$1"
+  chmod +x build/tb/"$1"
+}
+evidence() { # wanted exit code, words of the output, arguments
+  wanted=$1 words=$2 code=0
+  shift 2
+  scripts/evidence.sh "$@" >log 2>&1 || code=$?
+  [ $code = "$wanted" ] || fail "evidence.sh $*: the exit code is $code, not $wanted"
+  [ -z "$words" ] || grep -qF -- "$words" log || fail "evidence.sh $*: '$words' is missing"
+}
+evidence 2 'give one of: bounds cells accuracy' targets no_page
+evidence 0 'halfway_mutants halfway_vectors' targets mutants
+echo 3 >source.c
+evidence 2 ' M source.c' targets all
+evidence 2 ' M source.c' measure bounds 1
+git checkout -q source.c
+fake halfway_bounds "mkdir -p build/evidence/$commit; touch build/evidence/$commit/bounds.jsonl"
+evidence 0 '== bounds: page 1 of 1' measure bounds 1
+grep -q 'halfway_bounds --gtest_brief=1 --evidence$' build/calls || fail "called: $(cat build/calls)"
+# A page of this commit is not measured: only if a journal of it is there, for the thresholds, or if $again is 1.
+rm build/evidence/"$commit"/bounds.jsonl build/calls
+printf 'Measured by `make evidence PAGE=bounds` at commit `%s`\n' "$(echo "$commit" | cut -c 1-12)" >>docs/results/bounds.md
+evidence 0 'every page is of this commit' measure bounds 1
+[ ! -e build/calls ] || fail 'a page of this commit was measured'
+again=1 evidence 0 '== bounds' measure bounds 1
+fake halfway_bounds 'exit 1'
+evidence 1 'bounds ends with 1' measure bounds 1
+# With options, results are only printed, whatever has changed.
+fake halfway_proofs 'exit 0'
+echo 3 >source.c
+evidence 0 '' run proofs 1 raster
+grep -q 'halfway_proofs . build/proofs raster$' build/calls || fail "called: $(cat build/calls)"
 echo 'evidence: passed'

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "sim/pages/template.hpp"
 #include "sim/system/page_part.hpp"
@@ -19,6 +20,20 @@ std::string origin_start(std::string_view page) {
 
 std::string shown(std::string_view commit) {
   return fmt::format("`{}`", commit.substr(0, c_shown_digits));
+}
+
+// The cells of a line `| a | b |`; none if it is no such line.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  constexpr std::string_view c_separator = " | ";
+  if (!line.starts_with("| ") || !line.ends_with(" |")) return cells;
+  const std::string inner = line.substr(2, line.size() - 4);
+  for (std::size_t begin = 0; begin <= inner.size();) {
+    const std::size_t end = std::min(inner.find(c_separator, begin), inner.size());
+    cells.push_back(inner.substr(begin, end - begin));
+    begin = end + c_separator.size();
+  }
+  return cells;
 }
 
 }  // namespace
@@ -49,6 +64,11 @@ std::string with_sections(std::string_view text, std::span<const Section> sectio
   return page;
 }
 
+Status write_sections(const std::filesystem::path& page, std::span<const Section> sections) {
+  return rewrite_page(
+      page, [&](const std::string& text) { return Result<std::string>(with_sections(text, sections)); });
+}
+
 std::vector<Section> sections_of(std::span<const Row> rows) {
   std::vector<Section> sections;
   for (const Row& first : rows) {
@@ -67,6 +87,22 @@ std::vector<Section> sections_of(std::span<const Row> rows) {
     sections.push_back({first.section, is_whole ? text : markdown_table(columns, cells)});
   }
   return sections;
+}
+
+std::string cell_of(std::string_view text, std::string_view first_cells, std::string_view column) {
+  std::vector<std::string> columns;
+  std::istringstream lines{std::string(text)};
+  for (std::string line; std::getline(lines, line);) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (columns.empty()) columns = cells;
+    if (cells.empty()) columns.clear();
+    const auto at = static_cast<std::size_t>(std::ranges::find(columns, column) - columns.begin());
+    std::string start;
+    for (std::size_t i = 0; i < cells.size() && start.size() < first_cells.size(); ++i)
+      start += (i > 0 ? ", " : "") + cells[i];
+    if (!cells.empty() && start == first_cells && at < cells.size()) return cells[at];
+  }
+  return {};
 }
 
 std::string with_origin(std::string_view text, const Origin& origin) {

@@ -2,11 +2,14 @@
 // Pages of evidence: Markdown files whose sections are written by programs.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "common/result.hpp"
 
 namespace halfway::page {
 
@@ -19,6 +22,8 @@ struct Section {
 /// `<!-- HEADING: ... -->` and `<!-- end of HEADING -->`, or the section with the same heading, or is
 /// appended.
 std::string with_sections(std::string_view text, std::span<const Section> sections);
+
+Status write_sections(const std::filesystem::path& page, std::span<const Section> sections);
 
 /// Columns of a table and their values, in order.
 using Fields = std::vector<std::pair<std::string, std::string>>;
@@ -39,6 +44,10 @@ inline constexpr std::string_view c_table = "table as Markdown";
 /// One table per section, in the order of the sections' first rows. If the only field is c_table, the values
 /// of the section are its text.
 std::vector<Section> sections_of(std::span<const Row> rows);
+
+/// The cell of the column in the first row of a table whose first cells are these, separated by ", ". Empty
+/// if the text has no such row.
+std::string cell_of(std::string_view text, std::string_view first_cells, std::string_view column);
 
 /// What the first line of a page says about its measurement.
 struct Origin {

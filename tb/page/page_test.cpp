@@ -38,6 +38,16 @@ TEST(Page, RowsAreATablePerSection) {
   EXPECT_EQ(sections[1].body, "| whole |\n");
 }
 
+TEST(Page, HasTheCellOfARow) {
+  const char* text =
+      "| a | b |\n| --- | --- |\n| x | 1 |\n\nText.\n\n| a | c | d |\n| --- | --- | --- |\n| x | y | 2 |\n| "
+      "x | z | 3 |\n";
+  EXPECT_EQ(cell_of(text, "x", "b"), "1");
+  EXPECT_EQ(cell_of(text, "x, z", "d"), "3");
+  EXPECT_EQ(cell_of(text, "x, w", "d"), "");
+  EXPECT_EQ(cell_of(text, "x, y", "b"), "");
+}
+
 TEST(Page, NamesItsCommitBelowItsTitle) {
   const std::string page = "<!-- licence -->\n# Page\n\nIntro.\n";
   const std::string once = with_origin(page, {"proofs", "0123456789abcdef", "on Monday."});

@@ -64,10 +64,7 @@ class Recorder : public testing::EmptyTestEventListener {
     Row row{.name = name, .section = section_of(name)};
     for (int i = 0; i < result.test_property_count(); ++i) {
       const testing::TestProperty& property = result.GetTestProperty(i);
-      if (property.key() == c_details_property)
-        row.details = property.value();
-      else
-        row.fields.emplace_back(property.key(), property.value());
+      row.fields.emplace_back(property.key(), property.value());
     }
     if (row.fields.empty()) return bad_input(fmt::format("{}: the test records no property", name));
     return measured_.put(row);

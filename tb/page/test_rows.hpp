@@ -7,9 +7,6 @@
 
 namespace halfway::page {
 
-/// A test records this property for the details of its row.
-inline constexpr std::string_view c_details_property = "details of the row";
-
 /// Run the tests of the program. With `--evidence`, run the tests of the rows that are not measured, and
 /// write the page; `--part=TEXT` selects rows with this text in their names. `page.rows` are taken from the
 /// tests.

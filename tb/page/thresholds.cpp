@@ -141,6 +141,13 @@ std::vector<std::string> Thresholds::unmeasured(std::span<const Value> values) c
   return lines;
 }
 
+std::vector<std::string> Thresholds::names(std::string_view section) const {
+  std::vector<std::string> names;
+  if (const auto found = sections_.find(section); found != sections_.end())
+    for (const auto& [name, limit] : found->second.limits) names.push_back(name);
+  return names;
+}
+
 std::vector<double> Thresholds::numbers(std::string_view section, std::string_view name) const {
   const auto found = sections_.find(section);
   if (found == sections_.end()) return {};

@@ -42,7 +42,8 @@ class Thresholds {
   std::vector<std::string> broken(const Value& value) const;
   /// One line for each name of these sections that no value has.
   std::vector<std::string> unmeasured(std::span<const Value> values) const;
-  /// The numbers that stand in the file; empty if there are none.
+  /// The names of a section, and the numbers that stand in the file; empty if there are none.
+  std::vector<std::string> names(std::string_view section) const;
   std::vector<double> numbers(std::string_view section, std::string_view name) const;
 
   /// How far a measured number may be below and above the number in the file: a share of it, or `margin` if

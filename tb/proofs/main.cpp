@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // halfway_proofs: proves the properties of the RTL. Each fault of a proof goes into a copy of the RTL, and
-// the proof must refute it. Each proof has a row of evidence.
+// the proof must refute it. Each proof is a row of docs/results/proofs.md.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,12 +8,12 @@
 #include <atomic>
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "evidence/evidence.hpp"
-#include "evidence/inputs.hpp"
+#include "page/measured.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
 #include "sim/program/program.hpp"
@@ -30,7 +30,7 @@ constexpr unsigned c_threads = 2;
 struct Options {
   bool faults = true;
   bool quick = false;
-  evidence::Mode mode = evidence::Mode::none;
+  bool evidence = false;
   Folders folders{};
   std::string name{};
 };
@@ -131,6 +131,7 @@ Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs, cons
   Outcomes outcomes{.proofs = std::vector<Outcome>(proofs.size())};
   for (const Job& job : jobs) ++outcomes.proofs[job.proof].remaining;
   std::atomic<std::size_t> next = 0;
+  page::Countdown countdown(jobs.size());
   std::mutex mutex;
   work_on_threads(c_threads, [&] {
     for (std::size_t at; (at = next++) < jobs.size();) {
@@ -140,7 +141,7 @@ Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs, cons
       const auto answer = prove(folders, proof, job.fault);
       const double seconds = seconds_since(began);
       const std::lock_guard lock(mutex);
-      fmt::print("[{}/{}] ", at + 1, jobs.size());
+      fmt::print("{} ", countdown.next());
       record(proof, job, answer, seconds, outcomes);
       if (--outcomes.proofs[job.proof].remaining == 0) done(job.proof, outcomes.proofs[job.proof]);
     }
@@ -165,43 +166,26 @@ std::string_view name_on_page(Method method) {
   return "";
 }
 
-// The fields that the description gives.
-evidence::Today described(const Proof& proof) {
+// The row of a proof that holds and refutes all its faults.
+page::Row row_of(const Proof& proof, const Outcome& outcome) {
   return {.name = proof.name,
           .section = "Results",
           .fields = {{"property", proof.property},
                      {"entity", fmt::format("`{}`", proof.entity)},
                      {"method", std::string(name_on_page(proof.method))},
-                     {"clocks", proof.clocks > 0 ? std::to_string(proof.clocks) : "all"}}};
+                     {"clocks", proof.clocks > 0 ? std::to_string(proof.clocks) : "all"},
+                     {"seconds", fmt::format("{:.1f}", outcome.seconds)},
+                     {"faults refuted", fmt::format("{} of {}", outcome.refuted, proof.faults.size())}}};
 }
 
-// The row of a proof that holds and refutes all its faults.
-evidence::Row row_of(const Proof& proof, const Outcome& outcome) {
-  evidence::Row row = described(proof);
-  row.fields.emplace_back("seconds", fmt::format("{:.1f}", outcome.seconds));
-  row.fields.emplace_back("faults refuted", fmt::format("{} of {}", outcome.refuted, proof.faults.size()));
-  return row;
-}
-
-// Today's row of every proof, with the hashes of the selected ones.
-Result<evidence::Evidence> open_evidence(const Options& options, const std::vector<Proof>& proofs) {
-  std::vector<evidence::Today> today;
-  for (const Proof& proof : proofs) today.push_back(described(proof));
-  if (options.mode != evidence::Mode::none) {
-    const auto versions = evidence::versions(c_tools);
-    if (!versions) return versions.error();
-    const Status hashed = for_each_on_threads(c_threads, proofs.size(), [&](std::size_t i) -> Status {
-      if (!is_selected(options, proofs[i])) return Ok{};
-      auto hash = proof_hash(options.folders, proofs[i], *versions);
-      if (!hash) return hash.error();
-      today[i].hash = std::move(*hash);
-      return Ok{};
-    });
-    if (!hashed) return hashed.error();
-  }
-  return evidence::Evidence::open(
-      {.root = options.folders.source, .rows = "tb/proofs/evidence.txt", .page = "docs/results/proofs.md"},
-      std::move(today));
+Result<page::Measured> open_page(const Options& options, const std::vector<Proof>& proofs) {
+  std::vector<std::string> rows;
+  for (const Proof& proof : proofs) rows.push_back(proof.name);
+  return page::Measured::open({.name = "proofs",
+                               .root = options.folders.source,
+                               .file = "docs/results/proofs.md",
+                               .tools = {"ghdl", "yosys", "cvc5", "gappa"},
+                               .rows = std::move(rows)});
 }
 
 // ---- The program
@@ -213,28 +197,26 @@ Result<ExitCode> prove_all(const Options& options) {
   if (!proofs) return proofs.error();
   if (auto checked = check_faults(options, *proofs); !checked) return checked.error();
   if (auto found = find_tools(); !found) return found.error();
-  const auto evidence = open_evidence(options, *all);
-  if (!evidence) return evidence.error();
-  if (options.mode == evidence::Mode::check) return report(*evidence);
-  if (options.mode == evidence::Mode::stale)
-    std::erase_if(*proofs, [&](const Proof& proof) { return !evidence->is_stale(proof.name); });
+  std::optional<page::Measured> measured;
+  if (options.evidence) {
+    auto opened = open_page(options, *all);
+    if (!opened) return opened.error();
+    measured = std::move(*opened);
+    std::erase_if(*proofs, [&](const Proof& proof) { return measured->has(proof.name); });
+  }
   Status stored = Ok{};
   const Outcomes outcomes = run_jobs(options.folders, *proofs, [&](std::size_t i, const Outcome& outcome) {
-    if (options.mode == evidence::Mode::none) return;
     const Proof& proof = (*proofs)[i];
-    evidence::Row row = row_of(proof, outcome);
-    row.hash = evidence->hash_of(proof.name);
-    const bool is_evidence =
-        outcome.holds && static_cast<std::size_t>(outcome.refuted) == proof.faults.size();
-    if (Status done = is_evidence ? evidence->put(row) : evidence->remove(row.name); !done) stored = done;
+    if (!measured || !outcome.holds || static_cast<std::size_t>(outcome.refuted) < proof.faults.size())
+      return;
+    if (Status done = measured->put(row_of(proof, outcome)); !done) stored = done;
   });
   fmt::print("\n{} of {} not proved, {} faults not refuted, {} could not be run\n", outcomes.not_proved,
              proofs->size(), outcomes.not_refuted, outcomes.broken);
   if (!stored) return stored.error();
-  if (options.mode != evidence::Mode::none)
-    if (const Status finished = evidence->finish(); !finished) return finished.error();
   if (outcomes.not_proved + outcomes.not_refuted > 0) return ExitCode::differs;
-  return outcomes.broken > 0 ? ExitCode::tool_failed : ExitCode::equal;
+  if (outcomes.broken > 0) return ExitCode::tool_failed;
+  return measured ? measured->finish() : ExitCode::equal;
 }
 
 }  // namespace
@@ -250,7 +232,8 @@ int main(int argc, char** argv) {
                    fmt::format("only proofs that take a few seconds, each with {} faults at most",
                                proofs::c_quick_faults));
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
-  evidence::add_option(app, options.mode)->excludes(quick, no_faults);
+  app.add_flag("--evidence", options.evidence, "measure the rows that are missing, and write the page")
+      ->excludes(quick, no_faults);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();
   app.add_option("NAME", options.name, "only proofs with this in their names, such as raster/edge_walker");

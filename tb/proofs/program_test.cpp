@@ -17,7 +17,6 @@ namespace halfway::proofs {
 namespace {
 
 using testing::HasSubstr;
-using testing::Not;
 
 class ProofProgram : public ::testing::Test {
  protected:
@@ -45,14 +44,6 @@ class ProofProgram : public ::testing::Test {
     ASSERT_TRUE(write_file(source() / file, *text));
   }
 
-  void rename_all(const std::string& file, const std::string& from, const std::string& to) const {
-    auto text = read_file(source() / file);
-    ASSERT_TRUE(text) << text.error().message;
-    for (std::size_t at = 0; (at = text->find(from, at)) != std::string::npos; at += to.size())
-      text->replace(at, from.size(), to);
-    ASSERT_TRUE(write_file(source() / file, *text));
-  }
-
   // Removes the units and descriptions of all other proofs.
   void keep_only(const std::set<std::string>& proofs) const {
     const auto files = files_below(source() / "tb/proofs");
@@ -60,6 +51,18 @@ class ProofProgram : public ::testing::Test {
     for (const auto& file : *files)
       if (file.has_parent_path() && !proofs.contains(file.stem()))
         std::filesystem::remove(source() / "tb/proofs" / file);
+  }
+
+  void commit() const {
+    const auto git = [&](std::vector<std::string> arguments) {
+      arguments.insert(arguments.begin(), {"git", "-c", "user.name=n", "-c", "user.email=e"});
+      const auto end = run_process({.arguments = arguments, .working_folder = source()}, "");
+      ASSERT_TRUE(end && end->succeeded()) << (end ? end->output : end.error().message);
+    };
+    ASSERT_TRUE(write_file(source() / ".gitignore", "build\n"));
+    git({"init"});
+    git({"add", "."});
+    git({"commit", "-m", "x"});
   }
 
   struct Outcome {
@@ -121,8 +124,9 @@ TEST_F(ProofProgram, EndsWithTwoOnBadUsage) {
   EXPECT_EQ(run({}, "no_such_entity").exit_code, 2);
   EXPECT_EQ(run({"--no-such-option"}, "parameter_register").exit_code, 2);
   // A row is of all faults.
-  EXPECT_EQ(run({"--evidence", "all", "--quick"}).exit_code, 2);
-  EXPECT_EQ(run({"--evidence", "sometimes"}).exit_code, 2);
+  EXPECT_EQ(run({"--evidence", "--quick"}).exit_code, 2);
+  // A page is of a commit.
+  EXPECT_EQ(run({"--evidence"}).exit_code, 2);
 }
 
 TEST_F(ProofProgram, EndsWithTwoWhenTheRtlHasNotTheTextOfAFault) {
@@ -132,47 +136,23 @@ TEST_F(ProofProgram, EndsWithTwoWhenTheRtlHasNotTheTextOfAFault) {
   EXPECT_THAT(outcome.output, HasSubstr("parameter_register.toml:11: `if load = '2' then` occurs 0 times"));
 }
 
-TEST_F(ProofProgram, WritesItsRowsAndItsPage) {
+TEST_F(ProofProgram, WritesItsPage) {
   ASSERT_TRUE(find_tools()) << find_tools().error().message;
   keep_only({"parameter_register"});
-  const Outcome outcome = run({"--evidence", "all"});
+  commit();
+  const Outcome outcome = run({"--evidence"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   const auto text = read_file(page());
   ASSERT_TRUE(text) << text.error().message;
+  EXPECT_THAT(*text, HasSubstr("\nMeasured by `make evidence PAGE=proofs` at commit `"));
   EXPECT_THAT(*text, testing::MatchesRegex("# Proofs: results\n.*\n\\| property .*\n\\| --- .*\n"
                                            "\\| [^\n]* \\| `stream/parameter_register` \\| induction \\| 1 "
                                            "\\| [0-9.]+ \\| 2 of 2 \\|\n"));
-}
-
-TEST_F(ProofProgram, FindsTheRowsThatAreStale) {
-  ASSERT_TRUE(find_tools()) << find_tools().error().message;
-  keep_only({"parameter_register", "slope_walker"});
-  const std::string file = "rtl/stream/parameter_register.vhd", changed = "what it depends on has changed";
-  ASSERT_EQ(run({"--evidence", "all"}).exit_code, 0);
-  EXPECT_EQ(run({"--evidence", "check"}).exit_code, 0);
-
-  // Comments and names change no row.
-  replace(file, "if rising_edge(clk) then", "-- A comment.\n\n      if rising_edge(clk) then");
-  rename_all("rtl/raster/slope_walker.vhd", "r_next", "following");
-  const Outcome renamed = run({"--evidence", "check"});
-  EXPECT_EQ(renamed.exit_code, 0) << renamed.output;
-
-  // Another line of one entity changes its own row.
-  replace(file, "value <= start;", "value <= not start;");
-  const Outcome stale = run({"--evidence", "check"});
-  EXPECT_EQ(stale.exit_code, 1) << stale.output;
-  EXPECT_THAT(stale.output, HasSubstr("stream/parameter_register: " + changed));
-  EXPECT_THAT(stale.output, Not(HasSubstr("slope_walker")));
-
-  // A proof that fails has no row.
-  EXPECT_EQ(run({"--evidence", "stale"}).exit_code, 1);
-  EXPECT_THAT(run({"--evidence", "check"}).output,
-              HasSubstr("stream/parameter_register: was never measured"));
-  replace(file, "value <= not start;", "value <= start;");
-  const Outcome again = run({"--evidence", "stale"});
-  EXPECT_EQ(again.exit_code, 0) << again.output;
-  EXPECT_THAT(again.output, Not(HasSubstr("slope_walker")));
-  EXPECT_EQ(run({"--evidence", "check"}).exit_code, 0);
+  // A proof that fails has no row, and the page stays.
+  replace("rtl/stream/parameter_register.vhd", "value <= start;", "value <= not start;");
+  commit();
+  EXPECT_EQ(run({"--evidence"}).exit_code, 1);
+  EXPECT_EQ(*read_file(page()), *text);
 }
 
 }  // namespace

@@ -10,7 +10,6 @@
 #include <regex>
 
 #include "formal_verilog.hpp"
-#include "sim/synth/nameless_netlist.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 #include "tables/formats.hpp"
@@ -308,44 +307,6 @@ Result<Answer> prove_by_gappa(const Folders& folders, const std::filesystem::pat
   return no_verdict(proof, "gappa", *end);
 }
 
-// ---- Hashes
-
-std::string without_line_comments(std::string_view text, std::string_view mark) {
-  std::string result;
-  for (const std::string_view line : lines_of(text))
-    result.append(line.substr(0, line.find(mark))).push_back('\n');
-  return result;
-}
-
-// Hash of the netlist of RTL and unit, without names. Yosys connects the signals dut_* of a unit by their
-// names.
-Result<std::string> netlist_hash(const Folders& folders, const Proof& proof, const Fault* fault) {
-  const auto rtl = read_formatted_rtl(folders, proof, fault);
-  if (!rtl) return rtl.error();
-  const auto unit = make_unit(folders, proof);
-  if (!unit) return unit.error();
-  // Use the result of an earlier run on the same texts.
-  ContentHash texts;
-  texts.add("netlist 1").add(unit->text).add(unit->top);
-  for (const auto& [name, value] : proof.generics) texts.add(name).add(value);
-  for (const VhdlSource& source : *rtl) texts.add(source.name).add(source.content);
-  const std::filesystem::path kept = folders.scratch / "netlists" / texts.hex();
-  if (auto hash = read_file(kept)) return hash;
-  const auto scratch = TemporaryFolder::make(folders.scratch);
-  if (!scratch) return scratch.error();
-  if (auto done = synthesize(scratch->path(), proof, *rtl, *unit); !done) return done.error();
-  const auto netlist = read_file(scratch->path() / "netlist.v");
-  if (!netlist) return netlist.error();
-  ContentHash hash;
-  hash.add(synth::nameless(*netlist));
-  static const std::regex c_connected(R"(\bdut_\w+)");
-  for (std::sregex_iterator at(unit->text.begin(), unit->text.end(), c_connected), last; at != last; ++at)
-    hash.add(at->str());
-  if (auto made = make_folders(kept.parent_path()); !made) return made.error();
-  if (auto written = write_file(kept, hash.hex()); !written) return written.error();
-  return hash.hex();
-}
-
 }  // namespace
 
 Status find_tools() {
@@ -379,32 +340,6 @@ Result<std::string> text_with_fault(const std::vector<VhdlSource>& rtl, const Fa
                     fault.occurrences == 1 ? "once" : fmt::format("{} times", fault.occurrences)));
   std::string text = source->content;
   return text.replace(text.find(fault.old_text), fault.old_text.size(), fault.new_text);
-}
-
-Result<std::string> proof_hash(const Folders& folders, const Proof& proof, std::string_view versions) {
-  ContentHash hash;
-  hash.add("proof 1").add(versions).add(std::to_string(static_cast<int>(proof.method)));
-  hash.add(std::to_string(proof.clocks)).add(std::to_string(proof.fault_clocks));
-  for (const Fault& fault : proof.faults)
-    hash.add(fault.file).add(fault.old_text).add(fault.new_text).add(std::to_string(fault.occurrences));
-  const Fault any;
-  if (proof.method == Method::gappa) {
-    const auto text = gappa_text(folders, proof, nullptr);
-    if (!text) return text.error();
-    return hash.add(without_line_comments(*text, "#")).hex();
-  }
-  hash.add(yosys_script(proof, nullptr, "top"))
-      .add(yosys_script(proof, &any, "top"))
-      .add("smtbmc cvc5, bmc3, pdr");
-  // A fault is put into the RTL of the proof, or with other formats.
-  std::vector<const Fault*> netlists = {nullptr};
-  if (!proof.fault_formats.empty() && proof.formats.empty()) netlists.push_back(&any);
-  for (const Fault* fault : netlists) {
-    const auto netlist = netlist_hash(folders, proof, fault);
-    if (!netlist) return netlist.error();
-    hash.add(*netlist);
-  }
-  return hash.hex();
 }
 
 Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fault) {

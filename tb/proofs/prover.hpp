@@ -38,12 +38,4 @@ struct Answer {
 /// Proves the property on the RTL, or looks for a refutation on the RTL with `fault`, if it is not null.
 Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fault);
 
-/// Hash of everything that the verdicts on the proof and its faults depend on: the netlists of RTL and unit
-/// without names, the faults' texts, the solvers' commands and the tools' versions. Netlists' hashes are kept
-/// in the scratch folder.
-Result<std::string> proof_hash(const Folders& folders, const Proof& proof, std::string_view versions);
-
-/// The tools that proofs call.
-inline constexpr std::string_view c_tools[] = {"ghdl", "yosys", "cvc5", "gappa"};
-
 }  // namespace halfway::proofs

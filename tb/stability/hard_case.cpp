@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "evidence/test_rows.hpp"
-
 namespace halfway::stability {
 
 std::unique_ptr<Simulators> HardCases::s_simulators;
@@ -42,7 +40,6 @@ void HardCases::sweep(bool quick) {
   RecordProperty("figures", fmt::format("{}", ours.count + published.count));
   RecordProperty("fragments in golden, RTL",
                  fmt::format("{}, {}", trial.golden_fragments(), trial.rtl_fragments()));
-  RecordProperty(std::string(evidence::c_details_property), trial.hardware());
 }
 
 TEST_P(HardCases, Quick) {

@@ -96,12 +96,6 @@ Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options) {
   return drawing;
 }
 
-std::string Trial::hardware() const {
-  std::string lines;
-  for (const std::string& line : hardware_) lines += line + '\n';
-  return lines;
-}
-
 Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
   Result<Drawing> drawing = draw_golden(scene, options);
   if (!drawing) {
@@ -124,9 +118,6 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
                         std::span<const Fragment> golden, bool fault) {
   golden_fragments_ += golden.size();
   if (!tools_ || words.empty()) return;
-  std::string line = key.entity();
-  for (const auto& [name, value] : key.generics()) line += fmt::format(" {}={}", name, value);
-  hardware_.insert(line);
   const auto compare = [&](std::string_view name, const Status& status, std::span<const Fragment> drawn) {
     if (!status && status.error().code == ExitCode::tool_failed) {
       tools_ = status;

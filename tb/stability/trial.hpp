@@ -138,8 +138,6 @@ class Trial {
   const std::string& failure() const { return failure_; }
   /// The error of a tool that is missing or broke.
   const Status& tools() const { return tools_; }
-  /// The hardware that drew: one line "entity generic=value ..." each, sorted.
-  std::string hardware() const;
   std::uint64_t golden_fragments() const { return golden_fragments_; }
   std::uint64_t rtl_fragments() const { return rtl_fragments_; }
 
@@ -158,7 +156,6 @@ class Trial {
   Worst ours_, well_conditioned_, published_;
   std::string failure_, remark_;
   Status tools_ = Ok{};
-  std::set<std::string> hardware_;
   std::uint64_t golden_fragments_ = 0, rtl_fragments_ = 0;
 };
 

@@ -73,13 +73,6 @@ TEST(Pages, LinksLeadToFilesAndHeadings) {
   }
 }
 
-// The measured RTL may be older than today's.
-TEST(Pages, SpeedNamesTheRtlThatItMeasured) {
-  const auto speed = read_file(c_source_folder / "docs/results/speed.md");
-  ASSERT_TRUE(speed) << speed.error().message;
-  EXPECT_TRUE(std::regex_search(*speed, std::regex("\nRTL: `[0-9a-f]{32}`, ")));
-}
-
 TEST(Pages, ReadmeHasAtMostTenKilobytes) {
   EXPECT_LE(fs::file_size(c_source_folder / "README.md"), 10'240U);
 }
