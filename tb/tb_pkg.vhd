@@ -13,8 +13,7 @@
 --     vectors.check("sum", sum);
 --     tick(clk);
 --   end loop;
---   finished <= true;
---   wait;
+--   finish(finished);
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -66,12 +65,20 @@ package tb_pkg is
     procedure fail (message : in string);
   end protected;
 
-  -- True when each process that drives `finished` has set it. Each part of a testbench that can end first drives it.
+  -- True when every process that drives it has set it: the testbench has ended.
   function all_true (values : boolean_vector) return boolean;
   signal finished : all_true boolean;
 
-  -- Reports that the testbench passed when `done` is true.
+  -- Sets `done` and ends the process.
+  procedure finish (signal done : out boolean);
+
+  -- Waits for `done` and reports that the testbench passed.
   procedure report_end (signal done : in boolean; testbench : in string);
+
+  -- Stops the run if `got` is not as expected. The message starts with `place` and `number`, such as "frame 7".
+  procedure check (place : in string; number : in integer; name : in string; got, expected : in std_logic);
+  procedure check (place : in string; number : in integer; name : in string; got, expected : in std_logic_vector);
+  procedure check (place : in string; number : in integer; name : in string; got, expected : in integer);
 
   -- The second half of a clock period: inputs that were driven reach the outputs.
   procedure settle;
@@ -86,6 +93,9 @@ package tb_pkg is
 
   -- Numbers in a file's name, such as 3_24_14_8.
   function joined (numbers : integer_vector) return string;
+
+  -- The word of this number, from 0, of words separated by one character.
+  function nth_word (words : string; number : natural; separator : character := ' ') return string;
 
   -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
   function next_random (state : unsigned(31 downto 0)) return unsigned;
@@ -338,6 +348,38 @@ package body tb_pkg is
     return and values;
   end function;
 
+  procedure finish (signal done : out boolean) is
+  begin
+    done <= true;
+    wait;
+  end procedure;
+
+  procedure fail (place : in string; number : in integer; name, got, expected : in string) is
+  begin
+    report place & " " & to_string(number) & ": " & name & " is " & got & ", expected " & expected severity failure;
+  end procedure;
+
+  procedure check (place : in string; number : in integer; name : in string; got, expected : in std_logic) is
+  begin
+    if got /= expected then
+      fail(place, number, name, to_string(got), to_string(expected));
+    end if;
+  end procedure;
+
+  procedure check (place : in string; number : in integer; name : in string; got, expected : in std_logic_vector) is
+  begin
+    if got /= expected then
+      fail(place, number, name, to_text(got), to_text(expected));
+    end if;
+  end procedure;
+
+  procedure check (place : in string; number : in integer; name : in string; got, expected : in integer) is
+  begin
+    if got /= expected then
+      fail(place, number, name, to_string(got), to_string(expected));
+    end if;
+  end procedure;
+
   procedure report_end (signal done : in boolean; testbench : in string) is
   begin
     wait until done;
@@ -387,6 +429,20 @@ package body tb_pkg is
       return to_string(list(0));
     end if;
     return to_string(list(0)) & "_" & joined(list(1 to list'right));
+  end function;
+
+  function nth_word (words : string; number : natural; separator : character := ' ') return string is
+    variable first : positive := words'low;
+    variable last  : natural  := words'low - 1;
+  begin
+    for word in 0 to number loop
+      first := last + 1 + boolean'pos(word > 0);
+      last  := first;
+      while last < words'high and words(last + 1) /= separator loop
+        last := last + 1;
+      end loop;
+    end loop;
+    return words(first to last);
   end function;
 
   function next_random (state : unsigned(31 downto 0)) return unsigned is

@@ -41,8 +41,7 @@ begin
           vectors.check("address", address);
           vectors.check("in_range", in_range);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

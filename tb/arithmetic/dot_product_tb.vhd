@@ -34,8 +34,7 @@ begin
           vectors.check("sum", sum);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

@@ -37,8 +37,7 @@ begin
           settle;
           vectors.check("result", result);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

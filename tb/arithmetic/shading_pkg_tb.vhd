@@ -24,8 +24,7 @@ begin
         vectors.check("cosine", cosine(exact, signed(dot)));
         vectors.check("positive", is_positive(signed(dot)));
       end loop;
-      finished <= true;
-      wait;
+      finish(finished);
     end process;
   end generate;
 
@@ -67,8 +66,7 @@ begin
         end loop;
       end loop;
     end loop;
-    finished <= true;
-    wait;
+    finish(finished);
   end process;
 
   report_end(finished, "shading_pkg_tb");

@@ -45,8 +45,7 @@ begin
           vectors.check("unit", unit);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

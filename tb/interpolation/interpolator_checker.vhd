@@ -55,7 +55,6 @@ begin
       end loop;
       tick(clk);
     end loop;
-    finished <= true;
-    wait;
+    finish(finished);
   end process;
 end architecture;

@@ -50,8 +50,7 @@ begin
           vectors.check("carry_out", carry_out);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

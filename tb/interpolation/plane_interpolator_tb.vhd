@@ -14,27 +14,17 @@ architecture sim of plane_interpolator_tb is
   constant c_parts : positive := 3;
 
   -- The last form has no de1.
-  constant c_bits : integer_vector := (formats(true).plane_sum.bits, formats(false).plane_sum.bits, 7);
-
-  function file_name (form : natural) return string is
-  begin
-    if form = 2 then
-      return "without_carry";
-    end if;
-    return preset_name(form = 0);
-  end function;
+  constant c_bits  : integer_vector := (formats(true).plane_sum.bits, formats(false).plane_sum.bits, 7);
+  constant c_names : string         := "exact published without_carry";
 begin
   widths : for form in c_bits'range generate
     constant c_carries : boolean := form < 2;
 
-    signal clk        : std_logic;
-    signal plane      : std_logic_vector((3 + boolean'pos(c_carries)) * c_bits(form) - 1 downto 0);
-    signal line_load  : std_logic;
-    signal line_step  : std_logic;
-    signal line_carry : std_logic;
-    signal span_load  : std_logic;
-    signal span_step  : std_logic;
-    signal values     : std_logic_vector(c_parts * c_bits(form) - 1 downto 0);
+    signal clk                              : std_logic;
+    signal plane                            : std_logic_vector((3 + boolean'pos(c_carries)) * c_bits(form) - 1 downto 0);
+    signal line_load, line_step, line_carry : std_logic;
+    signal span_load, span_step             : std_logic;
+    signal values                           : std_logic_vector(c_parts * c_bits(form) - 1 downto 0);
     begin
       forms : for parts in 1 to c_parts generate
         dut : entity work.plane_interpolator
@@ -51,7 +41,7 @@ begin
       end generate;
 
       checker : entity work.interpolator_checker
-        generic map (g_file => g_folder & "/" & file_name(form) & ".txt", g_parts => c_parts)
+        generic map (g_file => g_folder & "/" & nth_word(c_names, form) & ".txt", g_parts => c_parts)
         port map (
           clk        => clk,
           init       => plane,

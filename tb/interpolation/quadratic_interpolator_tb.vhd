@@ -17,14 +17,11 @@ begin
     constant c_bits      : positive := formats(exact).intensity.bits;
     constant c_init_bits : positive := init_channel_low(exact, 1) - init_channel_low(exact, 0);
 
-    signal clk        : std_logic;
-    signal init       : std_logic_vector(c_init_bits - 1 downto 0);
-    signal line_load  : std_logic;
-    signal line_step  : std_logic;
-    signal line_carry : std_logic;
-    signal span_load  : std_logic;
-    signal span_step  : std_logic;
-    signal values     : std_logic_vector(c_parts * c_bits - 1 downto 0);
+    signal clk                              : std_logic;
+    signal init                             : std_logic_vector(c_init_bits - 1 downto 0);
+    signal line_load, line_step, line_carry : std_logic;
+    signal span_load, span_step             : std_logic;
+    signal values                           : std_logic_vector(c_parts * c_bits - 1 downto 0);
     begin
       forms : for parts in 1 to c_parts generate
         dut : entity work.quadratic_interpolator

@@ -29,8 +29,7 @@ begin
           vectors.check("strobes", strobes);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

@@ -16,14 +16,11 @@ begin
   presets : for exact in boolean generate
     constant c_bits : positive := formats(exact).depth_sum.bits;
 
-    signal clk        : std_logic;
-    signal init       : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0);
-    signal line_load  : std_logic;
-    signal line_step  : std_logic;
-    signal line_carry : std_logic;
-    signal span_load  : std_logic;
-    signal span_step  : std_logic;
-    signal values     : std_logic_vector(c_parts * c_bits - 1 downto 0);
+    signal clk                              : std_logic;
+    signal init                             : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0);
+    signal line_load, line_step, line_carry : std_logic;
+    signal span_load, span_step             : std_logic;
+    signal values                           : std_logic_vector(c_parts * c_bits - 1 downto 0);
     begin
       forms : for parts in 1 to c_parts generate
         dut : entity work.z_interpolator

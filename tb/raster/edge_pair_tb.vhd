@@ -13,17 +13,12 @@ end entity;
 architecture sim of edge_pair_tb is
 begin
   presets : for exact in boolean generate
-    signal clk            : std_logic := '0';
-    signal init           : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0);
-    signal load           : std_logic;
-    signal section_change : std_logic;
-    signal step           : std_logic;
-    signal start          : span_x_t;
-    signal stop           : span_x_t;
-    signal remaining      : pixels_t;
-    signal empty          : std_logic;
-    signal backward       : std_logic;
-    signal carry          : std_logic;
+    signal clk                        : std_logic := '0';
+    signal init                       : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0);
+    signal load, section_change, step : std_logic;
+    signal start, stop                : span_x_t;
+    signal remaining                  : pixels_t;
+    signal empty, backward, carry     : std_logic;
     begin
       dut : entity work.edge_pair
         generic map (g_exact => exact)
@@ -58,8 +53,7 @@ begin
           vectors.check("carry", carry);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

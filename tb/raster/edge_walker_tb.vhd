@@ -14,17 +14,14 @@ architecture sim of edge_walker_tb is
   subtype span_x_t is std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
   subtype error_t  is std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
 
-  signal clk            : std_logic := '0';
-  signal load           : std_logic;
-  signal load_x         : span_x_t;
-  signal load_quotient  : span_x_t;
-  signal load_remainder : error_t;
-  signal load_divisor   : error_t;
-  signal load_error     : error_t;
-  signal load_carry     : std_logic;
-  signal step           : std_logic;
-  signal x              : span_x_t;
-  signal carry          : std_logic;
+  signal clk                          : std_logic := '0';
+  signal load                         : std_logic;
+  signal load_x, load_quotient        : span_x_t;
+  signal load_remainder, load_divisor : error_t;
+  signal load_error                   : error_t;
+  signal load_carry, step             : std_logic;
+  signal x                            : span_x_t;
+  signal carry                        : std_logic;
 begin
   dut : entity work.edge_walker
     port map (
@@ -58,8 +55,7 @@ begin
       vectors.check("carry", carry);
       tick(clk);
     end loop;
-    finished <= true;
-    wait;
+    finish(finished);
   end process;
 
   report_end(finished, "edge_walker_tb");

@@ -14,19 +14,15 @@ end entity;
 architecture sim of line_counter_tb is
 begin
   presets : for exact in boolean generate
-    signal clk            : std_logic := '0';
-    signal reset          : std_logic := '1';
-    signal init_valid     : std_logic;
-    signal init_ready     : std_logic;
-    signal init           : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0);
-    signal advance        : std_logic;
-    signal step           : std_logic;
-    signal load           : std_logic;
-    signal section_change : std_logic;
-    signal valid          : std_logic;
-    signal first          : std_logic;
-    signal triangle       : triangle_t;
-    signal y              : pixel_y_t;
+    signal clk                                 : std_logic := '0';
+    signal reset                               : std_logic := '1';
+    signal init_valid, init_ready              : std_logic;
+    signal init                                : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0);
+    signal advance, step, load, section_change : std_logic;
+    signal valid                               : std_logic;
+    signal first                               : std_logic;
+    signal triangle                            : triangle_t;
+    signal y                                   : pixel_y_t;
     begin
       dut : entity work.line_counter
         generic map (g_exact => exact)
@@ -66,8 +62,7 @@ begin
           vectors.check_if(valid, "y", y);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

@@ -11,18 +11,14 @@ entity line_stage_tb is
 end entity;
 
 architecture sim of line_stage_tb is
-  signal clk            : std_logic := '0';
-  signal reset          : std_logic := '1';
-  signal enable         : std_logic;
-  signal in_valid       : std_logic;
-  signal in_line        : line_t;
-  signal line_ready     : std_logic;
-  signal span_last_next : std_logic;
-  signal advance        : std_logic;
-  signal step           : std_logic;
-  signal span_load      : std_logic;
-  signal valid          : std_logic;
-  signal line           : line_t;
+  signal clk                                 : std_logic := '0';
+  signal reset                               : std_logic := '1';
+  signal enable, in_valid                    : std_logic;
+  signal in_line                             : line_t;
+  signal line_ready, span_last_next, advance : std_logic;
+  signal step, span_load                     : std_logic;
+  signal valid                               : std_logic;
+  signal line                                : line_t;
 begin
   dut : entity work.line_stage
     port map (
@@ -66,8 +62,7 @@ begin
       vectors.check_if(valid, "line.carry", line.carry);
       tick(clk);
     end loop;
-    finished <= true;
-    wait;
+    finish(finished);
   end process;
 
   report_end(finished, "line_stage_tb");

@@ -13,12 +13,11 @@ end entity;
 architecture sim of slope_walker_tb is
   subtype edge_x_t is std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
 
-  signal clk        : std_logic := '0';
-  signal load       : std_logic;
-  signal load_x     : edge_x_t;
-  signal load_slope : edge_x_t;
-  signal step       : std_logic;
-  signal x, not_x   : std_logic_vector(c_published_formats.span_x.bits - 1 downto 0);
+  signal clk                : std_logic := '0';
+  signal load               : std_logic;
+  signal load_x, load_slope : edge_x_t;
+  signal step               : std_logic;
+  signal x, not_x           : std_logic_vector(c_published_formats.span_x.bits - 1 downto 0);
 begin
   dut : entity work.slope_walker
     port map (clk => clk, load => load, load_x => load_x, load_slope => load_slope, step => step, x => x);
@@ -45,8 +44,7 @@ begin
       end if;
       tick(clk);
     end loop;
-    finished <= true;
-    wait;
+    finish(finished);
   end process;
 
   report_end(finished, "slope_walker_tb");

@@ -11,16 +11,14 @@ entity span_stage_tb is
 end entity;
 
 architecture sim of span_stage_tb is
-  signal clk       : std_logic := '0';
-  signal reset     : std_logic := '1';
-  signal enable    : std_logic;
-  signal load      : std_logic;
-  signal line      : line_t;
-  signal last_next : std_logic;
-  signal valid     : std_logic;
-  signal triangle  : triangle_t;
-  signal y         : pixel_y_t;
-  signal x         : span_x_t;
+  signal clk              : std_logic := '0';
+  signal reset            : std_logic := '1';
+  signal enable, load     : std_logic;
+  signal line             : line_t;
+  signal last_next, valid : std_logic;
+  signal triangle         : triangle_t;
+  signal y                : pixel_y_t;
+  signal x                : span_x_t;
 begin
   dut : entity work.span_stage
     port map (
@@ -53,8 +51,7 @@ begin
       vectors.check_if(valid, "x", x);
       tick(clk);
     end loop;
-    finished <= true;
-    wait;
+    finish(finished);
   end process;
 
   report_end(finished, "span_stage_tb");

@@ -34,8 +34,7 @@ begin
           vectors.check("delayed", delayed);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

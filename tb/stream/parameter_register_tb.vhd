@@ -32,8 +32,7 @@ begin
           vectors.check("value", value);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 

@@ -19,16 +19,12 @@ begin
   sizes : for i in c_sizes'range generate
     subtype word_t is std_logic_vector(c_sizes(i)(0) - 1 downto 0);
 
-    signal clk       : std_logic := '0';
-    signal reset     : std_logic;
-    signal claim     : std_logic;
-    signal room      : std_logic;
-    signal pending   : std_logic;
-    signal in_valid  : std_logic;
-    signal in_data   : word_t;
-    signal out_valid : std_logic;
-    signal out_ready : std_logic;
-    signal out_data  : word_t;
+    signal clk                         : std_logic := '0';
+    signal reset, claim, room, pending : std_logic;
+    signal in_valid                    : std_logic;
+    signal in_data                     : word_t;
+    signal out_valid, out_ready        : std_logic;
+    signal out_data                    : word_t;
     begin
       dut : entity work.stream_queue
         generic map (g_bits => c_sizes(i)(0), g_index_bits => c_sizes(i)(1))
@@ -61,8 +57,7 @@ begin
           vectors.check_if(out_valid, "out_data", out_data);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
 
       contract : process (clk) is

@@ -17,14 +17,11 @@ begin
   widths : for i in c_bits'range generate
     subtype word_t is std_logic_vector(c_bits(i) - 1 downto 0);
 
-    signal clk       : std_logic := '0';
-    signal reset     : std_logic;
-    signal in_valid  : std_logic;
-    signal in_ready  : std_logic;
-    signal in_data   : word_t;
-    signal out_valid : std_logic;
-    signal out_ready : std_logic;
-    signal out_data  : word_t;
+    signal clk                       : std_logic := '0';
+    signal reset, in_valid, in_ready : std_logic;
+    signal in_data                   : word_t;
+    signal out_valid, out_ready      : std_logic;
+    signal out_data                  : word_t;
     begin
       dut : entity work.stream_register
         generic map (g_bits => c_bits(i), g_eager => i = c_bits'right)
@@ -53,8 +50,7 @@ begin
           vectors.check_if(out_valid, "out_data", out_data);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
 
       contract : process (clk) is

@@ -47,8 +47,7 @@ begin
           vectors.check("sample", sample);
           tick(clk);
         end loop;
-        finished <= true;
-        wait;
+        finish(finished);
       end process;
   end generate;
 
