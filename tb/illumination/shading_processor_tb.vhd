@@ -1,22 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, every processor of six pipelines against the golden model (processors_checker).
+-- Both presets, every processor of six pipelines against the golden model, by processor_checker.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.tb_pkg.all;
+
 entity shading_processor_tb is
-  generic (
-    g_folder : string := "shading_processor"
-  );
+  generic (g_folder : string := "shading_processor");
 end entity;
 
 architecture sim of shading_processor_tb is
-  signal finished : boolean;
 begin
-  checker : entity work.processors_checker
-    generic map (false, g_folder)
-    port map (finished);
+  checker : entity work.processor_checker
+    generic map (g_unrolled => false, g_folder => g_folder);
 
-  done : process is
-  begin
-    wait until finished;
-    report "shading_processor_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "shading_processor_tb");
 end architecture;

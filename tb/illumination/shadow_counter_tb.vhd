@@ -8,25 +8,16 @@ use work.formats_pkg.all;
 use work.tb_pkg.all;
 
 entity shadow_counter_tb is
-  generic (
-    g_folder : string := "shadow_counter"
-  );
+  generic (g_folder : string := "shadow_counter");
 end entity;
 
 architecture sim of shadow_counter_tb is
-  signal finished : boolean   := false;
-  signal clk      : std_logic := '0';
-  signal reset    : std_logic := '1';
-  signal ready    : std_logic;
-  signal step     : std_logic := '0';
-  signal clear    : std_logic := '0';
-  signal counts   : std_logic := '0';
-  signal opens    : std_logic := '0';
-  signal object   : std_logic := '0';
-  signal x        : std_logic_vector(formats(true).pixel_x.bits - 1 downto 0) := (others => '0');
-  signal eye      : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0) := (others => '0');
-  signal lit      : std_logic;
-  signal fault    : std_logic;
+  signal clk                               : std_logic := '0';
+  signal reset, ready, step, clear, counts : std_logic;
+  signal opens, object                     : std_logic;
+  signal x                                 : std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
+  signal eye                               : std_logic_vector(formats(true).shadow_count.bits - 1 downto 0);
+  signal lit, fault                        : std_logic;
 begin
   dut : entity work.shadow_counter
     port map (
@@ -43,18 +34,15 @@ begin
       lit        => lit,
       fault      => fault);
 
-  clk <= not clk after c_half_period when not finished;
-
   run : process is
     variable vectors               : vectors_t;
-    variable reset_now             : std_logic;
     variable counted, reset_before : std_logic;
     variable waits                 : natural;
   begin
     vectors.open_file(g_folder & "/columns.txt");
     reset_before := '1';
     while vectors.next_vector loop
-      vectors.read_flag(reset_now);
+      vectors.drive(reset);
       vectors.drive(step);
       vectors.drive(clear);
       vectors.drive(counts);
@@ -62,25 +50,26 @@ begin
       vectors.drive(object);
       vectors.drive(x);
       vectors.drive(eye);
-      reset  <= reset_now;
       waits := vectors.read_number;
-      wait until rising_edge(clk);
+      settle;
       for i in 1 to waits loop
         if ready /= '0' then
           vectors.fail("ready after " & to_string(i - 1) & " clocks, not after " & to_string(waits));
         end if;
-        wait until rising_edge(clk);
+        tick(clk);
+        settle;
       end loop;
-      if reset_now = '0' and ready /= '1' then
+      if reset = '0' and ready /= '1' then
         vectors.fail("not ready after " & to_string(waits) & " clocks");
       end if;
       vectors.read_flag(counted);
       vectors.check_if(counted, "lit", lit);
       vectors.check_if(not reset_before, "fault", fault);
-      reset_before := reset_now and reset_before;
+      reset_before := reset and reset_before;
+      tick(clk);
     end loop;
-    finished <= true;
-    report "shadow_counter_tb: passed" severity note;
-    wait;
+    finish(finished);
   end process;
+
+  report_end(finished, "shadow_counter_tb");
 end architecture;

@@ -7,106 +7,65 @@ use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
 use work.tb_pkg.all;
 
-entity specular_slice_run is
-  generic (
-    g_exact        : boolean;
-    g_channels     : positive;
-    g_powers       : natural;
-    g_address_bits : positive;
-    g_data_bits    : positive;
-    g_folder       : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of specular_slice_run is
-  constant c_product_bits : positive := formats(g_exact).factor.bits + g_data_bits;
-
-  signal clk         : std_logic := '0';
-  signal part        : std_logic_vector(specular_bits(g_exact, g_channels) - 1 downto 0) := (others => '0');
-  signal span_load   : std_logic := '0';
-  signal span_step   : std_logic := '0';
-  signal sample_step : std_logic := '0';
-  signal lit         : std_logic := '0';
-  signal products    : std_logic_vector(g_channels * c_product_bits - 1 downto 0);
-begin
-  dut : entity work.specular_slice
-    generic map (
-      g_exact        => g_exact,
-      g_channels     => g_channels,
-      g_powers       => g_powers,
-      g_address_bits => g_address_bits,
-      g_data_bits    => g_data_bits)
-    port map (
-      clk         => clk,
-      part        => part,
-      span_load   => span_load,
-      span_step   => span_step,
-      sample_step => sample_step,
-      lit         => lit,
-      products    => products);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_" & to_string(g_powers)
-      & "_" & to_string(g_address_bits) & "_" & to_string(g_data_bits) & ".txt");
-    while vectors.next_clock loop
-      vectors.drive(part);
-      vectors.drive(span_load);
-      vectors.drive(span_step);
-      vectors.drive(sample_step);
-      vectors.drive(lit);
-      wait until rising_edge(clk);
-      vectors.check_words("product of channel", c_product_bits, products);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity specular_slice_tb is
-  generic (
-    g_folder : string := "specular_slice"
-  );
+  generic (g_folder : string := "specular_slice");
 end entity;
 
 architecture sim of specular_slice_tb is
-  signal finished : boolean_vector(0 to 4);
+  type form_t is record
+    exact                                     : boolean;
+    channels, powers, address_bits, data_bits : positive;
+  end record;
+
+  type forms_t is array (natural range <>) of form_t;
+
+  constant c_forms : forms_t := ((true, 3, 31, 9, 8), (true, 3, 18, 9, 8), (true, 1, 8, 9, 8), (false, 3, 2, 6, 6),
+    (false, 1, 2, 4, 4));
 begin
-  all_powers : entity work.specular_slice_run
-    generic map (g_exact => true, g_channels => 3, g_powers => 31, g_address_bits => 9, g_data_bits => 8,
-      g_folder => g_folder)
-    port map (finished => finished(0));
+  forms : for i in c_forms'range generate
+    constant c_form         : form_t   := c_forms(i);
+    constant c_product_bits : positive := formats(c_form.exact).factor.bits + c_form.data_bits;
 
-  two_powers : entity work.specular_slice_run
-    generic map (g_exact => true, g_channels => 3, g_powers => 18, g_address_bits => 9, g_data_bits => 8,
-      g_folder => g_folder)
-    port map (finished => finished(1));
+    signal clk                               : std_logic := '0';
+    signal part                              : std_logic_vector(specular_bits(c_form.exact, c_form.channels) - 1 downto 0);
+    signal span_load, span_step, sample_step : std_logic;
+    signal lit                               : std_logic;
+    signal products                          : std_logic_vector(c_form.channels * c_product_bits - 1 downto 0);
+    begin
+      dut : entity work.specular_slice
+        generic map (
+          g_exact        => c_form.exact,
+          g_channels     => c_form.channels,
+          g_powers       => c_form.powers,
+          g_address_bits => c_form.address_bits,
+          g_data_bits    => c_form.data_bits)
+        port map (
+          clk         => clk,
+          part        => part,
+          span_load   => span_load,
+          span_step   => span_step,
+          sample_step => sample_step,
+          lit         => lit,
+          products    => products);
 
-  white : entity work.specular_slice_run
-    generic map (g_exact => true, g_channels => 1, g_powers => 8, g_address_bits => 9, g_data_bits => 8,
-      g_folder => g_folder)
-    port map (finished => finished(2));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & preset_name(c_form.exact) & "_"
+          & joined((c_form.channels, c_form.powers, c_form.address_bits, c_form.data_bits)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(part);
+          vectors.drive(span_load);
+          vectors.drive(span_step);
+          vectors.drive(sample_step);
+          vectors.drive(lit);
+          settle;
+          vectors.check_words("product of channel", c_product_bits, products);
+          tick(clk);
+        end loop;
+        finish(finished);
+      end process;
+  end generate;
 
-  published : entity work.specular_slice_run
-    generic map (g_exact => false, g_channels => 3, g_powers => 2, g_address_bits => 6, g_data_bits => 6,
-      g_folder => g_folder)
-    port map (finished => finished(3));
-
-  small : entity work.specular_slice_run
-    generic map (g_exact => false, g_channels => 1, g_powers => 2, g_address_bits => 4, g_data_bits => 4,
-      g_folder => g_folder)
-    port map (finished => finished(4));
-
-  done : process is
-  begin
-    wait until and finished;
-    report "specular_slice_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "specular_slice_tb");
 end architecture;

@@ -6,70 +6,40 @@ use work.formats_pkg.all;
 use work.shading_pkg.all;
 use work.tb_pkg.all;
 
-entity spot_cone_run is
-  generic (
-    g_exact       : boolean;
-    g_folder      : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of spot_cone_run is
-  signal clk        : std_logic := '0';
-  signal enable     : std_logic := '0';
-  signal axis_sum   : std_logic_vector((2 * formats(g_exact).direction.bits + 1) - 1 downto 0) := (others => '0');
-  signal outer      : std_logic_vector(formats(g_exact).direction.bits - 1 downto 0) := (others => '0');
-  signal slope      : std_logic_vector(formats(g_exact).spot_slope.bits - 1 downto 0) := (others => '0');
-  signal factor     : std_logic_vector(formats(g_exact).weight.bits - 1 downto 0);
-begin
-  dut : entity work.spot_cone
-    generic map (g_exact => g_exact)
-    port map (clk => clk, enable => enable, axis_sum => axis_sum, outer => outer, slope => slope, factor => factor);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & ".txt", c_spot_cone_latency);
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(enable);
-      vectors.drive(axis_sum);
-      vectors.drive(outer);
-      vectors.drive(slope);
-      wait until rising_edge(clk);
-      vectors.check_if(checked, "factor", factor);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity spot_cone_tb is
-  generic (
-    g_folder : string := "spot_cone"
-  );
+  generic (g_folder : string := "spot_cone");
 end entity;
 
 architecture sim of spot_cone_tb is
-  signal finished : boolean_vector(0 to 1);
 begin
-  run_0 : entity work.spot_cone_run
-    generic map (g_exact => true, g_folder => g_folder)
-    port map (finished => finished(0));
+  presets : for exact in boolean generate
+    signal clk      : std_logic := '0';
+    signal enable   : std_logic;
+    signal axis_sum : std_logic_vector(2 * formats(exact).direction.bits downto 0);
+    signal outer    : std_logic_vector(formats(exact).direction.bits - 1 downto 0);
+    signal slope    : std_logic_vector(formats(exact).spot_slope.bits - 1 downto 0);
+    signal factor   : std_logic_vector(formats(exact).weight.bits - 1 downto 0);
+    begin
+      dut : entity work.spot_cone
+        generic map (g_exact => exact)
+        port map (clk => clk, enable => enable, axis_sum => axis_sum, outer => outer, slope => slope, factor => factor);
 
-  run_1 : entity work.spot_cone_run
-    generic map (g_exact => false, g_folder => g_folder)
-    port map (finished => finished(1));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & preset_name(exact) & ".txt", c_spot_cone_latency);
+        while vectors.next_clock loop
+          vectors.drive(enable);
+          vectors.drive(axis_sum);
+          vectors.drive(outer);
+          vectors.drive(slope);
+          settle;
+          vectors.check("factor", factor);
+          tick(clk);
+        end loop;
+        finish(finished);
+      end process;
+  end generate;
 
-  done : process is
-  begin
-    wait until and finished;
-    report "spot_cone_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "spot_cone_tb");
 end architecture;

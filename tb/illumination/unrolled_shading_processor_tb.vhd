@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, every processor of six pipelines against the golden model (processors_checker). Also checks the
+-- Both presets, every processor of six pipelines against the golden model, by processor_checker. Also checks the
 -- latency in clocks from an accepted token to the same token at the output, as the entity's header promises.
 library ieee;
 use ieee.std_logic_1164.all;
@@ -8,103 +8,12 @@ use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.tb_pkg.all;
 
-entity unrolled_latency_run is
-  generic (
-    g_exact       : boolean;
-    g_directional : natural := 0;
-    g_positional  : natural := 0;
-    g_spots       : natural := 0;
-    g_specular    : boolean;
-    g_normalize   : boolean := false;
-    g_kind        : natural;
-    g_clocks      : positive
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of unrolled_latency_run is
-  constant c_config : config_t := config(g_exact, 3, g_directional, g_positional, g_spots, true, g_specular, g_normalize,
-    false);
-
-  subtype token_t is std_logic_vector(token_bits(c_config) - 1 downto 0);
-
-  signal clk       : std_logic := '0';
-  signal reset     : std_logic := '1';
-  signal in_valid  : std_logic := '0';
-  signal in_ready  : std_logic;
-  signal in_token  : token_t   := (others => '0');
-  signal out_valid : std_logic;
-  signal out_token : token_t;
-  signal ended     : boolean   := false;
-begin
-  dut : entity work.unrolled_shading_processor
-    generic map (
-      g_exact       => g_exact,
-      g_channels    => 3,
-      g_directional => g_directional,
-      g_positional  => g_positional,
-      g_spots       => g_spots,
-      g_diffuse     => true,
-      g_specular    => g_specular,
-      g_normalize   => g_normalize,
-      g_shadows     => false,
-      g_kind        => g_kind,
-      g_light       => boolean'pos(g_kind /= c_ambient))
-    port map (
-      clk       => clk,
-      reset     => reset,
-      in_valid  => in_valid,
-      in_ready  => in_ready,
-      in_token  => in_token,
-      out_valid => out_valid,
-      out_ready => '1',
-      out_token => out_token,
-      busy      => open,
-      fault     => open);
-
-  clk <= not clk after c_half_period when not ended;
-
-  run : process is
-    constant c_command : slice_t := pixel_header(g_exact).command;
-
-    variable clocks : natural := 0;
-  begin
-    for i in 1 to 3 loop
-      wait until rising_edge(clk);
-    end loop;
-    reset    <= '0';
-    in_valid <= '1';
-    in_token(c_command.high downto c_command.low) <= std_logic_vector(to_unsigned(c_new_pixel, 3));
-    wait until rising_edge(clk) and in_ready = '1';
-    in_valid <= '0';
-    loop
-      wait until rising_edge(clk);
-      clocks := clocks + 1;
-      exit when out_valid = '1' or clocks > g_clocks;
-    end loop;
-    assert clocks = g_clocks
-      report "unrolled_shading_processor, kind " & to_string(g_kind) & ", lights " & to_string(g_directional)
-      & to_string(g_positional) & to_string(g_spots) & ", " & preset_name(g_exact) & ": " & to_string(clocks)
-      & " clocks, expected " & to_string(g_clocks)
-      severity failure;
-    ended    <= true;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
-use work.processors_pkg.all;
-
 entity unrolled_shading_processor_tb is
-  generic (
-    g_folder : string := "unrolled_shading_processor"
-  );
+  generic (g_folder : string := "unrolled_shading_processor");
 end entity;
 
 architecture sim of unrolled_shading_processor_tb is
-  type clocks_t is array (0 to 1) of positive; -- published, exact
+  type clocks_t is array (boolean) of positive; -- published, exact
 
   type promise_t is record
     directional, positional, spots : natural;
@@ -125,37 +34,79 @@ architecture sim of unrolled_shading_processor_tb is
     (0, 1, 0, true, false, c_specular, (11, 28)),
     (0, 0, 1, true, false, c_diffuse, (14, 18)),
     (0, 0, 1, true, false, c_specular, (14, 29)));
-
-  signal finished : boolean;
-  signal timed    : boolean_vector(0 to 2 * c_promises'length - 1);
 begin
-  presets : for preset in 0 to 1 generate
+  checker : entity work.processor_checker
+    generic map (g_unrolled => true, g_folder => g_folder);
+
+  presets : for exact in boolean generate
     promises : for i in c_promises'range generate
-      latency : entity work.unrolled_latency_run
-        generic map (
-          g_exact       => preset = 1,
-          g_directional => c_promises(i).directional,
-          g_positional  => c_promises(i).positional,
-          g_spots       => c_promises(i).spots,
-          g_specular    => c_promises(i).specular,
-          g_normalize   => c_promises(i).normalize,
-          g_kind        => c_promises(i).kind,
-          g_clocks      => c_promises(i).clocks(preset)
-          )
-        port map (
-          finished => timed(preset * c_promises'length + i)
-          );
+      constant c_promise : promise_t := c_promises(i);
+      constant c_config  : config_t  := config(exact, 3, c_promise.directional, c_promise.positional, c_promise.spots, true,
+        c_promise.specular, c_promise.normalize, false);
+      constant c_command : slice_t := pixel_header(exact).command;
+
+      signal clk       : std_logic := '0';
+      signal reset     : std_logic := '1';
+      signal in_valid  : std_logic := '0';
+      signal in_ready  : std_logic;
+      signal in_token  : std_logic_vector(token_bits(c_config) - 1 downto 0) := (others => '0');
+      signal out_valid : std_logic;
+      signal out_token : std_logic_vector(in_token'range);
+      begin
+        dut : entity work.unrolled_shading_processor
+          generic map (
+            g_exact       => exact,
+            g_channels    => 3,
+            g_directional => c_promise.directional,
+            g_positional  => c_promise.positional,
+            g_spots       => c_promise.spots,
+            g_diffuse     => true,
+            g_specular    => c_promise.specular,
+            g_normalize   => c_promise.normalize,
+            g_shadows     => false,
+            g_kind        => c_promise.kind,
+            g_light       => boolean'pos(c_promise.kind /= c_ambient))
+          port map (
+            clk       => clk,
+            reset     => reset,
+            in_valid  => in_valid,
+            in_ready  => in_ready,
+            in_token  => in_token,
+            out_valid => out_valid,
+            out_ready => '1',
+            out_token => out_token,
+            busy      => open,
+            fault     => open);
+
+        run : process is
+          variable clocks : natural := 0;
+        begin
+          for clock in 1 to 3 loop
+            settle;
+            tick(clk);
+          end loop;
+          reset    <= '0';
+          in_valid <= '1';
+          in_token(c_command.high downto c_command.low) <= std_logic_vector(to_unsigned(c_new_pixel, 3));
+          loop
+            settle;
+            exit when in_ready = '1';
+            tick(clk);
+          end loop;
+          tick(clk);
+          in_valid <= '0';
+          loop
+            settle;
+            clocks := clocks + 1;
+            exit when out_valid = '1' or clocks > c_promise.clocks(exact);
+            tick(clk);
+          end loop;
+          check("unrolled_shading_processor, preset " & preset_name(exact) & ", promise", i, "its number of clocks", clocks,
+            c_promise.clocks(exact));
+          finish(finished);
+        end process;
     end generate;
   end generate;
 
-  checker : entity work.processors_checker
-    generic map (true, g_folder)
-    port map (finished);
-
-  done : process is
-  begin
-    wait until finished and (and timed);
-    report "unrolled_shading_processor_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "unrolled_shading_processor_tb");
 end architecture;

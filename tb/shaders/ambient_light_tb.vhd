@@ -6,74 +6,53 @@ use work.formats_pkg.all;
 use work.spherical_pkg.all;
 use work.tb_pkg.all;
 
-entity ambient_light_run is
-  generic (
-    g_exact     : boolean;
-    g_channels  : positive;
-    g_data_bits : positive;
-    g_depth     : natural;
-    g_folder    : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of ambient_light_run is
-  constant c_term_bits : positive := term_bits(g_exact, g_data_bits);
-
-  signal clk       : std_logic := '0';
-  signal ambient   : std_logic_vector(ambient_bits(g_exact, g_channels) - 1 downto 0) := (others => '0');
-  signal span_load : std_logic := '0';
-  signal terms     : std_logic_vector(g_channels * c_term_bits - 1 downto 0);
-begin
-  dut : entity work.ambient_light
-    generic map (g_exact => g_exact, g_channels => g_channels, g_data_bits => g_data_bits, g_depth => g_depth)
-    port map (clk => clk, ambient => ambient, span_load => span_load, terms => terms);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_"
-      & to_string(g_data_bits) & "_" & to_string(g_depth) & ".txt");
-    while vectors.next_clock loop
-      vectors.drive(ambient);
-      vectors.drive(span_load);
-      wait until rising_edge(clk);
-      vectors.check_words("term of channel", c_term_bits, terms);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity ambient_light_tb is
-  generic (
-    g_folder : string := "ambient_light"
-  );
+  generic (g_folder : string := "ambient_light");
 end entity;
 
 architecture sim of ambient_light_tb is
-  signal finished : boolean_vector(0 to 2);
+  type form_t is record
+    exact               : boolean;
+    channels, data_bits : positive;
+    depth               : natural;
+  end record;
+
+  type forms_t is array (natural range <>) of form_t;
+
+  constant c_forms : forms_t := ((true, 3, 8, 4), (true, 1, 8, 4), (false, 3, 6, 2));
 begin
-  colour : entity work.ambient_light_run
-    generic map (g_exact => true, g_channels => 3, g_data_bits => 8, g_depth => 4, g_folder => g_folder)
-    port map (finished => finished(0));
+  forms : for i in c_forms'range generate
+    constant c_form      : form_t   := c_forms(i);
+    constant c_term_bits : positive := term_bits(c_form.exact, c_form.data_bits);
 
-  grey : entity work.ambient_light_run
-    generic map (g_exact => true, g_channels => 1, g_data_bits => 8, g_depth => 4, g_folder => g_folder)
-    port map (finished => finished(1));
+    signal clk       : std_logic := '0';
+    signal ambient   : std_logic_vector(ambient_bits(c_form.exact, c_form.channels) - 1 downto 0);
+    signal span_load : std_logic;
+    signal terms     : std_logic_vector(c_form.channels * c_term_bits - 1 downto 0);
+    begin
+      dut : entity work.ambient_light
+        generic map (
+          g_exact     => c_form.exact,
+          g_channels  => c_form.channels,
+          g_data_bits => c_form.data_bits,
+          g_depth     => c_form.depth)
+        port map (clk => clk, ambient => ambient, span_load => span_load, terms => terms);
 
-  published : entity work.ambient_light_run
-    generic map (g_exact => false, g_channels => 3, g_data_bits => 6, g_depth => 2, g_folder => g_folder)
-    port map (finished => finished(2));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & preset_name(c_form.exact) & "_"
+          & joined((c_form.channels, c_form.data_bits, c_form.depth)) & ".txt");
+        while vectors.next_clock loop
+          vectors.drive(ambient);
+          vectors.drive(span_load);
+          settle;
+          vectors.check_words("term of channel", c_term_bits, terms);
+          tick(clk);
+        end loop;
+        finish(finished);
+      end process;
+  end generate;
 
-  done : process is
-  begin
-    wait until and finished;
-    report "ambient_light_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "ambient_light_tb");
 end architecture;

@@ -6,83 +6,52 @@ use work.formats_pkg.all;
 use work.spherical_pkg.all;
 use work.tb_pkg.all;
 
-entity colour_sum_run is
-  generic (
-    g_exact     : boolean;
-    g_channels  : positive;
-    g_terms     : positive;
-    g_data_bits : positive;
-    g_folder    : string
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of colour_sum_run is
-  signal clk     : std_logic := '0';
-  signal enable  : std_logic := '0';
-  signal terms   : std_logic_vector(g_terms * g_channels * term_bits(g_exact, g_data_bits) - 1 downto 0) :=
-    (others => '0');
-  signal colours : std_logic_vector(3 * formats(g_exact).colour.bits - 1 downto 0);
-begin
-  dut : entity work.colour_sum
-    generic map (g_exact => g_exact, g_channels => g_channels, g_terms => g_terms, g_data_bits => g_data_bits)
-    port map (clk => clk, enable => enable, terms => terms, colours => colours);
-
-  clk <= not clk after c_half_period when not finished;
-
-  run : process is
-    variable vectors : vectors_t;
-    variable checked : std_logic;
-  begin
-    vectors.open_file(g_folder & "/" & preset_name(g_exact) & "_" & to_string(g_channels) & "_"
-      & to_string(g_terms) & "_" & to_string(g_data_bits) & ".txt", 1);
-    while vectors.next_vector loop
-      vectors.read_flag(checked);
-      vectors.drive(enable);
-      vectors.drive(terms);
-      wait until rising_edge(clk);
-      vectors.check_if(checked, "colours", colours);
-    end loop;
-    finished <= true;
-    wait;
-  end process;
-end architecture;
-
 entity colour_sum_tb is
-  generic (
-    g_folder : string := "colour_sum"
-  );
+  generic (g_folder : string := "colour_sum");
 end entity;
 
 architecture sim of colour_sum_tb is
-  signal finished : boolean_vector(0 to 4);
+  type form_t is record
+    exact                      : boolean;
+    channels, terms, data_bits : positive;
+  end record;
+
+  type forms_t is array (natural range <>) of form_t;
+
+  -- the ambient term only, a light, two lights, grey, preset published
+  constant c_forms : forms_t := ((true, 3, 1, 8), (true, 3, 3, 8), (true, 3, 5, 8), (true, 1, 3, 8), (false, 3, 3, 6));
 begin
-  ambient_only : entity work.colour_sum_run
-    generic map (g_exact => true, g_channels => 3, g_terms => 1, g_data_bits => 8, g_folder => g_folder)
-    port map (finished => finished(0));
+  forms : for i in c_forms'range generate
+    constant c_form : form_t := c_forms(i);
 
-  one_light : entity work.colour_sum_run
-    generic map (g_exact => true, g_channels => 3, g_terms => 3, g_data_bits => 8, g_folder => g_folder)
-    port map (finished => finished(1));
+    signal clk     : std_logic := '0';
+    signal enable  : std_logic;
+    signal terms   : std_logic_vector(c_form.terms * c_form.channels * term_bits(c_form.exact, c_form.data_bits) - 1 downto 0);
+    signal colours : std_logic_vector(3 * formats(c_form.exact).colour.bits - 1 downto 0);
+    begin
+      dut : entity work.colour_sum
+        generic map (
+          g_exact     => c_form.exact,
+          g_channels  => c_form.channels,
+          g_terms     => c_form.terms,
+          g_data_bits => c_form.data_bits)
+        port map (clk => clk, enable => enable, terms => terms, colours => colours);
 
-  two_lights : entity work.colour_sum_run
-    generic map (g_exact => true, g_channels => 3, g_terms => 5, g_data_bits => 8, g_folder => g_folder)
-    port map (finished => finished(2));
+      run : process is
+        variable vectors : vectors_t;
+      begin
+        vectors.open_file(g_folder & "/" & preset_name(c_form.exact) & "_"
+          & joined((c_form.channels, c_form.terms, c_form.data_bits)) & ".txt", 1);
+        while vectors.next_clock loop
+          vectors.drive(enable);
+          vectors.drive(terms);
+          settle;
+          vectors.check("colours", colours);
+          tick(clk);
+        end loop;
+        finish(finished);
+      end process;
+  end generate;
 
-  grey : entity work.colour_sum_run
-    generic map (g_exact => true, g_channels => 1, g_terms => 3, g_data_bits => 8, g_folder => g_folder)
-    port map (finished => finished(3));
-
-  published : entity work.colour_sum_run
-    generic map (g_exact => false, g_channels => 3, g_terms => 3, g_data_bits => 6, g_folder => g_folder)
-    port map (finished => finished(4));
-
-  done : process is
-  begin
-    wait until and finished;
-    report "colour_sum_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "colour_sum_tb");
 end architecture;
