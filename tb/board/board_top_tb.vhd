@@ -1,38 +1,31 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- The cells of the pins, with models of the PLL, the cells and the SRAM that check their times: the writes of the clear
--- after reset, and the reads of scan-out between them, reach the SRAM and the monitor. A status byte comes back over SPI.
+-- after reset, and the reads of scan-out between them, reach the SRAM and the monitor. A status byte comes back over
+-- SPI.
 library ieee;
 use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 use work.board_pkg.all;
 use work.sram_model_pkg.all;
 use work.tb_pkg.all;
 
 entity board_top_tb is
-  generic (
-    g_folder : string := "board_top"
-  );
+  generic (g_folder : string := "board_top");
 end entity;
 
 architecture sim of board_top_tb is
   constant c_period : time := 80 ns; -- of the SPI clock
 
-  signal finished     : boolean   := false;
-  signal oscillator   : std_logic := '0';
-  signal button_n     : std_logic := '1';
-  signal spi_select_n : std_logic := '1';
-  signal spi_clock    : std_logic := '0';
-  signal spi_data_in  : std_logic := '0';
-  signal spi_data_out : std_logic;
-  signal sram_address : std_logic_vector(17 downto 0);
-  signal sram_data    : word_t;
-  signal sram_ce_n    : std_logic;
-  signal sram_oe_n    : std_logic;
-  signal sram_we_n    : std_logic;
-  signal vga_hsync    : std_logic;
-  signal vga_vsync    : std_logic;
-  signal vga_red      : level_t;
-  signal vga_green    : level_t;
-  signal vga_blue     : level_t;
+  signal ended                           : boolean := false;
+  signal oscillator                      : std_logic := '0';
+  signal button_n, spi_select_n          : std_logic := '1';
+  signal spi_clock, spi_data_in          : std_logic := '0';
+  signal spi_data_out                    : std_logic;
+  signal sram_address                    : std_logic_vector(17 downto 0);
+  signal sram_data                       : word_t;
+  signal sram_ce_n, sram_oe_n, sram_we_n : std_logic;
+  signal vga_hsync, vga_vsync            : std_logic;
+  signal vga_red, vga_green, vga_blue    : level_t;
 begin
   dut : entity work.board_top
     port map (
@@ -61,7 +54,7 @@ begin
       oe_n    => sram_oe_n,
       we_n    => sram_we_n);
 
-  oscillator <= not oscillator after 5 ns when not finished;
+  oscillator <= not oscillator after 5 ns when not ended;
 
   -- The host reads the status while the buffers are cleared after reset.
   host : process is
@@ -137,8 +130,9 @@ begin
         report "board_top_tb: not black after the last dot" severity failure;
       wait until falling_edge(vga_hsync);
     end loop;
-    report "board_top_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "board_top_tb");
 end architecture;

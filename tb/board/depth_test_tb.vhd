@@ -1,18 +1,17 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Random runs of pixels, ascending, descending, alone and repeated at the same places, into both colour buffers, with an
--- SRAM that is always free, and one that serves another user at random. At the end all words of the memory equal those
--- of a plain depth test, pixel by pixel in order. The clocks of single batches and of a long run equal those of the
--- header.
+-- Random runs of pixels, ascending, descending, alone and repeated at the same places, into both colour buffers, with
+-- an SRAM that is always free, and one that serves another user at random. At the end all words of the memory equal
+-- those of a plain depth test, pixel by pixel in order. The clocks of single batches and of a long run equal those of
+-- the header.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.board_pkg.all;
+use work.sram_model_pkg.all;
 use work.tb_pkg.all;
 
 entity depth_test_tb is
-  generic (
-    g_folder : string := "depth_test"
-  );
+  generic (g_folder : string := ""); -- not used: there are no vectors
 end entity;
 
 architecture sim of depth_test_tb is
@@ -20,52 +19,27 @@ architecture sim of depth_test_tb is
   constant c_places : positive := 16;  -- pixels in a batch
   constant c_region : positive := 200; -- pixels in use, at the start and the end of the buffers
 
-  type memory_t is array (0 to c_words - 1) of word_t;
+  shared variable expected : sram_t; -- beside the contents of sram
 
-  type memory_shared_t is protected
-    procedure set (address : natural; word : word_t);
-    impure function get (address : natural) return word_t;
-  end protected;
-
-  type memory_shared_t is protected body
-    variable words : memory_t := (others => c_farthest);
-
-    procedure set (address : natural; word : word_t) is
-    begin
-      words(address) := word;
-    end procedure;
-
-    impure function get (address : natural) return word_t is
-    begin
-      return words(address);
-    end function;
-  end protected body;
-
-  shared variable sram     : memory_shared_t;
-  shared variable expected : memory_shared_t;
-
-  signal finished     : boolean   := false;
-  signal clk          : std_logic := '0';
-  signal reset        : std_logic := '1';
-  signal back         : std_logic := '0';
-  signal pixel_valid  : std_logic := '0';
-  signal pixel_ready  : std_logic;
-  signal pixel_place  : place_t := (others => '0');
-  signal pixel_depth  : word_t := (others => '0');
-  signal pixel_colour : word_t := (others => '0');
-  signal access_valid : std_logic;
-  signal access_ready : std_logic := '0';
-  signal access_write : std_logic;
-  signal access_addr  : address_t;
-  signal access_data  : word_t;
-  signal data_valid   : std_logic := '0';
-  signal data         : word_t := (others => 'X');
-  signal busy         : std_logic;
+  signal ended                     : boolean := false;
+  signal clk                       : std_logic := '0';
+  signal reset                     : std_logic := '1';
+  signal back, pixel_valid         : std_logic := '0';
+  signal pixel_ready               : std_logic;
+  signal pixel_place               : place_t := (others => '0');
+  signal pixel_depth, pixel_colour : word_t := (others => '0');
+  signal access_valid              : std_logic;
+  signal access_ready              : std_logic := '0';
+  signal access_write              : std_logic;
+  signal access_addr               : address_t;
+  signal access_data               : word_t;
+  signal data_valid                : std_logic := '0';
+  signal data                      : word_t := (others => 'X');
+  signal busy                      : std_logic;
 
   signal slow  : boolean   := false; -- another user takes clocks
-  signal other : std_logic := '0';
-  signal was_read : std_logic := '0';
-  signal clock_number : natural := 0;
+  signal other, was_read : std_logic := '0';
+  signal clock_number    : natural := 0;
 begin
   dut : entity work.depth_test
     port map (
@@ -86,7 +60,7 @@ begin
       data         => data,
       busy         => busy);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
   clock_number <= clock_number + 1 when rising_edge(clk);
 
   access_ready <= access_valid and not other and not (access_write and was_read);
@@ -133,6 +107,12 @@ begin
   run : process is
     variable random : unsigned(31 downto 0) := to_unsigned(4, 32);
 
+    procedure set_both (address : natural; word : word_t) is
+    begin
+      sram.set(address, word);
+      expected.set(address, word);
+    end procedure;
+
     -- Send a pixel, and draw it in the expected memory.
     procedure send (place : natural; depth, colour : word_t) is
     begin
@@ -158,12 +138,10 @@ begin
 
     -- A batch of `count` pixels on pixels of depth 8000, of which `kept` are nearer.
     procedure batch (count, kept : natural) is
-      variable start    : natural;
-      variable expected_clocks : natural;
+      variable start : natural;
     begin
       for i in 0 to count - 1 loop
-        sram.set(c_depth_base + i, x"8000");
-        expected.set(c_depth_base + i, x"8000");
+        set_both(c_depth_base + i, x"8000");
       end loop;
       for i in 0 to count - 1 loop
         send(i, std_logic_vector(to_unsigned(16#8000# - to_integer(unsigned'("" & to_flag(i < kept))), 16)), x"1234");
@@ -173,11 +151,8 @@ begin
       end loop;
       -- The clock in which a pixel can be taken again.
       wait until rising_edge(clk) and busy = '0';
-      expected_clocks := 2 * count + kept + 4;
-      assert clock_number - start = expected_clocks
-        report "depth_test_tb: " & to_string(count) & " pixels, " & to_string(kept) & " nearer: "
-        & to_string(clock_number - start) & " clocks, expected " & to_string(expected_clocks)
-        severity failure;
+      check("depth_test: batch of " & to_string(count) & ", nearer pixels", kept, "number of clocks", clock_number - start,
+        2 * count + kept + 4);
     end procedure;
 
     variable place  : natural;
@@ -185,9 +160,10 @@ begin
     variable step   : integer;
     variable first  : natural;
   begin
-    for i in 1 to 3 loop
-      wait until rising_edge(clk);
+    for i in 0 to c_words - 1 loop
+      set_both(i, c_farthest);
     end loop;
+    wait_clocks(clk, 3);
     reset <= '0';
     wait until rising_edge(clk);
 
@@ -199,8 +175,7 @@ begin
 
     -- A long run of nearer pixels.
     for i in 0 to c_region - 1 loop
-      sram.set(c_depth_base + i, c_farthest);
-      expected.set(c_depth_base + i, c_farthest);
+      set_both(c_depth_base + i, c_farthest);
     end loop;
     first := clock_number;
     for i in 0 to 12 * c_places - 1 loop
@@ -246,23 +221,19 @@ begin
         if n mod 50 = 0 then
           drain;
           for i in 0 to c_region - 1 loop
-            sram.set(c_depth_base + i, c_farthest);
-            expected.set(c_depth_base + i, c_farthest);
-            sram.set(c_words - 1 - i, c_farthest);
-            expected.set(c_words - 1 - i, c_farthest);
+            set_both(c_depth_base + i, c_farthest);
+            set_both(c_words - 1 - i, c_farthest);
           end loop;
         end if;
       end loop;
       drain;
     end loop;
     for i in 0 to c_words - 1 loop
-      assert sram.get(i) = expected.get(i)
-        report "depth_test_tb: address " & to_string(i) & " has " & to_hstring(sram.get(i)) & ", expected "
-        & to_hstring(expected.get(i))
-        severity failure;
+      check("depth_test: address", i, "word", sram.get(i), expected.get(i));
     end loop;
-    report "depth_test_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "depth_test_tb");
 end architecture;

@@ -9,43 +9,33 @@ use work.quadratic_pkg.all;
 use work.tb_pkg.all;
 
 entity drawing_rate_tb is
-  generic (
-    g_folder : string := "drawing_rate"
-  );
+  generic (g_folder : string := "drawing_rate");
 end entity;
 
 architecture sim of drawing_rate_tb is
   constant c_most : real := 3.7; -- clocks per fragment
 
-  signal finished         : boolean   := false;
-  signal clk              : std_logic := '0';
-  signal reset            : std_logic := '1';
-  signal init_valid       : std_logic := '0';
-  signal init_ready       : std_logic;
-  signal init_data        : std_logic_vector(init_bits(true, 1, 3) - 1 downto 0) := (others => '0');
-  signal shader_busy      : std_logic;
-  signal fragment_valid   : std_logic;
-  signal fragment_ready   : std_logic;
-  signal fragment_y       : std_logic_vector(11 downto 0);
-  signal fragment_x       : std_logic_vector(11 downto 0);
-  signal fragment_z       : std_logic_vector(23 downto 0);
-  signal fragment_red     : std_logic_vector(7 downto 0);
-  signal fragment_green   : std_logic_vector(7 downto 0);
-  signal fragment_blue    : std_logic_vector(7 downto 0);
-  signal pixel_valid      : std_logic;
-  signal pixel_ready      : std_logic;
-  signal pixel_place      : place_t;
-  signal pixel_depth      : word_t;
-  signal pixel_colour     : word_t;
-  signal outside          : std_logic;
-  signal depth_valid      : std_logic;
-  signal depth_ready      : std_logic;
-  signal depth_write      : std_logic;
-  signal depth_address    : address_t;
-  signal depth_data       : word_t;
-  signal depth_data_valid : std_logic;
-  signal scan_valid       : std_logic;
-  signal writing          : std_logic;
+  signal ended                             : boolean := false;
+  signal clk                               : std_logic := '0';
+  signal reset                             : std_logic := '1';
+  signal init_valid                        : std_logic := '0';
+  signal init_ready                        : std_logic;
+  signal init_data                         : std_logic_vector(init_bits(true, 1, 3) - 1 downto 0) := (others => '0');
+  signal shader_busy, fragment_valid       : std_logic;
+  signal fragment_ready                    : std_logic;
+  signal fragment_y, fragment_x            : std_logic_vector(11 downto 0);
+  signal fragment_z                        : std_logic_vector(23 downto 0);
+  signal fragment_red, fragment_green      : std_logic_vector(7 downto 0);
+  signal fragment_blue                     : std_logic_vector(7 downto 0);
+  signal pixel_valid, pixel_ready          : std_logic;
+  signal pixel_place                       : place_t;
+  signal pixel_depth, pixel_colour         : word_t;
+  signal outside, depth_valid, depth_ready : std_logic;
+  signal depth_write                       : std_logic;
+  signal depth_address                     : address_t;
+  signal depth_data                        : word_t;
+  signal depth_data_valid, scan_valid      : std_logic;
+  signal writing                           : std_logic;
 
   signal clocks      : natural := 0;
   signal first, last : natural := 0; -- clocks of the first and the last fragment
@@ -132,7 +122,7 @@ begin
       sram_read        => open,
       sram_write       => open);
 
-  clk        <= not clk after c_half_period when not finished;
+  clk        <= not clk after c_half_period when not ended;
   scan_valid <= to_flag(clocks mod 3200 < 320);
 
   count : process (clk) is
@@ -153,9 +143,7 @@ begin
   run : process is
     variable vectors : vectors_t;
   begin
-    for i in 1 to 4 loop
-      wait until rising_edge(clk);
-    end loop;
+    wait_clocks(clk, 4);
     reset <= '0';
     vectors.open_file(g_folder & "/init.txt");
     while vectors.next_vector loop
@@ -171,9 +159,11 @@ begin
     assert fragments >= 9000 and real(last - first) <= c_most * real(fragments)
       report "drawing_rate_tb: " & to_string(fragments) & " fragments in " & to_string(last - first) & " clocks"
       severity failure;
-    report "drawing_rate_tb: passed, " & to_string(fragments) & " fragments in " & to_string(last - first) & " clocks"
+    report "drawing_rate: " & to_string(fragments) & " fragments in " & to_string(last - first) & " clocks"
       severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "drawing_rate_tb");
 end architecture;

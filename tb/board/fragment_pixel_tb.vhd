@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Fragments inside and outside the frame, at full speed and with random stalls at both ends. The pixels equal the golden
--- model's, in order, one clock later; each fragment outside is reported once.
+-- Fragments inside and outside the frame, at full speed and with random stalls at both ends. The pixels equal the
+-- golden model's, in order, one clock later; each fragment outside is reported once.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -8,32 +8,26 @@ use work.board_pkg.all;
 use work.tb_pkg.all;
 
 entity fragment_pixel_tb is
-  generic (
-    g_folder : string := "fragment_pixel"
-  );
+  generic (g_folder : string := "fragment_pixel");
 end entity;
 
 architecture sim of fragment_pixel_tb is
-  signal finished       : boolean   := false;
-  signal clk            : std_logic := '0';
-  signal reset          : std_logic := '1';
-  signal fragment_valid : std_logic := '0';
-  signal fragment_ready : std_logic;
-  signal fragment_y     : std_logic_vector(11 downto 0) := (others => '0');
-  signal fragment_x     : std_logic_vector(11 downto 0) := (others => '0');
-  signal fragment_z     : std_logic_vector(23 downto 0) := (others => '0');
-  signal fragment_red   : std_logic_vector(7 downto 0) := (others => '0');
-  signal fragment_green : std_logic_vector(7 downto 0) := (others => '0');
-  signal fragment_blue  : std_logic_vector(7 downto 0) := (others => '0');
-  signal pixel_valid    : std_logic;
-  signal pixel_ready    : std_logic := '1';
-  signal pixel_place    : place_t;
-  signal pixel_depth    : word_t;
-  signal pixel_colour   : word_t;
-  signal outside        : std_logic;
+  signal ended                        : boolean := false;
+  signal clk                          : std_logic := '0';
+  signal reset                        : std_logic := '1';
+  signal fragment_valid               : std_logic := '0';
+  signal fragment_ready               : std_logic;
+  signal fragment_y, fragment_x       : std_logic_vector(11 downto 0) := (others => '0');
+  signal fragment_z                   : std_logic_vector(23 downto 0) := (others => '0');
+  signal fragment_red, fragment_green : std_logic_vector(7 downto 0) := (others => '0');
+  signal fragment_blue                : std_logic_vector(7 downto 0) := (others => '0');
+  signal pixel_valid                  : std_logic;
+  signal pixel_ready                  : std_logic := '1';
+  signal pixel_place                  : place_t;
+  signal pixel_depth, pixel_colour    : word_t;
+  signal outside                      : std_logic;
 
-  signal stalls           : boolean := false;
-  signal fed              : boolean := false;
+  signal stalls, fed      : boolean := false;
   signal dropped, reports : natural := 0;
 begin
   dut : entity work.fragment_pixel
@@ -55,15 +49,13 @@ begin
       pixel_colour   => pixel_colour,
       outside        => outside);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   feed : process is
     variable vectors : vectors_t;
     variable random  : unsigned(31 downto 0) := to_unsigned(1, 32);
   begin
-    for i in 1 to 3 loop
-      wait until rising_edge(clk);
-    end loop;
+    wait_clocks(clk, 3);
     reset <= '0';
     for pass in 0 to 1 loop
       stalls <= pass = 1;
@@ -83,9 +75,7 @@ begin
         fragment_valid <= '0';
       end loop;
       vectors.close_file;
-      for i in 1 to 40 loop
-        wait until rising_edge(clk);
-      end loop;
+      wait_clocks(clk, 40);
     end loop;
     fed <= true;
     wait;
@@ -100,22 +90,21 @@ begin
     end if;
   end process;
 
-  check : process is
+  compare : process is
     variable vectors         : vectors_t;
     variable inside          : std_logic;
-    variable y, x            : std_logic_vector(11 downto 0);
-    variable z               : std_logic_vector(23 downto 0);
-    variable red, green, blue : std_logic_vector(7 downto 0);
+    variable word            : std_logic_vector(23 downto 0);
   begin
     for pass in 0 to 1 loop
       vectors.open_file(g_folder & "/fragments.txt");
       while vectors.next_vector loop
-        vectors.read_word(y);
-        vectors.read_word(x);
-        vectors.read_word(z);
-        vectors.read_word(red);
-        vectors.read_word(green);
-        vectors.read_word(blue);
+        for i in 1 to 2 loop
+          vectors.read_word(word(11 downto 0)); -- y, x
+        end loop;
+        vectors.read_word(word); -- z
+        for i in 1 to 3 loop
+          vectors.read_word(word(7 downto 0)); -- red, green, blue
+        end loop;
         vectors.read_flag(inside);
         if inside = '0' then
           dropped <= dropped + 1;
@@ -123,19 +112,17 @@ begin
           next;
         end if;
         wait until rising_edge(clk) and pixel_valid = '1' and pixel_ready = '1';
-        vectors.check("place", std_logic_vector(pixel_place));
+        vectors.check("place", pixel_place);
         vectors.check("depth", pixel_depth);
         vectors.check("colour", pixel_colour);
       end loop;
       vectors.close_file;
     end loop;
     wait until fed;
-    assert reports = dropped and dropped > 0
-      report "fragment_pixel_tb: " & to_string(reports) & " fragments are reported as outside, expected "
-      & to_string(dropped) severity failure;
-    report "fragment_pixel_tb: passed" severity note;
-    finished <= true;
-    wait;
+    check("fragment_pixel: pass", 1, "number of fragments reported as outside", reports, dropped);
+    assert dropped > 0 report "fragment_pixel_tb: no fragment is outside" severity failure;
+    ended <= true;
+    finish(finished);
   end process;
 
   -- Latency, throughput, stability, and the count of reports.
@@ -159,4 +146,6 @@ begin
       end if;
     end if;
   end process;
+
+  report_end(finished, "fragment_pixel_tb");
 end architecture;

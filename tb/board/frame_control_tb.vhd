@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- The clear after reset and three frames, with random stalls of the writes. Every buffer that must be cleared is written
--- exactly once, with its word, and no other address is. The swap is in the clock after the first blank_start after
--- drained, and not earlier.
+-- The clear after reset and three frames, with random stalls of the writes. Every buffer that must be cleared is
+-- written exactly once, with its word, and no other address is. The swap is in the clock after the first blank_start
+-- after drained, and not earlier.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -9,21 +9,18 @@ use work.board_pkg.all;
 use work.tb_pkg.all;
 
 entity frame_control_tb is
-  generic (
-    g_folder : string := "frame_control"
-  );
+  generic (g_folder : string := ""); -- not used: there are no vectors
 end entity;
 
 architecture sim of frame_control_tb is
-  signal finished      : boolean   := false;
+  signal ended         : boolean := false;
   signal clk           : std_logic := '0';
   signal reset         : std_logic := '1';
   signal frame_end     : std_logic := '0';
   signal background    : word_t := (others => '0');
   signal drained       : std_logic := '1';
   signal blank_start   : std_logic := '0';
-  signal ending        : std_logic;
-  signal front         : std_logic;
+  signal ending, front : std_logic;
   signal shown         : unsigned(3 downto 0);
   signal write_valid   : std_logic;
   signal write_ready   : std_logic := '0';
@@ -48,7 +45,7 @@ begin
       write_address => write_address,
       write_data    => write_data);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
   write_ready <= write_valid and ready;
 
   stall : process (clk) is
@@ -72,10 +69,9 @@ begin
         if address >= c_depth_base then
           expected := c_farthest;
         end if;
-        assert to_integer(write_address) = address and write_data = expected and ending = '1'
-          report "frame_control_tb: writes " & to_hstring(write_data) & " to " & to_string(to_integer(write_address))
-          & ", expected " & to_hstring(expected) & " to " & to_string(address)
-          severity failure;
+        check("frame_control: address", address, "write_address", to_integer(write_address), address);
+        check("frame_control: address", address, "write_data", write_data, expected);
+        check("frame_control: address", address, "ending", ending, '1');
         address := address + 1;
         if address = high + 1 then
           address := maximum(address, c_depth_base);
@@ -99,9 +95,7 @@ begin
     variable front_now : std_logic := '0';
     variable colour    : word_t;
   begin
-    for i in 1 to 3 loop
-      wait until rising_edge(clk);
-    end loop;
+    wait_clocks(clk, 3);
     reset <= '0';
     check_clear(0, c_words - 1, x"0000");
     assert front = '0' and shown = 0 report "frame_control_tb: shows a frame after reset" severity failure;
@@ -138,8 +132,9 @@ begin
       -- The new back buffer is the one that was shown.
       check_clear(to_integer(colour_base(not front_now)), to_integer(colour_base(not front_now)) + c_pixels - 1, colour);
     end loop;
-    report "frame_control_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "frame_control_tb");
 end architecture;

@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Four lines of the frame, from each colour buffer, with the golden model's colours at the pins: every dot of both lines
--- of the monitor, and the syncs, exactly two clocks after their position. Each fetch reads the 320 words of its line, one
--- per clock and no other.
+-- Four lines of the frame, from each colour buffer, with the golden model's colours at the pins: every dot of both
+-- lines of the monitor, and the syncs, exactly two clocks after their position. Each fetch reads the 320 words of its
+-- line, one per clock and no other.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -9,9 +9,7 @@ use work.board_pkg.all;
 use work.tb_pkg.all;
 
 entity scan_out_tb is
-  generic (
-    g_folder : string := "scan_out"
-  );
+  generic (g_folder : string := "scan_out");
 end entity;
 
 architecture sim of scan_out_tb is
@@ -24,28 +22,23 @@ architecture sim of scan_out_tb is
   type dots_t is array (0 to c_colours - 1) of std_logic_vector(4 * 9 - 1 downto 0);
   type reads_t is array (1 to c_reads) of integer; -- place in colours, or -1
 
-  signal finished     : boolean   := false;
-  signal clk          : std_logic := '0';
-  signal reset        : std_logic := '1';
-  signal front        : std_logic := '0';
-  signal column       : unsigned(9 downto 0) := (others => '0');
-  signal line         : unsigned(9 downto 0) := (others => '0');
-  signal visible      : std_logic := '0';
-  signal hsync_in     : std_logic := '1';
-  signal vsync_in     : std_logic := '1';
-  signal fetch        : std_logic := '0';
-  signal fetch_first  : std_logic := '0';
-  signal read_valid   : std_logic;
-  signal read_address : address_t;
-  signal data_valid   : std_logic := '0';
-  signal data         : word_t := (others => 'X');
-  signal hsync, vsync : std_logic;
-  signal red          : level_t;
-  signal green        : level_t;
-  signal blue         : level_t;
+  signal ended              : boolean := false;
+  signal clk                : std_logic := '0';
+  signal reset              : std_logic := '1';
+  signal front              : std_logic := '0';
+  signal column, line       : unsigned(9 downto 0) := (others => '0');
+  signal visible            : std_logic := '0';
+  signal hsync_in, vsync_in : std_logic := '1';
+  signal fetch, fetch_first : std_logic := '0';
+  signal read_valid         : std_logic;
+  signal read_address       : address_t;
+  signal data_valid         : std_logic := '0';
+  signal data               : word_t := (others => 'X');
+  signal hsync, vsync       : std_logic;
+  signal red, green, blue   : level_t;
 
-  signal colours : colours_t;
-  signal reads   : reads_t := (others => -1);
+  signal colours   : colours_t;
+  signal reads     : reads_t := (others => -1);
   signal next_read : natural := 0; -- the place that the next read must have
 begin
   dut : entity work.scan_out
@@ -70,7 +63,7 @@ begin
       green        => green,
       blue         => blue);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   memory : process (clk) is
     variable place : integer;
@@ -79,8 +72,7 @@ begin
       place := -1;
       if read_valid = '1' and reset = '0' then
         place := to_integer(read_address - colour_base(front));
-        assert place = next_read
-          report "scan_out_tb: reads place " & to_string(place) & ", expected " & to_string(next_read) severity failure;
+        check("scan_out: read", next_read, "place", place, next_read);
         next_read <= next_read + 1;
       end if;
       if fetch_first = '1' then
@@ -102,17 +94,16 @@ begin
     variable bits    : level_t;
 
     -- Compare the pins with the dot at (x, y).
-    procedure check (x, y : natural) is
-      constant c_dot : natural := 9 * (2 * (y mod 2) + x mod 2);
+    procedure check_dot (x, y : natural) is
+      constant c_dot  : natural := 9 * (2 * (y mod 2) + x mod 2);
+      constant c_line : string  := "scan_out: line " & to_string(y) & ", dot";
 
       variable expected : std_logic_vector(8 downto 0);
     begin
       expected := dots(y / 2 * c_width + x / 2)(c_dot + 8 downto c_dot);
-      assert red & green & blue = expected
-        report "scan_out_tb: dot " & to_string(x) & ", " & to_string(y) & " is " & to_string(red & green & blue)
-        & ", expected " & to_string(expected) severity failure;
-      assert hsync = to_flag(x mod 7 = 3) and vsync = to_flag(y mod 3 = 1)
-        report "scan_out_tb: dot " & to_string(x) & ", " & to_string(y) & ": wrong syncs" severity failure;
+      check(c_line, x, "colour", red & green & blue, expected);
+      check(c_line, x, "hsync", hsync, to_flag(x mod 7 = 3));
+      check(c_line, x, "vsync", vsync, to_flag(y mod 3 = 1));
     end procedure;
 
     variable clocks : natural;
@@ -158,7 +149,7 @@ begin
             fetch    <= to_flag(x = 0 and half = 0 and y mod 2 = 0 and y < 2 * c_lines - 2);
             wait until rising_edge(clk);
             if clocks >= c_latency and (clocks - c_latency) / 2 < 640 then
-              check((clocks - c_latency) / 2, y);
+              check_dot((clocks - c_latency) / 2, y);
             elsif clocks >= c_latency then
               assert red & green & blue = "000000000" report "scan_out_tb: a dot outside is not black" severity failure;
             end if;
@@ -166,14 +157,13 @@ begin
           end loop;
         end loop;
         if y mod 2 = 1 then
-          assert next_read = minimum(y / 2 + 2, c_lines) * c_width
-            report "scan_out_tb: after line " & to_string(y) & ", " & to_string(next_read) & " words are read"
-            severity failure;
+          check("scan_out: line", y, "number of words read", next_read, minimum(y / 2 + 2, c_lines) * c_width);
         end if;
       end loop;
     end loop;
-    report "scan_out_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "scan_out_tb");
 end architecture;

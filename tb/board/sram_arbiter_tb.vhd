@@ -10,9 +10,7 @@ use work.board_pkg.all;
 use work.tb_pkg.all;
 
 entity sram_arbiter_tb is
-  generic (
-    g_folder : string := "sram_arbiter"
-  );
+  generic (g_folder : string := ""); -- not used: there are no vectors
 end entity;
 
 architecture sim of sram_arbiter_tb is
@@ -30,26 +28,25 @@ architecture sim of sram_arbiter_tb is
 
   type expectations_t is array (1 to c_latency) of expected_t;
 
-  signal finished         : boolean   := false;
-  signal clk              : std_logic := '0';
-  signal reset            : std_logic := '1';
-  signal scan_valid       : std_logic := '0';
-  signal scan_address     : address_t := (others => '0');
-  signal scan_data_valid  : std_logic;
-  signal depth_valid      : std_logic := '0';
-  signal depth_ready      : std_logic;
-  signal depth_write      : std_logic := '0';
-  signal depth_address    : address_t := (others => '0');
-  signal depth_data       : word_t := (others => '0');
-  signal depth_data_valid : std_logic;
-  signal clear_valid      : std_logic := '0';
-  signal clear_ready      : std_logic;
-  signal clear_address    : address_t := (others => '0');
-  signal clear_data       : word_t := (others => '0');
-  signal sram_address     : address_t;
-  signal sram_data_out    : word_t;
-  signal sram_read        : std_logic;
-  signal sram_write       : std_logic;
+  signal ended                 : boolean := false;
+  signal clk                   : std_logic := '0';
+  signal reset                 : std_logic := '1';
+  signal scan_valid            : std_logic := '0';
+  signal scan_address          : address_t := (others => '0');
+  signal scan_data_valid       : std_logic;
+  signal depth_valid           : std_logic := '0';
+  signal depth_ready           : std_logic;
+  signal depth_write           : std_logic := '0';
+  signal depth_address         : address_t := (others => '0');
+  signal depth_data            : word_t := (others => '0');
+  signal depth_data_valid      : std_logic;
+  signal clear_valid           : std_logic := '0';
+  signal clear_ready           : std_logic;
+  signal clear_address         : address_t := (others => '0');
+  signal clear_data            : word_t := (others => '0');
+  signal sram_address          : address_t;
+  signal sram_data_out         : word_t;
+  signal sram_read, sram_write : std_logic;
 
   signal sram_data_in : word_t := (others => 'X');
 begin
@@ -75,7 +72,7 @@ begin
       sram_read        => sram_read,
       sram_write       => sram_write);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   -- The SRAM, with a register at each pin.
   sram : process (clk) is
@@ -102,6 +99,8 @@ begin
   end process;
 
   run : process is
+    constant c_place : string := "sram_arbiter: clock";
+
     variable random       : unsigned(31 downto 0) := to_unsigned(1, 32);
     variable memory       : memory_t              := (others => (others => '0'));
     variable expectations : expectations_t        := (others => (none, (others => '0')));
@@ -117,9 +116,7 @@ begin
       address <= resize(random(5 downto 0), c_address_bits);
     end procedure;
   begin
-    for i in 1 to 4 loop
-      wait until rising_edge(clk);
-    end loop;
+    wait_clocks(clk, 4);
     reset <= '0';
     for n in 1 to c_clocks loop
       wait until rising_edge(clk);
@@ -129,12 +126,12 @@ begin
       if scan_valid = '1' then
         expected := (scan, memory(to_integer(scan_address)));
         taken    := true;
-        assert depth_ready = '0' and clear_ready = '0'
-          report "sram_arbiter_tb: clock " & to_string(n) & ": another user than scan-out is served" severity failure;
+        check(c_place, n, "depth_ready", depth_ready, '0');
+        check(c_place, n, "clear_ready", clear_ready, '0');
       elsif depth_valid = '1' then
         taken := depth_write = '0' or not was_read;
-        assert depth_ready = to_flag(taken) and clear_ready = '0'
-          report "sram_arbiter_tb: clock " & to_string(n) & ": depth_ready is " & to_string(depth_ready) severity failure;
+        check(c_place, n, "depth_ready", depth_ready, to_flag(taken));
+        check(c_place, n, "clear_ready", clear_ready, '0');
         if depth_write = '0' then
           expected := (depth, memory(to_integer(depth_address)));
         elsif taken then
@@ -142,23 +139,18 @@ begin
         end if;
       elsif clear_valid = '1' then
         taken := not was_read;
-        assert clear_ready = to_flag(taken)
-          report "sram_arbiter_tb: clock " & to_string(n) & ": clear_ready is " & to_string(clear_ready) severity failure;
+        check(c_place, n, "clear_ready", clear_ready, to_flag(taken));
         if taken then
           memory(to_integer(clear_address)) := clear_data;
         end if;
       end if;
       was_read := expected.user /= none;
       -- The data of the read three clocks ago.
-      assert scan_data_valid = to_flag(expectations(c_latency).user = scan)
-        and depth_data_valid = to_flag(expectations(c_latency).user = depth)
-        report "sram_arbiter_tb: clock " & to_string(n) & ": data for the wrong user" severity failure;
+      check(c_place, n, "scan_data_valid", scan_data_valid, to_flag(expectations(c_latency).user = scan));
+      check(c_place, n, "depth_data_valid", depth_data_valid, to_flag(expectations(c_latency).user = depth));
       if expectations(c_latency).user /= none then
         scan_reads := scan_reads + 1;
-        assert sram_data_in = expectations(c_latency).word
-          report "sram_arbiter_tb: clock " & to_string(n) & ": read " & to_hstring(sram_data_in) & ", expected "
-          & to_hstring(expectations(c_latency).word)
-          severity failure;
+        check(c_place, n, "word read", sram_data_in, expectations(c_latency).word);
       end if;
       expectations := expected & expectations(1 to c_latency - 1);
       -- Phases: full speed of two users, then scan-out in some, most and all clocks.
@@ -183,8 +175,9 @@ begin
       end if;
     end loop;
     assert scan_reads > c_clocks / 4 report "sram_arbiter_tb: few reads" severity failure;
-    report "sram_arbiter_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "sram_arbiter_tb");
 end architecture;
