@@ -1,9 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Common parts of the testbenches: files of vectors (format: sim/stream_files/vector_file.hpp), comparisons that stop the
--- run with vector number, actual and expected value, clocks, random stalls, and the end of a testbench.
+-- Common parts of the testbenches: files of vectors (format: sim/stream_files/vector_file.hpp), comparisons that stop
+-- the run with vector number, actual and expected value, clocks, random stalls, and the end of a testbench.
 --
--- The shape of a testbench: one process per instance reads the rows of a file, drives the instance's inputs, compares its
--- outputs and gives its clock.
+-- The shape of a testbench: one process per instance reads the rows of a file, drives the instance's inputs, compares
+-- its outputs and gives its clock.
 --
 --   vectors.open_file(g_folder & "/16.txt", c_latency);
 --   while vectors.next_clock loop

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Around a shader that outputs numbered fragments, 0 to 3 for each vector. Every fragment of a frame must come out once,
--- in order, the last one with tlast, at full speed 1 clock after the next one left the shader, and with random stalls. A
--- frame without fragments must have one transfer without bytes. A frame in which the shader reports a fault or stops must end
--- with fault = '1', and the next frame must be complete.
+-- Around a shader that outputs numbered fragments, 0 to 3 for each vector. Every fragment of a frame must come out
+-- once, in order, the last one with tlast, at full speed 1 clock after the next one left the shader, and with random
+-- stalls. A frame without fragments must have one transfer without bytes. A frame in which the shader reports a fault
+-- or stops must end with fault = '1', and the next frame must be complete.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -10,9 +10,7 @@ use work.axi_pkg.all;
 use work.tb_pkg.all;
 
 entity axi_adapter_tb is
-  generic (
-    g_folder : string := "" -- not used: there are no vectors
-  );
+  generic (g_folder : string := ""); -- not used: there are no vectors
 end entity;
 
 architecture sim of axi_adapter_tb is
@@ -22,26 +20,22 @@ architecture sim of axi_adapter_tb is
 
   type frame_t is (good, reports, stops);
 
-  signal clk            : std_logic := '0';
-  signal reset          : std_logic := '1';
-  signal s_axis_tvalid  : std_logic := '0';
-  signal s_axis_tready  : std_logic;
-  signal s_axis_tlast   : std_logic := '0';
-  signal init_valid     : std_logic;
-  signal init_ready     : std_logic := '0';
-  signal fragment_valid : std_logic := '0';
-  signal fragment_ready : std_logic;
-  signal fragment       : fragment_data_t := (others => '0');
-  signal busy           : std_logic := '0';
-  signal shader_fault   : std_logic := '0';
-  signal shader_reset   : std_logic;
-  signal m_axis_tvalid  : std_logic;
-  signal m_axis_tready  : std_logic := '0';
-  signal m_axis_tdata   : fragment_data_t;
-  signal m_axis_tkeep   : fragment_keep_t;
-  signal m_axis_tlast   : std_logic;
-  signal fault          : std_logic;
-  signal finished       : boolean := false;
+  signal clk                         : std_logic := '0';
+  signal reset                       : std_logic := '1';
+  signal s_axis_tvalid               : std_logic := '0';
+  signal s_axis_tready               : std_logic;
+  signal s_axis_tlast                : std_logic := '0';
+  signal init_valid                  : std_logic;
+  signal init_ready, fragment_valid  : std_logic := '0';
+  signal fragment_ready              : std_logic;
+  signal fragment                    : fragment_data_t := (others => '0');
+  signal busy, shader_fault          : std_logic := '0';
+  signal shader_reset, m_axis_tvalid : std_logic;
+  signal m_axis_tready               : std_logic := '0';
+  signal m_axis_tdata                : fragment_data_t;
+  signal m_axis_tkeep                : fragment_keep_t;
+  signal m_axis_tlast, fault         : std_logic;
+  signal ended                       : boolean := false;
 begin
   dut : entity work.axi_adapter
     generic map (g_limit_bits => c_limit_bits)
@@ -66,21 +60,15 @@ begin
       m_axis_tlast   => m_axis_tlast,
       fault          => fault);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   run : process is
     variable random : unsigned(31 downto 0) := to_unsigned(11, 32);
 
-    procedure check (frame : natural; kind : frame_t; name : string; got, expected : integer) is
-    begin
-      assert got = expected
-        report "axi_adapter: frame " & to_string(frame) & " (" & frame_t'image(kind) & "): " & name & ": got "
-        & to_string(got) & ", expected " & to_string(expected)
-        severity failure;
-    end procedure;
-
     -- A frame of `vectors` vectors. With `pauses` the sender and the receiver pause at random.
     procedure draw (frame : natural; kind : frame_t; vectors : positive; pauses : boolean) is
+      constant c_place : string := "axi_adapter: " & frame_t'image(kind) & ", frame";
+
       variable to_send  : natural := vectors;
       variable offered  : boolean := false; -- a vector waits
       variable left     : natural := 0;     -- fragments of the vector in the shader
@@ -104,21 +92,20 @@ begin
         wait until rising_edge(clk);
         idle := idle + 1;
         age  := age + 1;
-        assert idle < c_idle_limit
-          report "axi_adapter: frame " & to_string(frame) & " (" & frame_t'image(kind) & ") does not go on" severity failure;
+        assert idle < c_idle_limit report c_place & " " & to_string(frame) & ": hangs" severity failure;
         if m_axis_tvalid = '1' and m_axis_tready = '1' then
           idle := 0;
           last := m_axis_tlast = '1';
           if m_axis_tkeep = (m_axis_tkeep'range => '1') then
             received := received + 1;
-            check(frame, kind, "fragment", to_integer(unsigned(m_axis_tdata(30 downto 0))), received);
+            check(c_place, frame, "fragment", to_integer(unsigned(m_axis_tdata(30 downto 0))), received);
             if kind = good and not pauses and not last then
-              check(frame, kind, "clocks after the next fragment", age, 1);
+              check(c_place, frame, "clocks after the next fragment", age, 1);
             end if;
           else
-            check(frame, kind, "tkeep", to_integer(unsigned(m_axis_tkeep)), 0);
-            check(frame, kind, "tlast without bytes", boolean'pos(last), 1);
-            check(frame, kind, "fragments before a transfer without bytes", received, 0);
+            check(c_place, frame, "tkeep", to_integer(unsigned(m_axis_tkeep)), 0);
+            check(c_place, frame, "tlast without bytes", m_axis_tlast, '1');
+            check(c_place, frame, "fragments before a transfer without bytes", received, 0);
           end if;
         end if;
         if fragment_valid = '1' and fragment_ready = '1' then
@@ -138,21 +125,21 @@ begin
           left := 0;
         end if;
       end loop;
-      check(frame, kind, "vectors not taken", to_send, 0);
-      check(frame, kind, "fault", boolean'pos(fault = '1'), boolean'pos(kind /= good));
-      check(frame, kind, "fragments", received, drawn);
+      check(c_place, frame, "vectors not taken", to_send, 0);
+      check(c_place, frame, "fault", fault, to_flag(kind /= good));
+      check(c_place, frame, "fragments", received, drawn);
     end procedure;
   begin
-    wait until rising_edge(clk);
-    wait until rising_edge(clk);
-    check(0, good, "s_axis_tready in reset", boolean'pos(s_axis_tready = '1'), 0);
+    wait_clocks(clk, 2);
+    check("axi_adapter: frame", 0, "s_axis_tready in reset", s_axis_tready, '0');
     reset <= '0';
     for frame in 1 to c_frames loop
       draw(frame, frame_t'val(frame mod 5 / 2 mod 3), 1 + frame mod 7, frame mod 4 > 1);
       draw(frame, good, 1 + frame mod 3, frame mod 8 > 3);
     end loop;
-    report "axi_adapter_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "axi_adapter_tb");
 end architecture;

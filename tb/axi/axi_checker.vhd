@@ -6,48 +6,134 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.formats_pkg.all;
 use work.axi_pkg.all;
+use work.formats_pkg.all;
+use work.processors_pkg.all;
 use work.tb_pkg.all;
+use work.tb_shaders_pkg.all;
 
 entity axi_checker is
   generic (
-    g_exact      : boolean;
-    g_init_bits  : positive;
-    g_walk_low   : natural := 0; -- lowest bit of the walk in a vector that draws
-    g_records    : natural := 0; -- line records of a triangle of one line
-    g_timed      : boolean := true; -- the files contain the clocks
-    g_limit_bits : positive;     -- of the top
-    g_faults     : boolean := false; -- only the set "fault", in which the shader reports a fault, between good frames
-    g_stem       : string -- start of the file names
-  );
-  port (
-    aclk          : buffer std_logic := '0';
-    aresetn       : buffer std_logic := '0';
-    s_axis_tvalid : buffer std_logic := '0';
-    s_axis_tready : in     std_logic;
-    s_axis_tdata  : out    std_logic_vector(whole_words(g_init_bits) - 1 downto 0);
-    s_axis_tlast  : out    std_logic := '0';
-    m_axis_tvalid : in     std_logic;
-    m_axis_tready : buffer std_logic := '0';
-    m_axis_tdata  : in     fragment_data_t;
-    m_axis_tkeep  : in     fragment_keep_t;
-    m_axis_tlast  : in     std_logic;
-    fault         : in     std_logic;
-    finished      : buffer boolean := false
+    g_hardware   : hardware_t;
+    g_timed      : boolean  := true;  -- the files contain the clocks
+    g_limit_bits : positive := 13;    -- of the top
+    g_faults     : boolean  := false; -- only the set "fault", in which the shader reports a fault, between good frames
+    g_stem       : string             -- start of the file names
   );
 end entity;
 
 architecture sim of axi_checker is
+  constant c_formats   : formats_t := formats(g_hardware.exact);
+  constant c_init_bits : positive  := init_bits(g_hardware);
+  constant c_records   : natural   := boolean'pos(has_records(g_hardware)); -- of a triangle of one line
 
+  -- Lowest bit of the walk in a vector that draws.
+  function find_walk return natural is
+  begin
+    if g_hardware.shader = processors then
+      return walk_low(processors_config(g_hardware));
+    end if;
+    return 0;
+  end function;
+
+  constant c_walk_low   : natural  := find_walk;
   constant c_idle_limit : positive := 3 * 2 ** g_limit_bits; -- clocks without a transfer that count as a hang
   constant c_end_clocks : positive := 10; -- from the last fragment's clock in the shader to its transfer
 
   type frame_t is (draws, empty, too_long, faulty);
 
+  signal ended                  : boolean := false;
+  signal aclk                   : std_logic := '0';
+  signal aresetn, s_axis_tvalid : std_logic := '0';
+  signal s_axis_tready          : std_logic;
+  signal s_axis_tdata           : std_logic_vector(whole_words(c_init_bits) - 1 downto 0);
+  signal s_axis_tlast           : std_logic := '0';
+  signal m_axis_tvalid          : std_logic;
+  signal m_axis_tready          : std_logic := '0';
+  signal m_axis_tdata           : fragment_data_t;
+  signal m_axis_tkeep           : fragment_keep_t;
+  signal m_axis_tlast, fault    : std_logic;
 begin
+  quadratic_dut : if g_hardware.shader = quadratic generate
+    dut : entity work.quadratic_axi
+      generic map (
+        g_exact      => g_hardware.exact,
+        g_channels   => g_hardware.channels,
+        g_degree     => g_hardware.degree,
+        g_limit_bits => g_limit_bits)
+      port map (
+        aclk          => aclk,
+        aresetn       => aresetn,
+        s_axis_tvalid => s_axis_tvalid,
+        s_axis_tready => s_axis_tready,
+        s_axis_tdata  => s_axis_tdata,
+        s_axis_tlast  => s_axis_tlast,
+        m_axis_tvalid => m_axis_tvalid,
+        m_axis_tready => m_axis_tready,
+        m_axis_tdata  => m_axis_tdata,
+        m_axis_tkeep  => m_axis_tkeep,
+        m_axis_tlast  => m_axis_tlast,
+        fault         => fault);
+  end generate;
 
-  aclk <= not aclk after c_half_period when not finished;
+  spherical_dut : if g_hardware.shader = spherical generate
+    dut : entity work.spherical_axi
+      generic map (
+        g_exact              => g_hardware.exact,
+        g_channels           => g_hardware.channels,
+        g_lights             => g_hardware.lights,
+        g_diffuse            => g_hardware.diffuse,
+        g_specular           => g_hardware.specular,
+        g_highlight_channels => g_hardware.highlight_channels,
+        g_powers             => g_hardware.powers,
+        g_address_bits       => g_hardware.address_bits,
+        g_data_bits          => g_hardware.data_bits,
+        g_limit_bits         => g_limit_bits)
+      port map (
+        aclk          => aclk,
+        aresetn       => aresetn,
+        s_axis_tvalid => s_axis_tvalid,
+        s_axis_tready => s_axis_tready,
+        s_axis_tdata  => s_axis_tdata,
+        s_axis_tlast  => s_axis_tlast,
+        m_axis_tvalid => m_axis_tvalid,
+        m_axis_tready => m_axis_tready,
+        m_axis_tdata  => m_axis_tdata,
+        m_axis_tkeep  => m_axis_tkeep,
+        m_axis_tlast  => m_axis_tlast,
+        fault         => fault);
+  end generate;
+
+  processors_dut : if g_hardware.shader = processors generate
+    dut : entity work.processors_axi
+      generic map (
+        g_exact       => g_hardware.exact,
+        g_channels    => g_hardware.channels,
+        g_directional => g_hardware.directional,
+        g_positional  => g_hardware.positional,
+        g_spots       => g_hardware.spots,
+        g_diffuse     => g_hardware.diffuse,
+        g_specular    => g_hardware.specular,
+        g_normalize   => g_hardware.normalize,
+        g_shadows     => g_hardware.shadows,
+        g_unrolled    => g_hardware.unrolled,
+        g_limit_bits  => g_limit_bits)
+      port map (
+        aclk          => aclk,
+        aresetn       => aresetn,
+        s_axis_tvalid => s_axis_tvalid,
+        s_axis_tready => s_axis_tready,
+        s_axis_tdata  => s_axis_tdata,
+        s_axis_tlast  => s_axis_tlast,
+        m_axis_tvalid => m_axis_tvalid,
+        m_axis_tready => m_axis_tready,
+        m_axis_tdata  => m_axis_tdata,
+        m_axis_tkeep  => m_axis_tkeep,
+        m_axis_tlast  => m_axis_tlast,
+        fault         => fault);
+  end generate;
+
+  aclk <= not aclk after c_half_period when not ended;
 
   run : process is
     variable inits, fragments : vectors_t;
@@ -55,7 +141,7 @@ begin
     -- Vectors of frames without a set: number still to come. The vector after the one that is offered.
     variable vectors  : natural;
     variable more     : boolean;
-    variable next_one : std_logic_vector(g_init_bits - 1 downto 0);
+    variable next_one : std_logic_vector(c_init_bits - 1 downto 0);
 
     -- The fragment that comes next, the one after it, and the clock of the transfer of the first.
     variable fragment, next_fragment : fragment_data_t;
@@ -78,11 +164,11 @@ begin
 
     -- The next fragment of the file as a transfer. Its fields are in the order of the file.
     procedure read_fragment (data : out fragment_data_t; found : out boolean) is
-      variable triangle         : std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
-      variable y                : std_logic_vector(formats(g_exact).pixel_y.bits - 1 downto 0);
-      variable x                : std_logic_vector(formats(g_exact).pixel_x.bits - 1 downto 0);
-      variable z                : std_logic_vector(formats(g_exact).depth.bits - 1 downto 0);
-      variable red, green, blue : std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
+      variable triangle         : std_logic_vector(c_formats.triangle.bits - 1 downto 0);
+      variable y                : std_logic_vector(c_formats.pixel_y.bits - 1 downto 0);
+      variable x                : std_logic_vector(c_formats.pixel_x.bits - 1 downto 0);
+      variable z                : std_logic_vector(c_formats.depth.bits - 1 downto 0);
+      variable red, green, blue : std_logic_vector(c_formats.colour.bits - 1 downto 0);
     begin
       found := fragments.next_vector;
       data  := (others => '0');
@@ -112,9 +198,9 @@ begin
         next_one := (others => '0');
         -- Upper lines: 0 counts as 2**13.
         if kind = empty then
-          next_one(g_walk_low + init_header(true).upper_lines.low) := '1';
+          next_one(c_walk_low + init_header(true).upper_lines.low) := '1';
         else
-          next_one(g_walk_low + init_header(true).lower_lines.high downto g_walk_low + init_header(true).lower_lines.low)
+          next_one(c_walk_low + init_header(true).lower_lines.high downto c_walk_low + init_header(true).lower_lines.low)
             := (others => '1');
         end if;
         if vectors > 0 then
@@ -146,7 +232,7 @@ begin
       constant c_faulty : std_logic := to_flag(kind = too_long or kind = faulty);
 
       variable random             : unsigned(31 downto 0) := to_unsigned(seed, 32);
-      variable vector             : std_logic_vector(g_init_bits - 1 downto 0);
+      variable vector             : std_logic_vector(c_init_bits - 1 downto 0);
       variable to_come            : boolean; -- the vector
       variable offered, waiting   : boolean := false;
       variable held               : std_logic_vector(c_fragment_bits downto 0); -- tlast, tdata
@@ -156,7 +242,7 @@ begin
       if kind = draws or kind = faulty then
         inits.open_file(g_stem & set & "_init.txt");
       elsif kind = empty then
-        vectors := 1 + g_records;
+        vectors := 1 + c_records;
       else
         vectors := 4;
       end if;
@@ -178,7 +264,7 @@ begin
         s_axis_tdata  <= (others => '1');
         s_axis_tlast  <= '1';
         if offered then
-          s_axis_tdata(g_init_bits - 1 downto 0) <= vector;
+          s_axis_tdata(c_init_bits - 1 downto 0) <= vector;
           s_axis_tlast               <= to_flag(not more);
         end if;
         m_axis_tready <= to_flag(chance(random(30 downto 23), fragment_pause));
@@ -284,8 +370,8 @@ begin
       end loop;
     end if;
     pass(draws, "mixed", 1, 0, 0, 0);
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
 
 end architecture;

@@ -8,9 +8,7 @@ use ieee.numeric_std.all;
 use work.tb_pkg.all;
 
 entity axi_control_tb is
-  generic (
-    g_folder : string := "" -- not used: there are no vectors
-  );
+  generic (g_folder : string := ""); -- not used: there are no vectors
 end entity;
 
 architecture sim of axi_control_tb is
@@ -19,21 +17,18 @@ architecture sim of axi_control_tb is
 
   type frame_t is (good, takes_nothing, stays_busy, reports, reports_late);
 
-  signal clk          : std_logic := '0';
-  signal reset        : std_logic := '1';
-  signal in_valid     : std_logic := '0';
-  signal in_ready     : std_logic;
-  signal in_last      : std_logic := '0';
-  signal init_valid   : std_logic;
-  signal init_ready   : std_logic := '0';
-  signal busy         : std_logic := '0';
-  signal stalled      : std_logic := '0';
-  signal shader_fault : std_logic := '0';
-  signal shader_reset : std_logic;
-  signal frame_end    : std_logic;
-  signal done         : std_logic := '0';
-  signal fault        : std_logic;
-  signal finished     : boolean := false;
+  signal clk                       : std_logic := '0';
+  signal reset                     : std_logic := '1';
+  signal in_valid                  : std_logic := '0';
+  signal in_ready                  : std_logic;
+  signal in_last                   : std_logic := '0';
+  signal init_valid                : std_logic;
+  signal init_ready, busy, stalled : std_logic := '0';
+  signal shader_fault              : std_logic := '0';
+  signal shader_reset, frame_end   : std_logic;
+  signal done                      : std_logic := '0';
+  signal fault                     : std_logic;
+  signal ended                     : boolean := false;
 begin
   dut : entity work.axi_control
     generic map (g_limit_bits => c_limit_bits)
@@ -53,21 +48,15 @@ begin
       done         => done,
       fault        => fault);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   run : process is
     variable random : unsigned(31 downto 0) := to_unsigned(9, 32);
 
-    procedure check (kind : frame_t; name : string; got, expected : integer) is
-    begin
-      assert got = expected
-        report "axi_control: frame " & frame_t'image(kind) & ": " & name & ": got " & to_string(got) & ", expected "
-        & to_string(expected)
-        severity failure;
-    end procedure;
-
     -- A frame of `vectors` vectors; the shader works `steps` clocks on each. With `pauses` the receiver stalls at random.
     procedure draw (kind : frame_t; vectors, steps : natural; pauses : boolean) is
+      constant c_place : string := "axi_control: " & frame_t'image(kind) & ", frame of vectors";
+
       variable to_send : natural := vectors;
       variable passed  : natural := 0; -- vectors that the shader took
       variable left    : natural := 0; -- clocks for which the shader works
@@ -84,14 +73,13 @@ begin
         stalled      <= to_flag(pauses and left > 0 and random(3) = '1');
         shader_fault <= to_flag((kind = reports and passed > 1 and not resets) or (kind = reports_late and late > 7));
         wait until rising_edge(clk);
-        check(kind, "shader_reset as fault", boolean'pos(shader_reset = fault), 1);
-        check(kind, "a vector offered to the shader in reset", boolean'pos(init_valid = '1' and shader_reset = '1'), 0);
+        check(c_place, vectors, "shader_reset", shader_reset, fault);
+        check(c_place, vectors, "init_valid in reset", init_valid and shader_reset, '0');
         exit when frame_end = '1';
         if stalled = '0' then
           waits := waits + 1;
         end if;
-        assert waits < c_limit + 15
-          report "axi_control: frame " & frame_t'image(kind) & " waits " & to_string(waits) & " clocks" severity failure;
+        assert waits < c_limit + 15 report c_place & " " & to_string(vectors) & ": hangs" severity failure;
         if left > 0 and stalled = '0' and kind /= stays_busy then
           left := left - 1;
         end if;
@@ -111,20 +99,20 @@ begin
           resets := true;
         end if;
       end loop;
-      check(kind, "vectors not taken", to_send, 0);
-      check(kind, "fault", boolean'pos(fault = '1'), boolean'pos(kind /= good));
+      check(c_place, vectors, "vectors not taken", to_send, 0);
+      check(c_place, vectors, "fault", fault, to_flag(kind /= good));
       if kind = good then
-        check(kind, "vectors that the shader took", passed, vectors);
+        check(c_place, vectors, "vectors that the shader took", passed, vectors);
         if not pauses then
-          check(kind, "clocks between the last vector and the frame's end", waits, steps + 9);
+          check(c_place, vectors, "clocks between the last vector and the frame's end", waits, steps + 9);
         end if;
       end if;
       -- The receiver takes the last transfer some clocks later.
       in_valid <= '1';
       for i in 1 to 3 loop
         wait until rising_edge(clk);
-        check(kind, "in_ready before done", boolean'pos(in_ready = '1'), 0);
-        check(kind, "frame_end before done", boolean'pos(frame_end = '1'), 1);
+        check(c_place, vectors, "in_ready before done", in_ready, '0');
+        check(c_place, vectors, "frame_end before done", frame_end, '1');
       end loop;
       in_valid     <= '0';
       shader_fault <= '0';
@@ -133,9 +121,8 @@ begin
       done <= '0';
     end procedure;
   begin
-    wait until rising_edge(clk);
-    wait until rising_edge(clk);
-    check(good, "in_ready in reset", boolean'pos(in_ready = '1'), 0);
+    wait_clocks(clk, 2);
+    check("axi_control: clock", 2, "in_ready in reset", in_ready, '0');
     reset <= '0';
     wait until rising_edge(clk);
     for kind in frame_t loop
@@ -146,8 +133,9 @@ begin
         end loop;
       end loop;
     end loop;
-    report "axi_control_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "axi_control_tb");
 end architecture;

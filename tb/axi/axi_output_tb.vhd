@@ -8,28 +8,24 @@ use ieee.numeric_std.all;
 use work.tb_pkg.all;
 
 entity axi_output_tb is
-  generic (
-    g_folder : string := "" -- not used: there are no vectors
-  );
+  generic (g_folder : string := ""); -- not used: there are no vectors
 end entity;
 
 architecture sim of axi_output_tb is
   constant c_bits   : positive := 16;
   constant c_frames : positive := 400;
 
-  signal clk       : std_logic := '0';
-  signal reset     : std_logic := '1';
-  signal in_valid  : std_logic := '0';
-  signal in_ready  : std_logic;
-  signal in_data   : std_logic_vector(c_bits - 1 downto 0) := (others => '0');
-  signal frame_end : std_logic := '0';
-  signal out_valid : std_logic;
-  signal out_ready : std_logic := '0';
-  signal out_data  : std_logic_vector(c_bits - 1 downto 0);
-  signal out_last  : std_logic;
-  signal out_empty : std_logic;
-  signal done      : std_logic;
-  signal finished  : boolean := false;
+  signal clk                       : std_logic := '0';
+  signal reset                     : std_logic := '1';
+  signal in_valid                  : std_logic := '0';
+  signal in_ready                  : std_logic;
+  signal in_data                   : std_logic_vector(c_bits - 1 downto 0) := (others => '0');
+  signal frame_end                 : std_logic := '0';
+  signal out_valid                 : std_logic;
+  signal out_ready                 : std_logic := '0';
+  signal out_data                  : std_logic_vector(c_bits - 1 downto 0);
+  signal out_last, out_empty, done : std_logic;
+  signal ended                     : boolean := false;
 begin
   dut : entity work.axi_output
     generic map (g_bits => c_bits)
@@ -47,18 +43,10 @@ begin
       out_empty => out_empty,
       done      => done);
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   run : process is
     variable random : unsigned(31 downto 0) := to_unsigned(7, 32);
-
-    procedure check (frame : natural; name : string; got, expected : std_logic_vector) is
-    begin
-      assert got = expected
-        report "axi_output: frame " & to_string(frame) & ": " & name & " is " & to_hstring(got) & ", expected "
-        & to_hstring(expected)
-        severity failure;
-    end procedure;
 
     -- One frame of `words` words. in_valid is '1' in one of 2**in_pause clocks, out_ready in one of 2**out_pause.
     procedure draw (frame, words, in_pause, out_pause : natural) is
@@ -76,21 +64,21 @@ begin
         wait until rising_edge(clk);
         clocks := clocks + 1;
         if in_pause = 0 and out_pause = 0 then
-          check(frame, "in_ready", (0 => in_ready), "1");
-          check(frame, "out_valid", (0 => out_valid), (0 => to_flag(clocks > 2 or words = 0 or sent = words)));
+          check("axi_output: frame", frame, "in_ready", in_ready, '1');
+          check("axi_output: frame", frame, "out_valid", out_valid, to_flag(clocks > 2 or words = 0 or sent = words));
         end if;
         if waiting then
-          check(frame, "a transfer that waits", out_last & out_empty & out_data, held);
+          check("axi_output: frame", frame, "a transfer that waits", out_last & out_empty & out_data, held);
         end if;
         if out_valid = '1' then
-          check(frame, "out_empty", (0 => out_empty), (0 => to_flag(words = 0)));
-          check(frame, "out_last", (0 => out_last), (0 => to_flag(sent = words and got + 1 >= words)));
+          check("axi_output: frame", frame, "out_empty", out_empty, to_flag(words = 0));
+          check("axi_output: frame", frame, "out_last", out_last, to_flag(sent = words and got + 1 >= words));
           if words > 0 then
-            check(frame, "out_data", out_data, std_logic_vector(to_unsigned(16 * frame + got, c_bits)));
+            check("axi_output: frame", frame, "out_data", out_data, std_logic_vector(to_unsigned(16 * frame + got, c_bits)));
           end if;
         end if;
-        check(frame, "out_valid that stays", (0 => out_valid or not to_flag(waiting)), "1");
-        check(frame, "done", (0 => done), (0 => out_valid and out_ready and out_last));
+        check("axi_output: frame", frame, "out_valid that stays", out_valid or not to_flag(waiting), '1');
+        check("axi_output: frame", frame, "done", done, out_valid and out_ready and out_last);
         held    := out_last & out_empty & out_data;
         waiting := out_valid = '1' and out_ready = '0';
         if in_valid = '1' and in_ready = '1' then
@@ -106,30 +94,28 @@ begin
       frame_end <= '0';
     end procedure;
   begin
-    wait until rising_edge(clk);
-    wait until rising_edge(clk);
+    wait_clocks(clk, 2);
     reset <= '0';
     wait until rising_edge(clk);
-    check(0, "in_ready after a reset", (0 => in_ready), "0");
+    check("axi_output: frame", 0, "in_ready after a reset", in_ready, '0');
     for frame in 0 to c_frames - 1 loop
       draw(frame, frame mod 8, frame / 8 mod 3, frame / 24 mod 3);
     end loop;
     -- Words that a reset discards.
     in_valid  <= '1';
     out_ready <= '0';
-    for i in 1 to 5 loop
-      wait until rising_edge(clk);
-    end loop;
-    check(c_frames, "in_ready of a full entity", (0 => in_ready), "0");
+    wait_clocks(clk, 5);
+    check("axi_output: frame", c_frames, "in_ready of a full entity", in_ready, '0');
     in_valid <= '0';
     reset    <= '1';
     wait until rising_edge(clk);
     reset <= '0';
     wait until rising_edge(clk);
-    check(c_frames, "out_valid after a reset", (0 => out_valid), "0");
+    check("axi_output: frame", c_frames, "out_valid after a reset", out_valid, '0');
     draw(c_frames, 5, 0, 0);
-    report "axi_output_tb: passed" severity note;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
+
+  report_end(finished, "axi_output_tb");
 end architecture;

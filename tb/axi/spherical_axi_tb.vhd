@@ -2,115 +2,22 @@
 -- With and without line records, by axi_checker.
 library ieee;
 use ieee.std_logic_1164.all;
-use work.axi_pkg.all;
-use work.spherical_pkg.all;
+use work.tb_shaders_pkg.all;
 use work.tb_pkg.all;
 
-entity spherical_axi_run is
-  generic (
-    g_exact : boolean := true;
-    g_channels : positive := 3;
-    g_lights : natural := 1;
-    g_diffuse : boolean := true;
-    g_specular : boolean := true;
-    g_highlight_channels : positive := 1;
-    g_powers : natural := 2;
-    g_stem : string -- start of the file names
-  );
-  port (
-    finished : out boolean := false
-  );
-end entity;
-
-architecture sim of spherical_axi_run is
-  constant c_init_bits  : positive := init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular,
-    g_highlight_channels);
-  constant c_limit_bits : positive := 13;
-
-  signal aclk          : std_logic;
-  signal aresetn       : std_logic;
-  signal s_axis_tvalid : std_logic;
-  signal s_axis_tready : std_logic;
-  signal s_axis_tdata  : std_logic_vector(whole_words(c_init_bits) - 1 downto 0);
-  signal s_axis_tlast  : std_logic;
-  signal m_axis_tvalid : std_logic;
-  signal m_axis_tready : std_logic;
-  signal m_axis_tdata  : fragment_data_t;
-  signal m_axis_tkeep  : fragment_keep_t;
-  signal m_axis_tlast  : std_logic;
-  signal fault         : std_logic;
-begin
-  dut : entity work.spherical_axi
-    generic map (
-      g_exact => g_exact,
-      g_channels => g_channels,
-      g_lights => g_lights,
-      g_diffuse => g_diffuse,
-      g_specular => g_specular,
-      g_highlight_channels => g_highlight_channels,
-      g_powers => g_powers,
-      g_limit_bits => c_limit_bits)
-    port map (
-      aclk          => aclk,
-      aresetn       => aresetn,
-      s_axis_tvalid => s_axis_tvalid,
-      s_axis_tready => s_axis_tready,
-      s_axis_tdata  => s_axis_tdata,
-      s_axis_tlast  => s_axis_tlast,
-      m_axis_tvalid => m_axis_tvalid,
-      m_axis_tready => m_axis_tready,
-      m_axis_tdata  => m_axis_tdata,
-      m_axis_tkeep  => m_axis_tkeep,
-      m_axis_tlast  => m_axis_tlast,
-      fault         => fault);
-
-  checker : entity work.axi_checker
-    generic map (
-      g_exact      => g_exact,
-      g_init_bits  => c_init_bits,
-      g_walk_low   => 0,
-      g_records    => boolean'pos(g_lights > 0),
-      g_timed      => true,
-      g_limit_bits => c_limit_bits,
-      g_faults     => false,
-      g_stem       => g_stem)
-    port map (
-      aclk          => aclk,
-      aresetn       => aresetn,
-      s_axis_tvalid => s_axis_tvalid,
-      s_axis_tready => s_axis_tready,
-      s_axis_tdata  => s_axis_tdata,
-      s_axis_tlast  => s_axis_tlast,
-      m_axis_tvalid => m_axis_tvalid,
-      m_axis_tready => m_axis_tready,
-      m_axis_tdata  => m_axis_tdata,
-      m_axis_tkeep  => m_axis_tkeep,
-      m_axis_tlast  => m_axis_tlast,
-      fault         => fault,
-      finished      => finished);
-end architecture;
-
 entity spherical_axi_tb is
-  generic (
-    g_folder : string := "spherical_axi"
-  );
+  generic (g_folder : string := "spherical_axi");
 end entity;
 
 architecture sim of spherical_axi_tb is
-  signal finished : boolean_vector(0 to 1);
 begin
-  two_lights : entity work.spherical_axi_run
-    generic map (g_lights => 2, g_highlight_channels => 3, g_powers => 22, g_stem => g_folder & "/two_lights_")
-    port map (finished => finished(0));
+  two_lights : entity work.axi_checker
+    generic map (
+      g_hardware => hardware(spherical, lights => 2, highlight_channels => 3, powers => 22),
+      g_stem     => g_folder & "/two_lights_");
 
-  no_light : entity work.spherical_axi_run
-    generic map (g_lights => 0, g_stem => g_folder & "/no_light_")
-    port map (finished => finished(1));
+  no_light : entity work.axi_checker
+    generic map (g_hardware => hardware(spherical, lights => 0), g_stem => g_folder & "/no_light_");
 
-  done : process is
-  begin
-    wait until and finished;
-    report "spherical_axi_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "spherical_axi_tb");
 end architecture;

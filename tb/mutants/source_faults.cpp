@@ -75,8 +75,8 @@ Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::p
   if (!testbench) return testbench.error();
   for (const std::string& name :
        {std::string("tb/tb_pkg.vhd"), std::string("tb/tb_processors_pkg.vhd"),
-        std::string("tb/stream/stream_source.vhd"), std::string("tb/stream/stream_sink.vhd"),
-        std::string("tb/interpolation/interpolator_checker.vhd"),
+        std::string("tb/tb_shaders_pkg.vhd"), std::string("tb/stream/stream_source.vhd"),
+        std::string("tb/stream/stream_sink.vhd"), std::string("tb/interpolation/interpolator_checker.vhd"),
         std::string("tb/shaders/shader_checker.vhd"), std::string("tb/illumination/processor_checker.vhd"),
         *testbench}) {
     const auto one = read_vhdl_source(source, name);

@@ -8,58 +8,139 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.tb_pkg.all;
+use work.tb_shaders_pkg.all;
 
 entity shader_checker is
   generic (
-    g_exact      : boolean;
-    g_init_bits  : positive;
-    g_timed      : boolean  := true; -- the files contain the clocks
-    g_latency    : positive := 1;    -- if timed: clocks from the first init vector of a triangle to its first fragment
-    g_gapless    : boolean;          -- no clock is lost if no line is empty, except after a single pixel
-    g_resets     : natural  := 10;   -- number of passes that end with a reset
-    g_faults     : boolean  := false; -- a set "fault" exists: fault must be '1' at its end
-    g_stem       : string            -- start of the file names
-  );
-  port (
-    clk               : buffer std_logic := '0';
-    reset             : out    std_logic := '1';
-    init_valid        : buffer std_logic := '0';
-    init_ready        : in     std_logic;
-    init_data         : out    std_logic_vector(g_init_bits - 1 downto 0) := (others => '0');
-    fragment_valid    : in     std_logic;
-    fragment_ready    : buffer std_logic := '0';
-    fragment_triangle : in     std_logic_vector(formats(g_exact).triangle.bits - 1 downto 0);
-    fragment_y        : in     std_logic_vector(formats(g_exact).pixel_y.bits - 1 downto 0);
-    fragment_x        : in     std_logic_vector(formats(g_exact).pixel_x.bits - 1 downto 0);
-    fragment_z        : in     std_logic_vector(formats(g_exact).depth.bits - 1 downto 0);
-    fragment_red      : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
-    fragment_green    : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
-    fragment_blue     : in     std_logic_vector(formats(g_exact).colour.bits - 1 downto 0);
-    busy              : in     std_logic;
-    fault             : in     std_logic;
-    finished          : buffer boolean := false
+    g_hardware : hardware_t;
+    g_timed    : boolean  := true;  -- the files contain the clocks
+    g_latency  : positive := 1;     -- if timed: clocks from the first init vector of a triangle to its first fragment
+    g_gapless  : boolean;           -- no clock is lost if no line is empty, except after a single pixel
+    g_resets   : natural  := 10;    -- number of passes that end with a reset
+    g_faults   : boolean  := false; -- a set "fault" exists: fault must be '1' at its end
+    g_stem     : string             -- start of the file names
   );
 end entity;
 
 architecture sim of shader_checker is
-  constant c_idle_limit : positive := 10_000; -- clocks without a transfer that count as a hang
+  constant c_formats    : formats_t := formats(g_hardware.exact);
+  constant c_idle_limit : positive  := 10_000; -- clocks without a transfer that count as a hang
 
-  signal payload : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length + fragment_z'length
-    + 3 * fragment_red'length - 1 downto 0);
+  subtype colour_t is std_logic_vector(c_formats.colour.bits - 1 downto 0);
+
+  signal ended                        : boolean := false;
+  signal clk                          : std_logic := '0';
+  signal reset                        : std_logic := '1';
+  signal init_valid                   : std_logic := '0';
+  signal init_ready                   : std_logic;
+  signal init_data                    : std_logic_vector(init_bits(g_hardware) - 1 downto 0) := (others => '0');
+  signal fragment_valid               : std_logic;
+  signal fragment_ready               : std_logic := '0';
+  signal fragment_triangle            : std_logic_vector(c_formats.triangle.bits - 1 downto 0);
+  signal fragment_y                   : std_logic_vector(c_formats.pixel_y.bits - 1 downto 0);
+  signal fragment_x                   : std_logic_vector(c_formats.pixel_x.bits - 1 downto 0);
+  signal fragment_z                   : std_logic_vector(c_formats.depth.bits - 1 downto 0);
+  signal fragment_red, fragment_green : colour_t;
+  signal fragment_blue                : colour_t;
+  signal busy, fault                  : std_logic;
+  signal payload                      : std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length
+    + fragment_z'length + 3 * colour_t'length - 1 downto 0);
 begin
+  quadratic_dut : if g_hardware.shader = quadratic generate
+    dut : entity work.quadratic_shader
+      generic map (g_exact => g_hardware.exact, g_channels => g_hardware.channels, g_degree => g_hardware.degree)
+      port map (
+        clk               => clk,
+        reset             => reset,
+        init_valid        => init_valid,
+        init_ready        => init_ready,
+        init_data         => init_data,
+        fragment_valid    => fragment_valid,
+        fragment_ready    => fragment_ready,
+        fragment_triangle => fragment_triangle,
+        fragment_y        => fragment_y,
+        fragment_x        => fragment_x,
+        fragment_z        => fragment_z,
+        fragment_red      => fragment_red,
+        fragment_green    => fragment_green,
+        fragment_blue     => fragment_blue,
+        busy              => busy,
+        fault             => fault);
+  end generate;
+
+  spherical_dut : if g_hardware.shader = spherical generate
+    dut : entity work.spherical_shader
+      generic map (
+        g_exact              => g_hardware.exact,
+        g_channels           => g_hardware.channels,
+        g_lights             => g_hardware.lights,
+        g_diffuse            => g_hardware.diffuse,
+        g_specular           => g_hardware.specular,
+        g_highlight_channels => g_hardware.highlight_channels,
+        g_powers             => g_hardware.powers,
+        g_address_bits       => g_hardware.address_bits,
+        g_data_bits          => g_hardware.data_bits)
+      port map (
+        clk               => clk,
+        reset             => reset,
+        init_valid        => init_valid,
+        init_ready        => init_ready,
+        init_data         => init_data,
+        fragment_valid    => fragment_valid,
+        fragment_ready    => fragment_ready,
+        fragment_triangle => fragment_triangle,
+        fragment_y        => fragment_y,
+        fragment_x        => fragment_x,
+        fragment_z        => fragment_z,
+        fragment_red      => fragment_red,
+        fragment_green    => fragment_green,
+        fragment_blue     => fragment_blue,
+        busy              => busy,
+        fault             => fault);
+  end generate;
+
+  processors_dut : if g_hardware.shader = processors generate
+    dut : entity work.processors_shader
+      generic map (
+        g_exact       => g_hardware.exact,
+        g_channels    => g_hardware.channels,
+        g_directional => g_hardware.directional,
+        g_positional  => g_hardware.positional,
+        g_spots       => g_hardware.spots,
+        g_diffuse     => g_hardware.diffuse,
+        g_specular    => g_hardware.specular,
+        g_normalize   => g_hardware.normalize,
+        g_shadows     => g_hardware.shadows,
+        g_unrolled    => g_hardware.unrolled)
+      port map (
+        clk               => clk,
+        reset             => reset,
+        init_valid        => init_valid,
+        init_ready        => init_ready,
+        init_data         => init_data,
+        fragment_valid    => fragment_valid,
+        fragment_ready    => fragment_ready,
+        fragment_triangle => fragment_triangle,
+        fragment_y        => fragment_y,
+        fragment_x        => fragment_x,
+        fragment_z        => fragment_z,
+        fragment_red      => fragment_red,
+        fragment_green    => fragment_green,
+        fragment_blue     => fragment_blue,
+        busy              => busy,
+        fault             => fault);
+  end generate;
+
   payload <= fragment_triangle & fragment_y & fragment_x & fragment_z & fragment_red & fragment_green & fragment_blue;
 
-  clk <= not clk after c_half_period when not finished;
+  clk <= not clk after c_half_period when not ended;
 
   run : process is
     variable inits, fragments : vectors_t;
 
     procedure check_flag (name : string; got, expected : std_logic; clock : integer) is
     begin
-      assert got = expected
-        report g_stem & ": clock " & to_string(clock) & ": " & name & " is " & to_string(got) & ", expected "
-        & to_string(expected)
-        severity failure;
+      check(g_stem & ": clock", clock, name, got, expected);
     end procedure;
 
     -- One pass over a set. With stalls, init is offered in one of 2**init_pause clocks, and fragment_ready is '1' in
@@ -232,7 +313,7 @@ begin
       pass("fault", 1, 0, 0, 0);
       pass("mixed", 1, 0, 0, 0);
     end if;
-    finished <= true;
-    wait;
+    ended <= true;
+    finish(finished);
   end process;
 end architecture;

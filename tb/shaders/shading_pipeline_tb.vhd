@@ -6,131 +6,16 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.processors_pkg.all;
+use work.tb_processors_pkg.all;
 use work.tb_pkg.all;
-use work.tb_processors_pkg.all;
-
-entity shading_pipeline_run is
-  generic (
-    g_unrolled : boolean;
-    g_config   : config_t;
-    g_folder   : string
-  );
-  port (
-    finished : buffer boolean := false
-  );
-end entity;
-
-architecture sim of shading_pipeline_run is
-  constant c_file : string := g_folder & "/" & config_name(g_config) & ".txt";
-  -- Number of tokens, or objects, between changes of the pace.
-  constant c_pace : positive := 60;
-
-  signal clk       : std_logic := '0';
-  signal reset     : std_logic;
-  signal in_valid  : std_logic;
-  signal in_ready  : std_logic;
-  signal in_token  : std_logic_vector(token_bits(g_config) - 1 downto 0);
-  signal out_valid : std_logic;
-  signal out_ready : std_logic;
-  signal out_token : std_logic_vector(in_token'range);
-  signal busy      : std_logic;
-  signal fault     : std_logic;
-  signal fed       : boolean;
-begin
-  dut : entity work.shading_pipeline
-    generic map (
-      g_exact       => g_config.exact,
-      g_channels    => g_config.channels,
-      g_directional => g_config.directional,
-      g_positional  => g_config.positional,
-      g_spots       => g_config.spots,
-      g_diffuse     => g_config.diffuse,
-      g_specular    => g_config.specular,
-      g_normalize   => g_config.normalize,
-      g_shadows     => g_config.shadows,
-      g_unrolled    => g_unrolled)
-    port map (
-      clk       => clk,
-      reset     => reset,
-      in_valid  => in_valid,
-      in_ready  => in_ready,
-      in_token  => in_token,
-      out_valid => out_valid,
-      out_ready => out_ready,
-      out_token => out_token,
-      busy      => busy,
-      fault     => fault);
-
-  clk <= not clk after c_half_period when not finished;
-
-  source : entity work.stream_source
-    generic map (g_file => c_file, g_pace => c_pace, g_pause => 2)
-    port map (clk => clk, reset => reset, valid => in_valid, ready => in_ready, word => in_token, fed => fed);
-
-  sink : entity work.stream_sink
-    generic map (g_name => c_file, g_pace => 2 * c_pace, g_pause => 3)
-    port map (clk => clk, reset => reset, valid => out_valid, ready => out_ready, word => out_token);
-
-  check : process is
-    variable vectors : vectors_t;
-    variable word    : std_logic_vector(in_token'range);
-    variable comes   : std_logic;
-    variable faulty  : std_logic;
-  begin
-    vectors.open_file(c_file);
-    while vectors.next_vector loop
-      vectors.read_word(word);
-      vectors.read_flag(comes);
-      if comes = '1' then
-        wait until rising_edge(clk) and out_valid = '1' and out_ready = '1' and reset = '0';
-        if busy /= '1' then
-          vectors.fail("an object leaves, but busy is " & to_string(busy));
-        end if;
-        vectors.check("object", out_token);
-      else
-        vectors.read_word(word);
-      end if;
-      vectors.read_flag(faulty);
-    end loop;
-    if not fed then
-      wait until fed;
-    end if;
-    wait until rising_edge(clk) and busy = '0';
-    for i in 1 to 10 loop
-      wait until rising_edge(clk);
-      if out_valid /= '0' or busy /= '0' then
-        vectors.fail("an object more than there are, or busy without one");
-      end if;
-    end loop;
-    if fault /= faulty then
-      vectors.fail("fault is " & to_string(fault) & " in the end, expected " & to_string(faulty));
-    end if;
-    finished <= true;
-    wait;
-  end process;
-
-  -- After the last object only tokens that are discarded may follow.
-  dropped : process (clk) is
-  begin
-    if rising_edge(clk) and out_valid = '1' then
-      assert unsigned(out_token(2 downto 0)) <= c_new_scanline
-        report c_file & ": a token leaves that is no object" severity failure;
-    end if;
-  end process;
-end architecture;
-
-use work.processors_pkg.all;
-use work.tb_processors_pkg.all;
 
 entity shading_pipeline_tb is
-  generic (
-    g_folder : string := "shading_pipeline"
-  );
+  generic (g_folder : string := "shading_pipeline");
 end entity;
 
--- The configurations are those of write_pipelines in tb/vectors/processors.cpp: all effects, the paper's version I,
--- highlights alone, the ambient term alone.
 architecture sim of shading_pipeline_tb is
+  -- The configurations are those of write_pipelines in tb/vectors/processors.cpp: all effects, the paper's version I,
+  -- highlights alone, the ambient term alone.
   function configs (exact : boolean) return configs_t is
   begin
     return (config(exact, 3, 1, 1, 1, true, true, true, true), config(exact, 3, 2, 0, 0, true, true, false, false),
@@ -138,23 +23,103 @@ architecture sim of shading_pipeline_tb is
   end function;
 
   constant c_configs : configs_t := configs(true) & configs(false);
-
-  signal folded, unrolled : boolean_vector(c_configs'range);
+  constant c_pace    : positive  := 60; -- number of tokens, or objects, between changes of the pace
 begin
-  pipelines : for i in c_configs'range generate
-    folded_run : entity work.shading_pipeline_run
-      generic map (false, c_configs(i), g_folder)
-      port map (folded(i));
+  pipelines : for i in 0 to 2 * c_configs'length - 1 generate
+    constant c_config   : config_t := c_configs(i / 2);
+    constant c_unrolled : boolean  := i mod 2 = 1;
+    constant c_file     : string   := g_folder & "/" & config_name(c_config) & ".txt";
 
-    unrolled_run : entity work.shading_pipeline_run
-      generic map (true, c_configs(i), g_folder)
-      port map (unrolled(i));
+    signal ended                     : boolean := false;
+    signal clk                       : std_logic := '0';
+    signal reset, in_valid, in_ready : std_logic;
+    signal in_token                  : std_logic_vector(token_bits(c_config) - 1 downto 0);
+    signal out_valid, out_ready      : std_logic;
+    signal out_token                 : std_logic_vector(in_token'range);
+    signal busy, fault               : std_logic;
+    signal fed                       : boolean;
+    begin
+      dut : entity work.shading_pipeline
+        generic map (
+          g_exact       => c_config.exact,
+          g_channels    => c_config.channels,
+          g_directional => c_config.directional,
+          g_positional  => c_config.positional,
+          g_spots       => c_config.spots,
+          g_diffuse     => c_config.diffuse,
+          g_specular    => c_config.specular,
+          g_normalize   => c_config.normalize,
+          g_shadows     => c_config.shadows,
+          g_unrolled    => c_unrolled)
+        port map (
+          clk       => clk,
+          reset     => reset,
+          in_valid  => in_valid,
+          in_ready  => in_ready,
+          in_token  => in_token,
+          out_valid => out_valid,
+          out_ready => out_ready,
+          out_token => out_token,
+          busy      => busy,
+          fault     => fault);
+
+      clk <= not clk after c_half_period when not ended;
+
+      source : entity work.stream_source
+        generic map (g_file => c_file, g_pace => c_pace, g_pause => 2)
+        port map (clk => clk, reset => reset, valid => in_valid, ready => in_ready, word => in_token, fed => fed);
+
+      sink : entity work.stream_sink
+        generic map (g_name => c_file, g_pace => 2 * c_pace, g_pause => 3)
+        port map (clk => clk, reset => reset, valid => out_valid, ready => out_ready, word => out_token);
+
+      check : process is
+        variable vectors : vectors_t;
+        variable word    : std_logic_vector(in_token'range);
+        variable comes   : std_logic;
+        variable faulty  : std_logic;
+      begin
+        vectors.open_file(c_file);
+        while vectors.next_vector loop
+          vectors.read_word(word);
+          vectors.read_flag(comes);
+          if comes = '1' then
+            wait until rising_edge(clk) and out_valid = '1' and out_ready = '1' and reset = '0';
+            if busy /= '1' then
+              vectors.fail("an object leaves, but busy is " & to_string(busy));
+            end if;
+            vectors.check("object", out_token);
+          else
+            vectors.read_word(word);
+          end if;
+          vectors.read_flag(faulty);
+        end loop;
+        if not fed then
+          wait until fed;
+        end if;
+        wait until rising_edge(clk) and busy = '0';
+        for clock in 1 to 10 loop
+          wait until rising_edge(clk);
+          if out_valid /= '0' or busy /= '0' then
+            vectors.fail("an object more than there are, or busy without one");
+          end if;
+        end loop;
+        if fault /= faulty then
+          vectors.fail("fault is " & to_string(fault) & " in the end, expected " & to_string(faulty));
+        end if;
+        ended <= true;
+        finish(finished);
+      end process;
+
+      -- After the last object only tokens that are discarded may follow.
+      dropped : process (clk) is
+      begin
+        if rising_edge(clk) and out_valid = '1' then
+          assert unsigned(out_token(2 downto 0)) <= c_new_scanline
+            report c_file & ": a token leaves that is no object" severity failure;
+        end if;
+      end process;
   end generate;
 
-  done : process is
-  begin
-    wait until (and folded) and (and unrolled);
-    report "shading_pipeline_tb: passed" severity note;
-    wait;
-  end process;
+  report_end(finished, "shading_pipeline_tb");
 end architecture;
