@@ -3,6 +3,7 @@
 // that a browser runs, or that is called through a C interface, returns errors instead.
 #pragma once
 
+#include <exception>
 #include <type_traits>
 #include <utility>
 
@@ -10,7 +11,9 @@
 
 namespace halfway {
 
-struct Failure {
+struct Failure : std::exception {
+  explicit Failure(Error thrown) : error(std::move(thrown)) {}
+  const char* what() const noexcept override { return error.message.c_str(); }
   Error error;
 };
 
