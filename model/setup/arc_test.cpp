@@ -44,27 +44,16 @@ void record(const std::string& name, double value) {
   testing::Test::RecordProperty(name, fmt::format("{:.3g}", value));
 }
 
-TEST(Arc, AnyDirectionsWithOneFixed) {
-  Directions random(1);
-  double largest = 0.0;
-  for (int i = 0; i < 1'000'000; ++i) {
-    const glm::dvec3 u1 = random.any(), u2 = random.any(), v = random.any();
-    if (glm::dot(u1, u2) < -0.999) continue;
-    const CosineArc arc = cosine_arc(u1, u2, v);
-    ASSERT_NO_FATAL_FAILURE(expect_sane(arc));
-    largest = std::max(largest, largest_error(arc, expected_cosines<long double>(u1, u2, v, v)));
-  }
-  record("largest_error", largest);
-  EXPECT_LT(largest, c_bound);
-}
-
+// Every other pair has a fixed v.
 TEST(Arc, AnyPairsOfDirections) {
   Directions random(2);
   double largest = 0.0, ends = 0.0;
-  for (int i = 0; i < 1'000'000; ++i) {
-    const glm::dvec3 u1 = random.any(), u2 = random.any(), v1 = random.any(), v2 = random.any();
+  for (int i = 0; i < 1'500'000; ++i) {
+    const bool is_fixed = i % 2 == 0;
+    const glm::dvec3 u1 = random.any(), u2 = random.any(), v1 = random.any();
+    const glm::dvec3 v2 = is_fixed ? v1 : random.any();
     if (glm::dot(v1, v2) < -0.999) continue;
-    const CosineArc arc = cosine_arc(u1, u2, v1, v2);
+    const CosineArc arc = is_fixed ? cosine_arc(u1, u2, v1) : cosine_arc(u1, u2, v1, v2);
     ASSERT_NO_FATAL_FAILURE(expect_sane(arc));
     ends =
         std::max({ends, std::abs(arc.at(0.0) - glm::dot(u1, v1)), std::abs(arc.at(1.0) - glm::dot(u2, v2))});
@@ -83,8 +72,8 @@ TEST(Arc, SlerpMatchesEighths) {
   for (int i = 0; i < 20'000; ++i) {
     const glm::dvec3 u1 = random.any();
     const glm::dvec3 u2 = random.at(u1, c_small[random.below(c_small.size())], random.below(2));
-    const Vector<Real> a(u1), b(u2);
-    const Vector<Real> sum = a + b;
+    const Vector<BigReal> a(u1), b(u2);
+    const Vector<BigReal> sum = a + b;
     if (static_cast<double>(dot(sum, sum)) < 1e-28) continue;
     const auto expected = eighths(a, b);
     for (std::size_t k = 0; k < 9; ++k) {
@@ -93,6 +82,8 @@ TEST(Arc, SlerpMatchesEighths) {
       ASSERT_NEAR(u.y, static_cast<double>(expected[k].y), 2e-15) << k;
       ASSERT_NEAR(u.z, static_cast<double>(expected[k].z), 2e-15) << k;
     }
+    // The amplitude of a direction within the turn is 1, and never more.
+    ASSERT_NO_FATAL_FAILURE(expect_sane(cosine_arc(u1, u2, slerp(u1, u2, 0.5))));
   }
 }
 
@@ -180,26 +171,6 @@ TEST(Arc, AmplitudeIsZeroIfTheVectorIsPerpendicularToThePlane) {
   }
 }
 
-// A^n is the factor of a highlight. No amplitude exceeds 1, because a large n would make it infinite. Powers
-// of small amplitudes underflow to 0.
-TEST(Arc, PowersOfTheAmplitudeUnderflowToZero) {
-  Directions random(11);
-  int ones = 0, zeros = 0;
-  for (int i = 0; i < 300'000; ++i) {
-    const glm::dvec3 u1 = random.any(), u2 = random.at(u1, c_small[random.below(c_small.size())]);
-    const glm::dvec3 v = i % 3 == 0 ? u1 : i % 3 == 1 ? slerp(u1, u2, 0.5) : random.any();
-    const double amplitude = cosine_arc(u1, u2, v).amplitude;
-    for (double n : {1.0, 50.0, 1e6, 1e300}) {
-      const double power = std::pow(amplitude, n);
-      ASSERT_TRUE(power >= 0.0 && power <= 1.0) << amplitude << " ^ " << n;
-      ones += n == 1e300 && power == 1.0;
-      zeros += n == 1e300 && power == 0.0;
-    }
-  }
-  EXPECT_GT(ones, 1000);
-  EXPECT_GT(zeros, 1000);
-}
-
 // H = (L + V)/|L + V| is 0/0 if light and eye are opposite. For any value that replaces it, the highlight
 // must be zero.
 TEST(Arc, HalfwayVectorOfZeroOverZeroGivesNothing) {
@@ -263,18 +234,6 @@ TEST(Arc, HighlightBelowTheLightsHorizon) {
   }
   EXPECT_GT(behind, 100'000);
   EXPECT_GT(turned, 1'000);
-}
-
-TEST(Arc, ReversedEndsGiveTheSameResult) {
-  Directions random(15);
-  for (int i = 0; i < 100'000; ++i) {
-    const glm::dvec3 u1 = random.any(), u2 = random.any(), v1 = random.any(), v2 = random.any();
-    const CosineArc there = cosine_arc(u1, u2, v1, v2), back = cosine_arc(u2, u1, v2, v1);
-    ASSERT_NEAR(there.sweep, back.sweep, 2e-14);
-    for (double t : {0.0, 0.2, 0.5, 1.0}) {
-      ASSERT_NEAR(there.at(t), back.at(1.0 - t), 2.0 * c_bound / std::sin(there.sweep));
-    }
-  }
 }
 
 TEST(Arc, SlightlyOffUnitLengthIsWithinItsWeight) {

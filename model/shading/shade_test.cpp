@@ -2,7 +2,6 @@
 #include "shading/shade.hpp"
 
 #include <gtest/gtest.h>
-#include <mpfr.h>
 
 #include <array>
 #include <cmath>
@@ -12,59 +11,16 @@
 #include <random>
 #include <vector>
 
+#include "common/test/big_real.hpp"
+
 namespace halfway {
 namespace {
 
-/// 400 bits: enough for cos^4 and the quotients of the printed formula without loss of accuracy.
-class Real400 {
- public:
-  Real400(double v = 0.0) {
-    mpfr_init2(v_, 400);
-    mpfr_set_d(v_, v, MPFR_RNDN);
-  }
-  Real400(const Real400& other) : Real400() { mpfr_set(v_, other.v_, MPFR_RNDN); }
-  Real400& operator=(const Real400& other) {
-    mpfr_set(v_, other.v_, MPFR_RNDN);
-    return *this;
-  }
-  ~Real400() { mpfr_clear(v_); }
-  double value() const { return mpfr_get_d(v_, MPFR_RNDN); }
-  friend Real400 operator+(const Real400& a, const Real400& b) { return apply(mpfr_add, a, b); }
-  friend Real400 operator-(const Real400& a, const Real400& b) { return apply(mpfr_sub, a, b); }
-  friend Real400 operator*(const Real400& a, const Real400& b) { return apply(mpfr_mul, a, b); }
-  friend Real400 operator/(const Real400& a, const Real400& b) { return apply(mpfr_div, a, b); }
-  friend Real400 smaller(const Real400& a, const Real400& b) { return apply(mpfr_min, a, b); }
-  friend Real400 exponential(const Real400& a) {
-    Real400 r;
-    mpfr_exp(r.v_, a.v_, MPFR_RNDN);
-    return r;
-  }
-  friend Real400 root(const Real400& a) {
-    Real400 r;
-    mpfr_sqrt(r.v_, a.v_, MPFR_RNDN);
-    return r;
-  }
-  static Real400 pi() {
-    Real400 r;
-    mpfr_const_pi(r.v_, MPFR_RNDN);
-    return r;
-  }
-
- private:
-  template <class Operation>
-  static Real400 apply(Operation operation, const Real400& a, const Real400& b) {
-    Real400 r;
-    operation(r.v_, a.v_, b.v_, MPFR_RNDN);
-    return r;
-  }
-  mpfr_t v_;
-};
-
-using RealVector = std::array<Real400, 3>;
+using RealVector = std::array<BigReal, 3>;
 RealVector real(glm::dvec3 v) {
   return {v.x, v.y, v.z};
 }
-Real400 dot(const RealVector& a, const RealVector& b) {
+BigReal dot(const RealVector& a, const RealVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -72,18 +28,17 @@ Real400 dot(const RealVector& a, const RealVector& b) {
 double cook_torrance_as_printed(const Material& material, const RealVector& n, const RealVector& l,
                                 const RealVector& v) {
   RealVector h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
-  const Real400 length = root(dot(h, h));
-  for (Real400& x : h) x = x / length;
-  const Real400 nh = dot(n, h), nl = dot(n, l), nv = dot(n, v), vh = dot(v, h), lh = dot(l, h);
-  const Real400 m2 = Real400(material.roughness) * material.roughness, cos2 = nh * nh;
-  const Real400 density =
-      exponential(Real400(0.0) - (Real400(1.0) - cos2) / (cos2 * m2)) / (Real400::pi() * m2 * cos2 * cos2);
-  const Real400 x = Real400(1.0) - lh;
-  const Real400 fresnel =
-      Real400(material.reflectance) + (Real400(1.0) - material.reflectance) * x * x * x * x * x;
-  const Real400 mask =
-      smaller(smaller(Real400(2.0) * nh * nv / vh, Real400(2.0) * nh * nl / lh), Real400(1.0));
-  return (nl * density * fresnel / (Real400(4.0) * nl * nv) * mask).value();
+  const BigReal length = sqrt(dot(h, h));
+  for (BigReal& x : h) x = x / length;
+  const BigReal nh = dot(n, h), nl = dot(n, l), nv = dot(n, v), vh = dot(v, h), lh = dot(l, h);
+  const BigReal m2 = BigReal(material.roughness) * material.roughness, cos2 = nh * nh;
+  const BigReal density =
+      exp(BigReal(0.0) - (BigReal(1.0) - cos2) / (cos2 * m2)) / (BigReal::pi() * m2 * cos2 * cos2);
+  const BigReal x = BigReal(1.0) - lh;
+  const BigReal fresnel =
+      BigReal(material.reflectance) + (BigReal(1.0) - material.reflectance) * x * x * x * x * x;
+  const BigReal mask = min(min(BigReal(2.0) * nh * nv / vh, BigReal(2.0) * nh * nl / lh), BigReal(1.0));
+  return static_cast<double>(nl * density * fresnel / (BigReal(4.0) * nl * nv) * mask);
 }
 
 glm::dvec3 at(double cosine, double angle) {

@@ -70,7 +70,7 @@ void try_arc(Trial& trial, const Ends& e, double at, bool is_known = true) {
   trial.ours(std::abs(ours.at(0.0) - glm::dot(e.u1, e.v1)), c_arc_bound, where);
   trial.ours(std::abs(ours.at(1.0) - glm::dot(e.u2, e.v2)), c_arc_bound, where);
   if (!is_known) return;
-  const auto expected = expected_cosines<Real>(e.u1, e.u2, e.v1, e.v2);
+  const auto expected = expected_cosines<BigReal>(e.u1, e.u2, e.v1, e.v2);
   const double bound = still ? c_arc_bound : c_arc_bound / std::sin(ours.sweep);
   trial.both(largest_error(ours, expected), largest_error(arc_as_published(e), expected), bound, where);
 }
@@ -140,9 +140,9 @@ void sine_part_cancels(Trial& trial) {
     if (gamma < c_least_known) continue;
     for (int i = 0; i < trial.rounds(200, 20'000); ++i) {
       const glm::dvec3 u1 = random.any(), u2 = random.at(u1, gamma), v = random.any();
-      const Vector<Real> a = unit(Vector<Real>(u1)), b(u2);
-      const Vector<Real> tangent = unit(b - dot(a, b) * a);
-      const double truth = static_cast<double>(dot(tangent, Vector<Real>(v)));
+      const Vector<BigReal> a = unit(Vector<BigReal>(u1)), b(u2);
+      const Vector<BigReal> tangent = unit(b - dot(a, b) * a);
+      const double truth = static_cast<double>(dot(tangent, Vector<BigReal>(v)));
       const auto sine_part = [](const CosineArc& arc) { return arc.amplitude * std::sin(arc.phase); };
       const auto where = [&] { return fmt::format("an angle of {:.0e}", gamma); };
       trial.both(std::abs(sine_part(cosine_arc(u1, u2, v)) - truth),
@@ -157,7 +157,7 @@ void equation_15(Trial& trial) {
   for (int i = 0; i < trial.rounds(1000, 100'000); ++i) {
     const glm::dvec3 u1 = random.any(), v = random.any();
     const Ends e{u1, random.at(u1, 0.5 + std::abs(random.uniform())), v, v};
-    const auto expected = expected_cosines<Real>(e.u1, e.u2, v, v);
+    const auto expected = expected_cosines<BigReal>(e.u1, e.u2, v, v);
     const auto where = [&] { return fmt::format("arc {}", i); };
     trial.both(largest_error(cosine_arc(e.u1, e.u2, v), expected),
                largest_error(arc_as_published(e, true), expected), c_arc_bound, where);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: turning directions, in 250 bits or long double, computed without angles.
+// For tests: turning directions, in MPFR's numbers or long double, computed without angles.
 #pragma once
-
-#include <mpfr.h>
 
 #include <array>
 #include <cmath>
@@ -11,41 +9,9 @@
 #include <glm/vec3.hpp>
 #include <random>
 
+#include "common/test/big_real.hpp"
+
 namespace halfway {
-
-/// 250 bits: sums of opposite vectors, and quotients by them, stay accurate.
-class Real {
- public:
-  Real(double v = 0.0) {
-    mpfr_init2(v_, 250);
-    mpfr_set_d(v_, v, MPFR_RNDN);
-  }
-  Real(const Real& other) : Real() { mpfr_set(v_, other.v_, MPFR_RNDN); }
-  Real& operator=(const Real& other) {
-    mpfr_set(v_, other.v_, MPFR_RNDN);
-    return *this;
-  }
-  ~Real() { mpfr_clear(v_); }
-  explicit operator double() const { return mpfr_get_d(v_, MPFR_RNDN); }
-  friend Real operator+(const Real& a, const Real& b) { return apply(mpfr_add, a, b); }
-  friend Real operator-(const Real& a, const Real& b) { return apply(mpfr_sub, a, b); }
-  friend Real operator*(const Real& a, const Real& b) { return apply(mpfr_mul, a, b); }
-  friend Real operator/(const Real& a, const Real& b) { return apply(mpfr_div, a, b); }
-  friend Real sqrt(const Real& a) {
-    Real r;
-    mpfr_sqrt(r.v_, a.v_, MPFR_RNDN);
-    return r;
-  }
-
- private:
-  template <class Operation>
-  static Real apply(Operation operation, const Real& a, const Real& b) {
-    Real r;
-    operation(r.v_, a.v_, b.v_, MPFR_RNDN);
-    return r;
-  }
-  mpfr_t v_;
-};
 
 // The same directions computed without an angle: the direction half way between two unit vectors is their
 // normalized sum, and the rotation from one to another is two half turns.
