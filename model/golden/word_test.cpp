@@ -116,21 +116,5 @@ TEST(Saturate, EverySixteenBitWord) {
   expect_saturates<10, 4>();
 }
 
-TEST(Saturate, BothPresetsRoundAndClampTheColour) {
-  const auto exact = [](double steps) {
-    const double word = steps * (1 << Exact::c_intensity_fraction_bits);
-    return saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(
-        Word<Exact::c_intensity_bits>::from_bits(
-            static_cast<std::uint64_t>(static_cast<std::int64_t>(word))));
-  };
-  EXPECT_EQ(exact(-2047.0), 0u);
-  EXPECT_EQ(exact(-0.001), 0u);
-  EXPECT_EQ(exact(0.999), 0u);
-  EXPECT_EQ(exact(1.0), 1u);
-  EXPECT_EQ(exact(254.999), 254u);
-  EXPECT_EQ(exact(255.0), 255u);
-  EXPECT_EQ(exact(2047.0), 255u);
-}
-
 }  // namespace
 }  // namespace halfway::golden

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
@@ -18,7 +17,9 @@
 
 #include "frame/metrics.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/lights.hpp"
 #include "setup/project.hpp"
+#include "setup/test/paper_spans.hpp"
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
 #include "sim/scene_files/load_scene.hpp"
@@ -26,6 +27,9 @@
 
 namespace halfway {
 namespace {
+
+using paper::Ends, paper::LightThere, paper::Real, paper::Span, paper::SpanThere, paper::There, paper::Vector,
+    paper::slerp_of;
 
 constexpr FrameSize c_spherical_frame{70, 53};
 
@@ -65,81 +69,47 @@ Scene one_triangle(std::mt19937& random, Brdf brdf) {
   return scene;
 }
 
-// The method written pixel by pixel with the paper's own formulas. The scenes avoid the singularities of
-// these formulas.
-
-glm::dvec3 published_slerp(glm::dvec3 a, glm::dvec3 b, double t) {
-  if (glm::length(a - b) < 1e-9) return a;
-  const double gamma = std::acos(glm::dot(a, b));
-  return (std::sin((1.0 - t) * gamma) * a + std::sin(t * gamma) * b) / std::sin(gamma);
-}
-
-struct Vectors {
-  glm::dvec3 n, l, u, v, e;
-  double spot;
-};
-
-Vectors vectors_at(const Scene& scene, const SurfacePoint& p, std::size_t light) {
-  Vectors r;
-  r.n = p.normal_world;
-  r.e = glm::normalize(scene.camera.eye_world - p.position_world);
-  r.l = light == 0 ? scene.directional[0].to_light_world
-                   : glm::normalize((light == 3 ? scene.spots[0].position_world
-                                                : scene.positional[light - 1].position_world) -
-                                    p.position_world);
-  r.spot = light == 3 ? cone_share(*light_of(scene, {LightKind::spot, 0}).cone, r.l.z) : 1.0;
-  if (scene.materials[1].brdf == Brdf::phong)
-    r.u = 2.0 * glm::dot(r.n, r.l) * r.n - r.l, r.v = r.e;
-  else
-    r.u = r.n, r.v = glm::normalize(r.l + r.e);
-  return r;
-}
-
-Vectors between(const Vectors& a, const Vectors& b, double t) {
-  return {published_slerp(a.n, b.n, t), published_slerp(a.l, b.l, t), published_slerp(a.u, b.u, t),
-          published_slerp(a.v, b.v, t), published_slerp(a.e, b.e, t), a.spot + t * (b.spot - a.spot)};
-}
+// The method written pixel by pixel with the paper's own formulas.
 
 struct Cosine {
-  double value, amplitude;
+  Real value, amplitude;
 };
 
-Cosine cosine_between(VectorScheme scheme, glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2,
-                      double t) {
+Cosine cosine_between(VectorScheme scheme, Vector u1, Vector u2, Vector v1, Vector v2, Real t) {
   if (scheme == VectorScheme::both_interpolated)
-    return {glm::dot(published_slerp(u1, u2, t), published_slerp(v1, v2, t)), 1.0};
-  const glm::dvec3 c = glm::cross(v1, v2);
-  const double cosine = glm::dot(v1, v2);
-  const glm::dvec3 u2_back = cosine * u2 - glm::cross(c, u2) + glm::dot(c, u2) / (1.0 + cosine) * c;
+    return {glm::dot(slerp_of(u1, u2, t), slerp_of(v1, v2, t)), 1};
+  const Vector c = glm::cross(v1, v2);
+  const Real cosine = glm::dot(v1, v2);
+  const Vector u2_back = cosine * u2 - glm::cross(c, u2) + glm::dot(c, u2) / (1 + cosine) * c;
   // The amplitude is the length of v1's projection onto the plane in which u turns.
-  const glm::dvec3 across = glm::cross(u1, u2_back);
-  const double length = glm::length(across);
-  const double value = glm::dot(published_slerp(u1, u2_back, t), v1);
-  return {value, length < 1e-9 ? std::abs(value)
-                               : std::sqrt(std::max(0.0, 1.0 - std::pow(glm::dot(across, v1) / length, 2)))};
+  const Vector across = glm::cross(u1, u2_back);
+  const Real length = glm::length(across), value = glm::dot(slerp_of(u1, u2_back, t), v1);
+  if (length < 1e-9L) return {value, std::abs(value)};
+  const Real out_of_plane = glm::dot(across, v1) / length;
+  return {value, std::sqrt(std::max<Real>(0, 1 - out_of_plane * out_of_plane))};
 }
 
-glm::dvec3 expected(const Scene& scene, const SphericalMethod& method,
-                    const std::function<std::array<Vectors, 2>(std::size_t light)>& ends, double t) {
+glm::dvec3 expected(const Scene& scene, const SphericalMethod& method, const SpanThere& span, Real t) {
   const Material& m = scene.materials[1];
-  const std::array<glm::dvec3, 4> intensity{scene.directional[0].intensity, scene.positional[0].intensity,
-                                            scene.positional[1].intensity, scene.spots[0].intensity};
+  const There &begin = span.begin, &end = span.end, here = slerped(begin, end, t);
+  const std::vector<LightRef> lights = shining_lights(scene);
   glm::dvec3 sum = scene.ambient * m.ambient * m.colour;
-  for (std::size_t light = 0; light < 4; ++light) {
-    const auto [a, b] = ends(light);
-    const double n_dot_l = cosine_between(method.vectors, a.n, b.n, a.l, b.l, t).value;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const LightThere &a = begin.light[i], &b = end.light[i];
+    const auto n_dot_l =
+        static_cast<double>(cosine_between(method.vectors, begin.normal, end.normal, a.l, b.l, t).value);
     if (n_dot_l <= 0.0) continue;
     const Cosine c = cosine_between(method.vectors, a.u, b.u, a.v, b.v, t);
-    const Vectors here = between(a, b, t);
-    double highlight = std::pow(std::max(0.0, c.value), m.exponent);
+    auto highlight = static_cast<double>(std::pow(std::max<Real>(0, c.value), m.exponent));
     if (m.brdf == Brdf::cook_torrance) {
-      highlight = specular_factor(m, here.n, here.l, here.e);
-    } else if (method.curve == HighlightCurve::squared_cosine) {
-      const double x = published_scale(m.exponent) * std::acos(std::clamp(c.value / c.amplitude, -1.0, 1.0));
       highlight =
-          x < std::numbers::pi / 2 ? std::pow(c.amplitude, m.exponent) * std::cos(x) * std::cos(x) : 0.0;
+          specular_factor(m, glm::dvec3(here.normal), glm::dvec3(here.light[i].l), glm::dvec3(here.to_eye));
+    } else if (method.curve == HighlightCurve::squared_cosine) {
+      const Real x = published_scale(m.exponent) * std::acos(std::clamp<Real>(c.value / c.amplitude, -1, 1));
+      highlight = static_cast<double>(
+          x < std::numbers::pi / 2 ? std::pow(c.amplitude, m.exponent) * std::cos(x) * std::cos(x) : 0);
     }
-    sum += here.spot * intensity[light] *
+    sum += static_cast<double>(here.light[i].spot) * light_of(scene, lights[i]).intensity *
            (m.diffuse * n_dot_l * m.colour + m.specular * highlight * m.specular_colour);
   }
   return sum;
@@ -153,7 +123,7 @@ TEST(SphericalRenderer, MatchesTheFormulas) {
         one_triangle(random, std::array{Brdf::blinn, Brdf::phong, Brdf::cook_torrance}[i % 3]);
     const auto triangles = Projector(scene, c_spherical_frame, {}).project_all();
     if (triangles.size() != 1) continue;
-    const ScreenTriangle& triangle = triangles[0];
+    const Ends ends(scene, scene.materials[1], triangles[0]);
     for (const SphericalMethod& method : all_methods()) {
       const ReferenceImage image = render_spherical(scene, triangles, {.frame = c_spherical_frame}, method);
       for (std::uint32_t y = 0; y < c_spherical_frame.height; ++y) {
@@ -161,46 +131,12 @@ TEST(SphericalRenderer, MatchesTheFormulas) {
         const auto first = std::find(line, line + c_spherical_frame.width, 1) - line;
         const auto count = std::count(line, line + c_spherical_frame.width, 1);
         if (count == 0) continue;
-        // Ends: the first and the last pixel, or the edges at this line.
-        double begin = static_cast<double>(first) + 0.5, end = begin + static_cast<double>(count - 1);
-        std::function<std::array<Vectors, 2>(std::size_t)> ends = [&](std::size_t light) {
-          const auto at = [&](std::int64_t x) {
-            return vectors_at(scene,
-                              surface_point(triangle, barycentric_screen(triangle, 32 * x + 16, 32 * y + 16)),
-                              light);
-          };
-          return std::array{at(first), at(first + count - 1)};
-        };
-        if (method.ends == SpanEnds::slerped_along_edges) {
-          struct Crossing {
-            double x, t;
-            int a, b;
-          };
-          std::vector<Crossing> crossings;
-          for (int k = 0; k < 3; ++k) {
-            const ScreenVertex &a = triangle.vertex[k], &b = triangle.vertex[(k + 1) % 3];
-            const double t = (16.0 * y + 8.0 - a.y) / (b.y - a.y);
-            if (a.y != b.y && t >= 0.0 && t <= 1.0)
-              crossings.push_back({(a.x + t * (b.x - a.x)) / 16.0, t, k, (k + 1) % 3});
-          }
-          const auto by_x = [](const Crossing& p, const Crossing& q) { return p.x < q.x; };
-          const Crossing left = *std::min_element(crossings.begin(), crossings.end(), by_x);
-          const Crossing right = *std::max_element(crossings.begin(), crossings.end(), by_x);
-          begin = left.x, end = right.x;
-          ends = [&, left, right](std::size_t light) {
-            const auto on_edge = [&](const Crossing& c) {
-              const auto vertex = [&](int k) {
-                return vectors_at(scene, surface_point(triangle, {k == 0, k == 1, k == 2}), light);
-              };
-              return between(vertex(c.a), vertex(c.b), c.t);
-            };
-            return std::array{on_edge(left), on_edge(right)};
-          };
-        }
+        const Span span{first, first + count - 1, y};
+        const SpanThere there =
+            method.ends == SpanEnds::on_surface ? ends.on_surface(span) : ends.along_edges(span);
         for (auto x = first; x < first + count; ++x) {
           ASSERT_EQ(line[x], 1);
-          const double t = end == begin ? 0.0 : (static_cast<double>(x) + 0.5 - begin) / (end - begin);
-          const glm::dvec3 colour = expected(scene, method, ends, t);
+          const glm::dvec3 colour = expected(scene, method, there, there.first + (x - first) * there.step);
           ++pixels;
           lit += colour.x > 0.1;
           for (int k = 0; k < 3; ++k)
@@ -291,21 +227,9 @@ Difference measure(const Scene& scene, FrameSize size, SpanEnds ends) {
   const ReferenceImage fixed = render_spherical(scene, triangles, options, {VectorScheme::one_fixed, ends});
   const ReferenceImage both =
       render_spherical(scene, triangles, options, {VectorScheme::both_interpolated, ends});
-  const Difference d{*frame_distance(fixed.frame, both.frame, reference.mask),
-                     *frame_distance(fixed.frame, reference.frame, reference.mask),
-                     *frame_distance(both.frame, reference.frame, reference.mask)};
-  const auto record = [&](const char* what, const FrameDistance& distance) {
-    const char* const from = ends == SpanEnds::on_surface ? "surface" : "slerp";
-    const std::string figures =
-        fmt::format("largest {} rms {:.4f} PSNR {:.2f} dB differing {} of {}", distance.max_lsb, distance.rms,
-                    distance.psnr_db, distance.differing, distance.pixels);
-    testing::Test::RecordProperty(fmt::format("{}_{}_{}", scene.name, from, what), figures);
-    fmt::print("{:<10} ends by {:<7} {:<23} {}\n", scene.name, from, what, figures);
-  };
-  record("fixed_against_both", d.schemes);
-  record("fixed_against_reference", d.fixed);
-  record("both_against_reference", d.both);
-  return d;
+  return {*frame_distance(fixed.frame, both.frame, reference.mask),
+          *frame_distance(fixed.frame, reference.frame, reference.mask),
+          *frame_distance(both.frame, reference.frame, reference.mask)};
 }
 
 // The paper says "visually indistinguishable". This holds in its scenes and in ours: at most one step of 255.
@@ -339,24 +263,6 @@ TEST(SphericalRenderer, FixedAgainstBoth) {
     EXPECT_LE(d.fixed.max_lsb, c.fixed_max);
     EXPECT_LT(d.fixed.rms, c.fixed_rms);
     EXPECT_LT(d.both.rms, c.both_rms);
-  }
-}
-
-// A directional light and its N.L: only N turns, and both schemes are equal.
-TEST(SphericalRenderer, SchemesAreEqualIfOneVectorIsConstant) {
-  for (const char* name : {"spheres", "teapot"}) {
-    Scene scene = builtin(name);
-    for (Material& m : scene.materials) m.specular = 0.0;
-    for (SpanEnds ends : {SpanEnds::on_surface, SpanEnds::slerped_along_edges}) {
-      const auto triangles = Projector(scene, {160, 120}, {}).project_all();
-      const RenderOptions options{.frame = {160, 120}};
-      const Frame fixed = render_spherical(scene, triangles, options, {VectorScheme::one_fixed, ends}).frame;
-      const Frame both =
-          render_spherical(scene, triangles, options, {VectorScheme::both_interpolated, ends}).frame;
-      const FrameDistance distance = *frame_distance(fixed, both);
-      EXPECT_LE(distance.differing, 3u) << name;  // rounding close to a step's boundary
-      EXPECT_LE(distance.max_lsb, 1u) << name;
-    }
   }
 }
 

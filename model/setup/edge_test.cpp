@@ -9,10 +9,11 @@
 #include <random>
 #include <vector>
 
+#include "setup/test/random_triangles.hpp"
+
 namespace halfway {
 namespace {
 
-using Points = std::array<ScreenPoint, 3>;
 using Int128 = __int128;
 
 /// How often each pixel of a frame is covered.
@@ -65,90 +66,15 @@ void expect_exact(const Points& p, int unit_bits, FrameSize frame) {
           << p[1].y << ") (" << p[2].x << ',' << p[2].y << ") unit_bits " << unit_bits;
 }
 
-enum class Kind { any, small, sliver, horizontal_edge, on_centres, on_corners, guard_band, point_on_edge };
-
-class RandomTriangles {
- public:
-  RandomTriangles(unsigned seed, int unit_bits) : random_(seed), unit_bits_(unit_bits) {}
-
-  Points next(Kind kind) {
-    const std::int32_t unit = 1 << unit_bits_;
-    const auto point = [&](int low, int high) {
-      return ScreenPoint{within(low * unit, high * unit), within(low * unit, high * unit)};
-    };
-    Points p{point(-8, 32), point(-8, 32), point(-8, 32)};
-    const auto jitter = [&] { return within(-1, 1); };
-    switch (kind) {
-      case Kind::any:
-        break;
-      case Kind::small:
-        p[0] = point(0, 20);
-        for (int i : {1, 2})
-          p[i] = {p[0].x + within(-2 * unit, 2 * unit), p[0].y + within(-2 * unit, 2 * unit)};
-        break;
-      case Kind::sliver: {
-        const std::int64_t t = within(0, unit);
-        p[2] = {static_cast<std::int32_t>(p[0].x + t * (p[1].x - p[0].x) / unit) + jitter(),
-                static_cast<std::int32_t>(p[0].y + t * (p[1].y - p[0].y) / unit) + jitter()};
-        break;
-      }
-      case Kind::horizontal_edge:
-        p[1].y = p[0].y;
-        break;
-      case Kind::on_centres:
-        for (ScreenPoint& q : p) q = {within(-4, 28) * unit + unit / 2, within(-4, 28) * unit + unit / 2};
-        break;
-      case Kind::on_corners:
-        for (ScreenPoint& q : p) q = {within(-4, 28) * unit, within(-4, 28) * unit};
-        break;
-      case Kind::guard_band:
-        for (ScreenPoint& q : p) q = point(-2048, 6143);
-        break;
-      case Kind::point_on_edge:  // a pixel centre exactly halfway along an edge
-        p[0] = {within(0, 20) * unit + unit / 2 - p[1].x, p[0].y};
-        p[1] = {(2 * within(0, 20) + 1) * unit - p[0].x, (2 * within(0, 20) + 1) * unit - p[0].y};
-        break;
-    }
-    std::shuffle(p.begin(), p.end(), random_);
-    return p;
-  }
-
- private:
-  std::int32_t within(std::int32_t low, std::int32_t high) {
-    return std::uniform_int_distribution<std::int32_t>(low, high)(random_);
-  }
-  std::mt19937 random_;
-  int unit_bits_;
-};
-
-constexpr std::array c_kinds{Kind::any,        Kind::small,      Kind::sliver,     Kind::horizontal_edge,
-                             Kind::on_centres, Kind::on_corners, Kind::guard_band, Kind::point_on_edge};
-
 TEST(Edge, CoversExactlyTheCentresByTheTopLeftRule) {
   for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
-    for (Kind kind : c_kinds) {
-      RandomTriangles random(1000u * static_cast<unsigned>(unit_bits) + static_cast<unsigned>(kind),
-                             unit_bits);
+    for (const TriangleKind kind : c_triangle_kinds) {
+      RandomTriangles random(1000u * static_cast<unsigned>(unit_bits) + static_cast<unsigned>(kind));
       for (int i = 0; i < 300; ++i) {
-        expect_exact(random.next(kind), unit_bits, {24, 20});
+        expect_exact(random.next(kind, unit_bits, {24, 20}), unit_bits, {24, 20});
         if (HasFatalFailure()) return;
       }
     }
-}
-
-TEST(Edge, OrderOfThePointsDoesNotMatter) {
-  RandomTriangles random(7, 4);
-  for (int i = 0; i < 500; ++i) {
-    Points p = random.next(c_kinds[static_cast<std::size_t>(i) % c_kinds.size()]);
-    Counts first({24, 20});
-    add_spans(p, 4, first);
-    std::array<int, 3> order{0, 1, 2};
-    while (std::next_permutation(order.begin(), order.end())) {
-      Counts other({24, 20});
-      add_spans({p[order[0]], p[order[1]], p[order[2]]}, 4, other);
-      ASSERT_EQ(first.count, other.count);
-    }
-  }
 }
 
 TEST(Edge, ATriangleWithoutAreaCoversNothing) {
@@ -166,10 +92,10 @@ TEST(Edge, ATriangleWithoutAreaCoversNothing) {
 // Stepping line by line, as the hardware's edge walker does, must give the result of at() on each line.
 TEST(Edge, SteppingByQuotientAndRemainderReproducesAt) {
   for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
-    for (Kind kind : c_kinds) {
-      RandomTriangles random(77u + static_cast<unsigned>(unit_bits), unit_bits);
+    for (const TriangleKind kind : c_triangle_kinds) {
+      RandomTriangles random(77u + static_cast<unsigned>(unit_bits));
       for (int i = 0; i < 60; ++i) {
-        const Points p = random.next(kind);
+        const Points p = random.next(kind, unit_bits, {24, 20}, unit_bits - 4);
         const auto [top, bottom] = p[0].y < p[1].y ? std::pair(p[0], p[1]) : std::pair(p[1], p[0]);
         if (top.y == bottom.y) continue;
         const Edge edge(top, bottom, unit_bits);
@@ -261,21 +187,6 @@ TEST(Edge, ATriangleOfTwoPixelsCoversAtMostThreeOfABlock) {
         }
   }
   EXPECT_GT(three, 1000u);
-  // Finer grids: corners on the sides of a square of 2 pixels, where the area is largest.
-  std::mt19937 random(6);
-  for (int round = 0; round < 200'000; ++round) {
-    const int bits = 4 + round % 6, side = 2 << bits;
-    std::uniform_int_distribution<std::int32_t> anywhere(0, side);
-    const ScreenPoint origin{(1 << bits) + anywhere(random), (1 << bits) + anywhere(random)};
-    std::array<ScreenPoint, 3> p;
-    for (ScreenPoint& q : p) {
-      const std::int32_t along = anywhere(random), across = side * static_cast<std::int32_t>(random() % 2);
-      q = random() % 2 ? ScreenPoint{origin.x + along, origin.y + across}
-                       : ScreenPoint{origin.x + across, origin.y + along};
-    }
-    expect_three_of_a_block(p, bits);
-    if (testing::Test::HasFatalFailure()) return;
-  }
   // A triangle that is wider and higher by one unit may cover more.
   EXPECT_GT(covered_pixels({{{6, 6}, {15, 6}, {6, 15}}}, 2, {8, 8}).size(), 3u);
 }

@@ -50,13 +50,6 @@ long double edge_x(const Triangle& p, HalfEdge e, std::int64_t y) {
   return x_times_dy(p, e, y) / (p[e.bottom].y - p[e.top].y);
 }
 
-TEST(HalfTriangle, TwiceTheAreaIsSigned) {
-  const Triangle p = {{{1, 2, 0}, {5, 3, 0}, {2, 9, 0}}};
-  EXPECT_EQ(twice_area(p), 4 * 7 - 1 * 1);
-  EXPECT_EQ(twice_area({p[1], p[0], p[2]}), -27);
-  EXPECT_EQ(twice_area({p[0], p[1], p[1]}), 0);
-}
-
 TEST(HalfTriangle, NoneWhereThereIsNoArea) {
   const auto halves = [](Triangle p) { return half_triangles(p).size(); };
   EXPECT_EQ(halves({{{1, 2, 0}, {3, 4, 0}, {5, 6, 0}}}), 0u);

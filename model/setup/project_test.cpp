@@ -17,18 +17,16 @@
 #include <vector>
 
 #include "scene/builtin_meshes.hpp"
+#include "setup/test/pixels.hpp"
 
 namespace halfway {
 namespace {
 
-std::vector<int> coverage(std::span<const ScreenTriangle> triangles, FrameSize frame, int subpixel_bits) {
+std::vector<int> coverage(std::span<const ScreenTriangle> triangles, FrameSize frame) {
   std::vector<int> count(std::size_t{frame.width} * frame.height);
   for (const ScreenTriangle& t : triangles)
-    for_each_span({ScreenPoint{t.vertex[0].x, t.vertex[0].y}, ScreenPoint{t.vertex[1].x, t.vertex[1].y},
-                   ScreenPoint{t.vertex[2].x, t.vertex[2].y}},
-                  subpixel_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
-                    for (std::uint32_t x = begin; x < end; ++x) ++count[std::size_t{y} * frame.width + x];
-                  });
+    for_each_pixel(t, frame,
+                   [&](std::uint32_t x, std::uint32_t y) { ++count[std::size_t{y} * frame.width + x]; });
   return count;
 }
 
@@ -55,6 +53,13 @@ void expect_sound(std::span<const ScreenTriangle> triangles, FrameSize frame, Pr
   }
 }
 
+void set_mesh(Scene& scene, const Mesh& mesh) {
+  scene.positions_world = mesh.positions;
+  scene.normals_world = mesh.normals;
+  scene.triangles = mesh.triangles;
+  for (SceneTriangle& t : scene.triangles) t.material = 0;
+}
+
 Scene one_triangle(std::array<glm::dvec3, 3> corners) {
   Scene scene;
   scene.camera.near = 0.5;
@@ -63,40 +68,6 @@ Scene one_triangle(std::array<glm::dvec3, 3> corners) {
   scene.positions_world.assign(corners.begin(), corners.end());
   scene.normals_world = {{0, 0, 1}};
   scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
-  return scene;
-}
-
-/// An octahedron subdivided `levels` times, with its corners on the unit sphere.
-Scene sphere_scene(int levels, unsigned seed) {
-  Scene scene;
-  scene.materials.emplace_back();
-  auto& p = scene.positions_world;
-  p = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-  std::vector<std::array<std::uint32_t, 3>> faces{{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
-                                                  {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
-  for (int level = 0; level < levels; ++level) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [it, added] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(p.size()));
-      if (added) p.push_back(glm::normalize(p[a] + p[b]));
-      return it->second;
-    };
-    std::vector<std::array<std::uint32_t, 3>> next;
-    for (const auto& [a, b, c] : faces) {
-      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      next.insert(next.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
-    }
-    faces = next;
-  }
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
-  const auto direction = [&] {
-    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
-  };
-  scene.camera.eye_world = 4.0 * direction();
-  scene.camera.up_world = direction();
-  scene.normals_world = p;
-  for (const auto& f : faces) scene.triangles.push_back({f, f, 0});
   return scene;
 }
 
@@ -163,7 +134,7 @@ TEST(Project, ACornerNearInfinityIsCutCorrectly) {
     scene.camera.vertical_fov_degrees = 90.0;
     for (bool clip_to_frame : {false, true}) {
       const auto triangles = Projector(scene, frame, {.clip_to_frame = clip_to_frame}).project_all();
-      const std::vector<int> count = coverage(triangles, frame, 4);
+      const std::vector<int> count = coverage(triangles, frame);
       for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {  // relative to the diagonal the band covers -0.625 to 6.375 pixels
           const double from_middle = (x + 0.5 - 32.0) * side - (32.0 - (y + 0.5));
@@ -193,34 +164,6 @@ TEST(Project, ACameraWithoutAViewDrawsNothingAndReportsIt) {
   }
 }
 
-TEST(Project, AClosedConvexMeshCoversEachPixelOnceWithoutHoles) {
-  for (unsigned seed = 0; seed < 12; ++seed) {
-    const Scene scene = sphere_scene(static_cast<int>(seed % 5), seed);
-    const FrameSize frame{160, 120};
-    for (bool clip_to_frame : {false, true}) {
-      ProjectionCounts counts;
-      const ProjectionOptions options{.subpixel_bits = 4, .clip_to_frame = clip_to_frame};
-      const auto triangles = Projector(scene, frame, options).project_all(&counts);
-      expect_sound(triangles, frame, options);
-      EXPECT_EQ(counts.visible + counts.back_facing + counts.degenerate, scene.triangles.size());
-      const std::vector<int> count = coverage(triangles, frame, 4);
-      int covered = 0;
-      for (std::uint32_t y = 0; y < frame.height; ++y) {
-        int changes = 0;
-        for (std::uint32_t x = 0; x < frame.width; ++x) {
-          const int here = count[std::size_t{y} * frame.width + x];
-          ASSERT_LE(here, 1) << "seed " << seed << " pixel " << x << ',' << y;
-          const int before = x > 0 ? count[std::size_t{y} * frame.width + x - 1] : 0;
-          changes += here != before;
-          covered += here;
-        }
-        ASSERT_LE(changes, 2) << "a hole, seed " << seed << " line " << y;
-      }
-      EXPECT_GT(covered, 1500);
-    }
-  }
-}
-
 /// Ground in the world's plane y = 0, cells jittered within the plane, `half` units to each side of the
 /// origin.
 Scene ground_scene(unsigned seed, int cells, double half) {
@@ -247,55 +190,73 @@ Scene ground_scene(unsigned seed, int cells, double half) {
   return scene;
 }
 
-// The eye stands on ground that extends behind it, so that triangles cross the near plane, the far plane, the
-// guard band and the frame. The ray through each pixel determines whether it must show ground.
-TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
-  std::mt19937 random(99);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  int clipped_at_guard = 0, clipped_at_near = 0;
-  for (unsigned round = 0; round < 60; ++round) {
-    Scene scene = ground_scene(round, 5, 40.0);
+/// Ground that extends from behind the eye to beyond the far plane, so that triangles cross the near plane,
+/// the far plane, the guard band and the frame.
+struct GroundView {
+  Scene scene;
+  FrameSize frame;
+  ViewBasis basis;
+  double focal;
+
+  GroundView(std::mt19937& random, unsigned seed, FrameSize size, glm::dvec3 down, double near)
+      : scene(ground_scene(seed, 5, 40.0)), frame(size) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
     Camera& camera = scene.camera;
-    camera.eye_world = {3.0 * unit(random), 1.0, 3.0 * unit(random)};
-    camera.target_world = camera.eye_world + glm::dvec3(unit(random), -0.45, -1.0);
+    camera.eye_world = {3.0 * unit(random), down.y < 0.0 ? 1.0 : -1.0, 3.0 * unit(random)};
+    camera.target_world = camera.eye_world + glm::dvec3(unit(random), 0.0, 0.0) + down;
     camera.up_world = {0.6 * unit(random), 1.0, 0.0};
     camera.vertical_fov_degrees = 75.0;
-    camera.near = 0.8;
+    camera.near = near;
     camera.far = 12.0;
-    const FrameSize frame{round % 2 ? 120u : 1000u, round % 2 ? 90u : 700u};
-    const ViewBasis basis = view_basis(camera);
-    const double focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
+    basis = view_basis(camera);
+    focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
+  }
+  enum Depth { no_ground, before_near, visible, beyond_far };
+  /// What the ray through this place of the screen meets.
+  Depth at(double x, double y) const {
+    const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
+                           (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
+    const double distance = -scene.camera.eye_world.y / ray.y;  // along the viewing axis
+    if (!(distance > 0.0)) return no_ground;
+    return distance < scene.camera.near ? before_near : distance <= scene.camera.far ? visible : beyond_far;
+  }
+  /// What the rays around a pixel's centre meet. Snapped borders move by up to 1/32 of a pixel.
+  std::array<Depth, 4> around(std::uint32_t x, std::uint32_t y) const {
+    constexpr double c_low = 0.5 - 1.0 / 16.0, c_high = 0.5 + 1.0 / 16.0;
+    return {at(x + c_low, y + c_low), at(x + c_low, y + c_high), at(x + c_high, y + c_low),
+            at(x + c_high, y + c_high)};
+  }
+};
+
+// The ray through each pixel determines whether it must show ground.
+TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
+  std::mt19937 random(99);
+  int clipped_at_guard = 0, clipped_at_near = 0;
+  for (unsigned round = 0; round < 60; ++round) {
+    const GroundView view(random, round, {round % 2 ? 120u : 1000u, round % 2 ? 90u : 700u},
+                          {0.0, -0.45, -1.0}, 0.8);
     for (bool clip_to_frame : {false, true}) {
       const ProjectionOptions options{.subpixel_bits = 4, .clip_to_frame = clip_to_frame};
-      const auto triangles = Projector(scene, frame, options).project_all();
-      expect_sound(triangles, frame, options);
+      const auto triangles = Projector(view.scene, view.frame, options).project_all();
+      expect_sound(triangles, view.frame, options);
       if (HasFatalFailure()) return;
       for (const ScreenTriangle& t : triangles)
         for (const ScreenVertex& v : t.vertex) {
           clipped_at_guard += !clip_to_frame && (v.x == c_guard_begin * 16 || v.x == c_guard_end * 16 ||
                                                  v.y == c_guard_begin * 16 || v.y == c_guard_end * 16);
-          clipped_at_near += std::abs(v.inverse_w * camera.near - 1.0) < 1e-9;
+          clipped_at_near += std::abs(v.inverse_w * view.scene.camera.near - 1.0) < 1e-9;
         }
-      const std::vector<int> count = coverage(triangles, frame, 4);
-      const auto sees_ground = [&](double x, double y) {
-        const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
-                               (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
-        const double distance = -camera.eye_world.y / ray.y;  // along the viewing axis
-        return ray.y < 0 && distance >= camera.near && distance <= camera.far;
-      };
-      for (std::uint32_t y = 0; y < frame.height; ++y)
-        for (std::uint32_t x = 0; x < frame.width; ++x) {
-          const int here = count[std::size_t{y} * frame.width + x];
-          // Snapped borders move by up to 1/32 of a pixel. Inside, nothing may change.
-          const double cx = x + 0.5, cy = y + 0.5, d = 1.0 / 16.0;
-          const bool inside = sees_ground(cx, cy);
-          bool near_border = false;
-          for (double dx : {-d, d})
-            for (double dy : {-d, d}) near_border |= sees_ground(cx + dx, cy + dy) != inside;
-          if (near_border)
-            ASSERT_LE(here, 1);
-          else
+      const std::vector<int> count = coverage(triangles, view.frame);
+      for (std::uint32_t y = 0; y < view.frame.height; ++y)
+        for (std::uint32_t x = 0; x < view.frame.width; ++x) {
+          const int here = count[std::size_t{y} * view.frame.width + x];
+          const bool inside = view.at(x + 0.5, y + 0.5) == GroundView::visible;
+          const auto around = view.around(x, y);
+          if (std::ranges::count(around, GroundView::visible) == (inside ? 4 : 0)) {
             ASSERT_EQ(here, inside ? 1 : 0) << "round " << round << " pixel " << x << ',' << y;
+          } else {
+            ASSERT_LE(here, 1);
+          }
         }
     }
   }
@@ -307,11 +268,7 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
 // Vertices that neighbours share are projected once. Frame, near plane and guard band cut some triangles.
 TEST(MeshProjector, ProjectsAsItsProjector) {
   Scene scene = one_triangle({});
-  const Mesh mesh = make_uv_sphere(60, 30, 1.0);
-  scene.positions_world = mesh.positions;
-  scene.normals_world = mesh.normals;
-  scene.triangles = mesh.triangles;
-  for (SceneTriangle& t : scene.triangles) t.material = 0;
+  set_mesh(scene, make_uv_sphere(60, 30, 1.0));
   scene.camera.eye_world = {0.0, 0.0, 2.0};
   std::size_t whole = 0, pieces = 0;
   for (const double near : {0.1, 1.05, 1.2})
@@ -355,8 +312,10 @@ TEST(MeshProjector, ProjectsAsItsProjector) {
 
 TEST(Project, TwoSidedAddsTheBackFaces) {
   const FrameSize frame{160, 120};
-  for (unsigned seed = 0; seed < 8; ++seed) {
-    const Scene scene = sphere_scene(3, seed);
+  for (const double x : {-3.0, -1.0, 0.5, 2.5}) {
+    Scene scene = one_triangle({});
+    set_mesh(scene, make_uv_sphere(24, 16, 1.0));
+    scene.camera.eye_world = {x, 1.5, 3.0};
     const Projector projector(scene, frame, {});
     int fronts = 0, backs = 0;
     for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
@@ -395,78 +354,55 @@ TEST(Project, TwoSidedAddsTheBackFaces) {
   }
 }
 
-// Ground from behind the eye to beyond the far plane. The part in front of the near plane and the visible
-// part meet without a gap, and cover everything that a ray from the eye meets before the far plane.
+// The part in front of the near plane and the visible part meet without a gap, and cover everything that a
+// ray from the eye meets before the far plane.
 TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
   std::mt19937 random(31);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int in_both_slices = 0;
   for (unsigned round = 0; round < 40; ++round) {
-    Scene scene = ground_scene(round, 5, 40.0);
-    Camera& camera = scene.camera;
-    camera.eye_world = {3.0 * unit(random), round % 2 ? 1.0 : -1.0, 3.0 * unit(random)};
-    camera.target_world = camera.eye_world + glm::dvec3(unit(random), round % 2 ? -0.7 : 0.7, -1.0);
-    camera.up_world = {0.6 * unit(random), 1.0, 0.0};
-    camera.vertical_fov_degrees = 75.0;
-    camera.near = 2.0;
-    camera.far = 12.0;
-    const FrameSize frame{120, 90};
-    const ViewBasis basis = view_basis(camera);
-    const double focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
-    const Projector projector(scene, frame, {});
-    // A sliver reversed by snapping counts negatively: its neighbours cover the same pixels twice.
-    std::array<std::vector<ScreenTriangle>, 2> slices, turned_over;
+    const GroundView view(random, round, {120, 90}, {0.0, round % 2 ? -0.7 : 0.7, -1.0}, 2.0);
+    const Projector projector(view.scene, view.frame, {});
     ProjectionCounts counts;
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i)
+    // How often each pixel is covered, by slice. A sliver reversed by snapping counts negatively: its
+    // neighbours cover the same pixels twice.
+    std::array<std::vector<int>, 2> covered;
+    covered.fill(std::vector<int>(std::size_t{view.frame.width} * view.frame.height));
+    for (std::uint32_t i = 0; i < view.scene.triangles.size(); ++i)
       for (const DepthSlice slice : {DepthSlice::visible, DepthSlice::before_near}) {
+        const bool is_near = slice == DepthSlice::before_near;
         std::vector<TwoSidedTriangle> pieces;
-        const auto& [a, b, c] = scene.triangles[i].position;
-        const auto& p = scene.positions_world;
+        const auto& [a, b, c] = view.scene.triangles[i].position;
+        const auto& p = view.scene.positions_world;
         projector.project_two_sided({p[a], p[b], p[c]}, i, slice, pieces, counts);
         for (const TwoSidedTriangle& piece : pieces) {
-          auto& pieces_of = piece.faces_eye == (camera.eye_world.y > 0.0) ? slices : turned_over;
-          pieces_of[slice == DepthSlice::before_near].push_back(piece.triangle);
+          expect_sound(std::span(&piece.triangle, 1), view.frame, {});
+          if (HasFatalFailure()) return;
+          for (const ScreenVertex& v : piece.triangle.vertex) ASSERT_TRUE(v.z == 0.0 || !is_near) << v.z;
+          const int sign = piece.faces_eye == (view.scene.camera.eye_world.y > 0.0) ? 1 : -1;
+          for_each_pixel(piece.triangle, view.frame, [&](std::uint32_t x, std::uint32_t y) {
+            covered[is_near][std::size_t{y} * view.frame.width + x] += sign;
+          });
         }
       }
     ASSERT_EQ(counts.unrepresentable, 0u);
-    for (const ScreenTriangle& t : slices[1])
-      for (const ScreenVertex& v : t.vertex) ASSERT_EQ(v.z, 0.0);
-    for (const auto& triangles : slices) expect_sound(triangles, frame, {});
-    if (HasFatalFailure()) return;
-    std::vector<int> visible = coverage(slices[0], frame, 4), before = coverage(slices[1], frame, 4);
-    const std::vector<int> visible_over = coverage(turned_over[0], frame, 4),
-                           before_over = coverage(turned_over[1], frame, 4);
-    for (std::size_t pixel = 0; pixel < visible.size(); ++pixel) {
-      visible[pixel] -= visible_over[pixel];
-      before[pixel] -= before_over[pixel];
-    }
-    // -1: no ground; 0: in front of the near plane; 1: visible; 2: beyond the far plane.
-    const auto slice_at = [&](double x, double y) {
-      const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
-                             (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
-      const double distance = -camera.eye_world.y / ray.y;
-      return !(distance > 0.0) ? -1 : distance < camera.near ? 0 : distance < camera.far ? 1 : 2;
-    };
-    for (std::uint32_t y = 0; y < frame.height; ++y)
-      for (std::uint32_t x = 0; x < frame.width; ++x) {
-        const std::size_t pixel = std::size_t{y} * frame.width + x;
-        const double cx = x + 0.5, cy = y + 0.5, d = 1.0 / 16.0;
-        const int here = slice_at(cx, cy);
+    for (std::uint32_t y = 0; y < view.frame.height; ++y)
+      for (std::uint32_t x = 0; x < view.frame.width; ++x) {
+        const std::size_t pixel = std::size_t{y} * view.frame.width + x;
+        const auto here = view.at(x + 0.5, y + 0.5);
         bool near_border = false, near_far_border = false;
-        for (double dx : {-d, d})
-          for (double dy : {-d, d}) {
-            const int neighbour = slice_at(cx + dx, cy + dy);
-            near_border |= neighbour != here;
-            near_far_border |= neighbour != here && std::max(neighbour, here) != 1;
-          }
-        const bool covered = here == 0 || here == 1;
+        for (const auto neighbour : view.around(x, y)) {
+          near_border |= neighbour != here;
+          near_far_border |= neighbour != here && std::max(neighbour, here) != GroundView::visible;
+        }
+        const bool is_covered = here == GroundView::before_near || here == GroundView::visible;
         if (!near_far_border) {
-          ASSERT_EQ(visible[pixel] + before[pixel], covered) << round << " pixel " << x << ',' << y;
+          ASSERT_EQ(covered[0][pixel] + covered[1][pixel], is_covered) << round << " pixel " << x << ',' << y;
         }
         if (!near_border) {
-          ASSERT_EQ(before[pixel], here == 0) << round << " pixel " << x << ',' << y;
+          ASSERT_EQ(covered[1][pixel], here == GroundView::before_near)
+              << round << " pixel " << x << ',' << y;
         }
-        in_both_slices += near_border && covered;
+        in_both_slices += near_border && is_covered;
       }
   }
   EXPECT_GT(in_both_slices, 200);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <set>
 #include <span>
 #include <utility>
@@ -267,22 +266,6 @@ TEST(PixelFit, EachPixelHasItsColourExactly) {
   EXPECT_GT(moved, 1000);
 }
 
-/// Worst cases over the pixels of a triangle drawn by the golden model. Errors are relative to their bounds.
-struct Worst {
-  double intensity = 0.0, intensity_steps = 0.0, depth = 0.0, depth_steps = 0.0, colour_steps = 0.0;
-  std::int64_t pixels = 0, lowest = 0, highest = 0;
-  void take(const Worst& o) {
-    intensity = std::max(intensity, o.intensity);
-    intensity_steps = std::max(intensity_steps, o.intensity_steps);
-    depth = std::max(depth, o.depth);
-    depth_steps = std::max(depth_steps, o.depth_steps);
-    colour_steps = std::max(colour_steps, o.colour_steps);
-    pixels += o.pixels;
-    lowest = std::min(lowest, o.lowest);
-    highest = std::max(highest, o.highest);
-  }
-};
-
 /// Compares every pixel's registers with the rationals, which are stored as numerators over D^2 and D.
 class Comparison {
  public:
@@ -328,12 +311,6 @@ class Comparison {
     const Int128 off = 4 * magnitude(value * squared_ - exact), bound = (2 + 2 * k + k * k) * squared_;
     ASSERT_TRUE(off <= bound) << "pixel " << x << ',' << y << ", k = " << k << ": off by "
                               << static_cast<double>(off) / static_cast<double>(bound) << " of the bound";
-    worst_.intensity = std::max(worst_.intensity, static_cast<double>(off) / static_cast<double>(bound));
-    worst_.intensity_steps =
-        std::max(worst_.intensity_steps,
-                 std::ldexp(static_cast<double>(off) / static_cast<double>(squared_), -c_fraction - 2));
-    worst_.lowest = std::min(worst_.lowest, value);
-    worst_.highest = std::max(worst_.highest, value);
     const double steps_exact =
         std::ldexp(static_cast<double>(exact) / static_cast<double>(squared_), -c_fraction);
     exact_colour_ = std::clamp(steps_exact, 0.0, 255.0);
@@ -343,21 +320,16 @@ class Comparison {
     const Int128 z_off = 2 * magnitude(z * squared_ - depth),
                  z_bound = (1 + lines + carries_ + std::abs(x - line_start_)) * squared_;
     ASSERT_TRUE(z_off <= z_bound) << "depth of pixel " << x << ',' << y;
-    worst_.depth = std::max(worst_.depth, static_cast<double>(z_off) / static_cast<double>(z_bound));
-    worst_.depth_steps = std::max(
-        worst_.depth_steps, std::ldexp(static_cast<double>(z_off) / static_cast<double>(squared_), -16));
     exact_depth_ = std::ldexp(static_cast<double>(depth) / static_cast<double>(squared_), -15);
-    ++worst_.pixels;
+    ++pixels_;
   }
 
   void fragment(const Fragment& f) {
     // The bound of the shader's header: 0.5 for rounding, plus the error of the differences.
-    const double colour_off = std::abs(f.red - exact_colour_);
-    ASSERT_LE(colour_off, 0.65) << "pixel " << f.x << ',' << f.y;
-    worst_.colour_steps = std::max(worst_.colour_steps, colour_off);
+    ASSERT_LE(std::abs(f.red - exact_colour_), 0.65) << "pixel " << f.x << ',' << f.y;
     ASSERT_LE(std::abs(f.z - exact_depth_), 0.69) << "pixel " << f.x << ',' << f.y;
   }
-  const Worst& worst() const { return worst_; }
+  std::int64_t pixels() const { return pixels_; }
 
  private:
   static Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
@@ -370,16 +342,16 @@ class Comparison {
   Walk walk_;
   std::int64_t line_start_ = 0, carries_ = 0;
   double exact_colour_ = 0.0, exact_depth_ = 0.0;
-  Worst worst_;
+  std::int64_t pixels_ = 0;
 };
 
-/// Draws one triangle with the golden model, one channel.
-Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& samples,
-           const std::array<std::int64_t, 3>& z) {
+/// Draws one triangle with the golden model, one channel. Returns the number of its pixels.
+std::int64_t draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& samples,
+                  const std::array<std::int64_t, 3>& z) {
   using Shader = golden::QuadraticShader<Exact, 1>;
   using At = Exact::init_header_at;
   const Walks walks = plan_walks(p, unit_bits, frame);
-  if (walks.empty()) return {};
+  if (walks.empty()) return 0;
   const QuadraticFit fit(p, unit_bits);
   const DepthFit depth(p, unit_bits, z);
   Comparison comparison(p, unit_bits, samples, z);
@@ -402,39 +374,32 @@ Worst draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& sa
     shader.draw(
         init, [&](const Fragment& f) { comparison.fragment(f); }, comparison);
   }
-  return comparison.worst();
-}
-
-void print(const char* what, const Worst& w) {
-  std::cout << what << ": " << w.pixels << " pixels; intensity at most " << w.intensity << " of its bound, "
-            << w.intensity_steps << " steps; depth at most " << w.depth << " of its bound, " << w.depth_steps
-            << " steps; colour at most " << w.colour_steps << " off; values from "
-            << std::ldexp(static_cast<double>(w.lowest), -c_fraction) << " to "
-            << std::ldexp(static_cast<double>(w.highest), -c_fraction) << '\n';
+  return comparison.pixels();
 }
 
 constexpr std::int64_t c_far = std::int64_t{(1 << 24) - 3} << 15, c_near = std::int64_t{1} << 15;
 
 TEST(GoldenQuadratic, EveryPixelOfARandomTriangleIsWithinTheStatedBound) {
-  Worst worst;
+  std::int64_t drawn = 0;
   for (int level = 0; level <= 5; ++level)
     for (const TriangleKind kind : c_triangle_kinds) {
       RandomTriangles random(static_cast<unsigned>(100 * level + static_cast<int>(kind)));
       for (int round = 0; round < 40; ++round) {
         const FrameSize frame{200, 160};
         const Points p = random.next(kind, 4 + level, frame, level);
-        worst.take(
-            draw(p, 4 + level, frame, random_samples(random, round),
-                 {round % 2 ? c_near : c_far, round % 3 ? c_far : c_near, random.within(1, 1 << 24) << 7}));
+        // Over all levels, these are all combinations of the least and the largest samples.
+        const SixSamples samples = random_samples(random, 40 * level + round);
+        drawn +=
+            draw(p, 4 + level, frame, samples,
+                 {round % 2 ? c_near : c_far, round % 3 ? c_far : c_near, random.within(1, 1 << 24) << 7});
         if (HasFatalFailure()) return;
       }
     }
-  print("random triangles", worst);
-  EXPECT_GT(worst.pixels, 1'000'000);
+  EXPECT_GT(drawn, 1'000'000);
 }
 
 TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
-  Worst worst;
+  std::int64_t drawn = 0;
   RandomTriangles random(7);
   const auto units = [&](int pixels) { return 16 * pixels + random.within(-8, 8); };
   for (int round = 0; round < 12; ++round) {
@@ -452,33 +417,10 @@ TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
         {{{units(4096), units(0)}, {units(0), units(1)}, {units(0), units(thick)}}},
     }};
     const Points& p = shapes[static_cast<std::size_t>(round) % shapes.size()];
-    worst.take(draw(p, 4, c_frame, random_samples(random, round), {c_near, c_far, c_near + 12345}));
+    drawn += draw(p, 4, c_frame, random_samples(random, round), {c_near, c_far, c_near + 12345});
     if (HasFatalFailure()) return;
   }
-  print("long and tall triangles", worst);
-  EXPECT_GT(worst.pixels, 1'000'000);
-}
-
-// All combinations of zero samples and largest samples. Control points are within -1023 ... 2046, and no
-// value leaves the format. Such a value would be wrong by 2^12 steps, and `draw` would report it.
-TEST(GoldenQuadratic, NoSamplesMakeAValueLeaveTheFormat) {
-  Worst worst;
-  RandomTriangles random(9);
-  for (int bits = 0; bits < 64; ++bits) {
-    const auto sample = [&](int i) { return bits >> i & 1 ? c_largest_sample_word : 0; };
-    const SixSamples samples{{sample(0), sample(1), sample(2)}, sample(3), sample(4), sample(5)};
-    for (const TriangleKind kind :
-         {TriangleKind::any, TriangleKind::small, TriangleKind::sliver, TriangleKind::crossing})
-      worst.take(draw(random.next(kind, 4, {96, 80}), 4, {96, 80}, samples, {c_near, c_far, c_near}));
-    if (HasFatalFailure()) return;
-  }
-  print("extreme samples", worst);
-  const auto steps = [](std::int64_t word) { return std::ldexp(static_cast<double>(word), -c_fraction); };
-  EXPECT_GE(steps(worst.lowest), -1023.0 - 0.15);
-  EXPECT_LE(steps(worst.highest), 2046.0 + 0.15);
-  // The extremes must be close enough to those of the control points to be meaningful.
-  EXPECT_LT(steps(worst.lowest), -300.0);
-  EXPECT_GT(steps(worst.highest), 1300.0);
+  EXPECT_GT(drawn, 1'000'000);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "plan/plan.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -49,9 +50,8 @@ TEST(SetupWorker, GivesTheSameVectorsAfterOtherUnits) {
   const Scene scene = cut_sphere();
   for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
     for (const Preset preset : {Preset::exact, Preset::published}) {
-      const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
-      ASSERT_TRUE(plan);
-      const std::unique_ptr<halfway::Setup> setup = make_setup(scene, {160, 90}, plan->key, {});
+      const auto plan = must(plan_scene(scene, {.shader = shader, .preset = preset}));
+      const std::unique_ptr<halfway::Setup> setup = make_setup(scene, {160, 90}, plan.key, {});
       std::vector<std::uint32_t> by_one, by_many;
       SetupCounts one, many;
       setup->append_all(by_one, one);

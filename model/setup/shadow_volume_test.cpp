@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -19,9 +17,11 @@
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
 #include "setup/edge.hpp"
+#include "setup/test/pixels.hpp"
 #include "setup/test/random_solids.hpp"
 #include "shading/effects.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -224,22 +224,22 @@ struct Figures {
   std::size_t polygons = 0;
   std::uint32_t most_around_eye = 0;
 
-  std::string text() const {
-    return std::to_string(pixels) + " pixels, " + std::to_string(lit) + " lit, " + std::to_string(shadowed) +
-           " shadowed, " + std::to_string(differ) + " differ, " + std::to_string(unexplained) +
-           " unexplained";
+  /// At most one of `per` pixels differs, and each of them has a reason.
+  void expect_agreement(int least_lit, int least_shadowed, int per) const {
+    EXPECT_GT(lit, least_lit);
+    EXPECT_GT(shadowed, least_shadowed);
+    EXPECT_LT(differ * per, pixels);
+    EXPECT_EQ(unexplained, 0);
   }
 };
 
-void for_each_pixel(const ScreenTriangle& t, FrameSize frame,
-                    const std::function<void(std::size_t pixel, double z)>& found) {
+/// Calls found(pixel, z) for each pixel that the triangle covers.
+template <class Found>
+void for_each_depth(const ScreenTriangle& t, FrameSize frame, Found&& found) {
   const glm::dvec3 z{t.vertex[0].z, t.vertex[1].z, t.vertex[2].z};
-  for_each_span({ScreenPoint{t.vertex[0].x, t.vertex[0].y}, ScreenPoint{t.vertex[1].x, t.vertex[1].y},
-                 ScreenPoint{t.vertex[2].x, t.vertex[2].y}},
-                4, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
-                  for (std::uint32_t x = begin; x < end; ++x)
-                    found(std::size_t{y} * frame.width + x, glm::dot(barycentric_at_centre(t, 4, x, y), z));
-                });
+  for_each_pixel(t, frame, [&](std::uint32_t x, std::uint32_t y) {
+    found(std::size_t{y} * frame.width + x, glm::dot(barycentric_at_centre(t, 4, x, y), z));
+  });
 }
 
 void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
@@ -250,7 +250,7 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
   std::vector<double> nearest(pixels, 2.0);
   std::vector<std::uint32_t> seen(pixels, c_nothing);
   for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    for_each_pixel(triangles[i], frame, [&](std::size_t pixel, double z) {
+    for_each_depth(triangles[i], frame, [&](std::size_t pixel, double z) {
       if (!(z < nearest[pixel])) return;
       nearest[pixel] = z;
       seen[pixel] = i;
@@ -269,7 +269,7 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
     for (const ShadowPolygon& polygon : polygons) {
       ASSERT_GT(polygon.triangle.twice_area(), 0);
       if (polygon.light != light) continue;
-      for_each_pixel(polygon.triangle, frame, [&](std::size_t pixel, double z) {
+      for_each_depth(polygon.triangle, frame, [&](std::size_t pixel, double z) {
         if (z < nearest[pixel]) count[pixel] += polygon.opens ? 1 : -1;
       });
     }
@@ -313,14 +313,10 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
 // 30 in a million differ, within a pixel of an edge: vertices on the screen have an error of up to 1/32
 // pixel, and a ray may start at a point close to a side of the volume.
 TEST(ShadowCount, AgreesWithRaysInTheBuiltInScene) {
-  const Result<Scene> scene = load_scene("shadows", c_scenes);
-  ASSERT_TRUE(scene) << scene.error().message;
+  const Scene scene = must(load_scene("shadows", c_scenes));
   Figures figures;
-  count_and_compare(*scene, {640, 480}, figures);
-  EXPECT_GT(figures.lit, 100'000);
-  EXPECT_GT(figures.shadowed, 30'000);
-  EXPECT_LT(figures.differ * 10'000, figures.pixels) << figures.text();
-  EXPECT_EQ(figures.unexplained, 0) << figures.text();
+  count_and_compare(scene, {640, 480}, figures);
+  figures.expect_agreement(100'000, 30'000, 10'000);
   // Only sides, and almost never cut: the caps would be ten times as many.
   EXPECT_LT(figures.polygons, 500u);
 }
@@ -330,22 +326,7 @@ TEST(ShadowCount, AgreesWithRaysAmongSolids) {
   Figures figures;
   for (int round = 0; round < 60; ++round)
     count_and_compare(random.scene(1 + round % 5), {160, 120}, figures);
-  EXPECT_GT(figures.lit, 100'000);
-  EXPECT_GT(figures.shadowed, 100'000);
-  EXPECT_LT(figures.differ * 1'000, figures.pixels) << figures.text();
-  EXPECT_EQ(figures.unexplained, 0) << figures.text();
-}
-
-/// A floor on which solids stand.
-Scene on_a_floor(RandomSolids& random, int solids) {
-  Scene scene = random.scene(solids);
-  Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
-  for (glm::dvec3& p : floor.positions) p.y -= 1.5;
-  add_mesh(scene, floor);
-  scene.directional[0].to_light_world.y = std::abs(scene.directional[0].to_light_world.y) + 0.1;
-  scene.directional[0].to_light_world = glm::normalize(scene.directional[0].to_light_world);
-  scene.camera.up_world = {0.1, 1.0, 0.1};
-  return scene;
+  figures.expect_agreement(100'000, 100'000, 1'000);
 }
 
 TEST(ShadowCount, IncludesVolumesAroundTheEye) {
@@ -353,7 +334,7 @@ TEST(ShadowCount, IncludesVolumesAroundTheEye) {
   Figures figures;
   int within = 0;
   for (int round = 0; round < 40; ++round) {
-    Scene scene = on_a_floor(random, 4);
+    Scene scene = random.on_a_floor(4);
     // In the shadow of a solid, for the directional or the positional light; every other time close to a side
     // of a volume.
     const LightPoint light =
@@ -371,10 +352,7 @@ TEST(ShadowCount, IncludesVolumesAroundTheEye) {
   }
   EXPECT_GT(within, 20);
   EXPECT_GE(figures.most_around_eye, 2u);
-  EXPECT_GT(figures.lit, 100'000);
-  EXPECT_GT(figures.shadowed, 100'000);
-  EXPECT_LT(figures.differ * 1'000, figures.pixels) << figures.text();
-  EXPECT_EQ(figures.unexplained, 0) << figures.text();
+  figures.expect_agreement(100'000, 100'000, 1'000);
 }
 
 // The near plane cuts volumes and cuts solids open; the eye is in a solid; meshes are open.
@@ -382,7 +360,7 @@ TEST(ShadowCount, AgreesWhereInsidesAreVisible) {
   RandomSolids random(9);
   Figures figures;
   for (int round = 0; round < 60; ++round) {
-    Scene scene = on_a_floor(random, 4);
+    Scene scene = random.on_a_floor(4);
     if (round % 3 == 0) {
       scene.camera.eye_world = 3.0 * random.unit();
       scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
@@ -399,10 +377,7 @@ TEST(ShadowCount, AgreesWhereInsidesAreVisible) {
     }
     count_and_compare(scene, {160, 120}, figures);
   }
-  EXPECT_GT(figures.lit, 200'000);
-  EXPECT_GT(figures.shadowed, 200'000);
-  EXPECT_LT(figures.differ * 1'000, figures.pixels) << figures.text();
-  EXPECT_EQ(figures.unexplained, 0) << figures.text();
+  figures.expect_agreement(200'000, 200'000, 1'000);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
+#include "sim/system/must.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway {
@@ -52,9 +53,7 @@ inline void move_eye_away(Scene& scene) {
 }
 
 inline HardwareKey spherical_key(const Scene& scene, Preset preset = Preset::exact) {
-  const auto plan = plan_scene(scene, {.shader = Shader::spherical, .preset = preset});
-  EXPECT_TRUE(plan) << plan.error().message;
-  return plan ? plan->key : HardwareKey{.shader = Shader::spherical, .preset = preset};
+  return must(plan_scene(scene, {.shader = Shader::spherical, .preset = preset})).key;
 }
 
 struct Drawn {

@@ -84,6 +84,19 @@ class RandomSolids {
     return scene;
   }
 
+  /// Solids that stand on a floor.
+  Scene on_a_floor(int solids) {
+    Scene made = scene(solids);
+    Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
+    for (glm::dvec3& p : floor.positions) p.y -= 1.5;
+    add_mesh(made, floor);
+    glm::dvec3& to_light_world = made.directional[0].to_light_world;
+    to_light_world.y = std::abs(to_light_world.y) + 0.1;
+    to_light_world = glm::normalize(to_light_world);
+    made.camera.up_world = {0.1, 1.0, 0.1};
+    return made;
+  }
+
   std::mt19937& generator() { return random_; }
 
  private:
