@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh_files/test/spelling.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -36,30 +37,15 @@ TEST_P(ObjSpelling, IsReadExactlyOrRefusedWithItsLine) {
 const std::string c_three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
 const std::string c_square = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n";
-const std::string c_square_fan = "0,0,0 4,0,0 4,4,0; 0,0,0 4,4,0 0,4,0";
 
 const std::vector<Spelling> c_spellings = {
     {"plain", c_three + "f 1 2 3\n", c_triangle},
-    {"no_last_line_end", c_three + "f 1 2 3", c_triangle},
 
     // numbers
-    {"leading_dot", "v .5 1 0\nv -.5 +.25 .125\nv 0 1 0\nf 1 2 3\n", "0.5,1,0 -0.5,0.25,0.125 0,1,0"},
-    {"trailing_dot", "v 5. 1. 0.\nv -5. 0 0\nv 0 1 0\nf 1 2 3\n", "5,1,0 -5,0,0 0,1,0"},
-    {"signs", "v +1 -1 +0\nv -1 +2 -3\nv 0 1 0\nf 1 2 3\n", "1,-1,0 -1,2,-3 0,1,0"},
-    {"exponents", "v 1e1 2E+1 5e-1\nv -.5e1 5.e1 1e0\nv 0 1 0\nf 1 2 3\n", "10,20,0.5 -5,50,1 0,1,0"},
-    {"many_digits", "v 0.50000000000000000000000000000 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-     "0.5,0,0 1,0,0 0,1,0"},
-    {"tiny_is_zero", "v 1e-999 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "0,0,0 1,0,0 0,1,0"},
+    {"number_spellings", "v 1e1 2E+1 5e-1\nv -.5e1 5.e1 +1\nv 0 1 0\nf 1 2 3\n", "10,20,0.5 -5,50,1 0,1,0"},
     {"comma", "v 0,5 1 0\n", "! a.obj:1: vertex 1: '0,5' is not a number; correct the coordinate"},
-    {"two_dots", "v 0 0 0\nv 1.2.3 1 0\n",
-     "! a.obj:2: vertex 2: '1.2.3' is not a number; correct the coordinate"},
-    {"hexadecimal", "v 0x1 1 0\n", "! a.obj:1: vertex 1: '0x1' is not a number; correct the coordinate"},
-    {"half_exponent", "v 1e 1 0\n", "! a.obj:1: vertex 1: '1e' is not a number; correct the coordinate"},
     {"nan", "v 0 0 nan\n", "! a.obj:1: vertex 1: 'nan' is not finite; correct the coordinate"},
-    {"infinity", "v 0 -inf 0\n", "! a.obj:1: vertex 1: '-inf' is not finite; correct the coordinate"},
     {"too_large", "v 0 1e39 0\n", "! a.obj:1: vertex 1: '1e39' is too large; correct the coordinate"},
-    {"largest", "v 3.4e38 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-     fmt::format("{},0,0 1,0,0 0,1,0", static_cast<double>(3.4e38f))},
     {"normal_of_words", "vn 0 0 up\n", "! a.obj:1: normal 1: 'up' is not a number; correct the coordinate"},
     {"texture_of_words", "vt 0 0\nvt u v\n",
      "! a.obj:2: texture coordinate 2: 'u' is not a number; correct the coordinate"},
@@ -71,34 +57,22 @@ const std::vector<Spelling> c_spellings = {
      "! a.obj:2: vertex 2 is too large; correct the coordinate"},
     {"colours", "v 0 0 0 .5 .25 1\nv 1 0 0 1 1 1\nv 0 1 0 0 0 0\nf 1 2 3\n", c_triangle},
     {"two_coordinates", "v 0 0 0\nv 1 0\n", "! a.obj:2: vertex 2 has 2 numbers; it must have 3, 4 or 6"},
-    {"five_numbers", "v 0 0 0 1 1\n", "! a.obj:1: vertex 1 has 5 numbers; it must have 3, 4 or 6"},
     {"seven_numbers", "v 0 0 0 1 1 1 1\n", "! a.obj:1: vertex 1 has 7 numbers; it must have 3, 4 or 6"},
     {"short_normal", "vn 0 1\n", "! a.obj:1: normal 1 has 2 numbers; it must have 3"},
-    {"long_normal", "vn 0 1 0 0\n", "! a.obj:1: normal 1 has 4 numbers; it must have 3"},
     {"texture_of_dots", "vt .5 .5\nvt .5\nvt .5 .5 0.\n" + c_three + "f 1/1 2/2 3/3\n", c_triangle},
     {"long_texture", "vt 0 0 0 0\n", "! a.obj:1: texture coordinate 1 has 4 numbers; it must have 1 to 3"},
-    {"empty_texture", "vt\n", "! a.obj:1: texture coordinate 1 has 0 numbers; it must have 1 to 3"},
 
     // lines
     {"crlf", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", c_triangle},
     {"cr", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", c_triangle},
-    {"lines_of_cr", "v 0 0 0\rv 1 0 0\rv 0 one 0\r",
-     "! a.obj:3: vertex 3: 'one' is not a number; correct the coordinate"},
-    {"lines_of_crlf", "v 0 0 0\r\n\r\nv 1 one 0\r\n",
-     "! a.obj:3: vertex 2: 'one' is not a number; correct the coordinate"},
     {"tabs", "v\t0\t0  0 \n \tv 1 0\t0\nv 0 1 0\n\tf\t1  2 3\t\n", c_triangle},
     {"byte_order_mark", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", c_triangle},
     {"comments", "# v 9 9 9\n#\n" + c_three + "f 1 2 3 # 4\n#f 1 2 2\n", c_triangle},
-    {"comment_after_numbers", "v 0 0 0 # origin\nv 1 0 0#\n",
-     "! a.obj:2: vertex 2: '0#' is not a number; correct the coordinate"},
     {"comment_after_data", "v 0 0 0 #1\nv 1 0 0 # 5 6 7\nv 0 1 0\t#\nf 1 2 3\n", c_triangle},
     {"continued", "v 0 0 \\\n0\nv 1 \\\r\n 0\\\n 0\nv 0 1 0\nf 1 \\\n2\\\n  3\n", c_triangle},
-    {"continued_keyword", c_three + "f\\\n 1 2 3\n", c_triangle},
     {"continued_at_the_end", c_three + "f 1 2 3 \\", "! a.obj:4: '\\' is not a corner of a face"},
     {"continued_fault", c_three + "f 1 2 \\\n9\n",
      "! a.obj:4: a face names vertex 9, but the file has 3; correct the index"},
-    {"line_after_continued", "v 0 0 \\\n0\nv 1 one 0\n",
-     "! a.obj:3: vertex 2: 'one' is not a number; correct the coordinate"},
     {"comment_is_not_continued", "# c:\\models\\\n" + c_three + "f 1 2 3 # c:\\\n", c_triangle},
     {"backslash_and_blank", "v 0 0 0 \\ \nv 1 0 0\n",
      "! a.obj:1: vertex 1: '\\' is not a number; correct the coordinate"},
@@ -109,38 +83,25 @@ const std::vector<Spelling> c_spellings = {
     {"groups", "o a\ng b c\ns off\nmg 1 2\nlod 1\n" + c_three + "s 1\ng\nf 1 2 3\n", c_triangle},
     {"unknown_keyword", c_three + "vv 1 2 3\n",
      "! a.obj:4: 'vv' is not a keyword of OBJ; correct or remove the line"},
-    {"glued_keyword", "v0 0 0\n", "! a.obj:1: 'v0' is not a keyword of OBJ; correct or remove the line"},
-    {"capital", "V 0 0 0\n", "! a.obj:1: 'V' is not a keyword of OBJ; correct or remove the line"},
-    {"another_file", "call b.obj\n", "! a.obj:1: 'call' is not a keyword of OBJ; correct or remove the line"},
-    {"html", "<html>\n", "! a.obj:1: '<html>' is not a keyword of OBJ; correct or remove the line"},
     {"no_faces", c_three, "! a.obj: the mesh has no faces; export it with faces"},
     {"points_and_lines", c_three + "p 1\nl 1 2 3\nl 1/1 2/1\nvt 0\nf 1 2 3\n", c_triangle},
     {"line_of_words", c_three + "l 1 two\n", "! a.obj:4: 'two' is not a corner of a face"},
-    {"line_out_of_range", c_three + "l 1 4\n",
-     "! a.obj:4: a face names vertex 4, but the file has 3; correct the index"},
 
     // indices
     {"negative", c_three + "f -3 -2 -1\n", c_triangle},
     {"negative_counts_so_far", c_three + "f -3 -2 -1\nv 5 5 5\nf -4 -3 -1\n",
      c_triangle + "; 0,0,0 1,0,0 5,5,5"},
-    {"negative_mixed", c_three + "f 1 -2 3\n", c_triangle},
     {"negative_texture_and_normal", "vt 0\nvn 0 0 1\n" + c_three + "f -3/-1/-1 -2/-1/-1 -1/-1/-1\n",
      c_triangle},
     {"vertices_after_faces", "f 1 2 3\n" + c_three, c_triangle},
     {"too_negative", c_three + "f 1 2 -4\n",
      "! a.obj:4: a face names vertex -4, but the file has 3 so far; correct the index"},
-    {"negative_before_vertices", "f -1 -1 -1\n" + c_three,
-     "! a.obj:1: a face names vertex -1, but the file has 0 so far; correct the index"},
     {"zero", c_three + "f 0 1 2\n",
      "! a.obj:4: a face names vertex 0, but the file has 3; correct the index"},
     {"beyond", c_three + "\n\nf 1 2 4\n",
      "! a.obj:6: a face names vertex 4, but the file has 3; correct the index"},
-    {"beyond_32_bits", c_three + "f 1 2 4294967297\n",
-     "! a.obj:4: a face names vertex 4294967297, but the file has 3; correct the index"},
     {"beyond_64_bits", c_three + "f 1 2 99999999999999999999\n",
      "! a.obj:4: a face names vertex 99999999999999999999, but the file has 3; correct the index"},
-    {"below_64_bits", c_three + "f 1 2 -99999999999999999999\n",
-     "! a.obj:4: a face names vertex -99999999999999999999, but the file has 3 so far; correct the index"},
     {"least_64_bits", c_three + "f 1 2 -9223372036854775808\n",
      "! a.obj:4: a face names vertex -9223372036854775808, but the file has 3 so far; correct the index"},
     {"texture_beyond", c_three + "vt 0\nf 1/1 2/2 3/1\n",
@@ -151,22 +112,15 @@ const std::vector<Spelling> c_spellings = {
     {"empty_parts", "vt 0\n" + c_three + "f 1/ 2// 3/1/\n", c_triangle},
     {"four_parts", "vt 0\nvn 0 0 1\n" + c_three + "f 1/1/1/1 2 3\n",
      "! a.obj:6: '1/1/1/1' is not a corner of a face"},
-    {"no_position", "vt 0\n" + c_three + "f /1 2 3\n", "! a.obj:5: '/1' is not a corner of a face"},
-    {"plus", c_three + "f +1 2 3\n", "! a.obj:4: '+1' is not a corner of a face"},
     {"point", c_three + "f 1.0 2 3\n", "! a.obj:4: '1.0' is not a corner of a face"},
-    {"word", c_three + "f 1 2 x\n", "! a.obj:4: 'x' is not a corner of a face"},
     {"blank_and_slash", "vn 0 0 1\n" + c_three + "f 1 //1 2 3\n",
      "! a.obj:5: '//1' is not a corner of a face"},
     {"no_corner", c_three + "f\n", "! a.obj:4: a face, line or point without a corner"},
 
     // polygons
-    {"square", c_square + "f 1 2 3 4\n", c_square_fan},
-    {"clockwise_square", c_square + "f 4 3 2 1\n", "0,4,0 4,4,0 4,0,0; 0,4,0 4,0,0 0,0,0"},
-    {"repeated_corner", c_square + "f 1 2 2 3\n", "0,0,0 4,0,0 4,4,0"},
     {"repeated_place", c_square + "v 4 0 0\nf 1 2 5 3\n", "0,0,0 4,0,0 4,4,0"},
     {"notch_on_a_diagonal", c_square + "v 2 2 0\nf 1 2 3 5 4\n",
      "4,0,0 4,4,0 2,2,0; 2,2,0 0,4,0 0,0,0; 2,2,0 0,0,0 4,0,0"},
-    {"corner_on_an_edge", c_square + "v 2 0 0\nf 1 5 2 4\n", "0,4,0 0,0,0 2,0,0; 0,4,0 2,0,0 4,0,0"},
     {"bow_tie", c_square + "f 1 3 2 4\n",
      "! a.obj:5: the outline of the face crosses itself; divide the face into triangles"},
     {"polygon_on_a_line", "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 3 3 3\nf 1 2 3 4\n",
@@ -179,36 +133,33 @@ INSTANTIATE_TEST_SUITE_P(All, ObjSpelling, ::testing::ValuesIn(c_spellings),
 // ---- Normals, positions, notes
 
 TEST(Obj, ACornerWithoutANormalHasTheNormalZero) {
-  const auto loaded = read(c_three + "vn 0 0 2\nvn .5 -.5 1e0\nf 1//1 2 3//-1\n");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(normals_of(*loaded), "0,0,2 0,0,0 0.5,-0.5,1 ");
+  const auto loaded = must(read(c_three + "vn 0 0 2\nvn .5 -.5 1e0\nf 1//1 2 3//-1\n"));
+  EXPECT_EQ(normals_of(loaded), "0,0,2 0,0,0 0.5,-0.5,1 ");
 }
 
 TEST(Obj, ThePartsOfAPolygonKeepTheirNormals) {
-  const auto loaded = read(c_square + "vn 1 0 0\nvn 2 0 0\nvn 3 0 0\nvn 4 0 0\nf 1//1 2//2 3//3 4//4\n");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(normals_of(*loaded), "1,0,0 2,0,0 3,0,0 1,0,0 3,0,0 4,0,0 ");
+  const auto loaded =
+      must(read(c_square + "vn 1 0 0\nvn 2 0 0\nvn 3 0 0\nvn 4 0 0\nf 1//1 2//2 3//3 4//4\n"));
+  EXPECT_EQ(normals_of(loaded), "1,0,0 2,0,0 3,0,0 1,0,0 3,0,0 4,0,0 ");
 }
 
 TEST(Obj, PositionsAreJoinedInTheOrderOfTheirUse) {
-  const auto loaded = read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv -0 0 -0\nv 0 1 0\nf 3 5 2\nf 4 3 5\n");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  ASSERT_EQ(loaded->mesh.positions.size(), 3u);
-  EXPECT_EQ(loaded->mesh.positions[0], glm::dvec3(1, 0, 0));
-  EXPECT_EQ(loaded->mesh.triangles[0].position, (std::array<std::uint32_t, 3>{0, 1, 2}));
-  EXPECT_EQ(loaded->mesh.triangles[1].position, (std::array<std::uint32_t, 3>{2, 0, 1}));
+  const auto loaded = must(read("v 9 9 9\nv 0 0 0\nv 1 0 0\nv -0 0 -0\nv 0 1 0\nf 3 5 2\nf 4 3 5\n"));
+  ASSERT_EQ(loaded.mesh.positions.size(), 3u);
+  EXPECT_EQ(loaded.mesh.positions[0], glm::dvec3(1, 0, 0));
+  EXPECT_EQ(loaded.mesh.triangles[0].position, (std::array<std::uint32_t, 3>{0, 1, 2}));
+  EXPECT_EQ(loaded.mesh.triangles[1].position, (std::array<std::uint32_t, 3>{2, 0, 1}));
 }
 
 TEST(Obj, NotesSayWhatIsLeftOut) {
-  const auto loaded = read(
+  const auto loaded = must(read(
       "usemap wood\nv 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nl 1 2\nf 1 2\ncstype bezier\ncurv 0 1 1 "
       "2\nend\n"
-      "f 1 2 4 2\nf 1 2 3\n");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->notes, (std::vector<std::string>{
-                               "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
-                               "a.obj: curves and surfaces are left out", "a.obj: textures are left out",
-                               "a.obj: vertex colours are left out"}));
+      "f 1 2 4 2\nf 1 2 3\n"));
+  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
+                              "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
+                              "a.obj: curves and surfaces are left out", "a.obj: textures are left out",
+                              "a.obj: vertex colours are left out"}));
 }
 
 TEST(Obj, MoreTrianglesThanTheLimitAreRefused) {
@@ -253,17 +204,16 @@ TEST(Obj, MaterialsAreThoseThatFacesUse) {
 }
 
 TEST(Obj, MaterialsAreNoted) {
-  const auto loaded = read("mtllib m.mtl\nf 1 2 3\nusemtl nowhere\n" + c_faces,
-                           {{"m.mtl", "newmtl a\nKs 1 1 1\nNs 0\nbump -bm 1 b.png\n"}});
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  ASSERT_EQ(loaded->mesh.materials.size(), 3u);
-  EXPECT_EQ(loaded->mesh.materials[0].name, "default");
-  EXPECT_EQ(loaded->mesh.materials[0].colour, glm::dvec3(0.6f));
-  EXPECT_EQ(loaded->mesh.materials[2].name, "b");
-  EXPECT_EQ(loaded->notes, (std::vector<std::string>{"a.obj: faces before the first usemtl are grey",
-                                                     "a.obj: material 'a': exponent 0 raised to 1",
-                                                     "a.obj: material 'a': textures are left out",
-                                                     "a.obj: material 'b' is not defined; it is grey"}));
+  const auto loaded = must(read("mtllib m.mtl\nf 1 2 3\nusemtl nowhere\n" + c_faces,
+                                {{"m.mtl", "newmtl a\nKs 1 1 1\nNs 0\nbump -bm 1 b.png\n"}}));
+  ASSERT_EQ(loaded.mesh.materials.size(), 3u);
+  EXPECT_EQ(loaded.mesh.materials[0].name, "default");
+  EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(0.6f));
+  EXPECT_EQ(loaded.mesh.materials[2].name, "b");
+  EXPECT_EQ(loaded.notes, (std::vector<std::string>{"a.obj: faces before the first usemtl are grey",
+                                                    "a.obj: material 'a': exponent 0 raised to 1",
+                                                    "a.obj: material 'a': textures are left out",
+                                                    "a.obj: material 'b' is not defined; it is grey"}));
 }
 
 TEST(Obj, NamesMayHaveBlanksAndNumberSigns) {
@@ -281,23 +231,21 @@ TEST(Obj, NamesMayHaveBlanksAndNumberSigns) {
 
 TEST(Obj, ALineMayNameSeveralLibraries) {
   const Libraries libraries{{"1.mtl", "newmtl a\nKd 1 0 0\n"}, {"2.mtl", "newmtl b\nKd 0 0 1\n"}};
-  const auto loaded = read("mtllib 1.mtl gone.mtl 2.mtl\n" + c_faces, libraries);
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->mesh.materials.at(0).colour, glm::dvec3(1, 0, 0));
-  EXPECT_EQ(loaded->mesh.materials.at(1).colour, glm::dvec3(0, 0, 1));
-  EXPECT_EQ(loaded->notes,
+  const auto loaded = must(read("mtllib 1.mtl gone.mtl 2.mtl\n" + c_faces, libraries));
+  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(loaded.mesh.materials.at(1).colour, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(loaded.notes,
             (std::vector<std::string>{
                 "a.obj: material library dir/gone.mtl cannot be read; its materials are grey"}));
 }
 
 TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
   for (const char* library : {"", "mtllib gone.mtl\n"}) {
-    const auto loaded = read(library + c_faces);
-    ASSERT_TRUE(loaded) << loaded.error().message;
-    ASSERT_EQ(loaded->mesh.materials.size(), 1u);
-    EXPECT_EQ(loaded->mesh.materials[0].name, "default");
-    EXPECT_EQ(loaded->mesh.materials[0].colour, glm::dvec3(1.0));
-    EXPECT_EQ(loaded->mesh.triangles[1].material, 0u);
+    const auto loaded = must(read(library + c_faces));
+    ASSERT_EQ(loaded.mesh.materials.size(), 1u);
+    EXPECT_EQ(loaded.mesh.materials[0].name, "default");
+    EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(1.0));
+    EXPECT_EQ(loaded.mesh.triangles[1].material, 0u);
   }
 }
 

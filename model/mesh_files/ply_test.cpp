@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "common/test/is_error.hpp"
 #include "mesh_files/test/spelling.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -63,7 +65,6 @@ std::string with_line_end(const std::string& text, const std::string& end) {
 
 const std::vector<Spelling> c_text = {
     {"plain", c_plain, c_triangle},
-    {"no_last_line_end", c_plain.substr(0, c_plain.size() - 1), c_triangle},
     {"crlf", with_line_end(c_plain, "\r\n"), c_triangle},
     {"cr", with_line_end(c_plain, "\r"), c_triangle},
     {"empty_lines", changed(c_plain, "1 0 0\n", "\n1 0 0 \n\t\n") + "\n \n", c_triangle},
@@ -73,27 +74,14 @@ const std::vector<Spelling> c_text = {
     // numbers
     {"dots_signs_exponents", vertices("+.5 -5. 1e1\n5.E-1 -.25e+1 -0\n007 1 0\n"),
      "0.5,-5,10 0.5,-2.5,0 7,1,0"},
-    {"tiny_is_zero", vertices("1e-999 0 0\n1 0 0\n0 1 0\n"), c_triangle},
     {"nan", vertices("0 0 0\n1 nan 0\n0 1 0\n"),
      "! a.ply:11: vertex 1: 'nan' is not finite; correct the number"},
-    {"infinity", vertices("0 0 0\n1 0 -inf\n0 1 0\n"),
-     "! a.ply:11: vertex 1: '-inf' is not finite; correct the number"},
-    {"too_large", vertices("0 0 0\n1 0 1e39\n0 1 0\n"),
-     "! a.ply:11: vertex 1: '1e39' is too large; correct the number"},
     {"word", vertices("0 0 zero\n1 0 0\n0 1 0\n"),
      "! a.ply:10: vertex 0: 'zero' is not a number; correct the number"},
-    {"comma", vertices("0,5 0 0\n1 0 0\n0 1 0\n"),
-     "! a.ply:10: vertex 0: '0,5' is not a number; correct the number"},
     {"number_missing", vertices("0 0 0\n1 0\n0 1 0\n"),
      "! a.ply:11: vertex 1: z is missing at the end of the line; add it"},
     {"number_too_many", vertices("0 0 0\n1 0 0 7\n0 1 0\n"),
      "! a.ply:11: vertex 1: '7' follows its last number; remove it"},
-    {"comment_after_data", vertices("0 0 0\n1 0 0 # 7\n0 1 0\n"),
-     "! a.ply:11: vertex 1: '#' follows its last number; remove it"},
-    {"comment_in_data", vertices("0 0 0\ncomment 7\n1 0 0\n0 1 0\n"),
-     "! a.ply:11: vertex 1: 'comment' is not a number; correct the number"},
-    {"continued", vertices("0 0 0\n1 0 \\\n0\n0 1 0\n"),
-     "! a.ply:11: vertex 1: '\\' is not a number; correct the number"},
 
     // types
     {"doubles", changed(vertices("0 0 0\n0.1 0 0\n0 1 0\n"), "float x", "double x"),
@@ -107,8 +95,6 @@ const std::vector<Spelling> c_text = {
      "! a.ply:11: vertex 1: '1.5' is not an integer; correct it, or the type in the header"},
     {"negative_as_unsigned", changed(vertices("0 0 0\n-1 0 0\n0 1 0\n"), "float x", "uchar x"),
      "! a.ply:11: vertex 1: '-1' is out of the range of its type; correct it, or the type in the header"},
-    {"beyond_char", changed(vertices("0 0 0\n128 0 0\n0 1 0\n"), "float x", "char x"),
-     "! a.ply:11: vertex 1: '128' is out of the range of its type; correct it, or the type in the header"},
     {"least_char", changed(vertices("-128 0 0\n127 0 0\n0 1 0\n"), "float x", "char x"),
      "-128,0,0 127,0,0 0,1,0"},
 
@@ -116,31 +102,19 @@ const std::vector<Spelling> c_text = {
     {"vertex_index", changed(c_plain, "vertex_indices", "vertex_index"), c_triangle},
     {"index_1.5", face("3 0 1.5 2"),
      "! a.ply:13: face 0: '1.5' is not an integer; correct it, or the type in the header"},
-    {"index_1.0", face("3 0 1.0 2"),
-     "! a.ply:13: face 0: '1.0' is not an integer; correct it, or the type in the header"},
     {"index_negative", face("3 0 1 -1"),
      "! a.ply:13: face 0: its corner is vertex -1, but the file has 3, counted from 0; correct the index"},
     {"index_beyond", face("3 0 1 3"),
      "! a.ply:13: face 0: its corner is vertex 3, but the file has 3, counted from 0; correct the index"},
-    {"index_beyond_32_bits", face("3 0 1 4294967296"),
-     "! a.ply:13: face 0: '4294967296' is out of the range of its type; correct it, or the type in the "
-     "header"},
-    {"index_beyond_64_bits", face("3 0 1 18446744073709551616"),
-     "! a.ply:13: face 0: '18446744073709551616' is out of the range of its type; correct it, or the type in "
-     "the header"},
     {"corner_missing", face("3 0 1"),
      "! a.ply:13: face 0: vertex_indices is missing at the end of the line; add it"},
     {"corner_too_many", face("3 0 1 2 0"), "! a.ply:13: face 0: '0' follows its last number; remove it"},
     {"length_negative", changed(face("-3 0 1 2"), "uchar int", "char int"),
      "! a.ply:13: face 0: a list of -3 values; correct it"},
-    {"length_of_word", face("three 0 1 2"),
-     "! a.ply:13: face 0: 'three' is not an integer; correct it, or the type in the header"},
 
     // polygons
-    {"square", polygon("0 0 0\n4 0 0\n4 4 0\n0 4 0\n"), "0,0,0 4,0,0 4,4,0; 0,0,0 4,4,0 0,4,0"},
     {"notch", polygon("0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n"),
      "4,0,0 4,4,0 2,1,0; 2,1,0 0,4,0 0,0,0; 2,1,0 0,0,0 4,0,0"},
-    {"corner_on_an_edge", polygon("0 0 0\n2 0 0\n4 0 0\n0 4 0\n"), "0,4,0 0,0,0 2,0,0; 0,4,0 2,0,0 4,0,0"},
     {"bow_tie", polygon("0 0 0\n4 4 0\n4 0 0\n0 4 0\n"),
      "! a.ply:14: face 0: the outline of the face crosses itself; divide the face into triangles"},
     {"polygon_on_a_line", polygon("0 0 0\n1 1 1\n2 2 2\n3 3 3\n"),
@@ -156,10 +130,6 @@ const std::vector<Spelling> c_text = {
     {"strip_beyond", strips("3 0 1 5"),
      "! a.ply:15: tristrips 0: its corner is vertex 5, but the file has 5, counted from 0; correct the "
      "index"},
-    {"strip_of_minus_2", strips("3 0 1 -2"),
-     "! a.ply:15: tristrips 0: its corner is vertex -2, but the file has 5, counted from 0; correct the "
-     "index"},
-    {"strip_of_two", strips("2 0 1"), "! a.ply: the mesh has no faces; export it with faces"},
     {"face_with_minus_1_is_no_strip", face("4 0 1 2 -1"),
      "! a.ply:13: face 0: its corner is vertex -1, but the file has 3, counted from 0; correct the index"},
 
@@ -169,10 +139,6 @@ const std::vector<Spelling> c_text = {
      "wrong; export it again"},
     {"item_too_many", c_plain + "3 2 1 0\n",
      "! a.ply:14: '3' follows the last element; correct the counts in the header, or remove it"},
-    {"vertex_too_many", changed(c_plain, "vertex 3", "vertex 2"),
-     "! a.ply:12: face 0: '1' follows its last number; remove it"},
-    {"trailing_words", c_plain + "\nend of file\n",
-     "! a.ply:15: 'end' follows the last element; correct the counts in the header, or remove it"},
     {"no_vertices", changed(changed(c_plain, "vertex 3", "vertex 0"), c_vertices, ""),
      "! a.ply:10: face 0: its corner is vertex 0, but the file has 0, counted from 0; correct the index"},
     {"no_faces", changed(changed(c_plain, "face 1", "face 0"), "3 0 1 2\n", ""),
@@ -199,7 +165,6 @@ const std::vector<Spelling> c_text = {
      changed(changed(c_plain, "end_header", "property char a\nend_header"), "3 0 1 2", "3 0 1 2 x"),
      "! a.ply:14: face 0: 'x' is not an integer; correct it, or the type in the header"},
     {"not_ply", "plyx\n", "! a.ply:1: not a PLY file: its first line is not 'ply'; export it again"},
-    {"more_than_ply", "ply 1\n", "! a.ply:1: not a PLY file: its first line is not 'ply'; export it again"},
     {"no_format", changed(c_plain, "format ascii 1.0\n", ""),
      "! a.ply:8: the PLY header names no format; export the file again"},
     {"two_formats", c_format + "format ascii 1.0\n", "! a.ply:3: a second format; remove it"},
@@ -217,11 +182,6 @@ const std::vector<Spelling> c_text = {
      "! a.ply:4: 'y' at the end of a property line; remove it"},
     {"count_of_word", c_format + "element vertex three\n",
      "! a.ply:3: 'three' is not a count of items; correct it"},
-    {"count_negative", c_format + "element vertex -3\n",
-     "! a.ply:3: '-3' is not a count of items; correct it"},
-    {"count_of_fraction", c_format + "element vertex 3.0\n",
-     "! a.ply:3: '3.0' is not a count of items; correct it"},
-    {"count_missing", c_format + "element vertex\n", "! a.ply:3: '' is not a count of items; correct it"},
     {"count_beyond_64_bits", c_format + "element vertex 18446744073709551616\n",
      "! a.ply:3: '18446744073709551616' is not a count of items; correct it"},
     {"vertices_beyond_the_limit", c_format + "element vertex 30000001\n",
@@ -240,8 +200,6 @@ const std::vector<Spelling> c_text = {
      "! a.ply:8: 'float' is not a type for the length of a list; correct it"},
     {"corners_of_float", changed(c_plain, "uchar int", "uchar float"),
      "! a.ply:8: vertex_indices is not a list of integers; correct it"},
-    {"corners_no_list", changed(c_plain, "list uchar int", "int"),
-     "! a.ply:8: vertex_indices is not a list of integers; correct it"},
     {"two_corner_lists", changed(c_plain, c_corners, c_corners + "property list uchar int vertex_index\n"),
      "! a.ply:9: a second list of corners; remove it"},
     {"no_corners", changed(c_plain, "vertex_indices", "indices"),
@@ -252,8 +210,6 @@ const std::vector<Spelling> c_text = {
      "! a.ply:5: a second property 'x' of 'vertex'; rename or remove it"},
     {"missing_z", changed(c_plain, "property float z\n", ""),
      "! a.ply:3: vertices have no property z; export the file again"},
-    {"capital_x", changed(c_plain, "float x", "float X"),
-     "! a.ply:3: vertices have no property x; export the file again"},
     {"nameless", changed(c_plain, "float x", "float"), "! a.ply:4: a property without a name; give it one"},
     {"normals_without_nz",
      changed(c_plain, "element face", "property float nx\nproperty float ny\nelement face"),
@@ -329,14 +285,9 @@ const std::vector<Spelling> c_binary = {
     {"all_types_big", all_types(true), "0,0,0 -300,0.5,-70000 -600,1,70000"},
     {"nan", binary(false, "\n", c_nan),
      at_byte(binary(false), 12, "vertex 1: x is not finite, or too large; correct it")},
-    {"infinity", binary(true, "\n", -c_infinity),
-     at_byte(binary(true), 12, "vertex 1: x is not finite, or too large; correct it")},
     {"index_beyond", binary(false, "\n", 1, 3),
      at_byte(binary(false), 49,
              "face 0: its corner is vertex 3, but the file has 3, counted from 0; correct the index")},
-    {"index_negative", binary(true, "\n", 1, -2),
-     at_byte(binary(true), 49,
-             "face 0: its corner is vertex -2, but the file has 3, counted from 0; correct the index")},
     {"wrong_byte_order", changed(binary(true), "big", "little"),
      at_byte(binary(false), 45,
              "face 0: its corner is vertex 16777216, but the file has 3, counted from 0; correct the index")},
@@ -347,10 +298,6 @@ const std::vector<Spelling> c_binary = {
      at_byte(binary(false), 45,
              "the file ends at item 0 of 1 of 'face'; it is truncated, or the count in its "
              "header is wrong; export it again")},
-    {"no_data", binary(false).substr(0, start(binary(false))),
-     at_byte(binary(false), 0,
-             "the file ends at item 0 of 3 of 'vertex'; it is truncated, or the count in its "
-             "header is wrong; export it again")},
     {"ends_in_end_header", binary(false).substr(0, start(binary(false)) - 1),
      at_byte(binary(false), -1,
              "the file ends at item 0 of 3 of 'vertex'; it is truncated, or the count in its "
@@ -359,9 +306,6 @@ const std::vector<Spelling> c_binary = {
      at_byte(binary(false), 49,
              "the file ends at item 1 of 2 of 'face'; it is truncated, or the count in its "
              "header is wrong; export it again")},
-    {"vertex_too_many", changed(binary(false), "vertex 3", "vertex 2"),
-     at_byte(binary(false), 25,
-             "24 bytes follow the last element; correct the counts in the header, or remove them")},
 };
 
 INSTANTIATE_TEST_SUITE_P(Binary, PlySpelling, ::testing::ValuesIn(c_binary), name_of);
@@ -379,13 +323,12 @@ TEST(Ply, NormalsOfVerticesAreThoseOfTheirCorners) {
 }
 
 TEST(Ply, WithoutNormalsCornersHaveTheNormalZero) {
-  const auto loaded = read_ply(c_plain, "a.ply");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(normals_of(*loaded), "0,0,0 0,0,0 0,0,0 ");
-  EXPECT_EQ(loaded->default_crease_degrees, c_smooth_crease_degrees);
-  ASSERT_EQ(loaded->mesh.materials.size(), 1u);
-  EXPECT_EQ(loaded->mesh.materials[0].name, "default");
-  EXPECT_TRUE(loaded->notes.empty());
+  const auto loaded = must(read_ply(c_plain, "a.ply"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 ");
+  EXPECT_EQ(loaded.default_crease_degrees, c_smooth_crease_degrees);
+  ASSERT_EQ(loaded.mesh.materials.size(), 1u);
+  EXPECT_EQ(loaded.mesh.materials[0].name, "default");
+  EXPECT_TRUE(loaded.notes.empty());
 }
 
 TEST(Ply, NotesSayWhatIsLeftOut) {
@@ -411,11 +354,8 @@ TEST(Ply, MoreTrianglesThanTheLimitAreRefused) {
     text += little_endian(number);
   text += little_endian(corners);
   for (std::uint32_t i = 0; i < corners; ++i) text += little_endian(i % 5);
-  const auto loaded = read_ply(text, "a.ply");
-  ASSERT_FALSE(loaded);
-  EXPECT_NE(loaded.error().message.find("tristrips 0: more than 10000000 triangles; reduce the mesh"),
-            std::string::npos)
-      << loaded.error().message;
+  EXPECT_TRUE(
+      is_error(read_ply(text, "a.ply"), "tristrips 0: more than 10000000 triangles; reduce the mesh"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh_files/test/spelling.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -35,7 +36,6 @@ std::string changed(std::string text, const std::string& what, const std::string
 
 const std::vector<Spelling> c_text = {
     {"plain", solid(c_facet), c_triangle},
-    {"no_last_line_end", "solid\n" + c_facet + "endsolid", c_triangle},
     {"blanks_first", " \n\t" + solid(c_facet), c_triangle},
     {"byte_order_mark", "\xef\xbb\xbf" + solid(c_facet), c_triangle},
     {"name_of_keywords", "solid facet # normal \\\n" + c_facet + "endsolid solid facet\n", c_triangle},
@@ -47,60 +47,32 @@ const std::vector<Spelling> c_text = {
     {"one_line",
      "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid",
      c_triangle},
-    {"crlf",
-     "solid a\r\nfacet normal 0 0 1\r\nouter loop\r\nvertex 0 0 0\r\nvertex 1 0 0\r\nvertex 0 1 0\r\n"
-     "endloop\r\nendfacet\r\nendsolid a\r\n",
-     c_triangle},
     {"numbers", solid(changed(c_two, "1 0 0", "+.5 -5. 1E-1") + "vertex 1e1 -0 0005\n" + c_end),
      fmt::format("0,0,0 0.5,-5,{} 10,0,5", static_cast<double>(0.1f))},
     {"normal_of_nan", solid(changed(c_facet, "normal 0 0 1", "normal nan -NaN inf")), c_triangle},
 
-    {"normal_of_words", solid(changed(c_facet, "normal 0 0 1", "normal 0 0 up")),
-     "! a.stl:2: facet 1: 'up' is not a number; correct the number"},
     {"no_normal", solid(changed(c_facet, " normal 0 0 1", "")),
      "! a.stl:3: 'outer' instead of 'normal'; correct the line"},
-    {"short_normal", solid(changed(c_facet, "0 0 1", "0 0")),
-     "! a.stl:3: facet 1: 'outer' is not a number; correct the number"},
-    {"long_normal", solid(changed(c_facet, "0 0 1", "0 0 1 0")),
-     "! a.stl:2: '0' instead of 'outer'; correct the line"},
     {"garbage_line", solid(changed(c_facet, "vertex 0 1 0", "nonsense\nvertex 0 1 0")),
      "! a.stl:6: 'nonsense' instead of 'vertex'; correct the line"},
     {"garbage_between_facets", solid(c_facet + "nonsense\n" + c_facet),
      "! a.stl:9: 'nonsense' instead of 'facet' or 'endsolid'; correct the line"},
     {"garbage_after_the_end", solid(c_facet) + "nonsense\n",
      "! a.stl:10: 'nonsense' instead of 'solid'; correct the line"},
-    {"garbage_after_a_vertex", solid(changed(c_facet, "1 0 0", "1 0 0 7")),
-     "! a.stl:5: '7' instead of 'vertex'; correct the line"},
-    {"comment", solid(changed(c_facet, "1 0 0", "1 0 0 # 7")),
-     "! a.stl:5: '#' instead of 'vertex'; correct the line"},
     {"misspelt", solid(changed(c_facet, "vertex 1", "vertx 1")),
      "! a.stl:5: 'vertx' instead of 'vertex'; correct the line"},
-    {"long_word", solid(changed(c_facet, "vertex 1", "vertexvertexvertexvertex 1")),
-     "! a.stl:5: 'vertexvertexvertexvertex' instead of 'vertex'; correct the line"},
     {"missing_z", solid(changed(c_facet, "1 0 0", "1 0")),
      "! a.stl:6: facet 1: 'vertex' is not a number; correct the number"},
-    {"two_dots", solid(changed(c_facet, "1 0 0", "1.0.0 0 0")),
-     "! a.stl:5: facet 1: '1.0.0' is not a number; correct the number"},
-    {"comma", solid(changed(c_facet, "1 0 0", "1,5 0 0")),
-     "! a.stl:5: facet 1: '1,5' is not a number; correct the number"},
     {"nan", solid(changed(c_facet, "1 0 0", "1 nan 0")),
      "! a.stl:5: facet 1: 'nan' is not finite; correct the number"},
-    {"infinity", solid(c_facet + changed(c_facet, "0 1 0", "0 1 -inf")),
-     "! a.stl:13: facet 2: '-inf' is not finite; correct the number"},
-    {"too_large", solid(changed(c_facet, "1 0 0", "1e39 0 0")),
-     "! a.stl:5: facet 1: '1e39' is too large; correct the number"},
-    {"two_vertices", solid(c_two + c_end), "! a.stl:6: 'endloop' instead of 'vertex'; correct the line"},
     {"four_vertices", solid(c_two + "vertex 0 1 0\nvertex 1 1 0\n" + c_end),
      "! a.stl:7: facet 1 has more than 3 vertices; divide it into triangles"},
-    {"nested_facet", solid(c_two + c_facet), "! a.stl:6: 'facet' instead of 'vertex'; correct the line"},
     {"no_endloop", solid(changed(c_facet, "endloop\n", "")),
      "! a.stl:7: 'endfacet' instead of 'endloop'; correct the line"},
     {"no_endsolid", "solid a\n" + c_facet,
      "! a.stl:9: the file ends where 'facet' or 'endsolid' must follow; it is truncated, export it again"},
     {"ends_in_a_facet", "solid a\n" + c_two,
      "! a.stl:6: the file ends where 'vertex' must follow; it is truncated, export it again"},
-    {"ends_in_a_vertex", "solid a\n" + c_two + "vertex 0 1",
-     "! a.stl:6: the file ends where a number must follow; it is truncated, export it again"},
     {"zero_byte", solid(c_facet + std::string(1, '\0')),
      "! a.stl:9: '?endsolid' instead of 'facet' or 'endsolid'; correct the line"},
     {"empty", solid(""), "! a.stl: the mesh has no faces; export it with faces"},
@@ -134,25 +106,11 @@ const std::vector<Spelling> c_binary = {
     {"count_too_large", binary(2, {1}),
      "! a.stl: not an STL file, or damaged: its header (byte 80) requires 2 facets and so 184 bytes, it has "
      "134; export it again"},
-    {"count_too_small", binary(1, {1, 1}),
-     "! a.stl: not an STL file, or damaged: its header (byte 80) requires 1 facets and so 134 bytes, it has "
-     "184; export it again"},
-    {"trailing_byte", binary(1, {1}) + "x",
-     "! a.stl: not an STL file, or damaged: its header (byte 80) requires 1 facets and so 134 bytes, it has "
-     "135; export it again"},
     {"largest_count", binary(UINT32_MAX, {1}),
      "! a.stl: not an STL file, or damaged: its header (byte 80) requires 4294967295 facets and so "
      "214748364834 bytes, it has 134; export it again"},
-    {"truncated_after_solid", binary(2, {1}, "solid a"),
-     "! a.stl: not an STL file, or damaged: its header (byte 80) requires 2 facets and so 184 bytes, it has "
-     "134; export it again"},
-    {"big_endian", changed(binary(1, {1}), std::string("\1\0\0\0", 4), std::string("\0\0\0\1", 4)),
-     "! a.stl: not an STL file, or damaged: its header (byte 80) requires 16777216 facets and so 838860884 "
-     "bytes, it has 134; export it again"},
     {"nan", binary(2, {1, std::numeric_limits<float>::quiet_NaN()}),
      "! a.stl: facet 2 (byte 158): vertex 2 has a coordinate that is not finite; correct it"},
-    {"infinity", binary(1, {std::numeric_limits<float>::infinity()}),
-     "! a.stl: facet 1 (byte 108): vertex 2 has a coordinate that is not finite; correct it"},
     {"no_facets", binary(0, {}), "! a.stl: the mesh has no faces; export it with faces"},
 };
 
@@ -160,25 +118,22 @@ INSTANTIATE_TEST_SUITE_P(Binary, StlSpelling, ::testing::ValuesIn(c_binary),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Stl, HasTheDefaultMaterialAndCrease) {
-  const auto loaded = read_stl(solid(c_facet), "a.stl");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->default_crease_degrees, c_stl_crease_degrees);
-  ASSERT_EQ(loaded->mesh.materials.size(), 1u);
-  EXPECT_EQ(loaded->mesh.materials[0].name, "default");
-  EXPECT_EQ(normals_of(*loaded), "0,0,0 0,0,0 0,0,0 ");
-  EXPECT_TRUE(loaded->notes.empty());
+  const auto loaded = must(read_stl(solid(c_facet), "a.stl"));
+  EXPECT_EQ(loaded.default_crease_degrees, c_stl_crease_degrees);
+  ASSERT_EQ(loaded.mesh.materials.size(), 1u);
+  EXPECT_EQ(loaded.mesh.materials[0].name, "default");
+  EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 ");
+  EXPECT_TRUE(loaded.notes.empty());
 }
 
 TEST(Stl, PositionsAreJoined) {
-  const auto loaded = read_stl(binary(2, {1, 2}), "a.stl");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->mesh.positions.size(), 4u);
+  const auto loaded = must(read_stl(binary(2, {1, 2}), "a.stl"));
+  EXPECT_EQ(loaded.mesh.positions.size(), 4u);
 }
 
 TEST(Stl, ColoursOfFacetsAreNoted) {
-  const auto loaded = read_stl(binary(1, {1}, "", 0x801f), "a.stl");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->notes, std::vector<std::string>{"a.stl: colours of facets are left out"});
+  const auto loaded = must(read_stl(binary(1, {1}, "", 0x801f), "a.stl"));
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{"a.stl: colours of facets are left out"});
 }
 
 TEST(Stl, MoreTrianglesThanTheLimitAreRefused) {

@@ -181,44 +181,6 @@ TEST(Triangulate, TrianglesAreAppended) {
   EXPECT_EQ(triangles[0], (Triangulator::Triangle{7, 8, 9}));
 }
 
-TEST(Triangulate, ANotchWithItsReflexCornerOnADiagonalStaysOpen) {
-  // The corner (2, 2) lies on the diagonal from (0, 0) to (4, 4).
-  expect_divides({{0, 0}, {4, 0}, {4, 4}, {2, 2}, {0, 4}});
-  expect_divides({{0, 0}, {2, 2}, {4, 0}, {4, 4}, {0, 4}});
-  // An arrow head, in each order.
-  Outline arrow{{0, 0}, {4, 0}, {1, 1}, {0, 4}};
-  for (int turn = 0; turn < 4; ++turn) {
-    expect_divides(arrow);
-    std::rotate(arrow.begin(), arrow.begin() + 1, arrow.end());
-  }
-}
-
-TEST(Triangulate, CornersOnStraightEdgesAreInUse) {
-  expect_divides({{0, 0}, {1, 0}, {2, 0}, {0, 2}});
-  expect_divides({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 2}, {3, 3}, {2, 2}, {1, 1}});
-  // A comb: many reflex corners on one line.
-  expect_divides({{0, 0},
-                  {12, 0},
-                  {12, 4},
-                  {11, 1},
-                  {10, 4},
-                  {9, 1},
-                  {8, 4},
-                  {7, 1},
-                  {6, 4},
-                  {5, 1},
-                  {4, 4},
-                  {3, 1},
-                  {2, 4},
-                  {1, 1},
-                  {0, 4}});
-}
-
-TEST(Triangulate, ASpiralIsDivided) {
-  expect_divides(
-      {{0, 0}, {10, 0}, {10, 10}, {2, 10}, {2, 4}, {6, 4}, {6, 6}, {4, 6}, {4, 8}, {8, 8}, {8, 2}, {0, 2}});
-}
-
 TEST(Triangulate, RepeatedCornersCountOnce) {
   Triangles triangles;
   EXPECT_EQ(divide({{0, 0}, {4, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}}, triangles), PolygonKind::divided);
@@ -251,45 +213,6 @@ TEST(Triangulate, AnOutlineThatCrossesItselfIsRefused) {
     EXPECT_EQ(divide(outline, triangles), PolygonKind::crossing) << text_of(outline);
     EXPECT_TRUE(triangles.empty());
   }
-}
-
-TEST(Triangulate, AHoleWithABridgeStaysOpen) {
-  // A square, a bridge to a smaller square, around it clockwise, and back.
-  const Outline outline{{0, 0}, {9, 0}, {9, 9}, {0, 9}, {0, 0}, {3, 3}, {3, 6}, {6, 6}, {6, 3}, {3, 3}};
-  expect_divides(outline, true);
-  EXPECT_EQ(area(outline), 2 * (81 - 9));
-  // Two holes on bridges from the same corner, one of them collinear with an edge of the other.
-  expect_divides({{0, 0},
-                  {9, 0},
-                  {9, 9},
-                  {0, 9},
-                  {0, 0},
-                  {2, 4},
-                  {2, 6},
-                  {4, 6},
-                  {4, 4},
-                  {2, 4},
-                  {0, 0},
-                  {5, 1},
-                  {5, 3},
-                  {7, 3},
-                  {7, 1},
-                  {5, 1}},
-                 true);
-}
-
-TEST(Triangulate, PartsThatTouchAtCornersAreDivided) {
-  expect_divides({{0, 1}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {0, 2}}, true);
-  expect_divides({{1, 1}, {2, 3}, {2, 2}, {2, 1}, {3, 1}, {2, 3}, {1, 3}}, true);
-  expect_divides({{2, 2}, {1, 1}, {2, 1}, {2, 2}, {2, 0}, {1, 1}, {1, 2}}, true);
-  expect_divides({{1, 1}, {1, 0}, {2, 0}, {1, 2}, {0, 2}, {0, 1}, {1, 2}}, true);
-}
-
-TEST(Triangulate, ASpikeHasNoArea) {
-  Triangles triangles;
-  const Outline outline{{0, 0}, {4, 0}, {6, 0}, {4, 0}, {4, 4}, {0, 4}};
-  ASSERT_EQ(divide(outline, triangles), PolygonKind::divided);
-  expect_divided(outline, triangles, true);
 }
 
 TEST(Triangulate, ASkewQuadIsDividedInItsLargestProjection) {
@@ -377,17 +300,6 @@ TEST(Triangulate, DividesRandomOutlinesOnSmallAndLargeLattices) {
     ASSERT_NO_FATAL_FAILURE(expect_divides(outline));
   }
   EXPECT_GT(divided, 400);
-}
-
-TEST(Triangulate, DividesRandomOutlinesWithManyCorners) {
-  std::mt19937 random(4);
-  for (int trial = 0; trial < 3; ++trial) {
-    const Outline outline = random_simple(random, 80, 4000);
-    ASSERT_FALSE(outline.empty());
-    Triangles triangles;
-    ASSERT_EQ(divide(outline, triangles), PolygonKind::divided);
-    ASSERT_NO_FATAL_FAILURE(expect_divided(outline, triangles));
-  }
 }
 
 /// The least and the greatest winding number of an outline on the lattice 0 .. size - 1, from points between

@@ -11,6 +11,7 @@
 
 #include "mesh_files/test/spelling.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -75,14 +76,10 @@ const std::vector<Spelling> c_spellings = {
     {"byte_order_mark", "\xef\xbb\xbf" + with({}), c_triangle},
 
     // modes
-    {"list", with({{"/accessors/0/count", 3}, {"/meshes/0/primitives/0/indices", nullptr}}), c_triangle},
     {"strip", with({{"/meshes/0/primitives/0/mode", 5}, {"/accessors/1/count", 4}}),
      c_triangle + "; 0,1,0 1,0,0 1,1,0"},
     {"fan", with({{"/meshes/0/primitives/0/mode", 6}, {"/accessors/1/count", 4}}),
      c_triangle + "; 0,0,0 0,1,0 1,1,0"},
-    {"strip_without_indices",
-     with({{"/meshes/0/primitives/0/mode", 5}, {"/meshes/0/primitives/0/indices", nullptr}}),
-     c_triangle + "; 0,1,0 1,0,0 1,1,0"},
     {"lines", with({{"/meshes/0/primitives/0/mode", 1}}),
      "! a.gltf: the mesh has no faces; export it with faces"},
     {"mode_7", with({{"/meshes/0/primitives/0/mode", 7}}),
@@ -103,24 +100,12 @@ const std::vector<Spelling> c_spellings = {
     {"offset_beyond", with({{"/accessors/0/byteOffset", 4}}),
      "! a.gltf: accessors[0]: 4 items of 12 bytes end after the buffer view of 48 bytes; export the file "
      "again"},
-    {"offset_beyond_64_bits", with({{"/accessors/0/byteOffset", UINT64_MAX}}),
-     "! a.gltf: accessors[0]: 4 items of 12 bytes end after the buffer view of 48 bytes; export the file "
-     "again"},
     {"count_0", with({{"/accessors/1/count", 0}}),
      "! a.gltf: accessors[1].count: 0, not 1 to 30000000; correct the mesh"},
-    {"count_negative", with({{"/accessors/1/count", -3}}),
-     "! a.gltf: accessors[1].count: is not a whole number from 0; correct it"},
     {"count_3.5", with({{"/accessors/1/count", 3.5}}),
      "! a.gltf: accessors[1].count: is not a whole number from 0; correct it"},
-    {"count_of_word", with({{"/accessors/1/count", "3"}}),
-     "! a.gltf: accessors[1].count: is not a whole number from 0; correct it"},
-    {"count_huge_without_a_view",
-     with({{"/accessors/1/count", 4000000000u}, {"/accessors/1/bufferView", nullptr}}),
-     "! a.gltf: accessors[1].count: 4000000000, not 1 to 30000000; correct the mesh"},
     {"indices_of_float", with({{"/accessors/1/componentType", 5126}}),
      "! a.gltf: accessors[1].componentType: 5126 is not an unsigned integer; export the file again"},
-    {"indices_signed", with({{"/accessors/1/componentType", 5122}}),
-     "! a.gltf: accessors[1].componentType: 5122 is not an unsigned integer; export the file again"},
     {"positions_quantized", with({{"/accessors/0/componentType", 5123}}),
      "! a.gltf: accessors[0].componentType: 5123 is not float (5126), as "
      "meshes[0].primitives[0].attributes.POSITION requires; export the file without quantization"},
@@ -130,35 +115,19 @@ const std::vector<Spelling> c_spellings = {
      "export the file again"},
     {"other_component_type", with({{"/accessors/0/componentType", 5130}}),
      "! a.gltf: accessors[0].componentType: 5130 is not a type of glTF; export the file again"},
-    {"accessor_beyond", with({{"/meshes/0/primitives/0/indices", 2}}),
-     "! a.gltf: meshes[0].primitives[0].indices: is 2, but the file has 2, counted from 0; correct the "
-     "index"},
-    {"view_beyond", with({{"/accessors/0/bufferView", 4}}),
-     "! a.gltf: accessors[0].bufferView: is 4, but the file has 4, counted from 0; correct the index"},
     {"view_after_its_buffer", with({{"/bufferViews/1/byteLength", 29}}),
      "! a.gltf: bufferViews[1]: ends after its buffer of 76 bytes; export the file again"},
-    {"stride",
-     with({{"/bufferViews/0/byteStride", 24},
-           {"/accessors/0/count", 2},
-           {"/meshes/0/primitives/0/indices", nullptr}}),
-     "! a.gltf: meshes[0].primitives[0]: 2 corners are not whole triangles; export the file again"},
     {"interleaved",
      with({{"/bufferViews/0/byteStride", 16}, {"/bufferViews/0/byteLength", 44}, {"/accessors/0/count", 3}}),
      "0,0,0 0,0,0 0,1,1"},
     {"stride_too_small", with({{"/bufferViews/0/byteStride", 8}}),
      "! a.gltf: bufferViews[0].byteStride: is 8 for items of 12 bytes; correct it"},
-    {"stride_of_indices", with({{"/bufferViews/1/byteStride", 4}}),
-     "! a.gltf: bufferViews[1].byteStride: is 4 for items of 2 bytes; correct it"},
     {"sparse", with({{"/accessors/0/sparse", c_sparse}}), "0,0,0 1,0,0 5,6,7"},
     {"sparse_of_zeros", with({{"/accessors/0/sparse", c_sparse}, {"/accessors/0/bufferView", nullptr}}),
      "0,0,0 0,0,0 5,6,7"},
     {"sparse_beyond",
      with({{"/accessors/0/sparse", c_sparse}, {"/accessors/0/sparse/indices/byteOffset", 3}}),
      "! a.gltf: accessors[0].sparse.indices: index 0 is 9, but the accessor has 4 items; correct it"},
-    {"sparse_after_its_view", with({{"/accessors/0/sparse", c_sparse}, {"/accessors/0/sparse/count", 2}}),
-     "! a.gltf: accessors[0].sparse.values: 2 items of 12 bytes end after the buffer view of 12 bytes; "
-     "export the "
-     "file again"},
     {"nan", plain(std::string("\0\0\xc0\x7f", 4) + buffer().substr(4)).dump(),
      "! a.gltf: accessors[0]: vector 0 has a number that is not finite; correct it"},
     {"normals_missing_some",
@@ -181,10 +150,6 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: buffers[0].uri: 'https://example.com/a.bin' is an address; store the buffer in a file next "
      "to "
      "this one"},
-    {"up", with({{"/buffers/0/uri", "b/../../a.bin"}}),
-     "! a.gltf: buffers[0].uri: 'b/../../a.bin' is outside of the file's folder; move the buffer next to "
-     "this "
-     "file"},
     {"up_encoded", with({{"/buffers/0/uri", "%2e%2E/a.bin"}}),
      "! a.gltf: buffers[0].uri: '../a.bin' is outside of the file's folder; move the buffer next to this "
      "file"},
@@ -211,17 +176,8 @@ const std::vector<Spelling> c_spellings = {
     {"children", with({{"/nodes", json::parse(R"([{"children":[1],"translation":[1,0,0]},
                                                   {"mesh":0,"translation":[0,1,0]}])")}}),
      "1,1,0 2,1,0 1,2,0"},
-    {"mesh_twice",
-     with({{"/nodes", json::parse(R"([{"children":[1],"mesh":0},{"mesh":0,"translation":[0,0,1]}])")}}),
-     c_triangle + "; 0,0,1 1,0,1 0,1,1"},
-    {"translation_of_word", with({{"/nodes/0/translation", {1, 2, "3"}}}),
-     "! a.gltf: nodes[0].translation[2]: is not a number; correct it"},
     {"translation_of_two", with({{"/nodes/0/translation", {1, 2}}}),
      "! a.gltf: nodes[0].translation: has 2 numbers, not 3; correct it"},
-    {"mesh_of_word", with({{"/nodes/0/mesh", "0"}}),
-     "! a.gltf: nodes[0].mesh: is not a whole number from 0; correct it"},
-    {"mesh_beyond", with({{"/nodes/0/mesh", 1}}),
-     "! a.gltf: nodes[0].mesh: is 1, but the file has 1, counted from 0; correct the index"},
     {"scale_0", with({{"/nodes/0/scale", {1, 0, 1}}}),
      "! a.gltf: nodes[0]: its transform has no inverse; correct its scale, or remove the node"},
     {"translation_huge", with({{"/nodes/0/translation", {1e300, 0, 0}}}),
@@ -230,14 +186,8 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: nodes[0].rotation: has the length 0, not 1; correct it"},
     {"perspective", with({{"/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
      "! a.gltf: nodes[0].matrix: its last row is not 0 0 0 1; export the file again"},
-    {"matrix_and_scale",
-     with({{"/nodes/0/matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
-           {"/nodes/0/scale", {2, 2, 2}}}),
-     "! a.gltf: nodes[0]: has both a matrix and translation, rotation or scale; remove one"},
     {"node_in_a_circle", with({{"/nodes/0/children", {0}}}),
      "! a.gltf: nodes[0]: is reached twice; export the file with a tree of nodes"},
-    {"node_beyond", with({{"/scenes/0/nodes", {1}}}),
-     "! a.gltf: scenes[0].nodes[0]: is 1, but the file has 1, counted from 0; correct the index"},
     {"scene_selected", with({{"/scenes", json::parse(R"([{"nodes":[]},{"nodes":[0]}])")}, {"/scene", 1}}),
      c_triangle},
     {"scene_empty", with({{"/scenes", json::parse(R"([{"nodes":[]},{"nodes":[0]}])")}}),
@@ -261,9 +211,6 @@ const std::vector<Spelling> c_spellings = {
      with({{"/meshes/0/primitives/0/material", 0},
            {"/materials", json::parse(R"([{"pbrMetallicRoughness":{"roughnessFactor":2}}])")}}),
      "! a.gltf: materials[0].pbrMetallicRoughness.roughnessFactor: 2 is not from 0 to 1; correct it"},
-    {"material_beyond", with({{"/meshes/0/primitives/0/material", 0}}),
-     "! a.gltf: meshes[0].primitives[0].material: is 0, but the file has 0, counted from 0; correct the "
-     "index"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, GltfSpelling, ::testing::ValuesIn(c_spellings), [](const auto& test) {
@@ -312,27 +259,24 @@ INSTANTIATE_TEST_SUITE_P(
 // ---- Normals, files, notes
 
 TEST(Gltf, NormalsAreThoseOfTheVertices) {
-  const auto loaded = read_gltf(with({{"/meshes/0/primitives/0/attributes/NORMAL", 0}}), "a.gltf");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(normals_of(*loaded), "0,0,0 1,0,0 0,1,0 ");
+  const auto loaded = must(read_gltf(with({{"/meshes/0/primitives/0/attributes/NORMAL", 0}}), "a.gltf"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 1,0,0 0,1,0 ");
 }
 
 TEST(Gltf, WithoutNormalsOrMaterialThereAreDefaults) {
-  const auto loaded = read_gltf(with({}), "a.gltf");
-  ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(normals_of(*loaded), "0,0,0 0,0,0 0,0,0 ");
-  ASSERT_EQ(loaded->mesh.materials.size(), 1u);
-  EXPECT_EQ(loaded->mesh.materials[0].name, "default");
-  EXPECT_EQ(loaded->mesh.materials[0].specular, 0.0);  // glTF's default roughness is 1
-  EXPECT_TRUE(loaded->notes.empty());
+  const auto loaded = must(read_gltf(with({}), "a.gltf"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 ");
+  ASSERT_EQ(loaded.mesh.materials.size(), 1u);
+  EXPECT_EQ(loaded.mesh.materials[0].name, "default");
+  EXPECT_EQ(loaded.mesh.materials[0].specular, 0.0);  // glTF's default roughness is 1
+  EXPECT_TRUE(loaded.notes.empty());
 }
 
 TEST(Gltf, BuffersAreReadFromTheFolder) {
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder);
-  std::filesystem::create_directory(folder->path() / "sub");
-  std::ofstream(folder->path() / "sub" / "a b.bin", std::ios::binary) << buffer();
-  EXPECT_EQ(triangles_of(read_gltf(with({{"/buffers/0/uri", "sub/a%20b.bin"}}), folder->path() / "a.gltf")),
+  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  std::filesystem::create_directory(folder.path() / "sub");
+  std::ofstream(folder.path() / "sub" / "a b.bin", std::ios::binary) << buffer();
+  EXPECT_EQ(triangles_of(read_gltf(with({{"/buffers/0/uri", "sub/a%20b.bin"}}), folder.path() / "a.gltf")),
             c_triangle);
 }
 

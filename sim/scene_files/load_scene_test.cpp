@@ -13,7 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "common/test/is_error.hpp"
 #include "scene/camera.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -22,13 +25,6 @@ const std::filesystem::path c_scenes = std::filesystem::path(HALFWAY_SOURCE_DIR)
 
 class LoadScene : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "halfway-scene-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::string write(const std::string& name, const std::string& text) const {
     const std::filesystem::path path = folder_ / name;
     std::ofstream(path, std::ios::binary) << text;
@@ -48,7 +44,8 @@ class LoadScene : public ::testing::Test {
     return message;
   }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder made_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path folder_ = made_.path();
 };
 
 void expect_sound(const Scene& scene) {
@@ -72,16 +69,15 @@ TEST_F(LoadScene, BuiltInScenesLoadAndAreInsideTheFrame) {
                                                        {"matte", 690 + 1560},
                                                        {"shadows", 12 * 16 + 12 + 396}};
   for (const auto& [name, triangles] : cases) {
-    const Result<Scene> scene = load_scene(name, c_scenes);
-    ASSERT_TRUE(scene) << scene.error().message;
-    EXPECT_EQ(scene->name, name);
-    EXPECT_EQ(scene->triangles.size(), triangles);
-    EXPECT_TRUE(scene->notes.empty());
-    expect_sound(*scene);
-    const ViewBasis basis = view_basis(scene->camera);
-    const double half = std::tan(scene->camera.vertical_fov_degrees / 360.0 * 3.141592653589793);
-    for (const glm::dvec3& p : scene->positions_world) {
-      const glm::dvec3 to = p - scene->camera.eye_world;
+    const Scene scene = must(load_scene(name, c_scenes));
+    EXPECT_EQ(scene.name, name);
+    EXPECT_EQ(scene.triangles.size(), triangles);
+    EXPECT_TRUE(scene.notes.empty());
+    expect_sound(scene);
+    const ViewBasis basis = view_basis(scene.camera);
+    const double half = std::tan(scene.camera.vertical_fov_degrees / 360.0 * 3.141592653589793);
+    for (const glm::dvec3& p : scene.positions_world) {
+      const glm::dvec3 to = p - scene.camera.eye_world;
       const double depth = -glm::dot(to, basis.backward_world);
       EXPECT_LT(std::abs(glm::dot(to, basis.up_world)), depth * half) << name;
       EXPECT_LT(std::abs(glm::dot(to, basis.right_world)), depth * half * 4.0 / 3.0) << name;
@@ -90,32 +86,28 @@ TEST_F(LoadScene, BuiltInScenesLoadAndAreInsideTheFrame) {
 }
 
 TEST_F(LoadScene, BuiltInScenesHaveTheirEffects) {
-  const Result<Scene> lights = load_scene("lights", c_scenes);
-  ASSERT_TRUE(lights);
-  EXPECT_EQ(lights->directional.size(), 5u);
-  EXPECT_EQ(lights->positional.size(), 5u);
-  const Result<Scene> matte = load_scene("matte", c_scenes);
-  ASSERT_TRUE(matte);
-  for (const Material& material : matte->materials) {
+  const Scene lights = must(load_scene("lights", c_scenes));
+  EXPECT_EQ(lights.directional.size(), 5u);
+  EXPECT_EQ(lights.positional.size(), 5u);
+  const Scene matte = must(load_scene("matte", c_scenes));
+  for (const Material& material : matte.materials) {
     EXPECT_EQ(material.specular, 0.0);
     EXPECT_EQ(material.colour, glm::dvec3(material.colour.x));
   }
-  const Result<Scene> highlights = load_scene("highlights", c_scenes);
-  ASSERT_TRUE(highlights);
-  ASSERT_EQ(highlights->materials.size(), 3u);
-  EXPECT_EQ(highlights->materials[0].exponent, 5.0);
-  EXPECT_EQ(highlights->materials[1].exponent, 10.0);
-  EXPECT_EQ(highlights->materials[2].exponent, 20.0);
-  const Result<Scene> shadows = load_scene("shadows", c_scenes);
-  ASSERT_TRUE(shadows);
-  EXPECT_TRUE(shadows->shadows);
-  EXPECT_EQ(shadows->directional.size(), 1u);
-  EXPECT_EQ(shadows->positional.size(), 1u);
-  EXPECT_FALSE(lights->shadows);
+  const Scene highlights = must(load_scene("highlights", c_scenes));
+  ASSERT_EQ(highlights.materials.size(), 3u);
+  EXPECT_EQ(highlights.materials[0].exponent, 5.0);
+  EXPECT_EQ(highlights.materials[1].exponent, 10.0);
+  EXPECT_EQ(highlights.materials[2].exponent, 20.0);
+  const Scene shadows = must(load_scene("shadows", c_scenes));
+  EXPECT_TRUE(shadows.shadows);
+  EXPECT_EQ(shadows.directional.size(), 1u);
+  EXPECT_EQ(shadows.positional.size(), 1u);
+  EXPECT_FALSE(lights.shadows);
 }
 
 TEST_F(LoadScene, ReadsEveryKey) {
-  const Result<Scene> scene = load(R"(ambient = [0.1, 0.2, 0.3]
+  const Scene scene = must(load(R"(ambient = [0.1, 0.2, 0.3]
 background = 0.5
 shadows = true
 [camera]
@@ -156,24 +148,23 @@ translate = [10, 0, 0]
 rotate = { degrees = 90, axis = [0, 0, 5] }
 scale = [1, 3, 1]
 material = "m"
-)");
-  ASSERT_TRUE(scene) << scene.error().message;
-  expect_sound(*scene);
-  EXPECT_EQ(scene->ambient, glm::dvec3(0.1, 0.2, 0.3));
-  EXPECT_EQ(scene->background, glm::dvec3(0.5));
-  EXPECT_EQ(scene->camera.eye_world, glm::dvec3(1.0, 2.0, 9.0));
-  EXPECT_EQ(scene->camera.target_world, glm::dvec3(0.0, 1.0, 0.0));
-  EXPECT_EQ(scene->camera.vertical_fov_degrees, 55.0);
-  EXPECT_EQ(scene->camera.near, 0.5);
-  EXPECT_EQ(scene->camera.far, 50.0);
-  EXPECT_EQ(scene->directional.at(0).to_light_world, glm::dvec3(0.0, 0.0, 1.0));
-  EXPECT_EQ(scene->directional.at(0).intensity, glm::dvec3(1.0, 2.0, 3.0));
-  EXPECT_EQ(scene->positional.at(0).position_world, glm::dvec3(4.0, 5.0, 6.0));
-  EXPECT_EQ(scene->positional.at(0).intensity, glm::dvec3(1.0));
-  EXPECT_EQ(scene->spots.at(0).axis_world, glm::dvec3(0.0, -1.0, 0.0));
-  EXPECT_EQ(scene->spots.at(0).cos_inner, 1.0);
-  EXPECT_NEAR(scene->spots.at(0).cos_outer, 0.5, 1e-15);
-  const Material& material = scene->materials.at(0);
+)"));
+  expect_sound(scene);
+  EXPECT_EQ(scene.ambient, glm::dvec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(scene.background, glm::dvec3(0.5));
+  EXPECT_EQ(scene.camera.eye_world, glm::dvec3(1.0, 2.0, 9.0));
+  EXPECT_EQ(scene.camera.target_world, glm::dvec3(0.0, 1.0, 0.0));
+  EXPECT_EQ(scene.camera.vertical_fov_degrees, 55.0);
+  EXPECT_EQ(scene.camera.near, 0.5);
+  EXPECT_EQ(scene.camera.far, 50.0);
+  EXPECT_EQ(scene.directional.at(0).to_light_world, glm::dvec3(0.0, 0.0, 1.0));
+  EXPECT_EQ(scene.directional.at(0).intensity, glm::dvec3(1.0, 2.0, 3.0));
+  EXPECT_EQ(scene.positional.at(0).position_world, glm::dvec3(4.0, 5.0, 6.0));
+  EXPECT_EQ(scene.positional.at(0).intensity, glm::dvec3(1.0));
+  EXPECT_EQ(scene.spots.at(0).axis_world, glm::dvec3(0.0, -1.0, 0.0));
+  EXPECT_EQ(scene.spots.at(0).cos_inner, 1.0);
+  EXPECT_NEAR(scene.spots.at(0).cos_outer, 0.5, 1e-15);
+  const Material& material = scene.materials.at(0);
   EXPECT_EQ(material.brdf, Brdf::cook_torrance);
   EXPECT_EQ(material.colour, glm::dvec3(0.1, 0.2, 0.3));
   EXPECT_EQ(material.specular_colour, glm::dvec3(0.25));
@@ -184,17 +175,16 @@ material = "m"
   EXPECT_EQ(material.roughness, 1.0);
   EXPECT_EQ(material.reflectance, 0.0);
   // The pole (0, 2, 0) is scaled to (0, 6, 0), rotated to (-6, 0, 0) and moved to (4, 0, 0).
-  EXPECT_NEAR(glm::length(scene->positions_world.at(0) - glm::dvec3(4.0, 0.0, 0.0)), 0.0, 1e-14);
-  EXPECT_NEAR(glm::length(scene->normals_world.at(0) - glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-14);
+  EXPECT_NEAR(glm::length(scene.positions_world.at(0) - glm::dvec3(4.0, 0.0, 0.0)), 0.0, 1e-14);
+  EXPECT_NEAR(glm::length(scene.normals_world.at(0) - glm::dvec3(-1.0, 0.0, 0.0)), 0.0, 1e-14);
 }
 
 TEST_F(LoadScene, ABoxHasSizeAndDivisions) {
   const auto box = [&](const std::string& keys) {
-    const Result<Scene> scene = load("[[mesh]]\nkind = \"box\"\n" + keys);
-    EXPECT_TRUE(scene) << scene.error().message;
+    const Scene scene = must(load("[[mesh]]\nkind = \"box\"\n" + keys));
     glm::dvec3 high(0.0);
-    for (const glm::dvec3& p : scene->positions_world) high = glm::max(high, p);
-    return std::pair(high, scene->triangles.size());
+    for (const glm::dvec3& p : scene.positions_world) high = glm::max(high, p);
+    return std::pair(high, scene.triangles.size());
   };
   EXPECT_EQ(box(""), std::pair(glm::dvec3(0.5), std::size_t{12}));
   EXPECT_EQ(box("size = 3\n"), std::pair(glm::dvec3(1.5), std::size_t{12}));
@@ -207,37 +197,33 @@ TEST_F(LoadScene, ShadowsOfAnOpenMeshAreNoted) {
   const std::string scene =
       "[[directional]]\nto_light = [0, 0, 1]\n[[mesh]]\nkind = \"box\"\n[[mesh]]\nfile = \"quad.obj\"\n"
       "[[mesh]]\nkind = \"teapot\"\ndivisions = 2\n";
-  const Result<Scene> with = load("shadows = true\n" + scene);
-  ASSERT_TRUE(with) << with.error().message;
-  ASSERT_EQ(with->notes.size(), 2u);
-  EXPECT_EQ(with->notes[0],
+  const Scene with = must(load("shadows = true\n" + scene));
+  ASSERT_EQ(with.notes.size(), 2u);
+  EXPECT_EQ(with.notes[0],
             (folder_ / "quad.obj").string() +
                 ": the mesh is open at 4 edges; each of its triangles casts a shadow only where "
                 "it faces away from the light");
-  EXPECT_EQ(with->notes[1].find((folder_ / "s.toml").string() + ":8: the mesh is open at 32 edges; "), 0u);
-  const Result<Scene> without = load(scene);
-  ASSERT_TRUE(without);
-  EXPECT_TRUE(without->notes.empty());
+  EXPECT_EQ(with.notes[1].find((folder_ / "s.toml").string() + ":8: the mesh is open at 32 edges; "), 0u);
+  const Scene without = must(load(scene));
+  EXPECT_TRUE(without.notes.empty());
 }
 
 TEST_F(LoadScene, MirroringKeepsTheOutsideOut) {
-  const Result<Scene> scene = load("[[mesh]]\nkind = \"sphere\"\nscale = [-1, 2, 1]\n");
-  ASSERT_TRUE(scene) << scene.error().message;
-  for (const SceneTriangle& t : scene->triangles) {
-    const glm::dvec3& a = scene->positions_world[t.position[0]];
+  const Scene scene = must(load("[[mesh]]\nkind = \"sphere\"\nscale = [-1, 2, 1]\n"));
+  for (const SceneTriangle& t : scene.triangles) {
+    const glm::dvec3& a = scene.positions_world[t.position[0]];
     const glm::dvec3 face =
-        glm::cross(scene->positions_world[t.position[1]] - a, scene->positions_world[t.position[2]] - a);
+        glm::cross(scene.positions_world[t.position[1]] - a, scene.positions_world[t.position[2]] - a);
     EXPECT_GT(glm::dot(face, a), 0.0);
-    for (const std::uint32_t normal : t.normal) EXPECT_GT(glm::dot(face, scene->normals_world[normal]), 0.0);
+    for (const std::uint32_t normal : t.normal) EXPECT_GT(glm::dot(face, scene.normals_world[normal]), 0.0);
   }
 }
 
 TEST_F(LoadScene, CreaseAngleDecidesBetweenFlatAndSmooth) {
   const auto normals_of = [&](const std::string& keys) {
-    const Result<Scene> scene = load("[[mesh]]\nkind = \"sphere\"\nslices = 8\nstacks = 8\n" + keys);
-    EXPECT_TRUE(scene) << scene.error().message;
+    const Scene scene = must(load("[[mesh]]\nkind = \"sphere\"\nslices = 8\nstacks = 8\n" + keys));
     std::vector<std::uint32_t> used;
-    for (const SceneTriangle& t : scene->triangles) used.insert(used.end(), t.normal.begin(), t.normal.end());
+    for (const SceneTriangle& t : scene.triangles) used.insert(used.end(), t.normal.begin(), t.normal.end());
     std::sort(used.begin(), used.end());
     return std::unique(used.begin(), used.end()) - used.begin();
   };
@@ -262,7 +248,6 @@ TEST_F(LoadScene, FittedCameraLooksFromItsDirection) {
 
 TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
   const std::string mesh = "[[mesh]]\nkind = \"sphere\"\n";
-  write("empty.obj", "");
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"\na = 1\nb = ]\n", "s.toml:3: bad TOML: "},
       {"x = 1\n" + mesh, "s.toml:1: unknown key 'x' in the scene; it may have: camera, ambient, "},
@@ -271,19 +256,13 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
       {"ambient = 0.2\n", "s.toml: the scene has no mesh"},
       {"mesh = 3\n", "s.toml:1: mesh of the scene must be written [[mesh]]"},
       {"[mesh]\nkind = \"sphere\"\n", "s.toml:1: mesh of the scene must be written [[mesh]]"},
-      {"camera = 3\n" + mesh, "s.toml:1: camera of the scene must be written [camera]"},
       {"ambient = \"grey\"\n" + mesh, "s.toml:1: ambient of the scene must be three numbers"},
-      {"ambient = [1, 2]\n" + mesh, "s.toml:1: ambient of the scene must be three numbers"},
       {"ambient = [1, 2, true]\n" + mesh, "s.toml:1: ambient of the scene must be a number"},
       {"ambient = nan\n" + mesh, "s.toml:1: ambient of the scene is not finite"},
       {"ambient = [0, 0,\n inf]\n" + mesh, "s.toml:2: ambient of the scene is not finite"},
-      {"ambient = -0.1\n" + mesh, "s.toml:1: ambient of the scene is -0.1, but must be at least 0"},
-      {"background = [0, -1, 0]\n" + mesh, "s.toml:1: background of the scene is -1, but must be at least 0"},
       {"background = 1e300\n" + mesh, "s.toml:1: background of the scene is 1e+300, but must be "},
       {"shadows = 1\n" + mesh, "s.toml:1: shadows of the scene must be true or false"},
-      {"\nshadows = \"yes\"\n" + mesh, "s.toml:2: shadows of the scene must be true or false"},
       {"[camera]\nfov = 30\n" + mesh, "s.toml:1: camera has no 'eye'"},
-      {"[camera]\neye = [0, 0, -inf]\n" + mesh, "s.toml:2: eye of camera is not finite"},
       {"[camera]\neye = [1, 2, 3]\ntarget = [1, 2, 3]\n" + mesh, "s.toml:2: eye of camera is the target"},
       {"[camera]\neye = [0, 9, 0]\n" + mesh, "s.toml:2: eye of camera makes up parallel to the view"},
       {"[camera]\neye = [0, 0, 9]\nup = [0, 0, -2]\n" + mesh,
@@ -291,13 +270,10 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
       {"[camera]\neye = [0, 0, 9]\nup = [0, 0, 0]\n" + mesh, "s.toml:3: up of camera has no direction"},
       {"[camera]\neye = [0, 0, 9]\nfov = 0\n" + mesh,
        "s.toml:3: fov of camera is 0, but must be greater than 0"},
-      {"[camera]\neye = [0, 0, 9]\nfov = 180\n" + mesh, "s.toml:3: fov of camera is 180, but must be "},
       {"[camera]\neye = [0, 0, 9]\nnear = 0\n" + mesh,
        "s.toml:3: near of camera is 0, but must be greater than 0"},
-      {"[camera]\neye = [0, 0, 9]\nfar = -1\n" + mesh, "s.toml:3: far of camera is -1, but must be "},
       {"[camera]\neye = [0, 0, 9]\nnear = 2\nfar = 2\n" + mesh,
        "s.toml:4: far of camera must be greater than near"},
-      {"[camera]\nfit = 1\n" + mesh, "s.toml:2: fit of camera must be true or false"},
       {"[camera]\nfit = true\neye = [0, 0, 1]\n" + mesh, "s.toml:3: eye of camera cannot be given with fit"},
       {"[camera]\nfit = true\ndirection = [0, 1, 0]\n" + mesh,
        "s.toml:3: direction of camera makes up parallel"},
@@ -308,10 +284,6 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
       {"[[directional]]\nto_light = [0, 0, 0]\n" + mesh,
        "s.toml:2: to_light of directional has no direction"},
       {"[[directional]]\n" + mesh, "s.toml:1: directional has no 'to_light'"},
-      {"[[directional]]\nto_light = [0, 0, 1]\nintensity = -1\n" + mesh,
-       "s.toml:3: intensity of directional is -1"},
-      {"[[positional]]\nintensity = 1\n" + mesh, "s.toml:1: positional has no 'position'"},
-      {"[[positional]]\nposition = [0, nan, 1]\n" + mesh, "s.toml:2: position of positional is not finite"},
       {"[[spot]]\nposition = [0, 0, 1]\naxis = [0, 0, 0]\nouter = 9\n" + mesh,
        "s.toml:3: axis of spot has no direction"},
       {"[[spot]]\nposition = [0, 0, 1]\naxis = [0, 0, 1]\nouter = 91\n" + mesh,
@@ -330,10 +302,6 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
        "s.toml:3: exponent of material is 0.5, but must be at least 1"},
       {"[[material]]\nname = \"a\"\nk_a = -1\n" + mesh,
        "s.toml:3: k_a of material is -1, but must be at least 0"},
-      {"[[material]]\nname = \"a\"\nk_d = -1\n" + mesh,
-       "s.toml:3: k_d of material is -1, but must be at least 0"},
-      {"[[material]]\nname = \"a\"\nk_s = -1\n" + mesh,
-       "s.toml:3: k_s of material is -1, but must be at least 0"},
       {"[[material]]\nname = \"a\"\ncolour = [0, 0, -1]\n" + mesh, "s.toml:3: colour of material is -1"},
       {"[[material]]\nname = \"a\"\nroughness = 0\n" + mesh,
        "s.toml:3: roughness of material is 0, but must be"},
@@ -341,37 +309,25 @@ TEST_F(LoadScene, EveryFaultNamesFileAndLine) {
        "s.toml:3: reflectance of material is 1.5, but must be"},
       {mesh + "material = \"b\"\n", "s.toml:3: material of mesh 'b' is not defined"},
       {mesh + "slices = 2\n", "s.toml:3: slices of mesh is 2, but must be from 3 to"},
-      {mesh + "stacks = 1\n", "s.toml:3: stacks of mesh is 1, but must be from 2 to"},
       {mesh + "slices = 3.5\n", "s.toml:3: slices of mesh must be a whole number"},
       {mesh + "radius = 0\n", "s.toml:3: radius of mesh is 0, but must be greater than 0"},
       {mesh + "slices = 10000\nstacks = 10000\n",
        "s.toml:1: the scene has 199980000 triangles up to this mesh, but"},
-      {mesh + "slices = 9999999\nstacks = 9999999\n",
-       "s.toml:1: the scene has 199999940000004 triangles up to"},
       {"[[mesh]]\nkind = \"teapot\"\ndivisions = 1\n",
        "s.toml:3: divisions of mesh is 1, but must be from 2 to"},
-      {"[[mesh]]\nkind = \"teapot\"\ndivisions = 9999999\n", "s.toml:1: the scene has "},
-      {"[[mesh]]\nkind = \"teapot\"\nslices = 3\n",
-       "s.toml:3: unknown key 'slices' in mesh; it may have: kind, divisions, "},
       {"[[mesh]]\nkind = \"box\"\nsize = [1, 0, 1]\n",
        "s.toml:3: size of mesh is 0, but must be greater than 0"},
-      {"[[mesh]]\nkind = \"box\"\nsize = -1\n", "s.toml:3: size of mesh is -1, but must be greater than 0"},
       {"[[mesh]]\nkind = \"box\"\ndivisions = 0\n",
        "s.toml:3: divisions of mesh is 0, but must be from 1 to"},
       {"[[mesh]]\nkind = \"box\"\ndivisions = 1000\n", "s.toml:1: the scene has 12000000 triangles up to"},
-      {"[[mesh]]\nkind = \"box\"\nradius = 3\n",
-       "s.toml:3: unknown key 'radius' in mesh; it may have: kind, size, divisions, "},
       {mesh + "size = 3\n", "s.toml:3: unknown key 'size' in mesh; it may have: kind, slices, "},
       {"[[mesh]]\nkind = \"cube\"\n", "s.toml:2: kind of mesh must be \"sphere\", \"teapot\" or \"box\""},
       {"[[mesh]]\nscale = 1\n", "s.toml:1: mesh has neither 'kind' nor 'file'"},
       {"[[mesh]]\nkind = \"sphere\"\nfile = \"a.obj\"\n", "s.toml:2: kind of mesh cannot be given with file"},
       {"[[mesh]]\nfile = \"gone.obj\"\n", "s.toml:2: file of mesh cannot be used: gone.obj: no such file"},
-      {"[[mesh]]\nfile = \"empty.obj\"\n",
-       "s.toml:2: file of mesh cannot be used: empty.obj: the file is empty"},
       {"[[mesh]]\nfile = \"mesh.blend\"\n", "s.toml:2: file of mesh is not a mesh file by its name"},
       {"[[mesh]]\nfile = 7\n", "s.toml:2: file of mesh must be a text"},
       {mesh + "scale = 0\n", "s.toml:3: scale of mesh must not be zero"},
-      {mesh + "scale = [1, 0, 1]\n", "s.toml:3: scale of mesh must not be zero"},
       {mesh + "scale = 1e15\nradius = 1e15\n", "s.toml:1: vertex 1 has a coordinate beyond 1e+15"},
       {mesh + "scale = 1e-300\nradius = 1e-300\n", "s.toml:1: no triangle of the mesh has any area"},
       {mesh + "rotate = 90\n", "s.toml:3: rotate of mesh must be written {"},
@@ -419,31 +375,29 @@ TEST_F(LoadScene, FaultyFilesAreErrors) {
 }
 
 TEST_F(LoadScene, AMeshFileGetsCameraLightAndMaterial) {
-  const Result<Scene> scene = load_scene(
+  const Scene scene = must(load_scene(
       write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 1 2\n"),
-      c_scenes);
-  ASSERT_TRUE(scene) << scene.error().message;
-  expect_sound(*scene);
-  EXPECT_EQ(scene->name, "tetra");
-  EXPECT_EQ(scene->triangles.size(), 4u);
-  EXPECT_EQ(scene->materials.size(), 1u);
-  ASSERT_EQ(scene->directional.size(), 1u);
-  const ViewBasis basis = view_basis(scene->camera);
-  EXPECT_LT(glm::dot(scene->directional[0].to_light_world, basis.right_world), 0.0);
-  EXPECT_GT(glm::dot(scene->directional[0].to_light_world, basis.up_world), 0.0);
-  EXPECT_GT(glm::dot(scene->directional[0].to_light_world, basis.backward_world), 0.0);
-  ASSERT_EQ(scene->notes.size(), 1u);
-  EXPECT_EQ(scene->notes[0], (folder_ / "tetra.obj").string() + ": 1 triangles without area left out");
+      c_scenes));
+  expect_sound(scene);
+  EXPECT_EQ(scene.name, "tetra");
+  EXPECT_EQ(scene.triangles.size(), 4u);
+  EXPECT_EQ(scene.materials.size(), 1u);
+  ASSERT_EQ(scene.directional.size(), 1u);
+  const ViewBasis basis = view_basis(scene.camera);
+  EXPECT_LT(glm::dot(scene.directional[0].to_light_world, basis.right_world), 0.0);
+  EXPECT_GT(glm::dot(scene.directional[0].to_light_world, basis.up_world), 0.0);
+  EXPECT_GT(glm::dot(scene.directional[0].to_light_world, basis.backward_world), 0.0);
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_EQ(scene.notes[0], (folder_ / "tetra.obj").string() + ": 1 triangles without area left out");
 }
 
 TEST_F(LoadScene, MeshFilesAreRelativeToTheScene) {
   std::filesystem::create_directory(folder_ / "sub");
   write("sub/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  const Result<Scene> scene = load("[[mesh]]\nfile = \"sub/t.obj\"\ntranslate = [0, 0, 7]\n");
-  ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->positions_world.at(0), glm::dvec3(0.0, 0.0, 7.0));
-  ASSERT_EQ(scene->notes.size(), 1u);
-  EXPECT_NE(scene->notes[0].find("no light"), std::string::npos);
+  const Scene scene = must(load("[[mesh]]\nfile = \"sub/t.obj\"\ntranslate = [0, 0, 7]\n"));
+  EXPECT_EQ(scene.positions_world.at(0), glm::dvec3(0.0, 0.0, 7.0));
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_NE(scene.notes[0].find("no light"), std::string::npos);
   write("sub/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
   EXPECT_EQ(error("[[mesh]]\nfile = \"sub/t.obj\"\n")
                 .find("sub/t.obj:4: a face names vertex 4, but the file has 3"),
@@ -474,10 +428,9 @@ TEST_F(LoadScene, KeysOfManyPartsAreRefused) {
 
 TEST_F(LoadScene, NamesThatCannotBeFoldersAreRefused) {
   for (const std::string name : {"..toml", "...toml", "a\nb.toml", "\x1b[31m.toml"}) {
-    const Result<Scene> scene = load_scene(write(name, "[[mesh]]\nkind = \"box\"\n"), c_scenes);
-    ASSERT_FALSE(scene) << name;
-    EXPECT_NE(scene.error().message.find("a scene cannot be called"), std::string::npos)
-        << scene.error().message;
+    EXPECT_TRUE(
+        is_error(load_scene(write(name, "[[mesh]]\nkind = \"box\"\n"), c_scenes), "a scene cannot be called"))
+        << name;
   }
 }
 
