@@ -13,6 +13,7 @@
 #include "plan/plan.hpp"
 #include "plan/processor_count.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -42,11 +43,8 @@ TEST(Table4, OneRowPerOperation) {
 }
 
 Plan plan_of(const std::string& name, Preset preset) {
-  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-  EXPECT_TRUE(scene) << scene.error().message;
-  const auto plan = plan_scene(*scene, {.shader = Shader::processors, .preset = preset});
-  EXPECT_TRUE(plan) << plan.error().message;
-  return *plan;
+  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  return must(plan_scene(scene, {.shader = Shader::processors, .preset = preset}));
 }
 
 TEST(Table5, TheSlowestProcessorIsOneThatTheSceneHas) {

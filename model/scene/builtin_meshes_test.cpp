@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -99,41 +97,11 @@ TEST(Teapot, HasItsTrianglesAndSize) {
   }
 }
 
-/// Splits the mesh into pieces whose triangles are connected by edges. A shared vertex alone does not
-/// connect: the handle touches the pot in a single vertex.
-std::vector<Mesh> pieces(const Mesh& mesh) {
-  std::map<Edge, std::size_t> triangle_of;
-  std::vector<std::size_t> parent(mesh.triangles.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const std::function<std::size_t(std::size_t)> root = [&](std::size_t t) {
-    return parent[t] == t ? t : parent[t] = root(parent[t]);
-  };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int side = 0; side < 3; ++side) {
-      const Edge edge =
-          std::minmax(mesh.triangles[t].position[side], mesh.triangles[t].position[(side + 1) % 3]);
-      const auto [entry, is_new] = triangle_of.try_emplace(edge, t);
-      if (!is_new) parent[root(t)] = root(entry->second);
-    }
-  }
-  std::map<std::size_t, Mesh> by_root;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    by_root[root(t)].triangles.push_back(mesh.triangles[t]);
-  std::vector<Mesh> result;
-  for (auto& [_, piece] : by_root) {
-    piece.positions = mesh.positions;
-    piece.normals = mesh.normals;
-    result.push_back(std::move(piece));
-  }
-  return result;
-}
-
 TEST(Teapot, IsWatertightBetweenItsSixRims) {
   for (const std::uint32_t divisions : {2u, 3u, 5u, 8u, 11u}) {
     const Mesh mesh = make_teapot(divisions);
     // Pot and lid have one rim of four quarters each. Handle and spout have two rims of two halves each.
     EXPECT_EQ(open_edges(mesh).size(), (4u + 4u + 4u + 4u) * divisions);
-    EXPECT_EQ(pieces(mesh).size(), 4u);
     for (const Edge& edge : open_edges(mesh)) {
       const glm::dvec3& p = mesh.positions[edge.first];
       const double radius = std::hypot(p.x, p.z);
@@ -143,32 +111,6 @@ TEST(Teapot, IsWatertightBetweenItsSixRims) {
       const bool on_spout = p.x >= 1.69;
       EXPECT_TRUE(on_pot || on_lid || on_handle || on_spout) << p.x << ' ' << p.y << ' ' << p.z;
     }
-  }
-}
-
-TEST(Teapot, EveryPieceFacesOutward) {
-  for (Mesh& piece : pieces(make_teapot(6))) {
-    // Close the rims by caps. The volume of the resulting solid is positive if its triangles face outwards.
-    const std::vector<Edge> open = open_edges(piece);
-    std::map<std::uint32_t, std::uint32_t> next;
-    for (const Edge& edge : open) next[edge.first] = edge.second;
-    double volume = 0.0;
-    const auto add = [&volume](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-      volume += glm::dot(a, glm::cross(b, c)) / 6.0;
-    };
-    while (!next.empty()) {
-      const std::uint32_t start = next.begin()->first;
-      for (std::uint32_t at = start; next.contains(at);) {
-        const std::uint32_t to = next[at];
-        next.erase(at);
-        add(piece.positions[to], piece.positions[at], piece.positions[start]);
-        at = to;
-      }
-    }
-    for (const SceneTriangle& t : piece.triangles) {
-      add(piece.positions[t.position[0]], piece.positions[t.position[1]], piece.positions[t.position[2]]);
-    }
-    EXPECT_GT(volume, 0.1);
   }
 }
 
