@@ -3,22 +3,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
-#include <atomic>
-#include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <set>
-#include <sstream>
-#include <thread>
 
 #include "sim/cli/command_test.hpp"
 #include "sim/stream_files/trace.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/folder_lock.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -31,11 +23,11 @@ using ::testing::Not;
 class CliTest : public CommandTest {
  protected:
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path path = folder_->path() / name;
+    const std::filesystem::path path = folder_.path() / name;
     EXPECT_TRUE(write_file(path, text));
     return path;
   }
-  std::filesystem::path out() const { return folder_->path() / "out"; }
+  std::filesystem::path out() const { return folder_.path() / "out"; }
 };
 
 const std::string c_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -43,9 +35,7 @@ const std::string c_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
   for (const std::string command :
        {"sim", "view", "plan", "render", "init", "compare", "why", "tables", "study"}) {
-    const Outcome help = run({command, "--help"});
-    EXPECT_EQ(help.exit_code, 0) << help.output;
-    EXPECT_THAT(help.output, HasSubstr("Usage: "));
+    EXPECT_THAT(run({command, "--help"}), Ends(0, HasSubstr("Usage: ")));
   }
   EXPECT_EQ(run({"--help"}).exit_code, 0);
   EXPECT_THAT(run({"view", "--help"}).output, HasSubstr("threads, each of which draws whole frames"));
@@ -56,38 +46,26 @@ TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
 
 TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{}, "halfway --help"},
       {{"simulate"}, "halfway --help"},
       {{"sim", "--nonsense"}, "--nonsense"},
       {{"sim", "spheres", "--shader", "toon"}, "--shader: 'toon' is not a shader"},
       {{"sim", "spheres", "--preset", "best"}, "--preset: 'best' is not a preset"},
-      {{"sim", "spheres", "--size", "0x10"}, "--size: 0x10 is out of range"},
-      {{"sim", "spheres", "--size", "10x0"}, "--size: 10x0 is out of range"},
       {{"sim", "spheres", "--size", "4097x10"}, "1 to 4096"},
-      {{"sim", "spheres", "--size", "99999999999x10"}, "is not WIDTHxHEIGHT"},
-      {{"sim", "spheres", "--size", "-4x10"}, "is not WIDTHxHEIGHT"},
       {{"sim", "spheres", "--size", "640"}, "is not WIDTHxHEIGHT"},
       {{"sim", "spheres", "--simulator", "modelsim"}, "is not a simulator"},
-      {{"sim", "spheres", "--threshold", "nan"}, "--threshold"},
       {{"sim", "spheres", "--threshold", "-1"}, "--threshold: -1 is not above 0"},
       {{"sim", "spheres", "--max-level", "6"}, "--max-level: 6 is not 0 to 5"},
       {{"sim", "spheres", "--degree", "3"}, "--degree: 3 is not 1 or 2"},
       {{"sim", "spheres", "--highlight-test", "x"}, "is not a test"},
-      {{"why", "spheres"}, "--pixel"},
       {{"why", "spheres", "--pixel", "12"}, "is not x,y"},
       {{"why", "spheres", "--pixel", "640,0"}, "outside the frame"},
       {{"render", "spheres", "--method", "oil"}, "--method: 'oil' is not a method"},
-      {{"compare", "spheres", "--shader", "toon"}, "--shader: 'toon' is not a shader"},
       {{"compare", "spheres"}, "run `make sim SCENE=spheres` first"},
-      {{"compare", "spheres", "--shader", "spherical"},
-       "run `make sim SCENE=spheres SHADER=spherical` first"},
       {{"compare", "spheres", "--all-effects", "--out", "o"},
        "run `make sim SCENE=spheres ALL_EFFECTS=1 OUT=o` first"},
   };
   for (const auto& [arguments, expected] : cases) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(expected));
+    EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));
   }
 }
 
@@ -95,9 +73,6 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
 TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
   const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
       {"0", "0", "--address-bits: 0 is not 3 to 12"},
-      {"-1", "8", "--address-bits: -1 is not 3 to 12"},
-      {"13", "8", "--address-bits: 13 is not 3 to 12"},
-      {"9", "0", "--data-bits: 0 is not 2 to 12"},
       {"9", "13", "--data-bits: 13 is not 2 to 12"},
       {"11", "3", "make tables PRESET=exact ADDRESS_BITS=11 DATA_BITS=3"}};
   for (const auto& [address, data, expected] : cases) {
@@ -119,28 +94,13 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
     bool taken;
   };
   const std::string q = "quadratic", s = "spherical", exact = "exact", published = "published";
-  for (const Case& c : {Case{q, exact, "--span-ends", "surface", false},
-                        {q, published, "--span-ends", "slerp", false},
-                        {s, exact, "--span-ends", "slerp", true},
-                        {s, published, "--span-ends", "slerp", false},
-                        {q, exact, "--threshold", "1", true},
-                        {q, published, "--threshold", "1", true},
-                        {s, exact, "--threshold", "1", true},
-                        {s, published, "--threshold", "2", false},
-                        {q, exact, "--highlight-test", "none", true},
-                        {q, published, "--highlight-test", "none", true},
-                        {s, exact, "--highlight-test", "none", false},
-                        {s, published, "--highlight-test", "centroid", false},
-                        {q, published, "--degree", "1", true},
-                        {s, exact, "--degree", "1", false},
-                        {"processors", exact, "--degree", "2", false},
-                        {q, exact, "--max-level", "0", true},
-                        {q, published, "--max-level", "5", true},
-                        {s, exact, "--max-level", "5", false},
-                        {s, published, "--max-level", "0", false},
-                        {q, exact, "--address-bits", "9", false},
-                        {q, exact, "--data-bits", "8", false},
-                        {q, exact, "--lights", "2", false}}) {
+  for (const Case& c :
+       {Case{q, exact, "--span-ends", "surface", false}, Case{s, exact, "--span-ends", "slerp", true},
+        Case{s, published, "--span-ends", "slerp", false}, Case{q, published, "--threshold", "1", true},
+        Case{s, published, "--threshold", "2", false}, Case{s, exact, "--highlight-test", "none", false},
+        Case{q, published, "--degree", "1", true}, Case{"processors", exact, "--degree", "2", false},
+        Case{q, exact, "--max-level", "0", true}, Case{s, exact, "--max-level", "5", false},
+        Case{q, exact, "--data-bits", "8", false}, Case{q, exact, "--lights", "2", false}}) {
     const Outcome outcome = run({"init", mesh, "--shader", c.shader, "--preset", c.preset, c.option, c.value,
                                  "--size", "20x15", "--file", "init.txt"});
     const std::string what = fmt::format("{} {} {}: {}", c.shader, c.preset, c.option, outcome.output);
@@ -155,9 +115,8 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
   EXPECT_THAT(both.output,
               HasSubstr("--threshold belongs to the quadratic shader and the spherical shader in "
                         "preset exact, and does not apply to"));
-  const Outcome uncut = run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"});
-  EXPECT_EQ(uncut.exit_code, 2) << uncut.output;
-  EXPECT_THAT(uncut.output, HasSubstr("--threshold goes with --span-ends surface"));
+  EXPECT_THAT(run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"}),
+              Ends(2, HasSubstr("--threshold goes with --span-ends surface")));
   // This method in double is always spherical, for any hardware named by --shader.
   EXPECT_EQ(run({"render", mesh, "--method", "spherical-fixed", "--span-ends", "slerp", "--size", "20x15"})
                 .exit_code,
@@ -165,49 +124,31 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
 }
 
 TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
-  const std::string scene =
-      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\nexponent = 20\n";
-  const std::string mesh = "[[mesh]]\nkind = \"sphere\"\nslices = 8\nstacks = 6\nmaterial = \"m\"\n";
   const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
       {"empty.obj", "", "empty.obj"},
-      {"faceless.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "faceless.obj"},
       {"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "range.obj:4:"},
-      {"nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", "nan.obj:2:"},
-      {"inf.obj", "v 0 0 0\nv 1 inf 0\nv 0 1 0\nf 1 2 3\n", "inf.obj:2:"},
-      {"flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "flat.obj"},
       {"noise.ply", std::string("ply\0\1\2\3garbage", 14), "noise.ply"},
-      {"noise.stl", "solid nothing", "noise.stl"},
       {"noise.glb", "glTFxxxx", "noise.glb"},
       {"broken.toml", "[camera\nfov = 3\n", "broken.toml:1:"},
-      {"key.toml", scene + mesh + "colour = 3\n", "key.toml:11:"},
-      {"n.toml", "[[material]]\nname = \"m\"\nexponent = 0.5\n" + mesh, "n.toml:3:"},
-      {"k.toml", "[[material]]\nname = \"m\"\nk_d = -1\n" + mesh, "k.toml:3:"},
-      {"none.toml", scene, "none.toml"},
-      {"many.toml",
-       scene + "[[mesh]]\nkind = \"sphere\"\nslices = 100000\nstacks = 100000\nmaterial = \"m\"\n",
-       "many.toml"},
-      {"missing.toml", scene + "[[mesh]]\nfile = \"gone.obj\"\nmaterial = \"m\"\n", "gone.obj"},
+      {"missing.toml", "[[mesh]]\nfile = \"gone.obj\"\n", "gone.obj"},
   };
   for (const auto& [name, text, expected] : cases) {
     const std::filesystem::path path = write(name, text);
-    const Outcome outcome = run({"sim", path, "--out", out()});
-    EXPECT_EQ(outcome.exit_code, 2) << name << ": " << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(expected)) << name;
+    EXPECT_THAT(run({"sim", path, "--out", out()}), Ends(2, HasSubstr(expected))) << name;
     EXPECT_FALSE(std::filesystem::exists(out())) << name;
   }
   EXPECT_EQ(run({"sim", "no-such-scene", "--out", out()}).exit_code, 2);
-  EXPECT_EQ(run({"sim", folder_->path(), "--out", out()}).exit_code, 2);
+  EXPECT_EQ(run({"sim", folder_.path(), "--out", out()}).exit_code, 2);
 }
 
 TEST_F(CliTest, RenderingTheGoldenModelNotesClampedValues) {
   const auto scene = write("bright.toml",
                            "[[directional]]\nto_light = [0, 0, 1]\nintensity = [100, 1, 1]\n[[material]]\n"
                            "name = \"m\"\n[[mesh]]\nkind = \"box\"\nmaterial = \"m\"\n");
-  const auto image = (folder_->path() / "bright.png").string();
-  const Outcome golden = run(
-      {"render", scene, "--method", "golden", "--shader", "processors", "--size", "20x15", "--file", image});
-  EXPECT_EQ(golden.exit_code, 0) << golden.output;
-  EXPECT_THAT(golden.output, HasSubstr("directional light 1 is 100 times white and was clamped"));
+  const auto image = (folder_.path() / "bright.png").string();
+  EXPECT_THAT(run({"render", scene, "--method", "golden", "--shader", "processors", "--size", "20x15",
+                   "--file", image}),
+              Ends(0, HasSubstr("directional light 1 is 100 times white and was clamped")));
 }
 
 TEST_F(CliTest, MissingShadowsAreNotedIfALightCastsThem) {
@@ -220,25 +161,6 @@ TEST_F(CliTest, MissingShadowsAreNotedIfALightCastsThem) {
   };
   EXPECT_THAT(sim(lit), Ends(0, note));
   EXPECT_THAT(sim(unlit), Ends(0, Not(note)));
-}
-
-TEST_F(CliTest, CameraInsideTheMeshOrBehindItStillDraws) {
-  const std::string common =
-      "[[directional]]\nto_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nkind = "
-      "\"sphere\"\nslices = 8\n"
-      "stacks = 6\nradius = 1\nmaterial = \"m\"\n";
-  const auto inside =
-      write("inside.toml", "[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\nup = [0, 1, 0]\n" + common);
-  const auto behind =
-      write("behind.toml", "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 9]\nup = [0, 1, 0]\n" + common);
-  const auto through =
-      write("through.toml", "[camera]\neye = [0, 0, 0.99]\ntarget = [0, 0.3, 5]\nup = [0, 1, 0]\n" + common);
-  for (const auto& scene : {inside, behind, through}) {
-    const Outcome outcome =
-        run({"sim", scene, "--out", out(), "--size", "64x48", "--simulator", "verilator"});
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(" nothing compared"));
-  }
 }
 
 // A triangle between the centres of pixels, a triangle smaller than 1/16 pixel, and a back-facing triangle.
@@ -272,40 +194,34 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
         EXPECT_THAT(outcome.output, Not(HasSubstr("nothing was compared")));
     }
     EXPECT_EQ(with_size({"view", scene, "--frames", "1", "--no-compare"}).exit_code, 0);
-    const Outcome why = run({"why", scene, "--pixel", "3,3", "--size", "8x8"});
-    EXPECT_EQ(why.exit_code, 1) << why.output;
-    EXPECT_THAT(why.output,
-                AllOf(HasSubstr(name + ": nothing was compared: " +
-                                (in_view ? "1 triangle is in view, but" : "no triangle is in view")),
-                      Not(HasSubstr("agree"))));
+    EXPECT_THAT(run({"why", scene, "--pixel", "3,3", "--size", "8x8"}),
+                Ends(1, AllOf(HasSubstr(name + ": nothing was compared: " +
+                                        (in_view ? "1 triangle is in view, but" : "no triangle is in view")),
+                              Not(HasSubstr("agree")))));
     EXPECT_EQ(run({"sim", scene, "--size", "640x480", "--simulator", "verilator", "--out", out()}).exit_code,
               name == "tiny" ? 1 : 0);
   }
 
   // A summary changed by hand: the reference covers pixels, but setup found no triangle.
   const auto path = out() / "averted" / "quadratic" / "summary.json";
-  const auto summary = read_file(path);
-  ASSERT_TRUE(summary);
-  auto json = nlohmann::json::parse(*summary);
+  const auto summary = must(read_file(path));
+  auto json = nlohmann::json::parse(summary);
   json["accuracy"]["pixels"] = 7;
   ASSERT_TRUE(write_file(path, json.dump()));
-  const Outcome missed = run({"compare", "averted", "--out", out()});
-  EXPECT_EQ(missed.exit_code, 1);
-  EXPECT_THAT(missed.output, HasSubstr("no triangle in view, but the reference covers 7 pixels"));
+  EXPECT_THAT(run({"compare", "averted", "--out", out()}),
+              Ends(1, HasSubstr("no triangle in view, but the reference covers 7 pixels")));
   json["runs"] = nlohmann::json::array();
   ASSERT_TRUE(write_file(path, json.dump()));
-  const Outcome none = run({"compare", "averted", "--out", out()});
-  EXPECT_EQ(none.exit_code, 1);
-  EXPECT_THAT(none.output, HasSubstr("nothing was compared: no simulator drew; run `make sim SCENE=averted"));
+  EXPECT_THAT(run({"compare", "averted", "--out", out()}),
+              Ends(1, HasSubstr("nothing was compared: no simulator drew; run `make sim SCENE=averted")));
 }
 
 TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
   const auto mesh = write("one.obj", c_triangle);
   const Outcome outcome = run({"sim", mesh, "--out", out(), "--size", "40x30"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const auto text = read_file(out() / "one" / "quadratic" / "summary.json");
-  ASSERT_TRUE(text) << text.error().message;
-  const auto json = nlohmann::json::parse(*text);
+  const auto text = must(read_file(out() / "one" / "quadratic" / "summary.json"));
+  const auto json = nlohmann::json::parse(text);
   EXPECT_EQ(json["scene"], "one");
   EXPECT_EQ(json["shader"], "quadratic");
   EXPECT_EQ(json["preset"], "exact");
@@ -329,37 +245,25 @@ TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
   EXPECT_EQ(run({"compare", mesh, "--out", out()}).exit_code, 0);
 }
 
-// Results of both kinds of hardware are in separate folders, with the same fragments and frames.
+// Results of both kinds of hardware are in separate folders.
 TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
   const auto mesh = write("one.obj", c_triangle);
-  for (const std::string shader : {"quadratic", "spherical"}) {
-    const auto sim = [&](std::vector<std::string> more) {
-      std::vector<std::string> arguments = {"sim",    mesh,    "--out",    out(),
-                                            "--size", "40x30", "--shader", shader};
-      arguments.insert(arguments.end(), more.begin(), more.end());
-      const Outcome outcome = run(arguments);
-      EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    };
-    sim({});
-    sim({"--all-effects"});
-    const auto lean = out() / "one" / shader, all = out() / "one" / (shader + "-all-effects");
-    for (const char* file : {"golden.png", "ghdl.png", "verilator.png", "reference.png", "diff.png"}) {
-      const auto a = read_file(lean / file), b = read_file(all / file);
-      ASSERT_TRUE(a && b) << file;
-      EXPECT_EQ(*a, *b) << shader << " " << file;
-    }
-    const auto lean_text = read_file(lean / "summary.json"), all_text = read_file(all / "summary.json");
-    ASSERT_TRUE(lean_text && all_text);
-    const auto lean_json = nlohmann::json::parse(*lean_text), all_json = nlohmann::json::parse(*all_text);
-    EXPECT_EQ(lean_json["hardware"]["all_effects"], false);
-    EXPECT_EQ(all_json["hardware"]["all_effects"], true);
-    EXPECT_NE(lean_json["hardware"]["key"], all_json["hardware"]["key"]);
-    EXPECT_EQ(lean_json["fragments"], all_json["fragments"]);
-    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 0);
-    std::filesystem::remove_all(all);
-    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader, "--all-effects"}).exit_code, 2);
-    EXPECT_EQ(run({"compare", mesh, "--out", out(), "--shader", shader}).exit_code, 0);
+  const auto compare = [&](const std::string& more) {
+    return run_as({"sh", "-c", fmt::format("exec '{}' compare one --out out {}", HALFWAY_PROGRAM, more)});
+  };
+  for (const bool all_effects : {false, true}) {
+    std::vector<std::string> arguments = {"sim",    mesh,    "--out",       out(),
+                                          "--size", "40x30", "--simulator", "verilator"};
+    if (all_effects) arguments.push_back("--all-effects");
+    EXPECT_EQ(run(arguments).exit_code, 0);
+    const auto folder = out() / "one" / (all_effects ? "quadratic-all-effects" : "quadratic");
+    const auto summary = must(read_file(folder / "summary.json"));
+    EXPECT_EQ(nlohmann::json::parse(summary)["hardware"]["all_effects"], all_effects);
   }
+  EXPECT_EQ(compare("--all-effects").exit_code, 0);
+  std::filesystem::remove_all(out() / "one" / "quadratic-all-effects");
+  EXPECT_EQ(compare("--all-effects").exit_code, 2);
+  EXPECT_EQ(compare("").exit_code, 0);
 }
 
 TEST_F(CliTest, TheLineNamesTablesOfAnUnusualSize) {
@@ -373,8 +277,6 @@ TEST_F(CliTest, TheLineNamesTablesOfAnUnusualSize) {
   };
   EXPECT_THAT(line({"--preset", "published", "--address-bits", "4", "--data-bits", "4"}),
               HasSubstr(" fragments, tables 4/4 | verilator: "));
-  EXPECT_THAT(line({"--preset", "published", "--address-bits", "6", "--data-bits", "6"}),
-              HasSubstr(" fragments | verilator: "));
   EXPECT_THAT(line({}), HasSubstr(" fragments | verilator: "));
 }
 
@@ -397,31 +299,27 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   const auto mesh = write("one.obj", c_triangle);
   ASSERT_EQ(run({"sim", mesh, "--out", out(), "--size", "20x15", "--simulator", "verilator"}).exit_code, 0);
   const std::filesystem::path path = out() / "one" / "quadratic" / "verilator.trace";
-  const auto whole = read_file(path);
-  ASSERT_TRUE(whole);
+  const auto whole = must(read_file(path));
 
   // Change the first fragment's blue by one step.
-  const std::size_t line_end = whole->find('\n', whole->find('\n') + 1);
-  const std::size_t blue = whole->rfind(' ', line_end) + 1;
-  const int value = std::stoi(whole->substr(blue, line_end - blue));
-  std::string changed = *whole;
+  const std::size_t line_end = whole.find('\n', whole.find('\n') + 1);
+  const std::size_t blue = whole.rfind(' ', line_end) + 1;
+  const int value = std::stoi(whole.substr(blue, line_end - blue));
+  std::string changed = whole;
   changed.replace(blue, line_end - blue, std::to_string(value == 255 ? 254 : value + 1));
   ASSERT_TRUE(write_file(path, changed));
-  const Outcome differs = run({"compare", "one", "--out", out()});
-  EXPECT_EQ(differs.exit_code, 1) << differs.output;
-  EXPECT_THAT(differs.output,
-              ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator"));
+  EXPECT_THAT(
+      run({"compare", "one", "--out", out()}),
+      Ends(1, ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator")));
   EXPECT_EQ(
       run_as({"sh", "-c", fmt::format("'{}' compare one --out out >/dev/full", HALFWAY_PROGRAM)}).exit_code,
       1);
 
   for (const std::string& damaged :
-       {whole->substr(0, whole->size() / 2), std::string("P6\n20 15\n"), std::string(),
-        *whole + "1 2 3 4 5 6 7\n", std::string("halfway-trace 1 other-key\nend 0\n")}) {
+       {whole.substr(0, whole.size() / 2), std::string("P6\n20 15\n"), std::string(),
+        whole + "1 2 3 4 5 6 7\n", std::string("halfway-trace 1 other-key\nend 0\n")}) {
     ASSERT_TRUE(write_file(path, damaged));
-    const Outcome refused = run({"compare", "one", "--out", out()});
-    EXPECT_EQ(refused.exit_code, 2) << refused.output;
-    EXPECT_THAT(refused.output, HasSubstr("verilator.trace"));
+    EXPECT_THAT(run({"compare", "one", "--out", out()}), Ends(2, HasSubstr("verilator.trace")));
   }
 }
 
@@ -434,19 +332,14 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   auto verilator_alone = sim;
   verilator_alone.insert(verilator_alone.end(), {"--simulator", "verilator"});
   ASSERT_EQ(run(verilator_alone).exit_code, 0);
-  const Outcome one = run(compare);
-  EXPECT_EQ(one.exit_code, 0) << one.output;
-  EXPECT_THAT(one.output, AllOf(ContainsRegex("one +ghdl +not compared: it was not run\n"),
-                                ContainsRegex("one +verilator +quadratic_shader.* 0 mismatches")));
+  EXPECT_THAT(run(compare), Ends(0, AllOf(ContainsRegex("one +ghdl +not compared: it was not run\n"),
+                                          ContainsRegex("one +verilator +quadratic_shader.* 0 mismatches"))));
 
   ASSERT_EQ(run(sim).exit_code, 0);
-  const auto summary = read_file(folder / "summary.json");
-  ASSERT_TRUE(summary);
+  const auto summary = must(read_file(folder / "summary.json"));
   EXPECT_THAT(run(compare).output, Not(HasSubstr("not compared")));
   std::filesystem::remove(folder / "ghdl.trace");
-  const Outcome gone = run(compare);
-  EXPECT_EQ(gone.exit_code, 2) << gone.output;
-  EXPECT_THAT(gone.output, HasSubstr("ghdl.trace is gone; run `make sim SCENE=one OUT="));
+  EXPECT_THAT(run(compare), Ends(2, HasSubstr("ghdl.trace is gone; run `make sim SCENE=one OUT=")));
 
   // The same folder as after an interrupted `sim`, and as after a fault in GHDL.
   std::filesystem::remove(folder / "summary.json");
@@ -455,64 +348,13 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
   EXPECT_THAT(
       broken_off.output,
       HasSubstr("the run was interrupted, or has not reached this scene yet; run `make sim SCENE=one OUT="));
-  auto json = nlohmann::json::parse(*summary);
+  auto json = nlohmann::json::parse(summary);
   json["runs"][0]["fault"] = "it hangs";
   ASSERT_TRUE(write_file(folder / "summary.json", json.dump()));
-  const Outcome faulty = run(compare);
-  EXPECT_EQ(faulty.exit_code, 1) << faulty.output;
-  EXPECT_THAT(faulty.output, AllOf(ContainsRegex("one +ghdl +differs, as sim found: it hangs\n"),
-                                   ContainsRegex("one +verilator .* 0 mismatches")));
+  EXPECT_THAT(run(compare), Ends(1, AllOf(ContainsRegex("one +ghdl +differs, as sim found: it hangs\n"),
+                                          ContainsRegex("one +verilator .* 0 mismatches"))));
   ASSERT_TRUE(write_file(folder / "summary.json", "{}"));
-  const Outcome damaged = run(compare);
-  EXPECT_EQ(damaged.exit_code, 2) << damaged.output;
-  EXPECT_THAT(damaged.output, HasSubstr("summary.json: not a summary"));
-}
-
-/// True if a process waits for the lock on the file, as reported by the system. The next test waits for this
-/// before it releases the lock.
-bool is_waited_for(const std::filesystem::path& file) {
-  struct stat status;
-  if (::stat(file.c_str(), &status) != 0) return false;
-  const std::string inode = fmt::format(":{} ", status.st_ino);
-  std::ifstream locks("/proc/locks");
-  for (std::string line; std::getline(locks, line);)
-    if (line.find("->") != std::string::npos && line.find(inode) != std::string::npos) return true;
-  return false;
-}
-
-TEST_F(CliTest, SimAndCompareWaitForAnotherRunInTheirFolder) {
-  const auto mesh = write("one.obj", c_triangle);
-  const std::vector<std::string> sim = {"sim",    mesh,    "--out",       out(),
-                                        "--size", "20x15", "--simulator", "verilator"};
-  ASSERT_EQ(run(sim).exit_code, 0);
-  const auto folder = out() / "one" / "quadratic";
-  const auto summary = read_file(folder / "summary.json");
-  ASSERT_TRUE(summary);
-  for (const auto& arguments : {sim, {"compare", "one", "--out", out()}}) {
-    auto lock = FolderLock::take(folder, [] { FAIL() << "it is not locked"; });
-    ASSERT_TRUE(lock) << lock.error().message;
-    std::optional<FolderLock> held(std::move(*lock));
-    std::filesystem::remove(folder / "summary.json");
-    std::atomic<bool> ended = false;
-    Outcome outcome;
-    std::jthread other([&] {
-      outcome = run(arguments);
-      ended = true;
-    });
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(60);
-    while (!ended && !is_waited_for(folder / ".lock") && std::chrono::steady_clock::now() < deadline)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_FALSE(ended) << arguments[0] << " did not wait";
-    ASSERT_TRUE(write_file(folder / "summary.json", *summary));
-    held.reset();
-    other.join();
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-    const std::string line =
-        fmt::format("waiting for {} (another halfway sim draws into it", folder.string());
-    const std::size_t first = outcome.output.find(line);
-    EXPECT_NE(first, std::string::npos) << outcome.output;
-    EXPECT_EQ(outcome.output.find("waiting for", first + 1), std::string::npos) << outcome.output;
-  }
+  EXPECT_THAT(run(compare), Ends(2, HasSubstr("summary.json: not a summary")));
 }
 
 TEST_F(CliTest, InitSaysWhatSetupMade) {
@@ -528,7 +370,7 @@ TEST_F(CliTest, InitSaysWhatSetupMade) {
 
 TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
   const auto mesh = write("one.obj", c_triangle);
-  const auto fake = folder_->path() / "bin";
+  const auto fake = folder_.path() / "bin";
   ASSERT_TRUE(make_folders(fake));
   const Outcome missing =
       run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"}, {{"PATH", fake}});
@@ -537,20 +379,9 @@ TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
 
   ASSERT_TRUE(write_file(fake / "ghdl", "#!/bin/sh\nkill -SEGV $$\n"));
   std::filesystem::permissions(fake / "ghdl", std::filesystem::perms::all);
-  const Outcome dying = run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"},
-                            {{"PATH", fake.string() + ":/usr/bin:/bin"}});
-  EXPECT_EQ(dying.exit_code, 3) << dying.output;
-  EXPECT_THAT(dying.output, HasSubstr("ghdl"));
-}
-
-TEST_F(CliTest, AFullDiskExitsThreeAndLeavesNothingHalfWritten) {
-  // A limit on file sizes simulates a full disk: writes fail in the same way.
-  const Outcome outcome = run_as({"bash", "-c",
-                                  std::string("trap '' XFSZ; ulimit -f 16; exec '") + HALFWAY_PROGRAM +
-                                      "' sim spheres --size 320x240 --simulator verilator --out out"});
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
-  for (const char* file : {"summary.json", "init.txt", "golden.trace", "verilator.trace"})
-    EXPECT_FALSE(std::filesystem::exists(out() / "spheres" / "quadratic" / file)) << file;
+  EXPECT_THAT(run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"},
+                  {{"PATH", fake.string() + ":/usr/bin:/bin"}}),
+              Ends(3, HasSubstr("ghdl")));
 }
 
 // Printed output is a result, too.
@@ -561,10 +392,8 @@ TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsReported) {
   const std::string small = " matte --size 40x30 --out out --simulator verilator";
   for (const std::string& arguments :
        {std::string("--help"), std::string("plan matte"), "sim" + small, "view --frames 1" + small}) {
-    const Outcome outcome = full(arguments);
-    EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.output;
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("standard output: not all could be written"),
-                                      Not(HasSubstr("please report it"))))
+    EXPECT_THAT(full(arguments), Ends(3, AllOf(HasSubstr("standard output: not all could be written"),
+                                               Not(HasSubstr("please report it")))))
         << arguments;
   }
   EXPECT_THAT(full("view --frames 1" + small).output, HasSubstr("(No space left on device)"));
@@ -575,16 +404,14 @@ TEST_F(CliTest, AScenesNameMayBeAnyBytes) {
   const auto scene = write("caf\xe9.toml", "[[mesh]]\nkind = \"box\"\n");
   const Outcome outcome = run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  const auto summary = read_file(out() / "caf\xe9" / "quadratic" / "summary.json");
-  ASSERT_TRUE(summary);
-  EXPECT_EQ(nlohmann::json::parse(*summary).at("scene"), "caf\xef\xbf\xbd");
+  const auto summary = must(read_file(out() / "caf\xe9" / "quadratic" / "summary.json"));
+  EXPECT_EQ(nlohmann::json::parse(summary).at("scene"), "caf\xef\xbf\xbd");
 }
 
 TEST_F(CliTest, WhatAFileSaysDoesNotReachTheTerminalRaw) {
   const auto scene = write("red.toml", "\"\\u001b[31mred\" = 1\n");
-  const Outcome outcome = run({"sim", scene, "--out", out()});
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("unknown key '?[31mred'"), Not(HasSubstr("\x1b"))));
+  EXPECT_THAT(run({"sim", scene, "--out", out()}),
+              Ends(2, AllOf(HasSubstr("unknown key '?[31mred'"), Not(HasSubstr("\x1b")))));
 }
 
 TEST_F(CliTest, TooLittleMemoryExitsThree) {
@@ -594,30 +421,20 @@ TEST_F(CliTest, TooLittleMemoryExitsThree) {
 #endif
 #endif
   // The memory that the libraries need when loaded, plus a little more.
-  const Outcome outcome = run_as({"bash", "-c",
-                                  std::string("ulimit -c 0; ulimit -v 700000; exec '") + HALFWAY_PROGRAM +
-                                      "' sim spheres --size 4096x4096 --simulator verilator --out out"});
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("out of memory"));
-}
-
-TEST_F(CliTest, AnUnwritableFolderIsBadInput) {
-  write("file", "not a folder");
-  const Outcome outcome = run({"sim", "spheres", "--size", "8x6", "--out", folder_->path() / "file" / "out"});
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("file"));
+  EXPECT_THAT(run_as({"bash", "-c",
+                      std::string("ulimit -c 0; ulimit -v 700000; exec '") + HALFWAY_PROGRAM +
+                          "' sim spheres --size 4096x4096 --simulator verilator --out out"}),
+              Ends(3, HasSubstr("out of memory")));
 }
 
 TEST_F(CliTest, WhyAgreesOnRightHardware) {
   const auto mesh = write("one.obj", c_triangle);
-  const Outcome outcome = run({"why", mesh, "--pixel", "16,18", "--size", "40x30"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("line stage, cycle "), HasSubstr("span stage, cycle "),
-                                    HasSubstr("fragment stage, cycle "), HasSubstr("agree at every stage"),
-                                    Not(HasSubstr("differs"))));
-  const Outcome nothing = run({"why", mesh, "--pixel", "0,0", "--size", "40x30"});
-  EXPECT_EQ(nothing.exit_code, 0);
-  EXPECT_THAT(nothing.output, HasSubstr("0 triangles cover it"));
+  EXPECT_THAT(run({"why", mesh, "--pixel", "16,18", "--size", "40x30"}),
+              Ends(0, AllOf(HasSubstr("line stage, cycle "), HasSubstr("span stage, cycle "),
+                            HasSubstr("fragment stage, cycle "), HasSubstr("agree at every stage"),
+                            Not(HasSubstr("differs")))));
+  EXPECT_THAT(run({"why", mesh, "--pixel", "0,0", "--size", "40x30"}),
+              Ends(0, HasSubstr("0 triangles cover it")));
 }
 
 // The last fragment is output in the last of the clocks that `sim` counts, for any latency of the shader.
@@ -628,34 +445,11 @@ TEST_F(CliTest, WhyPrintsTheFragmentsClock) {
     return run(arguments);
   };
   ASSERT_EQ(given({"sim", mesh, "--simulator", "verilator"}).exit_code, 0);
-  const auto trace = read_trace(out() / "one" / "quadratic" / "verilator.trace", "");
-  ASSERT_TRUE(trace) << trace.error().message;
-  ASSERT_TRUE(trace->cycles);
-  const Fragment& last = trace->fragments.back();
-  const Outcome why = given({"why", mesh, "--pixel", fmt::format("{},{}", last.x, last.y)});
-  ASSERT_EQ(why.exit_code, 0) << why.output;
-  EXPECT_THAT(why.output, HasSubstr(fmt::format("fragment stage, cycle {}\n", *trace->cycles - 1)));
-}
-
-// Names of any length are aligned in one column.
-TEST_F(CliTest, WhyAlignsItsColumns) {
-  for (const std::string shader : {"quadratic", "spherical"}) {
-    const Outcome outcome =
-        run({"why", "lights", "--shader", shader, "--pixel", "24,36", "--size", "96x72", "--threads", "2"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-    std::set<std::size_t> golden, rtl, given;
-    std::istringstream lines(outcome.output);
-    for (std::string line; std::getline(lines, line);)
-      if (line.find(" RTL ") != std::string::npos && line.starts_with("    ")) {
-        golden.insert(line.find(" golden "));
-        rtl.insert(line.find(" RTL "));
-      } else if (line.starts_with("    ")) {
-        given.insert(line.rfind(' ', line.find(" = ") - 1));
-      }
-    EXPECT_EQ(golden.size(), 1U) << outcome.output;
-    EXPECT_EQ(rtl.size(), 1U) << outcome.output;
-    EXPECT_EQ(given, golden) << outcome.output;
-  }
+  const auto trace = must(read_trace(out() / "one" / "quadratic" / "verilator.trace", ""));
+  ASSERT_TRUE(trace.cycles);
+  const Fragment& last = trace.fragments.back();
+  EXPECT_THAT(given({"why", mesh, "--pixel", fmt::format("{},{}", last.x, last.y)}),
+              Ends(0, HasSubstr(fmt::format("fragment stage, cycle {}\n", *trace.cycles - 1))));
 }
 
 // Wrong hardware: a copy of the sources with one change.
@@ -669,16 +463,15 @@ void PrintTo(const Fault& fault, std::ostream* out) {
 
 class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
  protected:
-  std::filesystem::path copy() const { return folder_->path() / "source"; }
+  std::filesystem::path copy() const { return folder_.path() / "source"; }
   /// Changes the first `from` after `after` in a file of rtl/.
   void change(const std::string& file, const std::string& after, const std::string& from,
               const std::string& to) const {
     ASSERT_EQ(copy_checkout(), copy());
-    const auto text = read_file(copy() / "rtl" / file);
-    ASSERT_TRUE(text);
-    const std::size_t at = text->find(from, text->find(after));
+    const auto text = must(read_file(copy() / "rtl" / file));
+    const std::size_t at = text.find(from, text.find(after));
     ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << from << "' is not in " << file;
-    std::string changed = *text;
+    std::string changed = text;
     changed.replace(at, from.size(), to);
     ASSERT_TRUE(write_file(copy() / "rtl" / file, changed));
   }
@@ -691,57 +484,33 @@ class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
 TEST_P(WrongRtl, IsCaughtAndLocated) {
   const Fault& fault = GetParam();
   ASSERT_NO_FATAL_FAILURE(change(fault.file, "", fault.from, fault.to));
-  const Outcome drawn = sim(fault.shader, "ghdl");
-  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
-  EXPECT_THAT(drawn.output, HasSubstr("ghdl differs from the golden model"));
-  const Outcome why = run({"--source", copy(), "why", "spheres", "--shader", fault.shader, "--pixel", "20,20",
-                           "--size", "96x72"});
-  EXPECT_EQ(why.exit_code, 1) << why.output;
-  EXPECT_THAT(why.output, AllOf(HasSubstr("first difference in the frame: "), HasSubstr(fault.stage)));
+  EXPECT_THAT(sim(fault.shader, "ghdl"), Ends(1, HasSubstr("ghdl differs from the golden model")));
+  EXPECT_THAT(run({"--source", copy(), "why", "spheres", "--shader", fault.shader, "--pixel", "20,20",
+                   "--size", "96x72"}),
+              Ends(1, AllOf(HasSubstr("first difference in the frame: "), HasSubstr(fault.stage))));
 }
 
 using WrongTable = WrongRtl;
 
-// Changes a bit of a table that the scene's hardware contains. The next test: of a table that it lacks.
 TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
   ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,"));
-  const Outcome used = sim("spherical", "verilator");
-  EXPECT_EQ(used.exit_code, 1) << used.output;
-  EXPECT_THAT(used.output, AllOf(HasSubstr("verilator differs from the golden model"),
-                                 ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
-  const Outcome why = run(
-      {"--source", copy(), "why", "spheres", "--shader", "spherical", "--pixel", "20,20", "--size", "96x72"});
-  EXPECT_THAT(why.output,
-              HasSubstr("first difference in the frame: sample stage (cosine_rom, or specular_slice "
-                        "around it)"))
-      << why.output;
-}
-TEST_F(WrongTable, AFlippedBitOfAnUnusedRomIsCaught) {
-  ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_2_9_8", "250, ", "251, "));
-  const Outcome unused = sim("spherical", "verilator");
-  EXPECT_EQ(unused.exit_code, 1) << unused.output;
-  EXPECT_THAT(unused.output,
-              AllOf(HasSubstr(" 0 mismatches"),
-                    ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator")));
+  EXPECT_THAT(sim("spherical", "verilator"),
+              Ends(1, AllOf(HasSubstr("verilator differs from the golden model"),
+                            ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator"))));
 }
 
 // If the hardware does not stop, GHDL's testbench ends the run and reports no cycles.
 using RunawayRtl = WrongRtl;
 TEST_F(RunawayRtl, UncountedCyclesAreNull) {
   ASSERT_NO_FATAL_FAILURE(change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;"));
-  const Outcome drawn = sim("quadratic", "ghdl");
-  EXPECT_EQ(drawn.exit_code, 1) << drawn.output;
-  EXPECT_THAT(drawn.output,
-              AllOf(ContainsRegex("\\| ghdl: [0-9]+ mismatches \\| "), Not(HasSubstr("cycles,"))));
-  const auto text = read_file(out() / "spheres" / "quadratic" / "summary.json");
-  ASSERT_TRUE(text);
-  const auto json = nlohmann::json::parse(*text);
-  EXPECT_TRUE(json["runs"][0]["cycles"].is_null()) << *text;
-  EXPECT_TRUE(json["runs"][0]["seconds"].is_null()) << *text;
+  EXPECT_THAT(sim("quadratic", "ghdl"),
+              Ends(1, AllOf(ContainsRegex("\\| ghdl: [0-9]+ mismatches \\| "), Not(HasSubstr("cycles,")))));
+  const auto text = must(read_file(out() / "spheres" / "quadratic" / "summary.json"));
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_TRUE(json["runs"][0]["cycles"].is_null()) << text;
+  EXPECT_TRUE(json["runs"][0]["seconds"].is_null()) << text;
   EXPECT_NE(json["runs"][0]["fault"], "");
-  const Outcome compared = run({"compare", "spheres", "--out", out()});
-  EXPECT_EQ(compared.exit_code, 1) << compared.output;
-  EXPECT_THAT(compared.output, HasSubstr("differs, as sim found: "));
+  EXPECT_THAT(run({"compare", "spheres", "--out", out()}), Ends(1, HasSubstr("differs, as sim found: ")));
 }
 
 // A line stage and a sample stage in `make test`, because each fault is analysed with all of the RTL.
@@ -760,18 +529,10 @@ INSTANTIATE_TEST_SUITE_P(
                       Fault{"saturate_off_by_a_bit", "quadratic", "arithmetic/saturate.vhd",
                             "value(c_result_high downto g_fraction_bits)",
                             "value(c_result_high + 1 downto g_fraction_bits + 1)", "fragment stage"},
-                      Fault{"span_one_pixel_short", "quadratic", "raster/span_stage.vhd",
-                            "flag(line.remaining = 0)", "flag(line.remaining <= 1)", "triangle_walker"},
-                      Fault{"product_of_the_wrong_operand", "spherical", "arithmetic/multiplier.vhd",
-                            "unsigned(b)", "unsigned(not b)",
-                            "product stage (multiplier, or diffuse_slice around it)"},
                       Fault{"factors_of_the_slice_inverted", "spherical", "illumination/specular_slice.vhd",
                             "start => part(part'high downto c_factors_low)",
                             "start => not part(part'high downto c_factors_low)",
-                            "product stage (multiplier, or specular_slice around it)"},
-                      Fault{"sum_without_its_first_term", "spherical", "arithmetic/saturating_sum.vhd",
-                            "for i in 1 to g_terms - 1 loop", "for i in 2 to g_terms - 1 loop",
-                            "fragment stage (saturating_sum"}),
+                            "product stage (multiplier, or specular_slice around it)"}),
     c_name_of_fault);
 
 }  // namespace

@@ -7,12 +7,12 @@
 
 #include <chrono>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway {
@@ -32,17 +32,11 @@ class CommandTest : public ::testing::Test {
     std::string output;  ///< standard output and standard error
   };
 
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-  }
-
   /// Copy the checkout, so that a test may change it. The caches are shared, because their entries are named
   /// by content.
   std::filesystem::path copy_checkout() const {
     namespace fs = std::filesystem;
-    const fs::path source = HALFWAY_SOURCE_DIR, copy = folder_->path() / "source";
+    const fs::path source = HALFWAY_SOURCE_DIR, copy = folder_.path() / "source";
     for (const char* part : {"rtl", "tb", "sim", "model/golden"}) {
       fs::create_directories((copy / part).parent_path());
       fs::copy(source / part, copy / part, fs::copy_options::recursive);
@@ -57,7 +51,7 @@ class CommandTest : public ::testing::Test {
                  std::chrono::milliseconds timeout = std::chrono::minutes(60)) const {
     Command command;
     command.arguments = std::move(arguments);
-    command.working_folder = folder_->path();
+    command.working_folder = folder_.path();
     command.environment = std::move(environment);
     command.timeout = timeout;
     const auto end = run_process(command, "");
@@ -70,7 +64,7 @@ class CommandTest : public ::testing::Test {
     return run_as(std::move(arguments), std::move(environment));
   }
 
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 }  // namespace halfway

@@ -12,6 +12,7 @@
 #include "sim/cli/command_test.hpp"
 #include "sim/study/stand_in_slurm_test.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -24,7 +25,7 @@ class StudyCommandTest : public CommandTest {
  protected:
   Outcome study(std::vector<std::string> arguments, Environment environment = {}) const {
     EXPECT_TRUE(
-        write_file(folder_->path() / "space.toml",
+        write_file(folder_.path() / "space.toml",
                    "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
     std::vector<std::string> words = {"study", "--space", "space.toml", "--out", "out"};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -44,8 +45,8 @@ TEST_F(StudyCommandTest, RefusesInvalidQueries) {
       {{"--executor", "slurm", "--parts", "0"}, "--parts: takes 1 or more"},
       {{"no-such-scene"}, "no-such-scene"}};
   for (const auto& [arguments, message] : cases) EXPECT_THAT(study(arguments), Ends(2, HasSubstr(message)));
-  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/study.csv"));
-  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "out/question.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/study.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/question.csv"));
 }
 
 TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
@@ -68,7 +69,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
 }
 
 TEST_F(StudyCommandTest, SoftwareMeetsNoDemand) {
-  ASSERT_TRUE(write_file(folder_->path() / "software.toml",
+  ASSERT_TRUE(write_file(folder_.path() / "software.toml",
                          "[[sweep]]\nmethod = [\"phong\", \"gouraud\"]\nsize = \"80x60\"\n"));
   EXPECT_THAT(run({"study", "--space", "software.toml", "--out", "out", "--error", "200"}),
               Ends(1, HasSubstr("nothing meets it: none of the points is hardware")));
@@ -78,7 +79,7 @@ TEST_F(StudyCommandTest, SoftwareMeetsNoDemand) {
 
 // Of several pictures, the one with the most hardware.
 TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
-  ASSERT_TRUE(write_file(folder_->path() / "two.toml",
+  ASSERT_TRUE(write_file(folder_.path() / "two.toml",
                          "[[sweep]]\nmethod = \"quadratic\"\nsize = \"80x60\"\n"
                          "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
   EXPECT_THAT(run({"study", "--space", "two.toml", "--out", "out"}),
@@ -89,7 +90,7 @@ TEST_F(StudyCommandTest, EndsWithTheFrontOfItsMainPicture) {
 
 // The report shows the study's table. A query has its own points from the same records.
 TEST_F(StudyCommandTest, AQueryKeepsTheStudysTable) {
-  const std::filesystem::path out = folder_->path() / "out";
+  const std::filesystem::path out = folder_.path() / "out";
   EXPECT_THAT(study({"--error", "3"}),
               Ends(0, HasSubstr("out/question.csv: 3 points, 3 measured in this run")));
   EXPECT_FALSE(std::filesystem::exists(out / "study.csv"));
@@ -108,16 +109,15 @@ TEST_F(StudyCommandTest, AQueryKeepsTheStudysTable) {
 // Damaged files found by a task are reported where the study was started, not only in the task's log.
 TEST_F(StudyCommandTest, DamagedFilesFoundByTasksAreReported) {
   ASSERT_EQ(study({}).exit_code, 0);
-  const std::filesystem::path points = folder_->path() / "out/points";
+  const std::filesystem::path points = folder_.path() / "out/points";
   std::filesystem::path frame;
   for (const auto& entry : std::filesystem::directory_iterator(points))
     if (entry.path().extension() == ".png") frame = entry.path();
-  auto bytes = read_file(frame);
-  ASSERT_TRUE(bytes);
-  (*bytes)[bytes->size() / 2] ^= 1;
-  ASSERT_TRUE(write_file(frame, *bytes));
-  study::put_slurm(folder_->path());
-  const std::string path = folder_->path().string() + ":" + std::getenv("PATH");
+  auto bytes = must(read_file(frame));
+  bytes[bytes.size() / 2] ^= 1;
+  ASSERT_TRUE(write_file(frame, bytes));
+  study::put_slurm(folder_.path());
+  const std::string path = folder_.path().string() + ":" + std::getenv("PATH");
   EXPECT_THAT(study({"--executor", "slurm"}, {{"PATH", path}}),
               Ends(0, AllOf(HasSubstr(frame.filename().string() + ": damaged; the point is measured again\n"),
                             HasSubstr("3 points, 0 measured in this run"))));

@@ -6,6 +6,7 @@
 
 #include "sim/cli/command_test.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -19,9 +20,7 @@ constexpr const char* c_scene = HALFWAY_SOURCE_DIR "/sim/report/timing.toml";
 class VerilogCommand : public CommandTest {
  protected:
   std::string text_of(const std::string& file) const {
-    const auto text = read_file(folder_->path() / "v/quadratic_shader-published-c1" / file);
-    EXPECT_TRUE(text) << text.error().message;
-    return text ? *text : "";
+    return must(read_file(folder_.path() / "v/quadratic_shader-published-c1" / file));
   }
   Outcome write(std::vector<std::string> more) const {
     more.insert(more.begin(), {"verilog", c_scene, "--preset", "published", "--out", "v"});
@@ -30,9 +29,7 @@ class VerilogCommand : public CommandTest {
 };
 
 TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
-  const Outcome outcome = write({});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("quadratic_shader.v: module quadratic_shader with 16 ports\n"));
+  EXPECT_THAT(write({}), Ends(0, HasSubstr("quadratic_shader.v: module quadratic_shader with 16 ports\n")));
   EXPECT_EQ(text_of("quadratic_shader.f"), "quadratic_shader.v\n");
   EXPECT_THAT(
       text_of("quadratic_shader.v"),
@@ -58,7 +55,7 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {
   EXPECT_THAT(run({"verilog", "nothing"}), Ends(2, HasSubstr("nothing")));
   EXPECT_THAT(write({"--shader", "raytracer"}), Ends(2, HasSubstr("'raytracer'")));
-  EXPECT_FALSE(std::filesystem::exists(folder_->path() / "v"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "v"));
 }
 
 }  // namespace

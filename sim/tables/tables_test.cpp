@@ -27,7 +27,7 @@ class TablesCommand : public CommandTest {
     arguments.insert(arguments.begin(), {HALFWAY_PROGRAM, "--source", source(), "tables"});
     return run_as(std::move(arguments));
   }
-  std::filesystem::path source() const { return folder_->path() / "source"; }
+  std::filesystem::path source() const { return folder_.path() / "source"; }
   std::string text_of(const char* name) const {
     const auto text = read_file(source() / name);
     EXPECT_TRUE(text) << name;
@@ -93,9 +93,7 @@ TEST_F(TablesCommand, TakesAddressAndDataBits) {
   std::vector<std::string> check = size;
   check.push_back("--check");
   ASSERT_EQ(run({}).exit_code, 0);
-  const Outcome other = run(check);
-  EXPECT_EQ(other.exit_code, 1) << other.output;
-  EXPECT_THAT(other.output, HasSubstr("rtl/tables/cosine_pkg.vhd:"));
+  EXPECT_THAT(run(check), Ends(1, HasSubstr("rtl/tables/cosine_pkg.vhd:")));
 
   const Outcome written = run(size);
   EXPECT_EQ(written.exit_code, 0) << written.output;
@@ -120,10 +118,9 @@ TEST_F(TablesCommand, TakesAddressAndDataBits) {
 }
 
 TEST_F(TablesCommand, ASizeIsForOnePresetAndUnique) {
-  const Outcome exact = run({"--address-bits", "12"});
-  EXPECT_EQ(exact.exit_code, 0) << exact.output;
-  EXPECT_THAT(exact.output, AllOf(ContainsRegex("exact +cos\\^16 +12/8 .* 32768 bits"),
-                                  Not(HasSubstr(" 9/8 ")), ContainsRegex("published +cos\\^2 +6/6 ")));
+  EXPECT_THAT(run({"--address-bits", "12"}),
+              Ends(0, AllOf(ContainsRegex("exact +cos\\^16 +12/8 .* 32768 bits"), Not(HasSubstr(" 9/8 ")),
+                            ContainsRegex("published +cos\\^2 +6/6 "))));
   const Outcome again = run({"--preset", "published", "--address-bits", "4", "--data-bits", "4"});
   EXPECT_EQ(again.exit_code, 0) << again.output;
   const std::regex line("published +cos\\^2 +4/4 ");
@@ -166,21 +163,16 @@ TEST_F(TablesCommand, RefusesInvalidSizesAndWritesNothing) {
       {{"--errors", "--address-bits", "9"}, "excludes"},
   };
   for (const auto& [arguments, expected] : cases) {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(expected));
+    EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));
     EXPECT_FALSE(std::filesystem::exists(source())) << expected;
   }
 }
 
 TEST_F(TablesCommand, ErrorsBySizeAreAReportOnly) {
-  const Outcome exact = run({"--errors"});
-  EXPECT_EQ(exact.exit_code, 0) << exact.output;
-  EXPECT_THAT(exact.output, AllOf(ContainsRegex("data bits +4 +5 +6 +7 +8 +9 +10\n"),
-                                  ContainsRegex("\n 9 +8.71 +4.49 +2.39 +1.37 +0.88 +0.63 +0.51\n")));
-  const Outcome published = run({"--errors", "--preset", "published"});
-  EXPECT_EQ(published.exit_code, 0) << published.output;
-  EXPECT_THAT(published.output, ContainsRegex("\n 6 +13.00 +9.14 +6.68 "));
+  EXPECT_THAT(run({"--errors"}),
+              Ends(0, AllOf(ContainsRegex("data bits +4 +5 +6 +7 +8 +9 +10\n"),
+                            ContainsRegex("\n 9 +8.71 +4.49 +2.39 +1.37 +0.88 +0.63 +0.51\n"))));
+  EXPECT_THAT(run({"--errors", "--preset", "published"}), Ends(0, ContainsRegex("\n 6 +13.00 +9.14 +6.68 ")));
   EXPECT_FALSE(std::filesystem::exists(source()));
 }
 
@@ -199,10 +191,8 @@ TEST_F(TablesCommand, AFlippedEntryIsCaughtAndLocated) {
       changed[at] = whole[at] == '9' ? '8' : static_cast<char>(whole[at] + 1);
       ASSERT_TRUE(write_file(source() / file, changed));
       const auto line = 1 + std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-      const Outcome outcome = run({"--check"});
-      EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
-      EXPECT_THAT(outcome.output,
-                  HasSubstr(file + ":" + std::to_string(line) + ": not what the generator writes"));
+      EXPECT_THAT(run({"--check"}),
+                  Ends(1, HasSubstr(file + ":" + std::to_string(line) + ": not what the generator writes")));
       EXPECT_TRUE(text_of(file.c_str()) == changed) << file << ": --check wrote";
     }
     // Also remove the last character of the file.
