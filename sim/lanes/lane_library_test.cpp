@@ -7,10 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <optional>
 #include <random>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/test/source_folder.hpp"
 #include "sim/verilator/verilated_library.hpp"
@@ -181,19 +182,14 @@ ROM
 
 class Lanes : public testing::Test {
  protected:
-  void SetUp() override {
-    auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "lanes");
-    ASSERT_TRUE(made) << made.error().message;
-    scratch_.emplace(std::move(*made));
-    ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", c_harness));
-  }
+  void SetUp() override { ASSERT_TRUE(write_file(scratch_.path() / "harness.cpp", c_harness)); }
 
   LaneBuild build_of(const std::string& body, LaneVectors vectors = LaneVectors::avx512) const {
     return {.name = "test",
             .netlist = module_of(body),
             .top = "m",
             .ports = {.fixed = {}, .outputs = {"response"}},
-            .harness = scratch_->path() / "harness.cpp",
+            .harness = scratch_.path() / "harness.cpp",
             .source = c_source_folder,
             .definitions = {},
             .fast = false,
@@ -211,13 +207,10 @@ class Lanes : public testing::Test {
   }
 
   void expect_refused(const std::string& body, const std::string& with) {
-    const auto lanes = open(body);
-    ASSERT_FALSE(lanes) << body;
-    EXPECT_EQ(lanes.error().code, ExitCode::tool_failed);
-    EXPECT_NE(lanes.error().message.find(with), std::string::npos) << lanes.error().message;
+    EXPECT_TRUE(is_error(open(body), ExitCode::tool_failed, with)) << body;
   }
 
-  std::optional<TemporaryFolder> scratch_;
+  const TemporaryFolder scratch_ = must(TemporaryFolder::make(testing::TempDir()));
 };
 
 /// The number of lanes in the widest vectors of this machine.
@@ -243,36 +236,32 @@ TEST_P(LanesOfVectors, EveryOperationGivesVerilatorsResult) {
   for (unsigned i = 0; i < 64; ++i) rom += fmt::format("    rom[{}] = 8'd{};\n", i, (i * i * 7 + 13) % 256);
   body.replace(body.find("ROM\n"), 4, rom);
   std::mt19937 random(20240229);
-  const auto lanes = open(body, GetParam().vectors);
-  ASSERT_TRUE(lanes) << lanes.error().message;
-  const auto count = lanes->function<unsigned()>("lanes_count");
-  ASSERT_TRUE(count) << count.error().message;
+  const auto lanes = must(open(body, GetParam().vectors));
+  const auto count = must(lanes.function<unsigned()>("lanes_count"));
   const unsigned lane_count = std::min(most_lanes(), GetParam().lanes);
-  ASSERT_EQ((*count)(), lane_count);
+  ASSERT_EQ(count(), lane_count);
   std::vector<std::uint32_t> stimuli(lane_count * c_vectors * c_stimulus_words);
   for (std::uint32_t& word : stimuli) {
     word = static_cast<std::uint32_t>(random());
     if (random() % 8 == 0) word = random() % 2 == 0 ? 0 : ~0U;
   }
-  const auto run = lanes->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_run");
-  ASSERT_TRUE(run) << run.error().message;
+  const auto run = must(lanes.function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_run"));
   std::vector<std::uint32_t> found(lane_count * c_vectors * c_response_words), expected(found.size());
-  (*run)(stimuli.data(), c_vectors, found.data());
+  run(stimuli.data(), c_vectors, found.data());
 
   std::string verilog = module_of(body);
-  const auto verilated = open_verilated({.name = "lanes_test",
-                                         .netlist = verilog,
-                                         .top = "m",
-                                         .harness = c_source_folder / "tb/netlist/netlist_harness.cpp",
-                                         .include_folder = c_source_folder,
-                                         .harness_headers = {},
-                                         .definitions = {},
-                                         .fast = false,
-                                         .compiler = {}},
-                                        c_cache);
-  ASSERT_TRUE(verilated) << verilated.error().message;
+  const auto verilated = must(open_verilated({.name = "lanes_test",
+                                              .netlist = verilog,
+                                              .top = "m",
+                                              .harness = c_source_folder / "tb/netlist/netlist_harness.cpp",
+                                              .include_folder = c_source_folder,
+                                              .harness_headers = {},
+                                              .definitions = {},
+                                              .fast = false,
+                                              .compiler = {}},
+                                             c_cache));
   const auto verilate =
-      verilated->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
+      verilated.function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
   ASSERT_TRUE(verilate) << verilate.error().message;
   for (unsigned lane = 0; lane < lane_count; ++lane) {
     (*verilate)(&stimuli[lane * c_vectors * c_stimulus_words], c_vectors,
@@ -290,11 +279,9 @@ TEST_F(Lanes, TheTextCompilesForWebAssembly) {
   body.replace(body.find("ROM\n"), 4, "    rom[63] = 8'd1;\n");
   LaneBuild build = build_of(body);
   build.target = LaneTarget::web_assembly;
-  const auto module = build_lanes(build, c_cache);
-  ASSERT_TRUE(module) << module.error().message;
-  const auto bytes = read_file(*module);
-  ASSERT_TRUE(bytes) << bytes.error().message;
-  EXPECT_TRUE(bytes->starts_with(std::string_view("\0asm", 4)));
+  const auto module = must(build_lanes(build, c_cache));
+  const auto bytes = must(read_file(module));
+  EXPECT_TRUE(bytes.starts_with(std::string_view("\0asm", 4)));
 }
 
 TEST_F(Lanes, KeepingAValueBecomesACondition) {
@@ -383,15 +370,14 @@ extern "C" __attribute__((visibility("default"))) void lanes_observe(const std::
 )";
 
 TEST_F(Lanes, SignalsAreObservedBeforeTheEdge) {
-  ASSERT_TRUE(write_file(scratch_->path() / "harness.cpp", c_observing_harness));
+  ASSERT_TRUE(write_file(scratch_.path() / "harness.cpp", c_observing_harness));
   LaneBuild build = build_of(c_instance);
   build.ports.top = "m";
   build.ports.observed = {
       {"part/value", 0, 40}, {"part/next", 4, 36}, {"part/odd", 0, 1}, {"two", 0, 8}, {"three", 5, 3}};
-  const auto library = open_lanes(build, c_cache);
-  ASSERT_TRUE(library) << library.error().message;
+  const auto library = must(open_lanes(build, c_cache));
   const auto observe =
-      library->function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_observe");
+      library.function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_observe");
   ASSERT_TRUE(observe) << observe.error().message;
   std::mt19937 random(20261125);
   std::vector<std::uint32_t> stimuli(c_vectors * c_stimulus_words), seen(c_vectors * 7);
@@ -413,9 +399,7 @@ TEST_F(Lanes, SignalsAreObservedBeforeTheEdge) {
   }
 
   build.ports.observed = {{"part/missing", 0, 1}};
-  const auto missing = build_lanes(build, c_cache);
-  ASSERT_FALSE(missing);
-  EXPECT_NE(missing.error().message.find("part/missing: "), std::string::npos) << missing.error().message;
+  EXPECT_TRUE(is_error(build_lanes(build, c_cache), "part/missing: "));
 }
 
 TEST_F(Lanes, UnsupportedConstructsAreRefused) {

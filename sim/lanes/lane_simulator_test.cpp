@@ -7,10 +7,12 @@
 
 #include <algorithm>
 
+#include "common/test/is_error.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
@@ -28,16 +30,14 @@ struct Case {
 class ShadersInLanes : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    auto scene = load_scene(GetParam().scene, c_source_folder / "sim" / "scenes");
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
-    ASSERT_TRUE(plan) << plan.error().message;
-    key_ = plan->key;
-    add(*scene, {96, 72});
+    auto scene = must(load_scene(GetParam().scene, c_source_folder / "sim" / "scenes"));
+    const auto plan = must(plan_scene(scene, {.shader = GetParam().shader, .preset = GetParam().preset}));
+    key_ = plan.key;
+    add(scene, {96, 72});
     // From nearby: large parts of the scene are outside the frame.
-    const auto middle = scene->camera.target_world;
-    scene->camera.eye_world = middle + 0.4 * (scene->camera.eye_world - middle);
-    add(*scene, {48, 40});
+    const auto middle = scene.camera.target_world;
+    scene.camera.eye_world = middle + 0.4 * (scene.camera.eye_world - middle);
+    add(scene, {48, 40});
     golden_ = make_golden_model(key_);
   }
 
@@ -60,17 +60,15 @@ class ShadersInLanes : public testing::TestWithParam<Case> {
 
 TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   for (const unsigned threads : {1U, 3U}) {
-    auto lanes = LaneSimulator::open(key_, c_folders, {.threads = threads, .fast = false});
-    ASSERT_TRUE(lanes) << lanes.error().message;
+    auto lanes = must(LaneSimulator::open(key_, c_folders, {.threads = threads, .fast = false}));
     std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, drawn, c_most);
+    const Status ran = lanes.run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_);
-    EXPECT_GE(lanes->lane_cycles(), drawn.size());
+    EXPECT_GE(lanes.lane_cycles(), drawn.size());
 
     // Part by part, each of whole triangles, in other lanes of the same hardware.
-    const auto others = lanes->another();
-    ASSERT_TRUE(others) << others.error().message;
+    const auto others = must(lanes.another());
     std::span<const std::uint32_t> ahead = words_;
     std::size_t at = 0, parts = 0;
     const auto take = [&](std::span<const Fragment> fragments) {
@@ -79,20 +77,19 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
       at += fragments.size();
       ++parts;
     };
-    ASSERT_TRUE((*others)->draw(words_, c_most, take));
+    ASSERT_TRUE(others->draw(words_, c_most, take));
     EXPECT_EQ(at, expected_.size());
     EXPECT_GT(parts, 8U);
     const auto ignore = [](std::span<const Fragment>) {};
-    EXPECT_FALSE((*others)->draw(words_, expected_.size() - 1, ignore));
+    EXPECT_FALSE(others->draw(words_, expected_.size() - 1, ignore));
     // Interrupted within triangles, which must not appear in a later call.
-    EXPECT_FALSE((*others)->draw(words_, 1, ignore));
+    EXPECT_FALSE(others->draw(words_, 1, ignore));
     ahead = words_;
     at = 0;
-    ASSERT_TRUE((*others)->draw(words_, c_most, take));
+    ASSERT_TRUE(others->draw(words_, c_most, take));
     EXPECT_EQ(at, expected_.size());
-    const Status cut = (*others)->draw(std::span(words_).first(words_.size() - 1), c_most, ignore);
-    ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error().code, ExitCode::bad_input);
+    EXPECT_TRUE(is_error(others->draw(std::span(words_).first(words_.size() - 1), c_most, ignore),
+                         ExitCode::bad_input));
 
     // Again, in batches of no unit, one, fewer than lanes, and many, appended to the earlier fragments.
     drawn.clear();
@@ -101,7 +98,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
         count += golden_->unit(rest.subspan(count * words_per_vector_));
-      const Status part = lanes->run(rest.first(count * words_per_vector_), drawn, c_most);
+      const Status part = lanes.run(rest.first(count * words_per_vector_), drawn, c_most);
       ASSERT_TRUE(part) << part.error().message;
       rest = rest.subspan(count * words_per_vector_);
     }
@@ -109,42 +106,30 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   }
 }
 
-TEST_P(ShadersInLanes, DrawTheSameWithEveryWidth) {
-  for (const LaneVectors vectors : {LaneVectors::avx2, LaneVectors::sse}) {
-    auto lanes = LaneSimulator::open(key_, c_folders, {.fast = false, .vectors = vectors});
-    ASSERT_TRUE(lanes) << lanes.error().message;
-    std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, drawn, c_most);
-    ASSERT_TRUE(ran) << ran.error().message;
-    EXPECT_TRUE(drawn == expected_) << static_cast<int>(vectors);
-  }
-}
-
 TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
   for (const std::uint32_t seed : {1U, 7U}) {
-    auto lanes = LaneSimulator::open(key_, c_folders, {.threads = 2, .stall_seed = seed, .fast = false});
-    ASSERT_TRUE(lanes) << lanes.error().message;
+    auto lanes =
+        must(LaneSimulator::open(key_, c_folders, {.threads = 2, .stall_seed = seed, .fast = false}));
     std::vector<Fragment> drawn;
-    const Status ran = lanes->run(words_, drawn, c_most);
+    const Status ran = lanes.run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
     EXPECT_TRUE(drawn == expected_) << "seed " << seed;
     // Half of all fragments wait at least one clock.
-    EXPECT_GT(lanes->lane_cycles(), 2 * drawn.size());
+    EXPECT_GT(lanes.lane_cycles(), 2 * drawn.size());
   }
 }
 
 TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
   for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, c_most}) {
     for (const unsigned threads : {1U, 2U}) {
-      auto lanes = LaneSimulator::open(key_, c_folders,
-                                       {.threads = threads, .most_waiting = most_waiting, .fast = false});
-      ASSERT_TRUE(lanes) << lanes.error().message;
+      auto lanes = must(LaneSimulator::open(
+          key_, c_folders, {.threads = threads, .most_waiting = most_waiting, .fast = false}));
       // Many times the fragments that a run draws before it outputs them.
       constexpr std::size_t c_turns = 24;
       std::vector<std::uint32_t> words;
       for (std::size_t i = 0; i < c_turns; ++i) words.insert(words.end(), words_.begin(), words_.end());
       std::vector<Fragment> drawn;
-      const Status ran = lanes->run(words, drawn, c_most);
+      const Status ran = lanes.run(words, drawn, c_most);
       ASSERT_TRUE(ran) << ran.error().message;
       ASSERT_EQ(drawn.size(), c_turns * expected_.size());
       for (std::size_t i = 0; i < c_turns; ++i)

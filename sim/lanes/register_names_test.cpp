@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -53,12 +54,11 @@ constexpr const char* c_top = R"(  stages : for number in 0 to 3 generate
 )";
 
 TEST(RegisterNames, AreThoseOfTheRtl) {
-  auto folder = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "register_names");
-  ASSERT_TRUE(folder) << folder.error().message;
-  ASSERT_TRUE(make_folders(folder->path() / "rtl"));
-  ASSERT_TRUE(write_file(folder->path() / "rtl/stage.vhd", c_stage));
-  ASSERT_TRUE(write_file(folder->path() / "rtl/top.vhd", c_top));
-  const RegisterNames names(c_netlist, folder->path());
+  auto folder = must(TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "register_names"));
+  ASSERT_TRUE(make_folders(folder.path() / "rtl"));
+  ASSERT_TRUE(write_file(folder.path() / "rtl/stage.vhd", c_stage));
+  ASSERT_TRUE(write_file(folder.path() / "rtl/top.vhd", c_top));
+  const RegisterNames names(c_netlist, folder.path());
 
   const std::string stage = "top.stages_n2_first_stage.n5_q";
   EXPECT_EQ(names.name(stage, 18, 0, 1), "stages(1)/first/stage/r.valid");

@@ -8,7 +8,6 @@
 
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "sim/pages/headless_browser.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 #include "sim/verilator/harness_api.h"
 
@@ -78,14 +78,9 @@ class HardwareModule : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
-    auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "hardware_module");
-    ASSERT_TRUE(made) << made.error().message;
-    folder_.emplace(std::move(*made));
-    const auto scene = load_scene(GetParam().scene, c_source_folder / "sim" / "scenes");
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto plan = plan_scene(*scene, {.shader = GetParam().shader, .preset = GetParam().preset});
-    ASSERT_TRUE(plan) << plan.error().message;
-    ASSERT_NO_FATAL_FAILURE(open_page(*scene, plan->key));
+    const auto scene = must(load_scene(GetParam().scene, c_source_folder / "sim" / "scenes"));
+    const auto plan = must(plan_scene(scene, {.shader = GetParam().shader, .preset = GetParam().preset}));
+    ASSERT_NO_FATAL_FAILURE(open_page(scene, plan.key));
   }
 
   void open_page(const Scene& scene, const HardwareKey& key) {
@@ -100,14 +95,12 @@ class HardwareModule : public testing::TestWithParam<Case> {
     ASSERT_GT(golden_.size(), 500U);
 
     const live::StreamParts stream = live::parts_of(*golden, words);
-    const auto module = build_hardware_module(key, c_folders);
-    ASSERT_TRUE(module) << module.error().message;
-    const auto bytes = read_file(*module);
-    ASSERT_TRUE(bytes) << bytes.error().message;
-    const auto page = folder_->path() / "page.html";
-    ASSERT_TRUE(write_file(page, fmt::format(c_page, base64(words), base64(stream.parts),
-                                             base64(stream.loads), base64(*bytes))));
-    browser_ = std::make_unique<HeadlessBrowser>(folder_->path());
+    const auto module = must(build_hardware_module(key, c_folders));
+    const auto bytes = must(read_file(module));
+    const auto page = folder_.path() / "page.html";
+    ASSERT_TRUE(write_file(
+        page, fmt::format(c_page, base64(words), base64(stream.parts), base64(stream.loads), base64(bytes))));
+    browser_ = std::make_unique<HeadlessBrowser>(folder_.path());
     browser_->open(page);
     browser_->evaluate("started");
   }
@@ -127,7 +120,7 @@ class HardwareModule : public testing::TestWithParam<Case> {
     return drawn;
   }
 
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
   std::vector<Fragment> golden_;
   std::unique_ptr<HeadlessBrowser> browser_;
 };

@@ -19,6 +19,7 @@
 #include "setup/test/random_solids.hpp"
 #include "sim/compare/limits.hpp"
 #include "sim/run/scene_stream.hpp"
+#include "sim/system/must.hpp"
 #include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
@@ -42,26 +43,15 @@ struct Subset {
   }
 };
 
-// All combinations of effects that every shader has.
-std::vector<Subset> every_subset() {
+// All combinations of the shader's effects. The shading processors have two more than the others.
+std::vector<Subset> every_subset(Shader shader) {
+  const unsigned all = shader == Shader::processors ? 128 : 32;
   std::vector<Subset> subsets;
   for (unsigned lights = 0; lights < 27; ++lights)
-    for (unsigned bits = 0; bits < 32; ++bits)
+    for (unsigned bits = 0; bits < all; ++bits)
       subsets.push_back({lights % 3, lights / 3 % 3, lights / 9, (bits & 1) == 0, (bits & 2) != 0,
-                         (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0});
-  return subsets;
-}
-
-// All combinations of effects that the shading processors have.
-std::vector<Subset> every_subset_of_processors() {
-  std::vector<Subset> subsets;
-  for (Subset subset : every_subset())
-    for (const bool curved : {true, false})
-      for (const bool shadows : {false, true}) {
-        subset.curved = curved;
-        subset.shadows = shadows;
-        subsets.push_back(subset);
-      }
+                         (bits & 4) != 0, (bits & 8) != 0, (bits & 16) != 0, (bits & 32) == 0,
+                         (bits & 64) != 0});
   return subsets;
 }
 
@@ -114,9 +104,7 @@ Scene scene_of(const Subset& subset) {
 }
 
 Plan plan_of(const Scene& scene, const PlanRequest& request) {
-  const auto plan = plan_scene(scene, request);
-  if (!plan) throw std::runtime_error(plan.error().message);
-  return *plan;
+  return must(plan_scene(scene, request));
 }
 
 struct Drawing {
@@ -132,11 +120,10 @@ Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) 
     if (!status) throw std::runtime_error(status.error().message);
   };
   if (with_rtl) {
-    auto opened = VerilatorSimulator::open(
+    auto opened = must(VerilatorSimulator::open(
         key, {HALFWAY_SOURCE_DIR, std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache"},
-        {.idle_limit = c_idle_limit});
-    if (!opened) throw std::runtime_error(opened.error().message);
-    rtl.emplace(std::move(*opened));
+        {.idle_limit = c_idle_limit}));
+    rtl.emplace(std::move(opened));
   }
   SceneStream stream(*setup, key, 1);
   for (Batch batch; stream.next(batch);) {
@@ -182,33 +169,49 @@ struct Hardware {
 class EachShader : public ::testing::TestWithParam<Hardware> {
  protected:
   PlanRequest request() const { return {.shader = GetParam().shader, .preset = GetParam().preset}; }
+  /// The golden model's fragments; of the shading processors, which may draw line by line, those of the
+  /// frame.
+  std::vector<Fragment> drawn(const Scene& scene, const HardwareKey& key) const {
+    const std::vector<Fragment> golden = draw(scene, key).golden;
+    return GetParam().shader == Shader::processors ? nearest(golden) : golden;
+  }
 };
 
+// In every eighth, the hardware has more lights than the scene. They stay dark.
 TEST_P(EachShader, DrawTheSameForEverySubset) {
+  const bool is_quadratic = GetParam().shader == Shader::quadratic;
   std::set<std::string> keys;
-  for (const Subset& subset : every_subset()) {
+  unsigned number = 0;
+  for (const Subset& subset : every_subset(GetParam().shader)) {
     SCOPED_TRACE(subset.name());
     const Scene scene = scene_of(subset);
-    const Plan plan = plan_of(scene, request());
+    PlanRequest asked = request();
+    if (!is_quadratic && ++number % 8 == 0) asked.lights = 16;
+    const Plan plan = plan_of(scene, asked);
     keys.insert(plan.called_for.name());
-    ASSERT_NO_FATAL_FAILURE(
-        expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.everything).golden));
+    ASSERT_NO_FATAL_FAILURE(expect_equal(drawn(scene, plan.called_for), drawn(scene, plan.everything)));
   }
-  fmt::print("{} scenes, {} kinds of hardware needed\n", every_subset().size(), keys.size());
-  // Lights: 0 to 6. For each number above 0: diffuse, specular by colours, both; one and three channels.
-  EXPECT_EQ(keys.size(), GetParam().shader == Shader::quadratic ? 2U : 2 + 6 * (2 + 2 * (1 + 2)));
+  // Spherical: 0 to 6 lights. For each number above 0: diffuse, specular by colours, both; one and three
+  // channels. Processors: one and three channels. For each of 26 sets of lights: diffuse, specular, both;
+  // with and without shadows; in preset exact also with and without normalization of N.
+  const std::size_t normals = GetParam().preset == Preset::exact ? 2 : 1;
+  EXPECT_EQ(keys.size(), is_quadratic                             ? 2U
+                         : GetParam().shader == Shader::spherical ? 2 + 6 * (2 + 2 * (1 + 2))
+                                                                  : 2 * (1 + 26 * 3 * 2 * normals));
 }
 
 // Each effect must change the frame: otherwise equal frames would prove nothing.
 TEST_P(EachShader, EachShowsInTheFrame) {
-  const Subset full{2, 2, 2, true, true, true, true, true};
-  std::vector<Subset> less(8, full);
+  const bool is_processors = GetParam().shader == Shader::processors;
+  const Subset full{2, 2, 2, true, true, true, true, true, true, is_processors};
+  std::vector<Subset> less(is_processors ? 10 : 8, full);
   less[0].directional = less[1].positional = less[2].spots = 1;
   less[3].ambient = less[4].diffuse = less[5].specular = less[6].coloured = less[7].coloured_highlights =
       false;
+  if (is_processors) less[8].curved = less[9].shadows = false;
   const auto golden = [&](const Subset& subset) {
     const Scene scene = scene_of(subset);
-    return draw(scene, plan_of(scene, request()).everything).golden;
+    return drawn(scene, plan_of(scene, request()).everything);
   };
   const std::vector<Fragment> all = golden(full);
   for (const Subset& subset : less) {
@@ -222,81 +225,8 @@ TEST_P(EachShader, EachShowsInTheFrame) {
   }
 }
 
-TEST(AllEffects, LightsMoreThanTheScenesStayDark) {
-  const std::vector<Subset> subsets = {{}, {0, 1, 0, true, true, true}, {2, 2, 2, true, true, true, true}};
-  for (const Preset preset : {Preset::exact, Preset::published})
-    for (const Subset& subset : subsets)
-      for (const unsigned lights : {7U, 16U}) {
-        SCOPED_TRACE(fmt::format("{}, {}; hardware for {}", to_string(preset), subset.name(), lights));
-        const Scene scene = scene_of(subset);
-        const Plan plan = plan_of(
-            scene, {.shader = Shader::spherical, .preset = preset, .all_effects = true, .lights = lights});
-        EXPECT_EQ(plan.key.spherical.lights, lights);
-        ASSERT_NO_FATAL_FAILURE(
-            expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.key).golden));
-      }
-}
-
-TEST(AllEffects, ProcessorsDrawTheSameFrameForEverySubset) {
-  const std::vector<Subset> subsets = every_subset_of_processors();
-  for (const Preset preset : {Preset::exact, Preset::published}) {
-    std::set<std::string> keys;
-    for (const Subset& subset : subsets) {
-      SCOPED_TRACE(fmt::format("{}, {}", to_string(preset), subset.name()));
-      const Scene scene = scene_of(subset);
-      const Plan plan = plan_of(scene, {.shader = Shader::processors, .preset = preset});
-      keys.insert(plan.called_for.name());
-      ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
-                                           nearest(draw(scene, plan.everything).golden)));
-    }
-    fmt::print("{} scenes, {} kinds of hardware needed\n", subsets.size(), keys.size());
-    // One and three channels. For each of 26 sets of lights: diffuse, specular, both; with and without
-    // shadows; in preset exact also with and without normalization of N.
-    EXPECT_EQ(keys.size(), 2U * (1 + 26 * 3 * 2 * (preset == Preset::exact ? 2 : 1)));
-  }
-}
-
-TEST(AllEffects, ProcessorsLightsMoreThanTheScenesStayDark) {
-  const std::vector<Subset> subsets = {{}, {0, 1, 0, true, true, true}, {2, 2, 2, true, true, true, true}};
-  for (const Preset preset : {Preset::exact, Preset::published})
-    for (Subset subset : subsets)
-      for (const bool shadows : {false, true}) {
-        subset.shadows = shadows;
-        SCOPED_TRACE(fmt::format("{}, {}", to_string(preset), subset.name()));
-        const Scene scene = scene_of(subset);
-        const Plan plan = plan_of(
-            scene, {.shader = Shader::processors, .preset = preset, .all_effects = true, .lights = 16});
-        EXPECT_EQ(plan.key.processors.spots, 16U);
-        ASSERT_NO_FATAL_FAILURE(expect_equal(nearest(draw(scene, plan.called_for).golden),
-                                             nearest(draw(scene, plan.key).golden)));
-      }
-}
-
-TEST(AllEffects, OfProcessorsEachShowsInTheFrame) {
-  const Subset full{2, 2, 2, true, true, true, true, true, true, true};
-  std::vector<Subset> less(10, full);
-  less[0].directional = less[1].positional = less[2].spots = 1;
-  less[3].ambient = less[4].diffuse = less[5].specular = less[6].coloured = less[7].coloured_highlights =
-      less[8].curved = less[9].shadows = false;
-  for (const Preset preset : {Preset::exact, Preset::published}) {
-    const auto golden = [&](const Subset& subset) {
-      const Scene scene = scene_of(subset);
-      return nearest(
-          draw(scene, plan_of(scene, {.shader = Shader::processors, .preset = preset}).everything).golden);
-    };
-    const std::vector<Fragment> all = golden(full);
-    for (const Subset& subset : less) {
-      std::size_t changed = 0;
-      for (const Fragment& f : golden(subset))
-        for (const Fragment& g : all)
-          changed += f.x == g.x && f.y == g.y && f.triangle == g.triangle &&
-                     (f.red != g.red || f.green != g.green || f.blue != g.blue);
-      EXPECT_GT(changed, 20U) << to_string(preset) << ", " << subset.name();
-    }
-  }
-}
-
 TEST_P(EachShader, DrawTheSameInTheRtl) {
+  if (GetParam().shader == Shader::processors) return;  // the tests frame.processors.all_effects
   const bool exact = GetParam().preset == Preset::exact;
   std::vector<Subset> subsets = {{}, {1, 0, 0, true, true}};
   if (exact) subsets.push_back({0, 1, 0, false, false, true});
@@ -309,8 +239,6 @@ TEST_P(EachShader, DrawTheSameInTheRtl) {
     ASSERT_NO_FATAL_FAILURE(expect_equal(few.rtl, all.rtl));
     EXPECT_EQ(few.rtl, few.golden);
     EXPECT_EQ(all.rtl, all.golden);
-    fmt::print("{}: {} cycles as needed ({}), {} with all effects ({})\n", subset.name(), few.cycles,
-               plan.called_for.name(), all.cycles, plan.everything.name());
     // Without line records no clock is spent on them. The other effects do not change the clocks of the walk.
     EXPECT_LE(few.cycles, all.cycles);
     EXPECT_TRUE(few.cycles == all.cycles || !plan.called_for.spherical.records());
@@ -321,7 +249,9 @@ INSTANTIATE_TEST_SUITE_P(AllEffects, EachShader,
                          ::testing::Values(Hardware{Shader::quadratic, Preset::exact},
                                            Hardware{Shader::quadratic, Preset::published},
                                            Hardware{Shader::spherical, Preset::exact},
-                                           Hardware{Shader::spherical, Preset::published}),
+                                           Hardware{Shader::spherical, Preset::published},
+                                           Hardware{Shader::processors, Preset::exact},
+                                           Hardware{Shader::processors, Preset::published}),
                          [](const auto& test) {
                            return fmt::format("{}_{}", to_string(test.param.shader),
                                               to_string(test.param.preset));

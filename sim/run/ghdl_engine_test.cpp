@@ -6,14 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
-#include <stdexcept>
 
+#include "common/test/is_error.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -29,13 +30,11 @@ struct Stream {
 };
 
 Stream stream_of(const char* name, Shader shader, FrameSize frame) {
-  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-  if (!scene) throw std::runtime_error(scene.error().message);
-  const auto plan = plan_scene(*scene, {.shader = shader});
-  if (!plan) throw std::runtime_error(plan.error().message);
-  const auto setup = make_setup(*scene, frame, plan->key, {});
-  Stream all{plan->key, {.bits = setup->init_bits(), .words = {}}, {}, Cuts(plan->key)};
-  SceneStream stream(*setup, plan->key, 2);
+  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  const auto plan = must(plan_scene(scene, {.shader = shader}));
+  const auto setup = make_setup(scene, frame, plan.key, {});
+  Stream all{plan.key, {.bits = setup->init_bits(), .words = {}}, {}, Cuts(plan.key)};
+  SceneStream stream(*setup, plan.key, 2);
   for (Batch batch; stream.next(batch);) {
     all.init.words.insert(all.init.words.end(), batch.init_words.begin(), batch.init_words.end());
     all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
@@ -93,19 +92,16 @@ TEST(GhdlParts, AreOneWhereTrianglesHangOnThoseBefore) {
 }
 
 TEST(GhdlParts, DrawWhatOneRunDraws) {
-  const auto scratch = TemporaryFolder::make(testing::TempDir());
-  ASSERT_TRUE(scratch) << scratch.error().message;
+  const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const SimulatorFolders folders{source, source / "build" / "cache"};
-  const auto init = scratch->path() / "init", trace = scratch->path() / "trace";
+  const auto init = scratch.path() / "init", trace = scratch.path() / "trace";
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
     const Stream s = stream_of("spheres", shader, {64, 48});
-    const auto runner = GhdlRunner::open(s.key, folders);
-    ASSERT_TRUE(runner) << runner.error().message;
+    const auto runner = must(GhdlRunner::open(s.key, folders));
     ASSERT_TRUE(write_init_file(init, s.key.name(), s.init));
     const std::vector<std::uint64_t> triangles = triangles_of(s);
-    const auto one = runner->run(init, trace);
-    ASSERT_TRUE(one) << one.error().message;
+    const auto one = must(runner.run(init, trace));
     // The second part ends where the third starts. The last part is a single triangle.
     const std::uint64_t parts[] = {0, triangles[1], triangles[triangles.size() / 2], triangles.back()};
     std::vector<Fragment> drawn;
@@ -114,17 +110,14 @@ TEST(GhdlParts, DrawWhatOneRunDraws) {
     };
     for (const unsigned threads : {1U, 3U}) {
       drawn.clear();
-      const auto cycles = run_in_parts(*runner, s.key, init, parts, {}, threads, take);
-      ASSERT_TRUE(cycles) << cycles.error().message;
-      EXPECT_GE(*cycles, one->cycles);
-      EXPECT_LE(*cycles, one->cycles + 3 * 16);
+      const auto cycles = must(run_in_parts(runner, s.key, init, parts, {}, threads, take));
+      EXPECT_GE(cycles, one.cycles);
+      EXPECT_LE(cycles, one.cycles + 3 * 16);
       EXPECT_EQ(drawn, s.golden);
     }
     drawn.clear();
-    const auto too_many = run_in_parts(*runner, s.key, init, parts, {.max_fragments = 10}, 2, take);
-    ASSERT_FALSE(too_many);
-    EXPECT_EQ(too_many.error().code, ExitCode::differs);
-    EXPECT_THAT(too_many.error().message, HasSubstr("of 4, from init vector "));
+    EXPECT_TRUE(is_error(run_in_parts(runner, s.key, init, parts, {.max_fragments = 10}, 2, take),
+                         ExitCode::differs, "of 4, from init vector "));
     EXPECT_TRUE(drawn.empty());
   }
 }
@@ -133,29 +126,26 @@ TEST(GhdlParts, DrawWhatOneRunDraws) {
 TEST(GhdlEngine, DrawsInDrainAlone) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const Stream s = stream_of("spheres", Shader::quadratic, {64, 48});
-  auto engine = GhdlEngine::open(s.key, {source, source / "build" / "cache"}, 1, {});
-  ASSERT_TRUE(engine) << engine.error().message;
-  EXPECT_FALSE(engine->cycles());
+  auto engine = must(GhdlEngine::open(s.key, {source, source / "build" / "cache"}, 1, {}));
+  EXPECT_FALSE(engine.cycles());
   std::uint64_t cycles = 0;
   for (int frame = 1; frame <= 2; ++frame) {
     std::vector<Fragment> drawn;
     const std::size_t half = triangles_of(s)[40] * s.init.words_per_vector();
-    ASSERT_TRUE(engine->run(std::span(s.init.words).first(half), drawn, s.golden.size()));
-    ASSERT_TRUE(engine->run(std::span(s.init.words).subspan(half), drawn, s.golden.size()));
+    ASSERT_TRUE(engine.run(std::span(s.init.words).first(half), drawn, s.golden.size()));
+    ASSERT_TRUE(engine.run(std::span(s.init.words).subspan(half), drawn, s.golden.size()));
     EXPECT_TRUE(drawn.empty());
-    const Status ended = engine->finish(drawn, s.golden.size());
+    const Status ended = engine.finish(drawn, s.golden.size());
     ASSERT_TRUE(ended) << ended.error().message;
     EXPECT_EQ(drawn, s.golden);
-    if (frame == 1) cycles = engine->cycles().value();
-    EXPECT_EQ(engine->cycles(), frame * cycles);
-    ASSERT_TRUE(engine->finish(drawn, s.golden.size()));
+    if (frame == 1) cycles = engine.cycles().value();
+    EXPECT_EQ(engine.cycles(), frame * cycles);
+    ASSERT_TRUE(engine.finish(drawn, s.golden.size()));
     EXPECT_EQ(drawn, s.golden);
   }
   std::vector<Fragment> drawn;
-  ASSERT_TRUE(engine->run(s.init.words, drawn, 10));
-  const Status too_many = engine->finish(drawn, 10);
-  ASSERT_FALSE(too_many);
-  EXPECT_EQ(too_many.error().code, ExitCode::differs);
+  ASSERT_TRUE(engine.run(s.init.words, drawn, 10));
+  EXPECT_TRUE(is_error(engine.finish(drawn, 10), ExitCode::differs));
   EXPECT_TRUE(drawn.empty());
 }
 

@@ -8,6 +8,7 @@
 #include "plan/plan.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -129,9 +130,8 @@ TEST(RtlFrame, AFaultEndsTheDrawingAndOtherErrorsAreTheCallers) {
 }
 
 TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
-  const auto scratch = TemporaryFolder::make(testing::TempDir());
-  ASSERT_TRUE(scratch) << scratch.error().message;
-  const auto trace = scratch->path() / "golden.trace";
+  const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
+  const auto trace = scratch.path() / "golden.trace";
   const auto finish = [&](std::shared_ptr<StandIn> engine) {
     RtlFrame frame(std::move(engine), {3, 1}, {}, {.golden_trace = trace});
     // These fragments are only counted.
@@ -141,12 +141,10 @@ TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
   };
   EXPECT_FALSE(finish(stand_in(c_golden, 3)));
   ASSERT_TRUE(write_trace(trace, "key", {c_golden, {}}));
-  const auto all = finish(stand_in(c_golden, 3));
-  ASSERT_TRUE(all) << all.error().message;
-  EXPECT_TRUE(all->equal()) << all->description;
-  const auto few = finish(stand_in({c_golden[0]}, 1));
-  ASSERT_TRUE(few) << few.error().message;
-  EXPECT_EQ(few->mismatches, 2U);
+  const auto all = must(finish(stand_in(c_golden, 3)));
+  EXPECT_TRUE(all.equal()) << all.description;
+  const auto few = must(finish(stand_in({c_golden[0]}, 1)));
+  EXPECT_EQ(few.mismatches, 2U);
   // A truncated trace.
   ASSERT_TRUE(write_file(trace, "halfway-trace 1 key\n0 0 0 1 10 0 0\n"));
   EXPECT_FALSE(finish(stand_in(c_golden, 3)));

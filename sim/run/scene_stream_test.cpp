@@ -6,13 +6,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "setup/check_counts.hpp"
 #include "setup/test/random_solids.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -20,18 +19,15 @@ namespace {
 constexpr FrameSize c_stream_frame{160, 120};
 
 HardwareKey key_of(const Scene& scene, Shader shader) {
-  const auto plan = plan_scene(scene, {.shader = shader});
-  if (!plan) throw std::runtime_error(plan.error().message);
-  return plan->key;
+  return must(plan_scene(scene, {.shader = shader})).key;
 }
 
 TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
   for (const char* name : {"shadows", "lights"})
     for (const Shader shader : c_shaders) {
-      const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-      ASSERT_TRUE(scene) << scene.error().message;
-      const HardwareKey key = key_of(*scene, shader);
-      const auto setup = make_setup(*scene, c_stream_frame, key, {});
+      const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+      const HardwareKey key = key_of(scene, shader);
+      const auto setup = make_setup(scene, c_stream_frame, key, {});
       SCOPED_TRACE(key.name());
       EXPECT_EQ(setup->units_are_lines(), key.processors.shadows);
       std::vector<std::uint32_t> words;
@@ -58,8 +54,8 @@ TEST(SceneStream, IsPrologueAndUnitsForAnyNumberOfThreads) {
         EXPECT_EQ(stream.counts().vectors, counts.vectors);
         EXPECT_EQ(stream.counts().shadows, counts.shadows);
         EXPECT_EQ(stream.counts().projection.visible, counts.projection.visible);
-        EXPECT_TRUE(check_shadow_counts(*scene, stream.counts(), stream.fault()));
-        EXPECT_TRUE(check_projection(*scene, stream.counts()));
+        EXPECT_TRUE(check_shadow_counts(scene, stream.counts(), stream.fault()));
+        EXPECT_TRUE(check_projection(scene, stream.counts()));
       }
       SceneStream without(*setup, key, 2, {.golden = false, .ahead = false});
       std::vector<std::uint32_t> same;
@@ -90,23 +86,6 @@ Streamed streamed(SceneStream& stream) {
     all.largest = std::max(all.largest, batch.golden.size());
   }
   return all;
-}
-
-// A frame's fragments would take 60 MB here. They are not all in memory at once.
-TEST(SceneStream, LargeTrianglesMakeBatchesOfFew) {
-  const auto scene = load_scene("spheres", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-  ASSERT_TRUE(scene) << scene.error().message;
-  const HardwareKey key = key_of(*scene, Shader::quadratic);
-  const auto setup = make_setup(*scene, {2800, 2800}, key, {});
-  SetupCounts counts;
-  const std::vector<std::uint32_t> words = words_of(*setup, counts);
-  for (const unsigned threads : {1U, 4U}) {
-    SceneStream stream(*setup, key, threads);
-    const Streamed all = streamed(stream);
-    EXPECT_TRUE(all.words == words) << threads;
-    EXPECT_GT(all.fragments * sizeof(Fragment), std::size_t{56} << 20);
-    EXPECT_LT(all.largest * sizeof(Fragment), std::size_t{13} << 20) << threads;
-  }
 }
 
 // Many small triangles make large batches. After them, at most one large triangle per thread exceeds the

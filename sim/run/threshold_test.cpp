@@ -12,6 +12,7 @@
 #include "setup/project.hpp"
 #include "setup/setup.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -21,23 +22,22 @@ class Threshold : public testing::TestWithParam<const char*> {};
 // Small pictures, where most triangles cover a pixel or two, and larger ones. The test of a leaf is
 // calibrated to twice the threshold (setup/highlight_bound.hpp); the rest is the rounding of both pictures.
 TEST_P(Threshold, EveryPixelOfABuiltInSceneIsWithinIt) {
-  auto scene = load_scene(GetParam(), HALFWAY_SOURCE_DIR "/sim/scenes");
-  ASSERT_TRUE(scene) << scene.error().message;
-  scene->shadows = false;  // the quadratic shader draws none
-  const HardwareKey key = plan_scene(*scene, {.shader = Shader::quadratic})->key;
+  auto scene = must(load_scene(GetParam(), HALFWAY_SOURCE_DIR "/sim/scenes"));
+  scene.shadows = false;  // the quadratic shader draws none
+  const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
   const SetupOptions options;
   for (const FrameSize frame :
        {FrameSize{32, 24}, FrameSize{57, 41}, FrameSize{128, 96}, FrameSize{320, 240}}) {
-    const auto setup = make_setup(*scene, frame, key, options);
+    const auto setup = make_setup(scene, frame, key, options);
     std::vector<std::uint32_t> words;
     SetupCounts counts;
     setup->append_all(words, counts);
     EXPECT_EQ(counts.unresolved, 0u);
-    FrameAssembler drawn(frame, scene->background);
+    FrameAssembler drawn(frame, scene.background);
     ASSERT_TRUE(drawn.add(make_golden_model(key)->draw(words)));
     ASSERT_GT(drawn.covered_pixels(), 100u);
-    const ReferenceImage reference = render_reference(
-        *scene, Projector(*scene, frame, ProjectionOptions{}).project_all(), {.frame = frame});
+    const ReferenceImage reference =
+        render_reference(scene, Projector(scene, frame, ProjectionOptions{}).project_all(), {.frame = frame});
     ASSERT_EQ(drawn.mask(), reference.mask);
     int largest = 0;
     for (std::size_t i = 0; i < reference.frame.rgb.size(); ++i)

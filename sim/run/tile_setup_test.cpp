@@ -15,8 +15,8 @@
 #include "plan/plan.hpp"
 #include "setup/test/random_solids.hpp"
 #include "sim/run/scene_stream.hpp"
-#include "sim/run/verilator_frame.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
@@ -25,15 +25,11 @@ namespace {
 constexpr FrameSize c_tile_frame{64, 48};
 
 Scene scene_of(const std::string& name) {
-  auto scene = load_scene(name, c_source_folder / "sim" / "scenes", {.tessellation = 0.25});
-  EXPECT_TRUE(scene) << scene.error().message;
-  return *scene;
+  return must(load_scene(name, c_source_folder / "sim" / "scenes", {.tessellation = 0.25}));
 }
 
 HardwareKey key_of(const Scene& scene, Shader shader, Preset preset) {
-  const auto plan = plan_scene(scene, {.shader = shader, .preset = preset});
-  EXPECT_TRUE(plan) << plan.error().message;
-  return plan->key;
+  return must(plan_scene(scene, {.shader = shader, .preset = preset})).key;
 }
 
 // The golden model's fragments of a setup's stream, as a tile.
@@ -154,28 +150,6 @@ TEST(TileSetup, ATriangleIsInEachTileThatItTouches) {
     }
     EXPECT_GE(middle, 4U);
     EXPECT_GE(empty, 4U);
-  }
-}
-
-TEST(TileSetup, TheRtlDrawsThem) {
-  const SimulatorFolders folders{c_source_folder, c_source_folder / "build" / "cache"};
-  const Scene scene = scene_of("shadows");
-  for (const Shader shader : c_shaders) {
-    const HardwareKey key = key_of(scene, shader, Preset::exact);
-    const auto whole = draw_in_verilator(scene, c_tile_frame, key, {}, folders, 1);
-    ASSERT_TRUE(whole) << whole.error().message;
-    Frame frame(c_tile_frame), mask(c_tile_frame);
-    std::uint64_t fragments = 0, cycles = 0;
-    for (const Tile& tile : tiles_of(c_tile_frame, {37, 29})) {
-      const auto drawn = draw_in_verilator(scene, c_tile_frame, key, {}, folders, 1, tile);
-      ASSERT_TRUE(drawn) << drawn.error().message;
-      put_tile(frame, drawn->frame, tile);
-      fragments += drawn->fragments;
-      cycles += drawn->cycles;
-    }
-    EXPECT_EQ(frame.rgb, whole->frame.rgb) << key.name();
-    EXPECT_EQ(fragments, whole->fragments) << key.name();
-    EXPECT_GT(cycles, whole->cycles) << key.name();
   }
 }
 
