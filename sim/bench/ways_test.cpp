@@ -8,11 +8,13 @@
 
 #include <cmath>
 
+#include "common/test/is_error.hpp"
 #include "sim/bench/workload.hpp"
 #include "sim/bench/yardstick.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
@@ -55,11 +57,9 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   // GHDL's other back end is downloaded, not installed, so it is missing on a machine without network.
   if (way == Way::ghdl_mcode && !lacks.empty()) GTEST_SKIP() << to_string(way) << ": not here: " << lacks;
   ASSERT_EQ(lacks, "") << to_string(way);
-  const auto go = make_way(way, input());
-  ASSERT_TRUE(go) << go.error().message;
-  const auto seconds = (*go)();
-  ASSERT_TRUE(seconds) << seconds.error().message;
-  EXPECT_GT(*seconds, 0.0);
+  const auto go = must(make_way(way, input()));
+  const auto seconds = must(go());
+  EXPECT_GT(seconds, 0.0);
   // Change the input. The way still draws the first one, which is now wrong.
   if (way == Way::mesa)
     scene_.materials[0].colour *= 0.5;
@@ -68,9 +68,7 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   else
     batches_.golden.back().red ^= 1;
   if (way == Way::reference || way == Way::golden) return;  // not compared with these
-  const auto wrong = (*go)();
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().code, ExitCode::differs) << wrong.error().message;
+  EXPECT_TRUE(is_error(go(), ExitCode::differs));
 }
 
 INSTANTIATE_TEST_SUITE_P(Bench, WayTest, testing::ValuesIn(c_ways),
@@ -81,24 +79,22 @@ TEST(BenchWorkload, AFrameIsDrawnWholeAndComparedInEveryField) {
   const Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
   const auto batches = make_batches(scene, c_size, {.shader = Shader::quadratic});
   ASSERT_TRUE(batches);
-  const auto engine = open_engine(EngineKind::verilator, batches->key, folders);
-  ASSERT_TRUE(engine) << engine.error().message;
-  const auto cost = draw_frame([&] { return scene; }, c_size, batches->key, *engine, *batches);
-  ASSERT_TRUE(cost) << cost.error().message;
-  EXPECT_EQ(cost->mismatches, 0U);
-  EXPECT_EQ(cost->fragments, batches->golden.size());
-  EXPECT_EQ(cost->vectors, batches->vectors());
-  EXPECT_EQ(cost->triangles, scene.triangles.size());
-  EXPECT_GT(cost->setup, 0.0);
-  EXPECT_GT(cost->rtl, 0.0);
-  EXPECT_GT(cost->best_pace, 0.0);
-  EXPECT_GE(cost->pace, cost->best_pace);
-  EXPECT_GT(cost->memory_bytes, 7U * c_size.width * c_size.height);
+  const auto engine = must(open_engine(EngineKind::verilator, batches->key, folders));
+  const auto cost = must(draw_frame([&] { return scene; }, c_size, batches->key, engine, *batches));
+  EXPECT_EQ(cost.mismatches, 0U);
+  EXPECT_EQ(cost.fragments, batches->golden.size());
+  EXPECT_EQ(cost.vectors, batches->vectors());
+  EXPECT_EQ(cost.triangles, scene.triangles.size());
+  EXPECT_GT(cost.setup, 0.0);
+  EXPECT_GT(cost.rtl, 0.0);
+  EXPECT_GT(cost.best_pace, 0.0);
+  EXPECT_GE(cost.pace, cost.best_pace);
+  EXPECT_GT(cost.memory_bytes, 7U * c_size.width * c_size.height);
 
   // Hardware for three channels: other vectors.
   const auto other = make_batches(*load_scene("spheres", c_source_folder / "sim/scenes"), c_size, {});
   ASSERT_TRUE(other);
-  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, *engine, *batches));
+  EXPECT_FALSE(draw_frame([&] { return scene; }, c_size, other->key, engine, *batches));
 }
 
 // Each thread draws frames of its own; every frame is compared.
@@ -106,14 +102,12 @@ TEST(BenchWorkload, FramesAreDrawnOnAllThreads) {
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   const Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
   const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
-  const auto engine = open_engine(EngineKind::verilator, key, folders);
-  ASSERT_TRUE(engine) << engine.error().message;
-  const auto another = (*engine)->another();
+  const auto engine = must(open_engine(EngineKind::verilator, key, folders));
+  const auto another = engine->another();
   ASSERT_TRUE(another);
-  const std::vector<std::shared_ptr<Engine>> engines = {*engine, *another};
-  const auto rate = frame_rate(scene, c_size, key, engines, 6);
-  ASSERT_TRUE(rate) << rate.error().message;
-  EXPECT_GT(*rate, 0.0);
+  const std::vector<std::shared_ptr<Engine>> engines = {engine, *another};
+  const auto rate = must(frame_rate(scene, c_size, key, engines, 6));
+  EXPECT_GT(rate, 0.0);
   // Both engines have drawn: the clocks of both have advanced.
   for (const std::shared_ptr<Engine>& each : engines) EXPECT_GT(each->cycles(), 0U);
   // The key of other hardware: golden model and set-up differ from the engines.
@@ -130,18 +124,17 @@ TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
     const WalkCounts walk = count_walk(*batches);
     EXPECT_EQ(walk.pixels, batches->golden.size());
     EXPECT_EQ(walk.lines, walk.spans + walk.empty_lines);
-    const auto engine = open_engine(EngineKind::verilator, batches->key, folders);
-    ASSERT_TRUE(engine) << engine.error().message;
+    const auto engine = must(open_engine(EngineKind::verilator, batches->key, folders));
     std::vector<Fragment> drawn;
-    ASSERT_TRUE((*engine)->run(batches->words, drawn, SIZE_MAX));
-    ASSERT_TRUE((*engine)->finish(drawn, SIZE_MAX));
+    ASSERT_TRUE(engine->run(batches->words, drawn, SIZE_MAX));
+    ASSERT_TRUE(engine->finish(drawn, SIZE_MAX));
     ASSERT_EQ(drawn, batches->golden);
     const std::uint64_t expected = walk.pixels + walk.lost_to_lines + walk.lost_to_headers;
     EXPECT_GT(walk.lost_to_lines, 0U);
     EXPECT_GT(walk.lost_to_headers, 0U);
-    EXPECT_GE((*engine)->cycles(), expected);
+    EXPECT_GE(engine->cycles(), expected);
     // Additional clocks: the pipeline's depth once, and the processors' lights.
-    EXPECT_LE((*engine)->cycles(), expected + (shader == Shader::processors ? 40 : 11)) << to_string(shader);
+    EXPECT_LE(engine->cycles(), expected + (shader == Shader::processors ? 40 : 11)) << to_string(shader);
   }
 }
 

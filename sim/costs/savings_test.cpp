@@ -10,6 +10,7 @@
 
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -19,26 +20,20 @@ using ::testing::HasSubstr;
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 
 TEST(Savings, AreWhatThePageSays) {
-  const auto savings = read_savings(c_root / c_savings);
-  ASSERT_TRUE(savings) << savings.error().message;
-  const auto page = read_file(c_root / "docs/effects.md");
-  ASSERT_TRUE(page);
-  const auto drawn = with_savings(*page, *savings);
-  ASSERT_TRUE(drawn) << drawn.error().message;
-  EXPECT_EQ(*page, *drawn) << "make savings writes it";
+  const auto savings = must(read_savings(c_root / c_savings));
+  const auto page = must(read_file(c_root / "docs/effects.md"));
+  const auto drawn = must(with_savings(page, savings));
+  EXPECT_EQ(page, drawn) << "make savings writes it";
 }
 
 TEST(Savings, AreOfTheHardwareThatIsPlanned) {
-  const auto savings = read_savings(c_root / c_savings);
-  ASSERT_TRUE(savings) << savings.error().message;
-  for (std::size_t i = 0; i < savings->size(); ++i) {
+  const auto savings = must(read_savings(c_root / c_savings));
+  for (std::size_t i = 0; i < savings.size(); ++i) {
     const SavingsCase& which = savings_cases()[i];
-    const auto scene = load_scene(which.scene, c_root / "sim/scenes");
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto plan = plan_scene(*scene, which.request());
-    ASSERT_TRUE(plan) << plan.error().message;
-    EXPECT_EQ((*savings)[i].called_for.key, plan->called_for.name()) << "make savings measures it";
-    EXPECT_EQ((*savings)[i].everything.key, plan->everything.name()) << "make savings measures it";
+    const auto scene = must(load_scene(which.scene, c_root / "sim/scenes"));
+    const auto plan = must(plan_scene(scene, which.request()));
+    EXPECT_EQ(savings[i].called_for.key, plan.called_for.name()) << "make savings measures it";
+    EXPECT_EQ(savings[i].everything.key, plan.everything.name()) << "make savings measures it";
   }
 }
 
@@ -52,14 +47,12 @@ TEST(Savings, ComeBackFromTheirFile) {
            {&cost->luts, &cost->flip_flops, &cost->memory_bits, &cost->multipliers, &cost->cycles})
         *figure = ++number;
     }
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const auto path = folder->path() / "savings.csv";
+  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const auto path = folder.path() / "savings.csv";
   const std::string csv = to_csv(savings);
   ASSERT_TRUE(write_file(path, csv));
-  const auto read = read_savings(path);
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(to_csv(*read), csv);
+  const auto read = must(read_savings(path));
+  EXPECT_EQ(to_csv(read), csv);
   const auto refused = [&](const std::string& text) {
     EXPECT_TRUE(write_file(path, text));
     const auto wrong = read_savings(path);
@@ -77,15 +70,14 @@ TEST(Savings, AreDrawnAsSharesAndPairs) {
   savings[1] = {{.luts = 1326, .flip_flops = 90}, {.luts = 53376, .flip_flops = 100}};
   savings[4] = {{.luts = 4682, .multipliers = 15, .cycles = 19739},
                 {.luts = 19557, .multipliers = 92, .cycles = 44464}};
-  const auto text = with_savings(
+  const auto text = must(with_savings(
       "\n<!-- savings: x -->\n\n<!-- end of savings -->\n\n<!-- savings of processors: x -->\n\n<!-- end of "
       "savings of "
       "processors -->\n",
-      savings);
-  ASSERT_TRUE(text) << text.error().message;
-  EXPECT_THAT(*text, HasSubstr("\n| `matte` | spherical, `published` | 1326 | 53 376 | 98 % | 10 % |\n"));
+      savings));
+  EXPECT_THAT(text, HasSubstr("\n| `matte` | spherical, `published` | 1326 | 53 376 | 98 % | 10 % |\n"));
   EXPECT_THAT(
-      *text,
+      text,
       HasSubstr("\n| `matte`, `exact` | 4682 / 19 557 | 15 / 92 | 0 / 0 | 0 / 0 | 19 739 / 44 464 |\n"));
   EXPECT_FALSE(with_savings("a page without parts", savings));
 }

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "common/test/is_error.hpp"
 #include "sim/figures/check.hpp"
 #include "sim/figures/cut_lines.hpp"
 #include "sim/figures/figure7.hpp"
@@ -19,6 +20,7 @@
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/figures/timing_diagram.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway::figures {
@@ -106,10 +108,9 @@ TEST(Figures, ARowThatHoldsByConstructionDoesNotAgree) {
   EXPECT_THAT(draw(made, measured(60, "{}")), HasSubstr("was measured: remove by_construction"));
   const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {made}, {}}, {}, {{made, same}}}};
   EXPECT_THAT(to_json(entries), HasSubstr("\"verdict\": \"by construction\""));
-  const auto page = to_page(entries, c_source_folder);
-  ASSERT_TRUE(page) << page.error().message;
-  EXPECT_THAT(*page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction."));
-  EXPECT_THAT(*page, HasSubstr("| by construction (exactly): 60 = 6 · 10 |"));
+  const auto page = must(to_page(entries, c_source_folder));
+  EXPECT_THAT(page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction."));
+  EXPECT_THAT(page, HasSubstr("| by construction (exactly): 60 = 6 · 10 |"));
 }
 
 TEST(Figures, AClaimsFileIsReadStrictly) {
@@ -144,9 +145,8 @@ TEST(Figures, AClaimsFileIsReadStrictly) {
 }
 
 std::vector<Figure> figures() {
-  auto all = all_figures(c_source_folder);
-  EXPECT_TRUE(all) << all.error().message;
-  return *all;
+  auto all = must(all_figures(c_source_folder));
+  return all;
 }
 
 // All figures and claims that the papers print and the project reproduces.
@@ -166,31 +166,28 @@ TEST(Figures, HaveAllFiguresAndClaims) {
 }
 
 std::map<std::string, Measurements> measurements(const std::string& json) {
-  const auto read = measurements_of(json, "x.json");
-  EXPECT_TRUE(read) << read.error().message;
-  return *read;
+  const auto read = must(measurements_of(json, "x.json"));
+  return read;
 }
 
 // Read the committed figures.
 std::vector<Entry> committed() {
-  const auto json = read_file(c_folder / "figures.json");
-  EXPECT_TRUE(json) << json.error().message;
+  const auto json = must(read_file(c_folder / "figures.json"));
   std::vector<Entry> entries;
   for (const Figure& figure : figures()) entries.push_back({figure, {}, {}});
-  return completed(entries, measurements(*json));
+  return completed(entries, measurements(json));
 }
 
 // The claims print the words of the trace, restored ones in brackets.
 TEST(Figures, Figure7PublishesTheWordsOfTheTrace) {
-  const auto trace = read_figure7(c_source_folder / "tb/published/figure7.txt");
-  ASSERT_TRUE(trace) << trace.error().message;
+  const auto trace = must(read_figure7(c_source_folder / "tb/published/figure7.txt"));
   int registers = 0;
   for (const Figure& figure : figures())
     for (const Claim& claim : figure.claims) {
       const std::string name = (claim.what.starts_with("Δ") ? "d" : "") +
                                claim.what.substr(claim.what.starts_with("Δ") ? std::string("Δ").size() : 0);
-      if (figure.id != "quadratic-07" || !trace->restored.contains(name)) continue;
-      EXPECT_EQ(claim.published, trace->published(name));
+      if (figure.id != "quadratic-07" || !trace.restored.contains(name)) continue;
+      EXPECT_EQ(claim.published, trace.published(name));
       ++registers;
     }
   EXPECT_EQ(registers, 5);
@@ -232,9 +229,8 @@ TEST(Figures, EveryVerdictCanChange) {
 }
 
 TEST(Figures, TheTableHasNoEmptyCell) {
-  const auto page = to_page(committed(), c_source_folder);
-  ASSERT_TRUE(page) << page.error().message;
-  const std::string table = page->substr(0, page->find("\n## The figures"));
+  const auto page = must(to_page(committed(), c_source_folder));
+  const std::string table = page.substr(0, page.find("\n## The figures"));
   EXPECT_THAT(table, testing::Not(HasSubstr("|  |")));
   EXPECT_THAT(table, testing::Not(HasSubstr(": |")));
   EXPECT_THAT(table, testing::Not(HasSubstr("nan")));
@@ -250,9 +246,7 @@ TEST(Figures, MeasurementsAreReadBackFromJson) {
   const std::string json = to_json(std::array{whole});
   EXPECT_THAT(json, HasSubstr("\"value\": null"));
   EXPECT_EQ(to_json(completed({none}, measurements(json))), json);
-  const auto bad = measurements_of("[{\"id\": 1}]", "x.json");
-  ASSERT_FALSE(bad);
-  EXPECT_THAT(bad.error().message, HasSubstr("x.json: "));
+  EXPECT_TRUE(is_error(measurements_of("[{\"id\": 1}]", "x.json"), "x.json: "));
 }
 
 TEST(Figures, TimesStayOnAPageUntilTheirVerdictChanges) {
@@ -278,10 +272,6 @@ TEST(Figures, TimesStayOnAPageUntilTheirVerdictChanges) {
 class Stale : public testing::Test {
  protected:
   void SetUp() override {
-    auto made = TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "figures");
-    ASSERT_TRUE(made) << made.error().message;
-    scratch_.emplace(std::move(*made));
-    there_ = scratch_->path() / "there", here_ = scratch_->path() / "here";
     ASSERT_TRUE(make_folders(there_));
     ASSERT_TRUE(make_folders(here_));
     figure_ = {"x-1",
@@ -295,10 +285,8 @@ class Stale : public testing::Test {
                  if (!context.quick) out.measured["slow"] = measured(1.05, "{}");
                  save_picture(context, "x-1", Frame({4, 4}), "black", out);
                }};
-    const auto whole = drawn(figure_, {.out = there_}), quick = drawn(figure_, {.out = here_, .quick = true});
-    ASSERT_TRUE(whole) << whole.error().message;
-    ASSERT_TRUE(quick) << quick.error().message;
-    whole_ = {*whole}, quick_ = {*quick};
+    whole_ = {must(drawn(figure_, {.out = there_}))};
+    quick_ = {must(drawn(figure_, {.out = here_, .quick = true}))};
     write(whole_);
   }
   void write(const std::vector<Entry>& entries) {
@@ -307,13 +295,11 @@ class Stale : public testing::Test {
   }
   std::vector<std::string> found() {
     std::vector<std::string> notes;
-    const auto wrong = stale(quick_, there_, here_, c_source_folder, notes);
-    EXPECT_TRUE(wrong) << wrong.error().message;
-    return wrong ? *wrong : std::vector<std::string>{};
+    return must(stale(quick_, there_, here_, c_source_folder, notes));
   }
 
-  std::optional<TemporaryFolder> scratch_;
-  std::filesystem::path there_, here_;
+  const TemporaryFolder scratch_ = must(TemporaryFolder::make(testing::TempDir()));
+  const std::filesystem::path there_ = scratch_.path() / "there", here_ = scratch_.path() / "here";
   Figure figure_;
   std::vector<Entry> whole_, quick_;
 };
@@ -369,9 +355,8 @@ TEST_F(Stale, AMissingFigureIsFound) {
 
 TEST_F(Stale, AClaimWithoutMeasurementIsAnError) {
   figure_.claims.push_back({"forgotten", "1", {Kind::within, 1}});
-  const auto entry = drawn(figure_, {.out = here_, .quick = true});
-  ASSERT_FALSE(entry);
-  EXPECT_THAT(entry.error().message, HasSubstr("nothing was measured for 'forgotten'"));
+  EXPECT_TRUE(
+      is_error(drawn(figure_, {.out = here_, .quick = true}), "nothing was measured for 'forgotten'"));
   figure_.claims = {{"other", "60", {Kind::within, 60}}};
   EXPECT_FALSE(drawn(figure_, {.out = here_, .quick = true}));
   figure_.draw = [](const Context&, Drawing&) { must(Status(tool_failed("broke"))); };
@@ -439,21 +424,19 @@ TEST(TimingTrace, MeasuresTheTimeFromAnInputsChangeToItsOwn) {
       "XXXXXXXXXXXX #\n"
       "#60000000\n1!\n1%\n#65000000\nb000000001111 "
       "#\n#90000000\n0!\n#120000000\n1!\n#125000000\nb000000010000 #\n#130000000\n";
-  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const std::filesystem::path file = folder->path() / "trace.vcd";
+  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path file = folder.path() / "trace.vcd";
   ASSERT_TRUE(write_file(file, c_vcd));
-  const auto trace = timing_trace(file);
-  ASSERT_TRUE(trace) << trace.error().message;
-  ASSERT_EQ(trace->steps.size(), 1u);
-  EXPECT_EQ(trace->steps[0].from, 60.0);
-  EXPECT_EQ(trace->steps[0].until, 120.0);
-  EXPECT_EQ(trace->end, 130.0);
-  ASSERT_EQ(trace->work.size(), 2u);
-  EXPECT_EQ(trace->work[1].signal, "angle");
-  EXPECT_EQ(trace->work[1].until - trace->work[1].from, 5.0);
-  EXPECT_EQ(trace->work[1].pixel, 1);
-  EXPECT_EQ(trace->values.back().text, "010");
+  const auto trace = must(timing_trace(file));
+  ASSERT_EQ(trace.steps.size(), 1u);
+  EXPECT_EQ(trace.steps[0].from, 60.0);
+  EXPECT_EQ(trace.steps[0].until, 120.0);
+  EXPECT_EQ(trace.end, 130.0);
+  ASSERT_EQ(trace.work.size(), 2u);
+  EXPECT_EQ(trace.work[1].signal, "angle");
+  EXPECT_EQ(trace.work[1].until - trace.work[1].from, 5.0);
+  EXPECT_EQ(trace.work[1].pixel, 1);
+  EXPECT_EQ(trace.values.back().text, "010");
   ASSERT_TRUE(write_file(file, "$scope module other $end\n$enddefinitions $end\n#0\n"));
   EXPECT_FALSE(timing_trace(file));
 }

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/test/is_error.hpp"
 #include "sim/formats/format_sources.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -16,13 +18,11 @@ using ::testing::HasSubstr;
 // Program and library must not be mixed if the checkout has changed since the program was built.
 TEST(MadeFormats, AProgramOlderThanTheCheckoutIsRefused) {
   const fs::path source = HALFWAY_SOURCE_DIR;
-  const auto here = format_sources_hash(source);
-  ASSERT_TRUE(here) << here.error().message;
-  EXPECT_EQ(*here, built_from());
+  const auto here = must(format_sources_hash(source));
+  EXPECT_EQ(here, built_from());
 
-  const auto scratch = TemporaryFolder::make(fs::temp_directory_path());
-  ASSERT_TRUE(scratch) << scratch.error().message;
-  const fs::path copy = scratch->path() / "source";
+  const auto scratch = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const fs::path copy = scratch.path() / "source";
   for (const char* folder : {"model", "sim/formats"}) {
     ASSERT_TRUE(make_folders(copy / folder));
     fs::copy(source / folder, copy / folder, fs::copy_options::recursive);
@@ -32,18 +32,16 @@ TEST(MadeFormats, AProgramOlderThanTheCheckoutIsRefused) {
   key.words.fraction_bits = 4;
   for (const char* name : {"model/golden/edge_walker.hpp", "model/setup/quadratic_setup.cpp",
                            "model/golden_run/shader_model.hpp", "sim/formats/harness.cpp"}) {
-    const auto text = read_file(copy / name);
-    ASSERT_TRUE(text) << text.error().message;
-    ASSERT_TRUE(write_file(copy / name, *text + "\n"));
-    const auto made = MadeFormats::open(key, {copy, scratch->path() / "cache"});
-    ASSERT_FALSE(made) << name;
-    EXPECT_EQ(made.error().code, ExitCode::bad_input);
-    EXPECT_THAT(made.error().message, HasSubstr("make program"));
-    ASSERT_TRUE(write_file(copy / name, *text));
+    const auto text = must(read_file(copy / name));
+    ASSERT_TRUE(write_file(copy / name, text + "\n"));
+    EXPECT_TRUE(is_error(MadeFormats::open(key, {copy, scratch.path() / "cache"}), ExitCode::bad_input,
+                         "make program"))
+        << name;
+    ASSERT_TRUE(write_file(copy / name, text));
     EXPECT_EQ(*format_sources_hash(copy), built_from()) << name;
   }
   ASSERT_TRUE(write_file(copy / "model/golden/another.hpp", ""));
-  EXPECT_FALSE(MadeFormats::open(key, {copy, scratch->path() / "cache"}));
+  EXPECT_FALSE(MadeFormats::open(key, {copy, scratch.path() / "cache"}));
 }
 
 }  // namespace

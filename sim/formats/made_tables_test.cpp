@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 #include "tables/formats.hpp"
 #include "tables/functions.hpp"
@@ -40,16 +41,14 @@ TEST(MadeTables, EqualTheCompiledTables) {
 }
 
 TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
-  auto cache = TemporaryFolder::make(fs::temp_directory_path());
-  ASSERT_TRUE(cache) << cache.error().message;
-  const auto folder = rtl_with_tables(false, {5, 4}, c_source_folder, cache->path());
-  ASSERT_TRUE(folder) << folder.error().message;
+  auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const auto folder = must(rtl_with_tables(false, {5, 4}, c_source_folder, cache.path()));
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(c_source_folder / "rtl")) {
     if (!entry.is_regular_file()) continue;
     ++files;
     const fs::path name = entry.path().lexically_relative(c_source_folder / "rtl");
-    const auto theirs = read_file(*folder / "rtl" / name), ours = read_file(entry.path());
+    const auto theirs = read_file(folder / "rtl" / name), ours = read_file(entry.path());
     ASSERT_TRUE(theirs && ours) << name;
     if (name != "tables/cosine_pkg.vhd") {
       EXPECT_EQ(*theirs, *ours) << name;
@@ -60,11 +59,10 @@ TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
     EXPECT_THAT(*theirs, Not(HasSubstr("c_published_cosine_2_6_6")));
   }
   EXPECT_GT(files, 20U);
-  EXPECT_TRUE(fs::exists(*folder / "sim/verilator/harness.cpp"));
-  const auto again = rtl_with_tables(false, {5, 4}, c_source_folder, cache->path());
-  ASSERT_TRUE(again);
-  EXPECT_EQ(*again, *folder);
-  EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source_folder, cache->path()), *folder);
+  EXPECT_TRUE(fs::exists(folder / "sim/verilator/harness.cpp"));
+  const auto again = must(rtl_with_tables(false, {5, 4}, c_source_folder, cache.path()));
+  EXPECT_EQ(again, folder);
+  EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source_folder, cache.path()), folder);
 }
 
 TEST(MadeWords, ChangeOnePresetOnly) {
@@ -106,15 +104,13 @@ TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
 }
 
 TEST(MadeWords, AreInTheCopiedRtl) {
-  auto cache = TemporaryFolder::make(fs::temp_directory_path());
-  ASSERT_TRUE(cache) << cache.error().message;
-  const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache->path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const auto formats = read_file(*folder / "rtl/tables/formats_pkg.vhd");
-  ASSERT_TRUE(formats);
-  EXPECT_THAT(*formats, HasSubstr("angle => (23, 12)"));
-  EXPECT_THAT(*formats, HasSubstr("angle => (12, 11)"));
-  EXPECT_THAT(*read_file(*folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
+  auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const auto folder =
+      must(rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache.path()));
+  const auto formats = must(read_file(folder / "rtl/tables/formats_pkg.vhd"));
+  EXPECT_THAT(formats, HasSubstr("angle => (23, 12)"));
+  EXPECT_THAT(formats, HasSubstr("angle => (12, 11)"));
+  EXPECT_THAT(*read_file(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
 }
 
 }  // namespace

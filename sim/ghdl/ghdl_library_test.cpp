@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -27,12 +28,10 @@ end architecture;
 )";
 
 TEST(GhdlLibrary, KeepsNetlistsByEntityGenericsAndSources) {
-  auto tool = GhdlTool::find();
-  ASSERT_TRUE(tool) << tool.error().message;
-  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
+  auto tool = must(GhdlTool::find());
+  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   const auto synthesize = [&](const std::string& source, const char* bits) -> Result<std::string> {
-    const auto library = GhdlLibrary::for_synthesis(*tool, {{"held.vhd", source}}, folder->path());
+    const auto library = GhdlLibrary::for_synthesis(tool, {{"held.vhd", source}}, folder.path());
     if (!library) return library.error();
     return library->synthesize("held", {{"g_bits", bits}});
   };
@@ -41,17 +40,15 @@ TEST(GhdlLibrary, KeepsNetlistsByEntityGenericsAndSources) {
   EXPECT_NE(*four, *seven);
   std::string other = c_entity;
   other.replace(other.find("q <= d"), 6, "q <= not d");
-  const auto inverted = synthesize(other, "4");
-  ASSERT_TRUE(inverted) << inverted.error().message;
-  EXPECT_NE(*inverted, *four);
+  const auto inverted = must(synthesize(other, "4"));
+  EXPECT_NE(inverted, *four);
   // Without GHDL, only cached results are available.
-  tool->program = (folder->path() / "none").string();
+  tool.program = (folder.path() / "none").string();
   for (const auto& [source, bits, text] : {std::tuple{std::string(c_entity), "4", *four},
                                            {std::string(c_entity), "7", *seven},
-                                           {other, "4", *inverted}}) {
-    const auto kept = synthesize(source, bits);
-    ASSERT_TRUE(kept) << kept.error().message;
-    EXPECT_EQ(*kept, text);
+                                           {other, "4", inverted}}) {
+    const auto kept = must(synthesize(source, bits));
+    EXPECT_EQ(kept, text);
   }
   EXPECT_FALSE(synthesize(c_entity, "5"));
 }

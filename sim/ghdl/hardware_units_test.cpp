@@ -8,6 +8,7 @@
 
 #include "plan/plan.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -42,11 +43,8 @@ TEST(InstanceTree, CountsNamedInstancesAndWhatIsBelowThem) {
 }
 
 Plan plan_of(const std::string& name, Shader shader, Preset preset) {
-  const auto scene = load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-  EXPECT_TRUE(scene) << scene.error().message;
-  const auto plan = plan_scene(*scene, {.shader = shader, .preset = preset});
-  EXPECT_TRUE(plan) << plan.error().message;
-  return *plan;
+  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  return must(plan_scene(scene, {.shader = shader, .preset = preset}));
 }
 
 const PlannedEffect& effect(const Plan& plan, Effect effect) {
@@ -57,20 +55,11 @@ class HardwareUnits : public ::testing::Test {
  protected:
   void SetUp() override {
     const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-    auto counter = UnitCounter::open({source, source / "build" / "cache"});
-    ASSERT_TRUE(counter) << counter.error().message;
-    counter_.emplace(std::move(*counter));
+    auto counter = must(UnitCounter::open({source, source / "build" / "cache"}));
+    counter_.emplace(std::move(counter));
   }
-  UnitCounts units(const HardwareKey& key) {
-    const auto counts = counter_->count(key);
-    EXPECT_TRUE(counts) << counts.error().message;
-    return counts ? *counts : UnitCounts{};
-  }
-  UnitCounts units(const Plan& plan, Effect of) {
-    const auto counts = counter_->count(plan.key, effect(plan, of));
-    EXPECT_TRUE(counts) << counts.error().message;
-    return counts ? *counts : UnitCounts{};
-  }
+  UnitCounts units(const HardwareKey& key) { return must(counter_->count(key)); }
+  UnitCounts units(const Plan& plan, Effect of) { return must(counter_->count(plan.key, effect(plan, of))); }
   std::optional<UnitCounter> counter_;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -24,12 +25,11 @@ TEST(BareVhdl, KeepsLiterals) {
 }
 
 TEST(RtlHash, ChangesWithTheSourcesAndNotWithComments) {
-  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
+  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   const auto hash = [&](std::string_view text) {
-    EXPECT_TRUE(write_file(folder->path() / "rtl/files.f", "a.vhd\n"));
-    EXPECT_TRUE(write_file(folder->path() / "rtl/a.vhd", text));
-    const auto result = rtl_hash(folder->path());
+    EXPECT_TRUE(write_file(folder.path() / "rtl/files.f", "a.vhd\n"));
+    EXPECT_TRUE(write_file(folder.path() / "rtl/a.vhd", text));
+    const auto result = rtl_hash(folder.path());
     return result ? *result : result.error().message;
   };
   const std::string one = hash("a <= b;\n");

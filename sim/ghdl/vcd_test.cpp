@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -23,16 +24,15 @@ class VcdTest : public ::testing::Test {
         "$var reg 4 # q[3:0] $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
         "#0\n0!\nb0001 \"\nbUUUU #\n#5\n1!\nb0001 #\n#10\n0!\nb0010 \"\n#15\n1!\nb0010 #\n#20\n0!\n"));
   }
-  Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  std::filesystem::path file_ = folder_->path() / "t.vcd";
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  std::filesystem::path file_ = folder_.path() / "t.vcd";
 };
 
 TEST_F(VcdTest, SamplesTheValueBeforeTheEdge) {
-  const auto sampled = sample_vcd(file_, "tb/clk", {"tb/d", "tb/dut/q"}, 10);
-  ASSERT_TRUE(sampled) << sampled.error().message;
-  EXPECT_EQ(sampled->edges, 2U);
-  EXPECT_THAT(sampled->values.at("tb/d"), ElementsAre("0001", "0010"));
-  EXPECT_THAT(sampled->values.at("tb/dut/q"), ElementsAre("UUUU", "0001"));
+  const auto sampled = must(sample_vcd(file_, "tb/clk", {"tb/d", "tb/dut/q"}, 10));
+  EXPECT_EQ(sampled.edges, 2U);
+  EXPECT_THAT(sampled.values.at("tb/d"), ElementsAre("0001", "0010"));
+  EXPECT_THAT(sampled.values.at("tb/dut/q"), ElementsAre("UUUU", "0001"));
   EXPECT_EQ(sample_vcd(file_, "tb/clk", {"tb/d"}, 1)->values.at("tb/d").size(), 1U);
 }
 

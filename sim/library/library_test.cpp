@@ -14,6 +14,7 @@
 #include "sim/library/halfway.h"
 #include "sim/library/objects.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -74,9 +75,8 @@ halfway_screen_triangle mirrored(halfway_screen_triangle t) {
 }
 
 TEST(Library, ScreenTrianglesGiveTheVectorsOfTheSetUp) {
-  const auto scene = load_scene(c_timing, c_scene_folder);
-  ASSERT_TRUE(scene);
-  const std::vector<halfway_screen_triangle> triangles = screen_triangles(*scene);
+  const auto scene = must(load_scene(c_timing, c_scene_folder));
+  const std::vector<halfway_screen_triangle> triangles = screen_triangles(scene);
   ASSERT_GE(triangles.size(), 2u);
   for (const int degree : {1, 2}) {
     std::vector<std::uint32_t> expected;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -15,27 +16,24 @@ class Template : public testing::Test {
     EXPECT_TRUE(write_file(file_, text));
     return filled_template(file_, data, escape);
   }
-  const TemporaryFolder folder_ = std::move(*TemporaryFolder::make(testing::TempDir()));
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
   const std::filesystem::path file_ = folder_.path() / "page.md.mustache";
 };
 
 TEST_F(Template, IsFilledWithTextsNumbersListsAndObjects) {
-  const auto page = filled(
-      "{{n}} of {{x.name}}\n{{#rows}}\n| {{cell}} | {{#wide}}wide{{/wide}}{{^wide}}narrow{{/wide}} "
-      "|\n{{/rows}}\n\nend\n",
-      {{"n", 3},
-       {"x", {{"name", "α"}}},
-       {"rows", {{{"cell", "a|b"}, {"wide", true}}, {{"cell", "1.5"}, {"wide", false}}}}});
-  ASSERT_TRUE(page) << page.error().message;
-  EXPECT_EQ(*page, "3 of α\n| a\\|b | wide |\n| 1.5 | narrow |\n\nend\n");
-  const auto plain =
-      filled("{{{text}}}{{#none}}x{{/none}}", {{"text", "a|<b>"}, {"none", nlohmann::json::array()}});
-  ASSERT_TRUE(plain) << plain.error().message;
-  EXPECT_EQ(*plain, "a|<b>");
-  const auto html =
-      filled("{{text}} {{{text}}}{{#none}}x{{/none}}", {{"text", "<|>"}, {"none", nullptr}}, Escape::html);
-  ASSERT_TRUE(html) << html.error().message;
-  EXPECT_EQ(*html, "&lt;|&gt; <|>");
+  const auto page = must(
+      filled("{{n}} of {{x.name}}\n{{#rows}}\n| {{cell}} | {{#wide}}wide{{/wide}}{{^wide}}narrow{{/wide}} "
+             "|\n{{/rows}}\n\nend\n",
+             {{"n", 3},
+              {"x", {{"name", "α"}}},
+              {"rows", {{{"cell", "a|b"}, {"wide", true}}, {{"cell", "1.5"}, {"wide", false}}}}}));
+  EXPECT_EQ(page, "3 of α\n| a\\|b | wide |\n| 1.5 | narrow |\n\nend\n");
+  EXPECT_EQ(
+      must(filled("{{{text}}}{{#none}}x{{/none}}", {{"text", "a|<b>"}, {"none", nlohmann::json::array()}})),
+      "a|<b>");
+  EXPECT_EQ(must(filled("{{text}} {{{text}}}{{#none}}x{{/none}}", {{"text", "<|>"}, {"none", nullptr}},
+                        Escape::html)),
+            "&lt;|&gt; <|>");
 }
 
 TEST_F(Template, MustBeCompleteAndUseOnlyExistingData) {

@@ -14,6 +14,7 @@
 #include "sim/pictures/image.hpp"
 #include "sim/study/study.hpp"
 #include "sim/study/table.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {
@@ -30,7 +31,7 @@ class ReportPage : public CommandTest {
     ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
     ASSERT_FALSE(find_program("pdftotext").empty())
         << "no pdftotext here: apt-get install poppler-utils, or make check-report";
-    const auto here = folder_->path();
+    const auto here = folder_.path();
     ASSERT_TRUE(make_folders(here / "figures"));
     ASSERT_TRUE(write_file(
         here / "figures/figures.json",
@@ -69,9 +70,8 @@ class ReportPage : public CommandTest {
          {study::Method::phong, study::Method::gouraud, study::Method::quadratic, study::Method::adaptive})
       settings.points.push_back({.method = method, .size = {160, 120}});
     settings.points.push_back({.method = study::Method::adaptive, .threshold = 250, .size = {160, 120}});
-    const auto made = study::run_study(settings);
-    ASSERT_TRUE(made) << made.error().message;
-    ASSERT_TRUE(write_file(out / "study.csv", study::to_csv(made->provenance, made->records, {}, {})));
+    const auto made = must(study::run_study(settings));
+    ASSERT_TRUE(write_file(out / "study.csv", study::to_csv(made.provenance, made.records, {}, {})));
   }
 
   void TearDown() override {
@@ -115,13 +115,13 @@ class ReportPage : public CommandTest {
   }
   /// The text of the printed page.
   std::string print() {
-    const std::filesystem::path pdf = folder_->path() / "page.pdf", coded = folder_->path() / "coded";
+    const std::filesystem::path pdf = folder_.path() / "page.pdf", coded = folder_.path() / "coded";
     EXPECT_TRUE(write_file(coded, browser_->send("Page.printToPDF")["data"].get<std::string>()));
     const auto decoded =
         run_process({.arguments = {"base64", "-d", coded.string()}, .standard_output = pdf}, "");
     EXPECT_TRUE(decoded && decoded->succeeded());
     // subprocess output is truncated, so use a file
-    const std::filesystem::path words = folder_->path() / "page.txt";
+    const std::filesystem::path words = folder_.path() / "page.txt";
     const auto read = run_process({.arguments = {"pdftotext", pdf.string(), words.string()}}, "");
     EXPECT_TRUE(read && read->succeeded());
     const auto text = read_file(words);
@@ -190,7 +190,7 @@ TEST_F(ReportPage, FiguresHaveSizesAndTexts) {
 }
 
 TEST_F(ReportPage, StartsWithAPixelOfABody) {
-  const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
+  const auto reference = read_png(folder_.path() / "out/spheres/quadratic/reference.png");
   ASSERT_TRUE(reference);
   // no body is at the centre
   ASSERT_EQ(pixel(*reference, 48, 36), pixel(*reference, 0, 0));
@@ -218,8 +218,8 @@ TEST_F(ReportPage, EverythingHasAName) {
 }
 
 TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
-  const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
-  const auto difference = read_png(folder_->path() / "out/spheres/quadratic/diff.png");
+  const auto reference = read_png(folder_.path() / "out/spheres/quadratic/reference.png");
+  const auto difference = read_png(folder_.path() / "out/spheres/quadratic/diff.png");
   ASSERT_TRUE(reference && difference);
   const std::string canvas = "#frame-viewer canvas";
   evaluate("{ const s = document.querySelector('#frame-viewer .right'); s.value = 'diff'; s.onchange(); }");
@@ -276,7 +276,7 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
 }
 
 TEST_F(ReportPage, TwoFingersZoomAndMove) {
-  const auto reference = read_png(folder_->path() / "out/spheres/quadratic/reference.png");
+  const auto reference = read_png(folder_.path() / "out/spheres/quadratic/reference.png");
   ASSERT_TRUE(reference);
   browser_->resize(390, 844);
   const std::string canvas = "#frame-viewer canvas";
@@ -360,11 +360,10 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
   EXPECT_EQ(evaluate("document.querySelectorAll('#point-crowd a[href=\"#point-4\"]').length"), 1);
   // The frame shown is the study's file.
   std::size_t equal = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder_->path() / "study/points")) {
+  for (const auto& file : std::filesystem::directory_iterator(folder_.path() / "study/points")) {
     if (file.path().extension() != ".png") continue;
-    const auto record = read_file(std::filesystem::path(file.path()).replace_extension(".json"));
-    ASSERT_TRUE(record);
-    if (record->find('"' + name + '"') == std::string::npos) continue;
+    const auto record = must(read_file(std::filesystem::path(file.path()).replace_extension(".json")));
+    if (record.find('"' + name + '"') == std::string::npos) continue;
     const auto frame = read_png(file.path());
     ASSERT_TRUE(frame);
     EXPECT_EQ(shown("#point-viewer", "frame"), pixel(*frame, 80, 60));

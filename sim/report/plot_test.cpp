@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::report {
@@ -40,21 +41,20 @@ class PlotTest : public ::testing::Test {
   void SetUp() override {
     ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
   }
-  Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
   Plot plot{.x_label = "clocks \"of\" a frame", .y_label = "error"};
   plot.points = {{10, 1, 2, 0, "far < below"}, {1000, 100, 0, 1, "above"}, {100, 10, 2, 2, "between", true}};
   plot.front = {{10, 1}, {1000, 100}};
-  const auto svg = draw_plot(plot, folder_->path());
-  ASSERT_TRUE(svg) << svg.error().message;
-  const auto places = places_in(*svg);
+  const auto svg = must(draw_plot(plot, folder_.path()));
+  const auto places = places_in(svg);
   ASSERT_EQ(places.size(), 3U);
   const auto below = places.at("#point-0 far < below"), above = places.at("#point-1 above"),
              between = places.at("#point-2 between");
-  EXPECT_THAT(*svg, HasSubstr("aria-label=\"between\" class=\"aside\""));
-  EXPECT_THAT(*svg, Not(HasSubstr("aria-label=\"above\" class")));
+  EXPECT_THAT(svg, HasSubstr("aria-label=\"between\" class=\"aside\""));
+  EXPECT_THAT(svg, Not(HasSubstr("aria-label=\"above\" class")));
   // SVG's y axis points down; both axes are logarithmic.
   EXPECT_LT(below.first, between.first);
   EXPECT_GT(below.second, between.second);
@@ -66,19 +66,17 @@ TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
 TEST_F(PlotTest, LeastValuesHaveAnArrow) {
   Plot plot{.x_label = "ms", .y_label = "error"};
   plot.points = {{1, 1, 0, 0, "exact"}, {10, 2, 1, 1, "least", true, true}};
-  const auto svg = draw_plot(plot, folder_->path());
-  ASSERT_TRUE(svg) << svg.error().message;
+  const auto svg = must(draw_plot(plot, folder_.path()));
   plot.points[1].least_x = false;
-  const auto plain = draw_plot(plot, folder_->path());
-  ASSERT_TRUE(plain) << plain.error().message;
+  const auto plain = must(draw_plot(plot, folder_.path()));
   const auto strokes = [](const std::string& text) {
     std::size_t count = 0;
     for (std::size_t at = 0; (at = text.find("<path", at)) != std::string::npos; ++at) ++count;
     return count;
   };
-  EXPECT_GT(strokes(*svg), strokes(*plain));
+  EXPECT_GT(strokes(svg), strokes(plain));
   // The range contains the arrow, so the mark is farther from the right border.
-  EXPECT_LT(places_in(*svg).at("#point-1 least").first, places_in(*plain).at("#point-1 least").first - 10);
+  EXPECT_LT(places_in(svg).at("#point-1 least").first, places_in(plain).at("#point-1 least").first - 10);
 }
 
 TEST(PlotLooks, AreDistinct) {
@@ -96,9 +94,8 @@ TEST_F(PlotTest, ZeroHasASeparatePosition) {
                  {20, 300, 1, 3, "most"}};
   plot.levels = {{0, "the best"}, {30, "a yardstick"}};
   plot.front = {{0, 5}, {10, 1}, {40, 0}};
-  const auto svg = draw_plot(plot, folder_->path());
-  ASSERT_TRUE(svg) << svg.error().message;
-  const auto places = places_in(*svg);
+  const auto svg = must(draw_plot(plot, folder_.path()));
+  const auto places = places_in(svg);
   ASSERT_EQ(places.size(), 4U);
   const auto left = places.at("#point-0 none on the host"), least = places.at("#point-1 least"),
              bottom = places.at("#point-2 none seen"), most = places.at("#point-3 most");
@@ -107,20 +104,19 @@ TEST_F(PlotTest, ZeroHasASeparatePosition) {
   EXPECT_GT(bottom.second, least.second + 20);
   EXPECT_LT(most.second, least.second);
   EXPECT_LT(least.first, most.first);
-  EXPECT_THAT(*svg, HasSubstr(">0<"));
-  EXPECT_THAT(*svg, HasSubstr("a yardstick"));
-  EXPECT_THAT(*svg, HasSubstr("the best"));
+  EXPECT_THAT(svg, HasSubstr(">0<"));
+  EXPECT_THAT(svg, HasSubstr("a yardstick"));
+  EXPECT_THAT(svg, HasSubstr("the best"));
   // A plot with zeros only.
-  EXPECT_TRUE(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, folder_->path()));
+  EXPECT_TRUE(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, folder_.path()));
 }
 
 TEST_F(PlotTest, TimingShowsLevelsAndValues) {
-  const auto svg = draw_timing({{"valid", true, {"0", "1", "1", "0"}}, {"x", false, {"", "7", "7", "31"}}}, 0,
-                               folder_->path());
-  ASSERT_TRUE(svg) << svg.error().message;
-  EXPECT_THAT(*svg, HasSubstr("valid"));
-  EXPECT_THAT(*svg, HasSubstr(">7<"));
-  EXPECT_THAT(*svg, HasSubstr(">31<"));
+  const auto svg = must(draw_timing(
+      {{"valid", true, {"0", "1", "1", "0"}}, {"x", false, {"", "7", "7", "31"}}}, 0, folder_.path()));
+  EXPECT_THAT(svg, HasSubstr("valid"));
+  EXPECT_THAT(svg, HasSubstr(">7<"));
+  EXPECT_THAT(svg, HasSubstr(">31<"));
 }
 
 }  // namespace

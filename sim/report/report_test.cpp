@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/command_test.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {
@@ -24,12 +25,12 @@ class ReportCommand : public CommandTest {
                 "new/page.html", "--no-timing"});
   }
   std::string page() const {
-    const auto text = read_file(folder_->path() / "new/page.html");
+    const auto text = read_file(folder_.path() / "new/page.html");
     return text ? *text : "";
   }
   void put(const std::filesystem::path& file, const std::string& text) const {
-    ASSERT_TRUE(make_folders((folder_->path() / file).parent_path()));
-    ASSERT_TRUE(write_file(folder_->path() / file, text));
+    ASSERT_TRUE(make_folders((folder_.path() / file).parent_path()));
+    ASSERT_TRUE(write_file(folder_.path() / file, text));
   }
 };
 
@@ -62,12 +63,12 @@ TEST_F(ReportCommand, RefusesWhatIsDamaged) {
   EXPECT_EQ(page(), "");
   put("out/spheres/quadratic/summary.json", "[]");
   EXPECT_EQ(report().exit_code, 2);
-  std::filesystem::remove_all(folder_->path() / "out");
+  std::filesystem::remove_all(folder_.path() / "out");
   put("study/study.csv", "a,b\n1\n");
   outcome = report();
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.output, HasSubstr("study.csv:2: "));
-  std::filesystem::remove_all(folder_->path() / "study");
+  std::filesystem::remove_all(folder_.path() / "study");
   for (const char* damaged : {"[", "[{\"id\": 3}]"}) {
     put("figures/figures.json", damaged);
     outcome = report();
@@ -144,9 +145,9 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
 }
 
 TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
-  const auto front = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "docs/results/gallery/front.csv");
-  ASSERT_TRUE(front);
-  put("study/study.csv", *front);
+  const auto front =
+      must(read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "docs/results/gallery/front.csv"));
+  put("study/study.csv", front);
   const Outcome outcome = report();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(page(), HasSubstr("points of <code>sim/studies/small.toml</code>, in a table of 20"));
@@ -154,7 +155,7 @@ TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
 }
 
 TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
-  const auto here = folder_->path();
+  const auto here = folder_.path();
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   std::filesystem::copy_file(source / "Makefile", here / "Makefile");
   for (const char* scene : {"lights", "matte"}) put(fmt::format("sim/scenes/{}.toml", scene), "");
@@ -169,9 +170,8 @@ TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
   const auto made =
       run_process({.arguments = {"make", "-o", "program", "report"}, .working_folder = here}, "");
   ASSERT_TRUE(made && made->succeeded()) << (made ? made->output : made.error().message);
-  const auto said = read_file(here / "said");
-  ASSERT_TRUE(said);
-  EXPECT_EQ(*said,
+  const auto said = must(read_file(here / "said"));
+  EXPECT_EQ(said,
             "sim --shader spherical -- matte\n"
             "sim --shader processors --simulator verilator -- lights\n"
             "sim --shader processors --simulator verilator -- matte\n"
@@ -200,7 +200,7 @@ TEST_F(ReportCommand, EqualPicturesAreOne) {
         "Frames by the shader spherical of highlights, lights, matte, shadows, spheres, teapot:"})
     EXPECT_THAT(page(), HasSubstr(gap));
   // A wrong picture is reported as wrong.
-  const auto folder = folder_->path() / "out/spheres/quadratic";
+  const auto folder = folder_.path() / "out/spheres/quadratic";
   std::filesystem::copy_file(folder / "reference.png", folder / "verilator.png",
                              std::filesystem::copy_options::overwrite_existing);
   ASSERT_EQ(report().exit_code, 0);

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "sim/report/table_test.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/page_part.hpp"
 
 namespace halfway::report {
@@ -38,32 +39,28 @@ TEST_F(TimesTest, EachPictureHasAPlot) {
   ASSERT_EQ(pictures.size(), 2U);
   EXPECT_EQ(pictures[0].rows.size(), 5U);
   EXPECT_EQ(plot_name(pictures[1]), "times-80x60.svg");
-  const auto designs = write_times(read(c_times), here() / "out", here());
-  ASSERT_TRUE(designs) << designs.error().message;
-  EXPECT_EQ(*designs, 6U);
-  const auto svg = read_file(here() / "out/times-64x48.svg");
-  ASSERT_TRUE(svg);
-  EXPECT_THAT(*svg, AllOf(HasSubstr("aria-label=\"q at\""), HasSubstr("aria-label=\"p at\""),
-                          HasSubstr("milliseconds per frame"), Not(HasSubstr("q large")),
-                          HasSubstr("class=\"aside\""), HasSubstr("aria-label=\"v at, at least\"")));
+  const auto designs = must(write_times(read(c_times), here() / "out", here()));
+  EXPECT_EQ(designs, 6U);
+  const auto svg = must(read_file(here() / "out/times-64x48.svg"));
+  EXPECT_THAT(svg, AllOf(HasSubstr("aria-label=\"q at\""), HasSubstr("aria-label=\"p at\""),
+                         HasSubstr("milliseconds per frame"), Not(HasSubstr("q large")),
+                         HasSubstr("class=\"aside\""), HasSubstr("aria-label=\"v at, at least\"")));
   EXPECT_TRUE(fs::exists(here() / "out/times-80x60.svg"));
   EXPECT_TRUE(fs::exists(here() / "out/times.csv"));
 }
 
 TEST_F(TimesTest, SentencesAreOfTheFront) {
-  const auto text = readme_times(read(c_times));
-  ASSERT_TRUE(text) << text.error().message;
+  const auto text = must(readme_times(read(c_times)));
   EXPECT_THAT(
-      *text,
+      text,
       AllOf(HasSubstr("| q | 1 | hardware | 1.2 | 8 | 9 |\n| a | 2 | hardware | 3 | 2 | 3 |\n| phong | 10 |"),
             HasSubstr(
                 "- The rms error of a is 4 times smaller than that of q. Its frame takes 2 times as long.\n"),
             HasSubstr("hardware take 3 ms with a, of which the host takes 33 %, and 1.2 ms with q.\n"),
             HasSubstr("(phong) takes 10 ms, 5 times as long as a.\n"), Not(HasSubstr("| s |")),
             Not(HasSubstr("| v |"))));
-  const auto page = page_times(read(c_times));
-  ASSERT_TRUE(page) << page.error().message;
-  EXPECT_THAT(*page,
+  const auto page = must(page_times(read(c_times)));
+  EXPECT_THAT(page,
               AllOf(HasSubstr("| s | 3 | host | 4 | 3 | 1 | 105.0 | 1 | 5 | 5 | 9 | 10 |"),
                     HasSubstr("| v | ≥ 1.5 | hardware | ≥ 1.8 | 0.3 | ≥ 1.5 | ≤ 40.9 (`dot`) | 1 | 5 | 1 "
                               "| 3 | 4 |"),
@@ -94,11 +91,10 @@ TEST_F(GalleryTimes, AreDrawnFromTheirTable) {
 }
 
 TEST_F(GalleryTimes, AreOfTheCheckoutsDesigns) {
-  const auto space = study::read_space(c_source / "sim/studies/times.toml");
-  ASSERT_TRUE(space) << space.error().message;
+  const auto space = must(study::read_space(c_source / "sim/studies/times.toml"));
   for (std::size_t row = 0; row < times_.rows.size(); ++row) {
-    const auto point = std::ranges::find(*space, times_.text(row, "point"), &study::DesignPoint::name);
-    ASSERT_NE(point, space->end()) << times_.text(row, "point") << ": " << c_again;
+    const auto point = std::ranges::find(space, times_.text(row, "point"), &study::DesignPoint::name);
+    ASSERT_NE(point, space.end()) << times_.text(row, "point") << ": " << c_again;
     expect_same_design(times_, row, *point);
   }
 }
@@ -111,12 +107,11 @@ TEST_F(GalleryTimes, AreWhatTheHardwareTakesNow) {
   while (row < times_.rows.size() && times_.text(row, "point") != point.name()) ++row;
   ASSERT_LT(row, times_.rows.size()) << point.name() << ": " << c_again;
   const study::StudySettings settings = study_of(point);
-  const auto made = study::run_study(settings);
-  ASSERT_TRUE(made) << made.error().message;
+  const auto made = must(study::run_study(settings));
   const auto hardware =
-      study::hardware_figures(settings.scene, made->records, settings.folders, {.cells = false});
+      study::hardware_figures(settings.scene, made.records, settings.folders, {.cells = false});
   ASSERT_TRUE(hardware) << hardware.error().message;
-  const study::Measurement& m = made->records.at(0).measured;
+  const study::Measurement& m = made.records.at(0).measured;
   EXPECT_EQ(times_.text(row, "cycles"), fmt::format("{}", m.cycles)) << c_again;
   EXPECT_EQ(times_.text(row, "rms"), fmt::format("{}", m.picture.rms)) << c_again;
   const auto& mhz = hardware->at(m.hardware).mhz;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "sim/cli/command_test.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -30,12 +31,11 @@ TEST_F(PixelWalk, EqualsTheOutputOfWhy) {
   const std::string mark = "\n```\n$ build/halfway why ";
   for (const char* name : {"quadratic", "spherical", "processors"}) {
     SCOPED_TRACE(name);
-    const auto page = read_file(source / "docs/rtl" / (std::string(name) + ".md"));
-    ASSERT_TRUE(page);
-    const std::size_t at = page->find(mark);
+    const auto page = must(read_file(source / "docs/rtl" / (std::string(name) + ".md")));
+    const std::size_t at = page.find(mark);
     ASSERT_NE(at, std::string::npos);
     const std::size_t begin = at + std::string("\n```\n$ build/halfway ").size();
-    std::istringstream block(page->substr(begin, page->find("\n```", begin) - begin));
+    std::istringstream block(page.substr(begin, page.find("\n```", begin) - begin));
     std::string line;
     std::getline(block, line);
     std::vector<std::string> command = words_of(line);

@@ -3,37 +3,26 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <random>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
 
 class InitFile : public testing::Test {
  protected:
-  // Each test has its own folder, because ctest runs the tests of this file in parallel.
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(testing::TempDir());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-    path_ = folder_->path() / "init.txt";
-  }
-
   void expect_refused(const std::string& content, const std::string& place, const std::string& what) {
     ASSERT_TRUE(write_file(path_, content));
-    const auto read = read_init_file(path_, "key");
-    ASSERT_FALSE(read) << content;
-    EXPECT_EQ(read.error().code, ExitCode::bad_input);
-    EXPECT_EQ(read.error().message.find(path_.string() + place + ": "), 0U) << read.error().message;
-    EXPECT_NE(read.error().message.find(what), std::string::npos) << read.error().message;
+    EXPECT_TRUE(is_error(read_init_file(path_, "key"), ExitCode::bad_input, path_.string() + place + ": "))
+        << content;
+    EXPECT_TRUE(is_error(read_init_file(path_, "key"), what)) << content;
   }
 
-  std::filesystem::path path_;
-
- private:
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
+  const std::filesystem::path path_ = folder_.path() / "init.txt";
 };
 
 TEST_F(InitFile, WritesTheFormat) {
@@ -53,29 +42,25 @@ TEST_F(InitFile, IsReadBackForEveryWidth) {
     }
     EXPECT_EQ(stream.size(), 50U);
     ASSERT_TRUE(write_init_file(path_, "key", stream));
-    const auto read = read_init_file(path_, "key");
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->bits, bits);
-    EXPECT_EQ(read->words, stream.words);
+    const auto read = must(read_init_file(path_, "key"));
+    EXPECT_EQ(read.bits, bits);
+    EXPECT_EQ(read.words, stream.words);
   }
 }
 
 TEST_F(InitFile, StreamsInPieces) {
-  auto writer = InitFileWriter::open(path_, "key", 40);
-  ASSERT_TRUE(writer);
-  for (std::uint32_t i = 0; i < 100; ++i) writer->write(std::vector<std::uint32_t>{i, i % 256});
-  ASSERT_TRUE(writer->commit());
-  auto reader = InitFileReader::open(path_, "");
-  ASSERT_TRUE(reader);
-  EXPECT_EQ(reader->key_name(), "key");
+  auto writer = must(InitFileWriter::open(path_, "key", 40));
+  for (std::uint32_t i = 0; i < 100; ++i) writer.write(std::vector<std::uint32_t>{i, i % 256});
+  ASSERT_TRUE(writer.commit());
+  auto reader = must(InitFileReader::open(path_, ""));
+  EXPECT_EQ(reader.key_name(), "key");
   std::vector<std::uint32_t> words;
   std::size_t total = 0;
   while (true) {
-    const auto got = reader->read(words, 7);
-    ASSERT_TRUE(got) << got.error().message;
-    if (*got == 0) break;
-    EXPECT_LE(*got, 7U);
-    total += *got;
+    const auto got = must(reader.read(words, 7));
+    if (got == 0) break;
+    EXPECT_LE(got, 7U);
+    total += got;
   }
   EXPECT_EQ(total, 100U);
   EXPECT_EQ(words[198], 99U);
@@ -107,9 +92,7 @@ TEST_F(InitFile, RefusesIncompleteAndForeignFiles) {
 }
 
 TEST_F(InitFile, ReportsAMissingFile) {
-  const auto read = read_init_file(path_.string() + ".none", "key");
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().code, ExitCode::bad_input);
+  EXPECT_TRUE(is_error(read_init_file(path_.string() + ".none", "key"), ExitCode::bad_input));
 }
 
 }  // namespace

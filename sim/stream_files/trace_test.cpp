@@ -6,34 +6,24 @@
 #include <optional>
 #include <random>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
 
 class TraceFile : public testing::Test {
  protected:
-  // Each test has its own folder, because ctest runs the tests of this file in parallel.
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(testing::TempDir());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-    path_ = folder_->path() / "trace.txt";
-  }
-
   void expect_refused(const std::string& content, const std::string& place, const std::string& what) {
     ASSERT_TRUE(write_file(path_, content));
-    const auto read = read_trace(path_, "key");
-    ASSERT_FALSE(read) << content;
-    EXPECT_EQ(read.error().code, ExitCode::bad_input);
-    EXPECT_EQ(read.error().message.find(path_.string() + place + ": "), 0U) << read.error().message;
-    EXPECT_NE(read.error().message.find(what), std::string::npos) << read.error().message;
+    EXPECT_TRUE(is_error(read_trace(path_, "key"), ExitCode::bad_input, path_.string() + place + ": "))
+        << content;
+    EXPECT_TRUE(is_error(read_trace(path_, "key"), what)) << content;
   }
 
-  std::filesystem::path path_;
-
- private:
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
+  const std::filesystem::path path_ = folder_.path() / "trace.txt";
 };
 
 TEST_F(TraceFile, WritesTheFormat) {
@@ -61,10 +51,9 @@ TEST_F(TraceFile, IsReadBack) {
        {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(1)}) {
     trace.cycles = cycles;
     ASSERT_TRUE(write_trace(path_, "key", trace));
-    const auto read = read_trace(path_, "");
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->fragments, trace.fragments);
-    EXPECT_EQ(read->cycles, cycles);
+    const auto read = must(read_trace(path_, ""));
+    EXPECT_EQ(read.fragments, trace.fragments);
+    EXPECT_EQ(read.cycles, cycles);
   }
 }
 
@@ -73,14 +62,12 @@ TEST_F(TraceFile, StreamsInPieces) {
   for (std::uint32_t i = 0; i < 100; ++i)
     trace.fragments.push_back({.triangle = i, .z = 0, .y = 0, .x = 0, .red = 0, .green = 0, .blue = 0});
   ASSERT_TRUE(write_trace(path_, "key", trace));
-  auto reader = TraceReader::open(path_, "key");
-  ASSERT_TRUE(reader);
+  auto reader = must(TraceReader::open(path_, "key"));
   std::vector<Fragment> fragments;
   while (true) {
-    const auto got = reader->read(fragments, 9);
-    ASSERT_TRUE(got);
-    if (*got == 0) break;
-    EXPECT_LE(*got, 9U);
+    const auto got = must(reader.read(fragments, 9));
+    if (got == 0) break;
+    EXPECT_LE(got, 9U);
   }
   EXPECT_EQ(fragments, trace.fragments);
 }

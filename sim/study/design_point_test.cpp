@@ -8,6 +8,7 @@
 #include <set>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -17,7 +18,7 @@ using ::testing::HasSubstr;
 class SpaceTest : public ::testing::Test {
  protected:
   Result<std::vector<DesignPoint>> read(const std::string& text) const {
-    const std::filesystem::path path = folder_->path() / "space.toml";
+    const std::filesystem::path path = folder_.path() / "space.toml";
     if (const Status written = write_file(path, text); !written) return written.error();
     return read_space(path);
   }
@@ -25,48 +26,44 @@ class SpaceTest : public ::testing::Test {
     const auto points = read(text);
     return points ? "" : points.error().message;
   }
-  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {
-  const auto points = read(
-      "[[sweep]]\nmethod = \"quadratic\"\npreset = [\"exact\", \"published\"]\nexponent = [5, 50]\n"
-      "[[sweep]]\nmethod = \"gouraud\"\ntessellation = [0.5, 1, 2]\n");
-  ASSERT_TRUE(points) << points.error().message;
-  EXPECT_EQ(points->size(), 4U + 3U);
+  const auto points =
+      must(read("[[sweep]]\nmethod = \"quadratic\"\npreset = [\"exact\", \"published\"]\nexponent = [5, 50]\n"
+                "[[sweep]]\nmethod = \"gouraud\"\ntessellation = [0.5, 1, 2]\n"));
+  EXPECT_EQ(points.size(), 4U + 3U);
 }
 
 TEST_F(SpaceTest, HasNoDuplicates) {
   // Preset and threshold are ignored for software. The threshold is ignored for methods that never split.
-  const auto points = read(
+  const auto points = must(read(
       "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\"]\npreset = [\"exact\", \"published\"]\nthreshold = "
       "[1, 2]\n"
-      "[[sweep]]\nmethod = \"gouraud\"\n");
-  ASSERT_TRUE(points) << points.error().message;
-  EXPECT_EQ(points->size(), 1U + 2U);
+      "[[sweep]]\nmethod = \"gouraud\"\n"));
+  EXPECT_EQ(points.size(), 1U + 2U);
   std::set<std::string> names;
-  for (const DesignPoint& point : *points) names.insert(point.name());
-  EXPECT_EQ(names.size(), points->size());
+  for (const DesignPoint& point : points) names.insert(point.name());
+  EXPECT_EQ(names.size(), points.size());
 }
 
 TEST_F(SpaceTest, PutsPointsOfAPictureTogether) {
-  const auto points = read(
+  const auto points = must(read(
       "[[sweep]]\nmethod = \"gouraud\"\nexponent = [5, 50]\n[[sweep]]\nmethod = \"phong\"\nexponent = [50, "
-      "5]\n");
-  ASSERT_TRUE(points) << points.error().message;
-  ASSERT_EQ(points->size(), 4U);
-  EXPECT_EQ((*points)[0].picture(), (*points)[1].picture());
-  EXPECT_EQ((*points)[2].picture(), (*points)[3].picture());
+      "5]\n"));
+  ASSERT_EQ(points.size(), 4U);
+  EXPECT_EQ(points[0].picture(), points[1].picture());
+  EXPECT_EQ(points[2].picture(), points[3].picture());
 }
 
 TEST_F(SpaceTest, IgnoresWordLengthsOfOtherMethods) {
-  const auto points = read(
+  const auto points = must(read(
       "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"spherical\", \"processors-2\"]\nangle_bits = [22, "
       "16]\n"
-      "fraction_bits = [28, 20]\nseed_bits = [12, 8]\nnewton = [true, false]\n");
-  ASSERT_TRUE(points) << points.error().message;
+      "fraction_bits = [28, 20]\nseed_bits = [12, 8]\nnewton = [true, false]\n"));
   std::vector<std::string> designs;
-  for (const DesignPoint& point : *points) designs.push_back(point.design());
+  for (const DesignPoint& point : points) designs.push_back(point.design());
   EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
                            "gouraud", "quadratic exact", "quadratic exact fraction 20",
                            "spherical exact, threshold 2", "spherical exact angle 16, threshold 2",
@@ -83,13 +80,12 @@ TEST_F(SpaceTest, IgnoresWordLengthsOfOtherMethods) {
 
 // Tests and ends of other methods are ignored; the conservative test and the surface are the defaults.
 TEST_F(SpaceTest, VariesTestsAndEndsOfTheMethodsThatHaveThem) {
-  const auto points = read(
-      "[[sweep]]\nmethod = [\"phong-mesa\", \"quadratic\", \"adaptive\", \"spherical\"]\n"
-      "preset = [\"exact\", \"published\"]\n"
-      "highlight_test = [\"conservative\", \"centroid\"]\nspan_ends = [\"surface\", \"slerp\"]\n");
-  ASSERT_TRUE(points) << points.error().message;
+  const auto points =
+      must(read("[[sweep]]\nmethod = [\"phong-mesa\", \"quadratic\", \"adaptive\", \"spherical\"]\n"
+                "preset = [\"exact\", \"published\"]\n"
+                "highlight_test = [\"conservative\", \"centroid\"]\nspan_ends = [\"surface\", \"slerp\"]\n"));
   std::vector<std::string> designs;
-  for (const DesignPoint& point : *points) designs.push_back(point.design());
+  for (const DesignPoint& point : points) designs.push_back(point.design());
   EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
                            "phong-mesa", "quadratic exact", "quadratic published",
                            "adaptive exact, threshold 2", "adaptive exact centroid, threshold 2",
@@ -106,10 +102,9 @@ TEST_F(SpaceTest, VariesTestsAndEndsOfTheMethodsThatHaveThem) {
 TEST(Spaces, VaryTheExpectedParameters) {
   const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/studies";
   const auto designs_of = [&](const char* file) {
-    const auto points = read_space(studies / file);
-    EXPECT_TRUE(points) << points.error().message;
+    const auto points = must(read_space(studies / file));
     std::set<std::string> designs;
-    for (const DesignPoint& point : *points) designs.insert(point.design());
+    for (const DesignPoint& point : points) designs.insert(point.design());
     return designs;
   };
   const auto asked = designs_of("designs.toml"), full = designs_of("full.toml");
@@ -166,12 +161,11 @@ TEST(DesignPoint, NameContainsAllParameters) {
 
 // The tile appears in the name only if the frame is larger.
 TEST_F(SpaceTest, CutsFramesThatAreLargerThanATile) {
-  const auto points = read(
-      "[[sweep]]\nmethod = \"quadratic\"\nsize = [\"4096x4096\", \"33x17\", \"1280x960\"]\n"
-      "tile = [\"1280x960\", \"2048x4096\"]\n");
-  ASSERT_TRUE(points) << points.error().message;
+  const auto points =
+      must(read("[[sweep]]\nmethod = \"quadratic\"\nsize = [\"4096x4096\", \"33x17\", \"1280x960\"]\n"
+                "tile = [\"1280x960\", \"2048x4096\"]\n"));
   std::vector<std::string> pictures;
-  for (const DesignPoint& point : *points)
+  for (const DesignPoint& point : points)
     pictures.push_back(fmt::format("{}: {}", point.picture(), point.tiles().size()));
   EXPECT_THAT(pictures, ::testing::UnorderedElementsAre("4096x4096 in tiles of 1280x960: 20",
                                                         "4096x4096 in tiles of 2048x4096: 2", "33x17: 1",

@@ -9,6 +9,7 @@
 #include "sim/study/pictures.hpp"
 #include "sim/system/csv.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -116,26 +117,24 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
   add(Method::quadratic, "q", 1e5, 20'000, 4);
   add(Method::phong, "", 5e6, 0, 0);
   add(Method::processors_2, "p", 1e5, 20'000, 0);
-  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder);
-  const std::filesystem::path file = folder->path() / "times.csv";
+  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path file = folder.path() / "times.csv";
   ASSERT_TRUE(write_file(file, times_csv({}, records_, frame_times_of(records_, hardware_, {}))));
-  const auto table = read_csv(file);
-  ASSERT_TRUE(table) << table.error().message;
-  ASSERT_EQ(table->rows.size(), 3U);
-  EXPECT_EQ(table->text(0, "slowest_part"), "");
-  EXPECT_EQ(table->text(1, "clock_mhz"), "");
-  EXPECT_EQ(table->text(2, "clock_mhz"), "40.0");
-  EXPECT_EQ(table->text(2, "slowest_part"), "dot_product_exact");
-  EXPECT_EQ(table->text(0, "design"), "quadratic exact");
-  EXPECT_EQ(table->number(0, "host_ns"), 1e5);
-  EXPECT_EQ(table->number(0, "hardware_ns"), 2e5);
-  EXPECT_EQ(table->number(0, "overlapped_ns"), 2e5);
-  EXPECT_EQ(table->number(0, "sequential_ns"), 3e5);
-  EXPECT_EQ(table->text(0, "bound"), "hardware");
-  EXPECT_EQ(table->text(0, "words"), "7");
-  EXPECT_EQ(table->text(1, "words"), "");
-  EXPECT_EQ(table->text(1, "hardware_ns"), "");
+  const auto table = must(read_csv(file));
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.text(0, "slowest_part"), "");
+  EXPECT_EQ(table.text(1, "clock_mhz"), "");
+  EXPECT_EQ(table.text(2, "clock_mhz"), "40.0");
+  EXPECT_EQ(table.text(2, "slowest_part"), "dot_product_exact");
+  EXPECT_EQ(table.text(0, "design"), "quadratic exact");
+  EXPECT_EQ(table.number(0, "host_ns"), 1e5);
+  EXPECT_EQ(table.number(0, "hardware_ns"), 2e5);
+  EXPECT_EQ(table.number(0, "overlapped_ns"), 2e5);
+  EXPECT_EQ(table.number(0, "sequential_ns"), 3e5);
+  EXPECT_EQ(table.text(0, "bound"), "hardware");
+  EXPECT_EQ(table.text(0, "words"), "7");
+  EXPECT_EQ(table.text(1, "words"), "");
+  EXPECT_EQ(table.text(1, "hardware_ns"), "");
 }
 
 // The time grows with the work, and the words are those of the stream.
@@ -143,11 +142,7 @@ TEST(HostTimes, AreMeasuredForHardwareAndSoftware) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const SimulatorFolders folders{source, source / "build/cache"};
   const std::string name = source / "sim/studies/sphere.toml";
-  const auto time_of = [&](const DesignPoint& point) {
-    const auto time = host_time(point, name, folders);
-    EXPECT_TRUE(time) << time.error().message;
-    return time ? *time : HostTime{};
-  };
+  const auto time_of = [&](const DesignPoint& point) { return must(host_time(point, name, folders)); };
   const HostTime coarse = time_of({.method = Method::quadratic, .tessellation = 0.5});
   const HostTime fine = time_of({.method = Method::quadratic, .tessellation = 3});
   EXPECT_GT(coarse.ns, 0);

@@ -15,6 +15,7 @@
 #include "sim/study/study.hpp"
 #include "sim/synth/pinned.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway::study {
@@ -49,7 +50,7 @@ echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critica
 class HardwareFiguresTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folders_ = {folder_->path() / "source", folder_->path() / "cache"};
+    folders_ = {folder_.path() / "source", folder_.path() / "cache"};
     // This tree has its own folders for pinned clocks.
     for (const char* name : {"tb/synth", "sim/studies"}) ASSERT_TRUE(make_folders(folders_.source / name));
     fs::create_directory_symlink(c_source_folder / "rtl", folders_.source / "rtl");
@@ -62,11 +63,9 @@ class HardwareFiguresTest : public ::testing::Test {
     fs::create_directory_symlink(c_source_folder / "build/cache/ghdl", folders_.cache / "ghdl");
     pin("");
     put_tools("4", "30", "40");
-    const auto scene = drawn_scene(scene_, c_source_folder / "sim/scenes", point_);
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto hardware = hardware_of(point_, *scene);
-    ASSERT_TRUE(hardware) << hardware.error().message;
-    key_ = hardware->key;
+    const auto scene = must(drawn_scene(scene_, c_source_folder / "sim/scenes", point_));
+    const auto hardware = must(hardware_of(point_, scene));
+    key_ = hardware.key;
     Record record{point_, {}};
     record.measured.hardware = key_.name();
     records_ = {record};
@@ -78,7 +77,7 @@ class HardwareFiguresTest : public ::testing::Test {
   }
   void put_tools(const std::string& flip_flops, const std::string& luts, const std::string& packed) {
     using Words = std::vector<std::pair<std::string, std::string>>;
-    const fs::path bin = folder_->path() / "bin";
+    const fs::path bin = folder_.path() / "bin";
     ASSERT_TRUE(make_folders(bin));
     const auto put = [&](const char* name, std::string text, const Words& words) {
       for (const auto& [what, by] : words) {
@@ -93,7 +92,7 @@ class HardwareFiguresTest : public ::testing::Test {
     put("nextpnr-ice40", c_nextpnr, {{"LOG", log().string()}, {"PACKED", packed}});
     ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
   }
-  fs::path log() const { return folder_->path() / "placements"; }
+  fs::path log() const { return folder_.path() / "placements"; }
   std::size_t placements() const {
     const auto text = read_file(log());
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
@@ -106,15 +105,13 @@ class HardwareFiguresTest : public ::testing::Test {
     return GhdlLibrary::for_synthesis(*tool, *sources, folders_.cache);
   }
   HardwareFigures figures(bool place) const {
-    const auto table = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
-    EXPECT_TRUE(table) << table.error().message;
-    return table ? table->at(key_.name()) : HardwareFigures{};
+    return must(hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place})).at(key_.name());
   }
 
   const std::string path_ = std::getenv("PATH");
   const std::string scene_ = c_source_folder / "sim/studies/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
-  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
   SimulatorFolders folders_;
   HardwareKey key_;
   std::vector<Record> records_;
@@ -123,13 +120,12 @@ class HardwareFiguresTest : public ::testing::Test {
 // Hardware that does not fit has the clock of the slowest pinned part inside it as an upper bound. The part
 // is found by its netlist.
 TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
-  const auto library = synthesis_library();
-  ASSERT_TRUE(library) << library.error().message;
+  const auto library = must(synthesis_library());
   const auto line = [&](const char* entity, const std::vector<std::pair<std::string, std::string>>& generics,
                         double mhz) {
-    const auto hash = synth::netlist_hash(*library, {.name = "x", .entity = entity, .generics = generics});
-    EXPECT_TRUE(hash) << hash.error().message;
-    return fmt::format("{}_{:.0f} 1 1 1 0 {:.1f} {}\n", entity, mhz, mhz, *hash);
+    const auto hash =
+        must(synth::netlist_hash(library, {.name = "x", .entity = entity, .generics = generics}));
+    return fmt::format("{}_{:.0f} 1 1 1 0 {:.1f} {}\n", entity, mhz, mhz, hash);
   };
   const std::string saturate =
       line("saturate", {{"g_value_bits", "32"}, {"g_fraction_bits", "20"}, {"g_result_bits", "8"}}, 90);
@@ -153,26 +149,24 @@ TEST_F(HardwareFiguresTest, APinnedClockIsUsedForTheSameNetlistOnly) {
   const HardwareFigures none = figures(false);
   EXPECT_FALSE(none.mhz);
   EXPECT_EQ(none.clock, "not placed");
-  const auto library = synthesis_library();
-  ASSERT_TRUE(library) << library.error().message;
-  const auto hash = synth::netlist_hash(
-      *library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()});
-  ASSERT_TRUE(hash) << hash.error().message;
+  const auto library = must(synthesis_library());
+  const auto hash = must(synth::netlist_hash(
+      library, {.name = "another", .entity = key_.entity(), .generics = key_.generics()}));
   const std::string flow = fmt::format("flow {}\n", synth::flow_hash());
-  pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", *hash));
+  pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", hash));
   const HardwareFigures pinned = figures(true);
   EXPECT_EQ(pinned.mhz, 87.5);
   EXPECT_EQ(pinned.clock, "pinned");
   EXPECT_EQ(pinned.tools, "cells by Yosys 0.23");
   EXPECT_EQ(placements(), 0U);
   ASSERT_TRUE(synth::write_pins(folders_.source / "tb/synth/pinned.txt",
-                                {{"any", {{1, 2, 3, 4}, 87.5, *hash}}}, "Placer 1, Router 2.5"));
+                                {{"any", {{1, 2, 3, 4}, 87.5, hash}}}, "Placer 1, Router 2.5"));
   EXPECT_EQ(figures(false).tools, "pinned with Placer 1, Router 2.5, cells by Yosys 0.23");
-  std::string other = *hash;
+  std::string other = hash;
   other[0] = other[0] == '0' ? '1' : '0';
   pin(flow + fmt::format("any 1 2 3 4 87.5 {}\n", other));
   EXPECT_FALSE(figures(false).mhz);
-  pin(fmt::format("any 1 2 3 4 87.5 {}\n", *hash));  // of an unknown flow
+  pin(fmt::format("any 1 2 3 4 87.5 {}\n", hash));  // of an unknown flow
   EXPECT_FALSE(figures(false).mhz);
 }
 
@@ -208,20 +202,10 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 
 TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
   const auto table = [&](bool place) {
-    auto made = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
-    EXPECT_TRUE(made) << made.error().message;
-    return made ? *made : HardwareTable{};
+    return must(hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place}));
   };
-  const auto pins = [&] {
-    const auto read = synth::read_pins(folders_.source / synth::c_study_pins);
-    EXPECT_TRUE(read) << read.error().message;
-    return read ? *read : synth::Pins{};
-  };
-  const auto pinned = [&](const HardwareTable& of) {
-    const auto count = pin_clocks(of, folders_);
-    EXPECT_TRUE(count) << count.error().message;
-    return count ? *count : 99;
-  };
+  const auto pins = [&] { return must(synth::read_pins(folders_.source / synth::c_study_pins)); };
+  const auto pinned = [&](const HardwareTable& of) { return must(pin_clocks(of, folders_)); };
   EXPECT_EQ(pinned(table(false)), 0U);  // no clock is known yet
   EXPECT_EQ(pinned(table(true)), 1U);
   const synth::Ice40Cells cells{.luts = 30, .flip_flops = 4};
@@ -255,29 +239,25 @@ TEST_F(HardwareFiguresTest, PlacedClocksCanBePinned) {
 
 // The pinned clocks must match the netlists of the current RTL.
 TEST(StudyClocks, MatchTheSmallStudysHardware) {
-  const auto pins = synth::read_pins(c_source_folder / synth::c_study_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  const auto points = read_space((c_source_folder / "sim/studies/small.toml").string());
-  ASSERT_TRUE(points) << points.error().message;
+  const auto pins = must(synth::read_pins(c_source_folder / synth::c_study_pins));
+  const auto points = must(read_space((c_source_folder / "sim/studies/small.toml").string()));
   const std::string scene = c_source_folder / "sim/studies/sphere.toml";
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   std::vector<Record> records;
-  for (const DesignPoint& point : *points) {
+  for (const DesignPoint& point : points) {
     if (!in_hardware(point.method)) continue;
-    const auto drawn = drawn_scene(scene, c_source_folder / "sim/scenes", point);
-    ASSERT_TRUE(drawn) << drawn.error().message;
-    const auto hardware = hardware_of(point, *drawn);
+    const auto drawn = must(drawn_scene(scene, c_source_folder / "sim/scenes", point));
+    const auto hardware = hardware_of(point, drawn);
     if (!hardware) continue;  // this hardware cannot draw the scene
     records.push_back({point, {}});
     records.back().measured.hardware = hardware->key.name();
   }
-  const auto table = hardware_figures(scene, records, folders, {.threads = 2, .cells = false});
-  ASSERT_TRUE(table) << table.error().message;
+  const auto table = must(hardware_figures(scene, records, folders, {.threads = 2, .cells = false}));
   std::size_t clocks = 0;
-  for (const auto& [name, figures] : *table) {
+  for (const auto& [name, figures] : table) {
     clocks += figures.mhz ? 1 : 0;
-    const auto pin = pins->find(name);
-    if (pin != pins->end()) {
+    const auto pin = pins.find(name);
+    if (pin != pins.end()) {
       EXPECT_EQ(pin->second.netlist, figures.netlist) << name;
     }
     // Most processors are too large for the device by their multipliers alone; that is known without
@@ -294,27 +274,20 @@ TEST(StudyClocks, MatchTheSmallStudysHardware) {
 TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   StudySettings settings{.scene = scene_,
                          .points = {{.method = Method::gouraud, .size = {32, 24}}},
-                         .out = folder_->path() / "out",
+                         .out = folder_.path() / "out",
                          .parts = synth::c_seeds,
                          .folders = folders_,
                          .placed = {point_}};
   EXPECT_EQ(most_parts(settings), synth::c_seeds);
-  const auto open = [&] {
-    const auto parts = open_parts(settings);
-    EXPECT_TRUE(parts) << parts.error().message;
-    return parts ? *parts : std::vector<std::size_t>();
-  };
+  const auto open = [&] { return must(open_parts(settings)); };
   const auto run = [&](std::size_t part) {
     settings.part = part;
-    const auto made = run_study(settings);
-    EXPECT_TRUE(made) << made.error().message;
-    return made ? made->placements : 0;
+    return must(run_study(settings)).placements;
   };
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
   EXPECT_EQ(run(1), 1U);
-  const auto seeds = read_file(log());
-  ASSERT_TRUE(seeds) << seeds.error().message;
-  EXPECT_EQ(*seeds, "2\n");
+  const auto seeds = must(read_file(log()));
+  EXPECT_EQ(seeds, "2\n");
   EXPECT_THAT(open(), ElementsAre(0U, 2U));
   EXPECT_EQ(run(1), 0U);
   EXPECT_EQ(run(2) + run(0), 2U);
@@ -334,14 +307,12 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   put_tools("4", "7681", "40");
   const StudySettings settings{
-      .scene = scene_, .out = folder_->path() / "out", .folders = folders_, .placed = {point_}};
-  const auto made = run_study(settings);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->placements, synth::c_seeds);
+      .scene = scene_, .out = folder_.path() / "out", .folders = folders_, .placed = {point_}};
+  const auto made = must(run_study(settings));
+  EXPECT_EQ(made.placements, synth::c_seeds);
   EXPECT_EQ(placements(), 0U);
-  const auto parts = open_parts(settings);
-  ASSERT_TRUE(parts) << parts.error().message;
-  EXPECT_TRUE(parts->empty());
+  const auto parts = must(open_parts(settings));
+  EXPECT_TRUE(parts.empty());
 }
 
 }  // namespace

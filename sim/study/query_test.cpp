@@ -12,6 +12,9 @@
 #include <regex>
 #include <string>
 
+#include "common/test/is_error.hpp"
+#include "sim/system/must.hpp"
+
 namespace halfway::study {
 namespace {
 
@@ -23,12 +26,11 @@ using ::testing::Not;
 constexpr double c_infinity = std::numeric_limits<double>::infinity();
 
 TEST(Demand, ReadsNumbersWithUnits) {
-  const auto demand = read_demand("2", "45 dB", "10ms");
-  ASSERT_TRUE(demand) << demand.error().message;
-  EXPECT_EQ(demand->largest_error, 2.0);
-  EXPECT_EQ(demand->psnr_db, 45.0);
-  EXPECT_DOUBLE_EQ(*demand->seconds, 0.01);
-  EXPECT_EQ(demand->text(), "largest error at most 2/255, PSNR at least 45 dB, a frame in 10 ms");
+  const auto demand = must(read_demand("2", "45 dB", "10ms"));
+  EXPECT_EQ(demand.largest_error, 2.0);
+  EXPECT_EQ(demand.psnr_db, 45.0);
+  EXPECT_DOUBLE_EQ(*demand.seconds, 0.01);
+  EXPECT_EQ(demand.text(), "largest error at most 2/255, PSNR at least 45 dB, a frame in 10 ms");
   EXPECT_DOUBLE_EQ(*read_demand("", "", "0.5s")->seconds, 0.5);
   EXPECT_DOUBLE_EQ(*read_demand("", "", "250us")->seconds, 250e-6);
   EXPECT_DOUBLE_EQ(*read_demand("", "", "800 ns")->seconds, 800e-9);
@@ -44,10 +46,9 @@ TEST(Demand, RefusesOtherUnits) {
       {"", "", "10min", "--time"}, {"", "", "0ms", "--time"},  {"", "", "ms", "--time"},
       {"", "", "1e999s", "--time"}};
   for (const auto& [error, psnr, time, option] : cases) {
-    const auto demand = read_demand(error, psnr, time);
-    ASSERT_FALSE(demand) << error << psnr << time;
-    EXPECT_EQ(demand.error().code, ExitCode::bad_input);
-    EXPECT_THAT(demand.error().message, HasSubstr(option + ": '" + error + psnr + time + "'"));
+    EXPECT_TRUE(is_error(read_demand(error, psnr, time), ExitCode::bad_input,
+                         option + ": '" + error + psnr + time + "'"))
+        << error << psnr << time;
   }
 }
 

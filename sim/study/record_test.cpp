@@ -18,19 +18,19 @@
 #include "sim/pictures/image_library.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
 
 Scene scene_of_everything() {
-  auto scene = load_scene((c_source_folder / "sim/studies/sphere.toml").string(),
-                          c_source_folder / "sim/scenes", {.tessellation = 0.25});
-  EXPECT_TRUE(scene) << scene.error().message;
-  scene->positional.resize(2);
-  scene->spots.resize(2);
-  scene->materials.resize(2);
-  return *scene;
+  auto scene = must(load_scene((c_source_folder / "sim/studies/sphere.toml").string(),
+                               c_source_folder / "sim/scenes", {.tessellation = 0.25}));
+  scene.positional.resize(2);
+  scene.spots.resize(2);
+  scene.materials.resize(2);
+  return scene;
 }
 
 TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
@@ -104,7 +104,7 @@ TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
 
 class RecordsTest : public ::testing::Test {
  protected:
-  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
@@ -112,14 +112,11 @@ TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
   Record record{{.method = Method::adaptive}, {}};
   record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
   record.measured.cycles = 77;
-  const auto picture = Records(folder_->path(), here).add_frame(record.point, Frame(record.point.size));
-  ASSERT_TRUE(picture) << picture.error().message;
-  record.picture = *picture;
-  ASSERT_TRUE(Records(folder_->path(), here).add(record));
+  const auto picture = must(Records(folder_.path(), here).add_frame(record.point, Frame(record.point.size)));
+  record.picture = picture;
+  ASSERT_TRUE(Records(folder_.path(), here).add(record));
   const auto find = [&](const Provenance& provenance, const DesignPoint& point) {
-    const auto kept = Records(folder_->path(), provenance).find(point);
-    EXPECT_TRUE(kept) << kept.error().message;
-    return kept ? *kept : std::nullopt;
+    return must(Records(folder_.path(), provenance).find(point));
   };
   const auto found = find(here, record.point);
   ASSERT_TRUE(found);
@@ -135,34 +132,31 @@ TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
   DesignPoint other = record.point;
   other.threshold = 4.0;
   EXPECT_FALSE(find(here, other));
-  std::filesystem::remove(Records(folder_->path(), here).picture(record.point));
+  std::filesystem::remove(Records(folder_.path(), here).picture(record.point));
   EXPECT_FALSE(find(here, record.point));
 }
 
 // Damage each file in turn while the other one is intact.
 TEST_F(RecordsTest, ReportTheDamagedFile) {
-  const Records records(folder_->path(), {"scene", "1", "2", "3", "4"});
+  const Records records(folder_.path(), {"scene", "1", "2", "3", "4"});
   Record record{{.method = Method::adaptive, .size = {40, 30}}, {}};
   const auto add = [&](const Frame& frame) {
-    const auto picture = records.add_frame(record.point, frame);
-    ASSERT_TRUE(picture) << picture.error().message;
-    record.picture = *picture;
+    const auto picture = must(records.add_frame(record.point, frame));
+    record.picture = picture;
     ASSERT_TRUE(records.add(record));
   };
   add(Frame(record.point.size));
   for (const std::filesystem::path& file : {records.file(record.point), records.picture(record.point)}) {
-    const auto whole = read_file(file);
-    ASSERT_TRUE(whole);
-    std::string other = *whole;
+    const auto whole = must(read_file(file));
+    std::string other = whole;
     other[other.size() / 2] ^= 1;
-    for (const std::string& text :
-         {std::string(), whole->substr(0, whole->size() - 5), "{}" + *whole, other}) {
+    for (const std::string& text : {std::string(), whole.substr(0, whole.size() - 5), "{}" + whole, other}) {
       ASSERT_TRUE(write_file(file, text));
       const auto found = records.find(record.point);
       ASSERT_FALSE(found) << text;
       EXPECT_EQ(found.error().message, file.string() + ": damaged; the point is measured again");
     }
-    ASSERT_TRUE(write_file(file, *whole));
+    ASSERT_TRUE(write_file(file, whole));
     EXPECT_TRUE(records.find(record.point));
   }
   // A valid picture, but not the point's.
@@ -173,16 +167,15 @@ TEST_F(RecordsTest, ReportTheDamagedFile) {
 // Change one byte, or one file name, of a checkout's RTL.
 TEST_F(RecordsTest, ProvenanceCoversEveryFileOfTheRtl) {
   const Scene scene = scene_of_everything();
-  std::filesystem::create_directories(folder_->path() / "rtl/part");
+  std::filesystem::create_directories(folder_.path() / "rtl/part");
   const auto write = [&](const char* name, const char* text) {
-    ASSERT_TRUE(write_file(folder_->path() / "rtl" / name, text));
+    ASSERT_TRUE(write_file(folder_.path() / "rtl" / name, text));
   };
   std::set<std::string> hashes;
   const auto expect_another = [&](const char* what) {
-    const auto provenance = provenance_of(scene, {folder_->path(), folder_->path() / "cache"});
-    ASSERT_TRUE(provenance) << provenance.error().message;
-    EXPECT_TRUE(hashes.insert(provenance->rtl).second) << what;
-    EXPECT_EQ(provenance->scene_hash, scene_hash(scene));
+    const auto provenance = must(provenance_of(scene, {folder_.path(), folder_.path() / "cache"}));
+    EXPECT_TRUE(hashes.insert(provenance.rtl).second) << what;
+    EXPECT_EQ(provenance.scene_hash, scene_hash(scene));
   };
   write("a.vhd", "a");
   expect_another("one file");
@@ -190,25 +183,21 @@ TEST_F(RecordsTest, ProvenanceCoversEveryFileOfTheRtl) {
   expect_another("two");
   write("part/b.vhd", "c");
   expect_another("a byte");
-  std::filesystem::rename(folder_->path() / "rtl/a.vhd", folder_->path() / "rtl/d.vhd");
+  std::filesystem::rename(folder_.path() / "rtl/a.vhd", folder_.path() / "rtl/d.vhd");
   expect_another("a name");
 }
 
 // A program with one byte more is another program; an identical copy is the same.
 TEST_F(RecordsTest, ProvenanceCoversTheProgram) {
-  const auto mine = read_file("/proc/self/exe");
-  ASSERT_TRUE(mine);
-  const auto images = read_file(image_library_file());
-  ASSERT_TRUE(images);
-  const auto provenance = provenance_of(scene_of_everything(), {c_source_folder, folder_->path()});
-  ASSERT_TRUE(provenance) << provenance.error().message;
-  EXPECT_THAT(provenance->tools,
+  const auto mine = must(read_file("/proc/self/exe"));
+  const auto images = must(read_file(image_library_file()));
+  const auto provenance = must(provenance_of(scene_of_everything(), {c_source_folder, folder_.path()}));
+  EXPECT_THAT(provenance.tools,
               ::testing::ContainsRegex("GHDL .*Verilator .*OpenImageIO [0-9]+[.][0-9]+[.][0-9]+"));
-  const auto mesa = read_file(mesa_program(c_source_folder));
-  ASSERT_TRUE(mesa) << mesa.error().message;
-  EXPECT_EQ(provenance->program, ContentHash().add(*mine).add(*images).add(*mesa).hex());
-  EXPECT_NE(provenance->program, ContentHash().add(*mine + '\0').add(*images).add(*mesa).hex());
-  EXPECT_NE(provenance->program, ContentHash().add(*mine).add(*images).add(*mesa + '\0').hex());
+  const auto mesa = must(read_file(mesa_program(c_source_folder)));
+  EXPECT_EQ(provenance.program, ContentHash().add(mine).add(images).add(mesa).hex());
+  EXPECT_NE(provenance.program, ContentHash().add(mine + '\0').add(images).add(mesa).hex());
+  EXPECT_NE(provenance.program, ContentHash().add(mine).add(images).add(mesa + '\0').hex());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -28,9 +29,8 @@ TEST(Sealed, IsReadBackUnlessAByteChanged) {
 
 // Expected values are computed by xxhash's own programs.
 TEST(Sealed, ChecksumIsXxh64) {
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const auto path = folder->path() / "file";
+  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const auto path = folder.path() / "file";
   EXPECT_FALSE(checksum_of(path));
   for (const auto& [bytes, checksum] :
        {std::pair{"", "ef46db3751d8e999"}, {"a", "d24ec4f1a98c6e5b"}, {"abc", "44bc2cf5ad770999"}}) {

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <optional>
 #include <string>
 
 #include "sim/study/stand_in_slurm_test.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::study {
@@ -26,23 +26,18 @@ using ::testing::Not;
 class JobScriptTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-    ASSERT_TRUE(write_file(folder_->path() / "scontrol", "#!/bin/sh\necho \"scontrol $*\"\n"));
-    std::filesystem::permissions(folder_->path() / "scontrol", std::filesystem::perms::owner_all);
+    ASSERT_TRUE(write_file(folder_.path() / "scontrol", "#!/bin/sh\necho \"scontrol $*\"\n"));
+    std::filesystem::permissions(folder_.path() / "scontrol", std::filesystem::perms::owner_all);
   }
   ProcessEnd run(const JobArray& array, const std::string& restarts) const {
-    const auto end = run_process({.arguments = {"sh", "-c", job_script(array)},
-                                  .environment = {{"PATH", folder_->path().string() + ":/usr/bin:/bin"},
-                                                  {"SLURM_ARRAY_TASK_ID", "3"},
-                                                  {"SLURM_ARRAY_JOB_ID", "77"},
-                                                  {"SLURM_RESTART_COUNT", restarts}}},
-                                 "");
-    EXPECT_TRUE(end);
-    return end ? *end : ProcessEnd{};
+    return must(run_process({.arguments = {"sh", "-c", job_script(array)},
+                             .environment = {{"PATH", folder_.path().string() + ":/usr/bin:/bin"},
+                                             {"SLURM_ARRAY_TASK_ID", "3"},
+                                             {"SLURM_ARRAY_JOB_ID", "77"},
+                                             {"SLURM_RESTART_COUNT", restarts}}},
+                            ""));
   }
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(JobScriptTest, PassesThePartToTheWorkerLiterally) {
@@ -66,11 +61,8 @@ TEST_F(JobScriptTest, RequeuesAFailedTaskAFewTimes) {
 class JobArrayTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
-    put_slurm(folder_->path());
-    ::setenv("PATH", (folder_->path().string() + ":" + path_).c_str(), 1);
+    put_slurm(folder_.path());
+    ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
   // Run tasks 1, 4 and 5 of 8. $2 is the part.
@@ -78,19 +70,18 @@ class JobArrayTest : public ::testing::Test {
     return {.worker = {"sh", "-c", script, "worker"},
             .parts = 8,
             .open = {1, 4, 5},
-            .folder = folder_->path() / "slurm"};
+            .folder = folder_.path() / "slurm"};
   }
   const std::string path_ = std::getenv("PATH");
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(JobArrayTest, NotesOfTasksAreFound) {
   const JobArray noted = array("echo working; [ $2 = 4/8 ] || echo \"note: $2\" >&2; echo 'no note: here'");
-  const Status ran = run_job_array(noted);
-  ASSERT_TRUE(ran) << ran.error().message;
+  must(run_job_array(noted));
   EXPECT_THAT(notes_of(noted), ElementsAre("note: 1/8", "note: 5/8"));
   const JobArray silent = array(":");
-  ASSERT_TRUE(run_job_array(silent));
+  must(run_job_array(silent));
   EXPECT_THAT(notes_of(silent), IsEmpty());
 }
 

@@ -6,17 +6,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 #include <sstream>
 #include <utility>
 
+#include "common/test/is_error.hpp"
 #include "sim/formats/made_tables.hpp"
 #include "sim/pictures/image.hpp"
 #include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/table.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/sanitizers.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/test/source_folder.hpp"
@@ -36,7 +37,7 @@ class StudyTest : public ::testing::Test {
  protected:
   void SetUp() override {
     settings_.scene = c_source_folder / "sim/studies/sphere.toml";
-    settings_.out = folder_->path();
+    settings_.out = folder_.path();
     settings_.threads = 2;
     settings_.on_note = [this](const std::string& note) { notes_.push_back(note); };
     settings_.folders = {c_source_folder, c_source_folder / "build" / "cache"};
@@ -46,11 +47,9 @@ class StudyTest : public ::testing::Test {
   }
   Study study() const {
     notes_.clear();
-    auto made = run_study(settings_);
-    EXPECT_TRUE(made) << made.error().message;
-    return made ? std::move(*made) : Study{};
+    return must(run_study(settings_));
   }
-  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   StudySettings settings_;
   mutable std::vector<std::string> notes_;  // notes of the last study
 };
@@ -84,7 +83,7 @@ TEST_F(StudyTest, ContinuesAfterAnInterruption) {
   // Remove one point's figures and another point's frame.
   const Provenance provenance = study().provenance;
   const auto lose = [&](std::size_t point, const char* ending) {
-    return std::filesystem::remove(folder_->path() / "points" /
+    return std::filesystem::remove(folder_.path() / "points" /
                                    (record_name(provenance, settings_.points[point]) + ending));
   };
   EXPECT_TRUE(lose(0, ".json") && lose(1, ".png"));
@@ -95,13 +94,12 @@ TEST_F(StudyTest, ContinuesAfterAnInterruption) {
 
 TEST_F(StudyTest, MeasuresDamagedPointsAndOtherScenesAgain) {
   const std::string table = table_of(study());
-  const std::string stem = folder_->path() / "points" / record_name(study().provenance, settings_.points[0]);
+  const std::string stem = folder_.path() / "points" / record_name(study().provenance, settings_.points[0]);
   for (const char* ending : {".json", ".png"}) {
     const std::string file = stem + ending;
-    auto text = read_file(file);
-    ASSERT_TRUE(text);
-    (*text)[text->size() / 2] ^= 1;
-    ASSERT_TRUE(write_file(file, *text));
+    auto text = must(read_file(file));
+    text[text.size() / 2] ^= 1;
+    ASSERT_TRUE(write_file(file, text));
     const Study again = study();
     EXPECT_EQ(again.measured, 1U);
     EXPECT_THAT(notes_, ::testing::ElementsAre(file + ": damaged; the point is measured again"));
@@ -121,10 +119,9 @@ TEST_F(StudyTest, PartsTogetherEqualTheWhole) {
   std::vector<std::string> all;
   for (const DesignPoint& point : settings_.points) all.push_back(point.name());
   EXPECT_EQ(names, all);
-  const auto open = open_parts(settings_);
-  ASSERT_TRUE(open) << open.error().message;
-  EXPECT_TRUE(open->empty());
-  std::filesystem::remove_all(folder_->path() / "points");
+  const auto open = must(open_parts(settings_));
+  EXPECT_TRUE(open.empty());
+  std::filesystem::remove_all(folder_.path() / "points");
   settings_.part = 1;
   study();
   EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 2U));
@@ -158,7 +155,7 @@ class TiledStudyTest : public StudyTest {
   }
   std::vector<std::uint8_t> picture(const Study& of, std::size_t point) const {
     const auto frame =
-        read_png(folder_->path() / "points" / (record_name(of.provenance, of.records[point].point) + ".png"));
+        read_png(folder_.path() / "points" / (record_name(of.provenance, of.records[point].point) + ".png"));
     EXPECT_TRUE(frame) << frame.error().message;
     return frame ? frame->rgb : std::vector<std::uint8_t>();
   }
@@ -191,8 +188,8 @@ class InterruptedStudyTest : public TiledStudyTest {
     table_ = table_of(study());
     restore();
   }
-  std::filesystem::path points() const { return folder_->path() / "points"; }
-  std::filesystem::path tiles() const { return folder_->path() / "tiles"; }
+  std::filesystem::path points() const { return folder_.path() / "points"; }
+  std::filesystem::path tiles() const { return folder_.path() / "tiles"; }
   void restore() const {
     std::filesystem::remove_all(points());
     std::filesystem::copy(tiles(), points());
@@ -237,42 +234,26 @@ TEST_F(InterruptedStudyTest, KeepsOnlyTheReferencesTiles) {
   EXPECT_EQ(table_of(again), table_);
 }
 
-// A truncated tile, a changed byte, another tile or a file that is no picture: assembling the point draws the
-// tile again.
+// A changed byte, another tile or a file that is no picture: assembling the point draws the tile again.
 TEST_F(InterruptedStudyTest, DrawsADamagedTileAgain) {
-  const auto cut = [](const std::filesystem::path& path) {
-    const auto whole = read_file(path);
-    return whole && write_file(path, whole->substr(0, whole->size() / 2));
+  const auto flipped = [&](const char* ending) {
+    std::string whole = must(read_file(file(drawing_, ending)));
+    whole[whole.size() / 2] ^= 1;
+    return whole;
   };
-  const auto flip = [](const std::filesystem::path& path) {
-    auto whole = read_file(path);
-    if (!whole) return false;
-    (*whole)[whole->size() / 2] ^= 1;
-    return !!write_file(path, *whole);
-  };
-  const auto takes = [&](const char* other) {
-    return [path = file(drawing_, other)](const std::filesystem::path& at) {
-      return std::filesystem::copy_file(path, at, std::filesystem::copy_options::overwrite_existing);
-    };
-  };
-  const auto holds = [](const char* text) {
-    return [text](const std::filesystem::path& path) { return !!write_file(path, text); };
-  };
-  const std::vector<std::pair<std::filesystem::path, std::function<bool(const std::filesystem::path&)>>>
-      damages = {{file(drawing_, "-tile-0.png"), cut},
-                 {file(drawing_, "-tile-1-mask.png"), cut},
-                 {file(drawing_, "-tile-2.json"), cut},
-                 {file(drawing_, "-tile-0.png"), flip},
-                 {file(drawing_, "-tile-1-mask.png"), flip},
-                 {file(drawing_, "-tile-2.json"), flip},
-                 {file(drawing_, "-tile-3.png"), takes("-tile-1.png")},
-                 {file(drawing_, "-tile-3.json"), takes("-tile-1.json")},
-                 {file(drawing_, "-tile-3.json"), holds("{\"tile\": 3}\n")},
-                 {file(reference_, "-tile-0.png"), holds("")},
-                 {file(reference_, "-tile-2-mask.png"), holds("no picture")}};
-  for (const auto& [path, damage] : damages) {
+  const auto other = [&](const char* ending) { return must(read_file(file(drawing_, ending))); };
+  const std::vector<std::pair<std::filesystem::path, std::string>> damages = {
+      {file(drawing_, "-tile-0.png"), flipped("-tile-0.png")},
+      {file(drawing_, "-tile-1-mask.png"), flipped("-tile-1-mask.png")},
+      {file(drawing_, "-tile-2.json"), flipped("-tile-2.json")},
+      {file(drawing_, "-tile-3.png"), other("-tile-1.png")},
+      {file(drawing_, "-tile-3.json"), other("-tile-1.json")},
+      {file(drawing_, "-tile-3.json"), "{\"tile\": 3}\n"},
+      {file(reference_, "-tile-0.png"), ""},
+      {file(reference_, "-tile-2-mask.png"), "no picture"}};
+  for (const auto& [path, text] : damages) {
     restore();
-    ASSERT_TRUE(damage(path)) << path;
+    ASSERT_TRUE(write_file(path, text));
     const Study again = study();
     EXPECT_EQ(again.drawn_tiles, 1U) << path;
     EXPECT_EQ(again.measured, 4U) << path;
@@ -300,10 +281,9 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
   EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
   run_parts({0});
   EXPECT_EQ(drawn, 4U * 4U);
-  const auto open = open_parts(settings_);
-  ASSERT_TRUE(open);
-  EXPECT_FALSE(open->empty());
-  run_parts(*open);
+  const auto open = must(open_parts(settings_));
+  EXPECT_FALSE(open.empty());
+  run_parts(open);
   EXPECT_EQ(drawn, 4U * 4U);
   EXPECT_TRUE(open_parts(settings_)->empty());
   settings_.part = 0;
@@ -361,22 +341,17 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
-  const auto folder = tables::rtl_with_tables(true, {5, 4}, c_source_folder, folder_->path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const std::filesystem::path package = *folder / "rtl/tables/cosine_pkg.vhd";
-  auto text = read_file(package);
-  ASSERT_TRUE(text);
-  const std::size_t at = text->find("c_exact_cosine_1_5_4");
+  const auto folder = must(tables::rtl_with_tables(true, {5, 4}, c_source_folder, folder_.path()));
+  const std::filesystem::path package = folder / "rtl/tables/cosine_pkg.vhd";
+  auto text = must(read_file(package));
+  const std::size_t at = text.find("c_exact_cosine_1_5_4");
   ASSERT_NE(at, std::string::npos);
-  const std::size_t entry = text->find("15", text->find('(', text->find(":=", at)));
+  const std::size_t entry = text.find("15", text.find('(', text.find(":=", at)));
   ASSERT_NE(entry, std::string::npos);
-  ASSERT_TRUE(write_file(package, text->replace(entry, 2, "14")));
-  settings_.folders.cache = folder_->path();
+  ASSERT_TRUE(write_file(package, text.replace(entry, 2, "14")));
+  settings_.folders.cache = folder_.path();
   settings_.points = {point};
-  const auto made = run_study(settings_);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().code, ExitCode::differs);
-  EXPECT_THAT(made.error().message, HasSubstr("the RTL differs from the golden model"));
+  EXPECT_TRUE(is_error(run_study(settings_), ExitCode::differs, "the RTL differs from the golden model"));
 }
 
 TEST_F(StudyTest, OmitsPointsThatCannotDrawTheScene) {
@@ -415,9 +390,8 @@ TEST_F(StudyTest, MesaDrawsThePicture) {
     EXPECT_GT(m.highlight.pixels, 100U);
   }
   EXPECT_EQ(made.records[0].measured.picture.rms, made.records[1].measured.picture.rms);
-  const auto time = host_time(settings_.points[0], settings_.scene, settings_.folders);
-  ASSERT_TRUE(time) << time.error().message;
-  EXPECT_GT(time->ns, 0);
+  const auto time = must(host_time(settings_.points[0], settings_.scene, settings_.folders));
+  EXPECT_GT(time.ns, 0);
   // Scenes that it does not draw are left out.
   const Drawable shadows = drawable({point}, "shadows", settings_.folders);
   EXPECT_EQ(shadows.left_out, 1U);
@@ -466,12 +440,11 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
 TEST_F(StudyTest, CountsTheHostsInstructions) {
   ASSERT_FALSE(find_program("valgrind").empty()) << "no Valgrind: " << c_install_valgrind;
   if (c_sanitized) GTEST_SKIP() << "Valgrind cannot run a program built with sanitizers";
-  ASSERT_TRUE(write_file(folder_->path() / "space.toml",
+  ASSERT_TRUE(write_file(folder_.path() / "space.toml",
                          "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
-  const auto points = read_space(folder_->path() / "space.toml");
-  ASSERT_TRUE(points);
-  settings_.points = *points;
-  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", (folder_->path() / "space.toml").string()};
+  const auto points = must(read_space(folder_.path() / "space.toml"));
+  settings_.points = points;
+  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", (folder_.path() / "space.toml").string()};
   const Study made = study();
   ASSERT_EQ(made.records.size(), 2U);
   const auto of = [](const Record& record) { return record.measured.host_instructions; };
@@ -479,11 +452,11 @@ TEST_F(StudyTest, CountsTheHostsInstructions) {
   EXPECT_GT(of(made.records[1]), of(made.records[0]));
   // The counts do not depend on the order of the points.
   const auto again =
-      host_instructions(settings_.set_up, {points->at(1).name(), points->at(0).name()}, folder_->path());
+      host_instructions(settings_.set_up, {points.at(1).name(), points.at(0).name()}, folder_.path());
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ((*again)->at(0), of(made.records[1]));
   EXPECT_EQ((*again)->at(1), of(made.records[0]));
-  EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_->path()));
+  EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_.path()));
   // The count is stored with the record.
   settings_.set_up.clear();
   EXPECT_EQ(of(study().records[1]), of(made.records[1]));

@@ -17,6 +17,7 @@
 
 #include "sim/synth/synthesis.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
@@ -78,7 +79,7 @@ class Netlist {
   int last_ = 4, cells_ = 0;
 };
 
-// Pins driven by each buffer, by the buffer's name.
+// PinWidths driven by each buffer, by the buffer's name.
 struct Buffered {
   std::map<std::string, int> pins;
   json cells;
@@ -179,9 +180,8 @@ TEST(SynthGlobalBuffers, HaveANewRuleNameForANewResult) {
   few.cell("SB_RAM40_4K", {{"RCLK", {Netlist::c_clock}}, {"WE", {enable}}}, "RDATA");
   ContentHash results;
   for (const Netlist& netlist : {many, few}) {
-    const auto text = with_global_buffers(netlist.text());
-    ASSERT_TRUE(text) << text.error().message;
-    results.add(*text);
+    const auto text = must(with_global_buffers(netlist.text()));
+    results.add(text);
   }
   EXPECT_EQ(fmt::format("{}: {}", c_buffers_rule, results.hex()), "flow 2: a2b226e0f65aeedd6d833118f083aebd")
       << "give it another name, c_buffers_rule, and then this hash; pin the clocks again by make synth PIN=1";
@@ -248,15 +248,13 @@ end architecture;
 TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
   for (const char* tool : {"ghdl", "yosys", "nextpnr-ice40"})
     ASSERT_FALSE(find_program(tool).empty()) << "no " << tool << ": " << c_install_tools;
-  auto folder = TemporaryFolder::make(fs::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const fs::path root = folder->path(), cache = root / "cache";
+  auto folder = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const fs::path root = folder.path(), cache = root / "cache";
   ASSERT_TRUE(make_folders(root / "rtl"));
   ASSERT_TRUE(write_file(root / "rtl/files.f", "sums.vhd\n"));
   ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_buffered_entity));
-  const auto synthesizer = Synthesizer::open({root, cache}, true);
-  ASSERT_TRUE(synthesizer) << synthesizer.error().message;
-  const auto packing = synthesizer->pack({.name = "sums", .entity = "sums", .generics = {}});
+  const auto synthesizer = must(Synthesizer::open({root, cache}, true));
+  const auto packing = synthesizer.pack({.name = "sums", .entity = "sums", .generics = {}});
   ASSERT_TRUE(packing) << packing.error().message;
   std::optional<std::string> said;
   for (const auto& kept : fs::directory_iterator(cache / "synth"))

@@ -30,20 +30,6 @@ TEST(NamelessNetlist, HasNoCommentsAndIsRenumbered) {
             "endmodule\n");
 }
 
-TEST(NamelessNetlist, IgnoresNumbersAndPositions) {
-  const std::string other =
-      "module top\n"
-      "  (input  clk,\n"
-      "   output [7:0] sum);\n"
-      "  wire n3_o;\n"
-      "  reg [7:0] n4;\n"
-      "  /* rtl/b.vhd:30:41  */\n"
-      "\n"
-      "  assign sum = n3_o ? n4 : 8'b00000001;\n"
-      "endmodule";
-  EXPECT_EQ(nameless(other), nameless(c_named_netlist));
-}
-
 TEST(NamelessNetlist, DistinguishesOtherHardware) {
   const auto with = [](const std::string& expression) {
     return nameless("assign sum = " + expression + ";");

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <string>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/page_part.hpp"
 
 namespace halfway::synth {
@@ -48,50 +50,44 @@ TEST(SynthPins, SayWhatIsNotAsPinned) {
 }
 
 TEST(SynthPins, ComeBackFromTheirFile) {
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const auto path = folder->path() / "pinned.txt";
+  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const auto path = folder.path() / "pinned.txt";
   const std::string hash = "0123456789abcdef0123456789abcdef";
   ASSERT_TRUE(write_pins(path,
                          {{"a", {c_cells, 123.4, hash}},
                           {"b", {{1, 2, 3, 4}, 0}},
                           {"c", {.cells = c_cells, .mhz = 99, .netlist = hash, .seeds = 1}}},
                          "Yosys 0.23"));
-  const auto pins = read_pins(path);
-  ASSERT_TRUE(pins) << pins.error().message;
-  ASSERT_EQ(pins->size(), 3U);
-  EXPECT_EQ(pins->at("a").cells, c_cells);
-  EXPECT_EQ(pins->at("a").mhz, 123.4);
-  EXPECT_EQ(pins->at("a").netlist, hash);
-  EXPECT_EQ(pins->at("a").seeds, c_seeds);
-  EXPECT_EQ(pins->at("c").netlist, hash);
-  EXPECT_EQ(pins->at("c").seeds, 1U);
-  EXPECT_EQ(pins->at("b").netlist, "");
-  EXPECT_EQ(pins->at("b").line, pins->at("a").line + 1);
-  EXPECT_EQ(pins->at("b").cells, (Ice40Cells{1, 2, 3, 4}));
+  const auto pins = must(read_pins(path));
+  ASSERT_EQ(pins.size(), 3U);
+  EXPECT_EQ(pins.at("a").cells, c_cells);
+  EXPECT_EQ(pins.at("a").mhz, 123.4);
+  EXPECT_EQ(pins.at("a").netlist, hash);
+  EXPECT_EQ(pins.at("a").seeds, c_seeds);
+  EXPECT_EQ(pins.at("c").netlist, hash);
+  EXPECT_EQ(pins.at("c").seeds, 1U);
+  EXPECT_EQ(pins.at("b").netlist, "");
+  EXPECT_EQ(pins.at("b").line, pins.at("a").line + 1);
+  EXPECT_EQ(pins.at("b").cells, (Ice40Cells{1, 2, 3, 4}));
   EXPECT_EQ(*pin_versions(path), "Yosys 0.23");
-  auto text = read_file(path);
-  ASSERT_TRUE(text);
-  const std::size_t flow = text->find("flow " + flow_hash() + "\n");
+  auto text = must(read_file(path));
+  const std::size_t flow = text.find("flow " + flow_hash() + "\n");
   ASSERT_NE(flow, std::string::npos);
-  std::string other = *text, none = *text;
+  std::string other = text, none = text;
   other[flow + 5] ^= 1;
-  none.erase(flow, text->find('\n', flow) + 1 - flow);
+  none.erase(flow, text.find('\n', flow) + 1 - flow);
   for (const std::string& another : {other, none}) {
     ASSERT_TRUE(write_file(path, another));
-    const auto read = read_pins(path);
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->at("a").netlist, "");
-    EXPECT_EQ(read->at("a").mhz, 123.4);
+    const auto read = must(read_pins(path));
+    EXPECT_EQ(read.at("a").netlist, "");
+    EXPECT_EQ(read.at("a").mhz, 123.4);
   }
   for (const std::string& wrong : std::initializer_list<std::string>{
            "flow 2\n", "flow\n", "a 1 2 3 4\n", "a 1 2 3 4 5 6\n", "a 1 2 3 4 5 " + hash + " 6 7\n",
            "a 1 2 3 4 5 " + hash + " 0\n", "a 1 2 3 4 5 " + hash + " 3x\n", "a 1 2 3 x 5\n",
            "a 1 2 3 4 5\na 1 2 3 4 5\n"}) {
     ASSERT_TRUE(write_file(path, wrong));
-    const auto read = read_pins(path);
-    ASSERT_FALSE(read) << wrong;
-    EXPECT_THAT(read.error().message, HasSubstr("pinned.txt:"));
+    EXPECT_TRUE(is_error(read_pins(path), "pinned.txt:")) << wrong;
   }
 }
 
@@ -105,42 +101,33 @@ TEST(SynthPins, HaveWhatThePapersPrintBeside) {
 
 // Otherwise a study would have no clocks.
 TEST(SynthPins, AreOfTheFlowAsItIs) {
-  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / c_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  EXPECT_TRUE(std::ranges::any_of(*pins, [](const auto& pin) { return !pin.second.netlist.empty(); }))
+  const auto pins = must(read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / c_pins));
+  EXPECT_TRUE(std::ranges::any_of(pins, [](const auto& pin) { return !pin.second.netlist.empty(); }))
       << "of another flow than " << flow_hash() << ": make synth PIN=1";
 }
 
 TEST(SynthPins, AreWhatThePageSays) {
   const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-  const auto pins = read_pins(root / c_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  const auto clocks = readme_clocks(*pins);
-  ASSERT_TRUE(clocks) << clocks.error().message;
-  const auto readme = read_file(root / "docs/performance.md");
-  ASSERT_TRUE(readme);
-  const auto part = page_part(*readme, "clocks");
-  ASSERT_TRUE(part) << part.error().message;
-  EXPECT_EQ(*part, *clocks) << "make synth PIN=1 writes it";
+  const auto pins = must(read_pins(root / c_pins));
+  const auto clocks = must(readme_clocks(pins));
+  const auto readme = must(read_file(root / "docs/performance.md"));
+  const auto part = must(page_part(readme, "clocks"));
+  EXPECT_EQ(part, clocks) << "make synth PIN=1 writes it";
 }
 
 TEST(SynthPins, AllHaveAClockThatThePageShows) {
-  const auto pins = read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / c_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  Pins others = *pins;
+  const auto pins = must(read_pins(std::filesystem::path(HALFWAY_SOURCE_DIR) / c_pins));
+  Pins others = pins;
   others.at("accumulator_40").mhz = 0;
   EXPECT_FALSE(readme_clocks(others));
-  others = *pins;
+  others = pins;
   others.erase("spherical_shader_exact");
-  const auto clocks = readme_clocks(others);
-  ASSERT_FALSE(clocks);
-  EXPECT_THAT(clocks.error().message, HasSubstr("spherical_shader_exact: not pinned"));
+  EXPECT_TRUE(is_error(readme_clocks(others), "spherical_shader_exact: not pinned"));
   EXPECT_FALSE(readme_clocks({}));
-  others = *pins;
+  others = pins;
   others.at("accumulator_40").seeds = 1;
-  const auto few = readme_clocks(others);
-  ASSERT_TRUE(few) << few.error().message;
-  EXPECT_THAT(*few, HasSubstr("the median of 1 to "));
+  const auto few = must(readme_clocks(others));
+  EXPECT_THAT(few, HasSubstr("the median of 1 to "));
 }
 
 }  // namespace

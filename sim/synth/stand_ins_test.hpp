@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
@@ -18,13 +18,10 @@ class StandInTools : public ::testing::Test {
  protected:
   void SetUp() override {
     ASSERT_FALSE(find_program("ghdl").empty()) << "no ghdl: " << c_install_ghdl;
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
     ASSERT_TRUE(make_folders(bin()));
   }
 
-  std::filesystem::path root() const { return folder_->path(); }
+  std::filesystem::path root() const { return folder_.path(); }
   std::filesystem::path bin() const { return root() / "bin"; }
   /// PATH with the replacements first.
   std::string path_before(const std::string& path) const { return bin().string() + ":" + path; }
@@ -34,7 +31,7 @@ class StandInTools : public ::testing::Test {
   }
 
  private:
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 }  // namespace halfway::synth

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sim/system/must.hpp"
+
 namespace halfway::synth {
 namespace {
 
@@ -17,28 +19,25 @@ constexpr const char* c_leaf_netlist =
     "   output [1:0] sum,\n   output done);\nendmodule\n";
 
 TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
-  const auto text = wrapper(c_leaf_netlist, "top", 256);
-  ASSERT_TRUE(text) << text.error().message;
-  EXPECT_THAT(*text, HasSubstr("reg [3:0] in;"));
-  EXPECT_THAT(*text, HasSubstr("assign go = {in[0]};"));
-  EXPECT_THAT(*text, HasSubstr("assign a = {in[3], in[2], in[1]};"));
-  EXPECT_THAT(*text, HasSubstr("assign out = {done, sum};"));
-  EXPECT_THAT(*text, HasSubstr("reg [2:0] folded;"));
-  EXPECT_THAT(*text, HasSubstr(".clk(clk)"));
+  const auto text = must(wrapper(c_leaf_netlist, "top", 256));
+  EXPECT_THAT(text, HasSubstr("reg [3:0] in;"));
+  EXPECT_THAT(text, HasSubstr("assign go = {in[0]};"));
+  EXPECT_THAT(text, HasSubstr("assign a = {in[3], in[2], in[1]};"));
+  EXPECT_THAT(text, HasSubstr("assign out = {done, sum};"));
+  EXPECT_THAT(text, HasSubstr("reg [2:0] folded;"));
+  EXPECT_THAT(text, HasSubstr(".clk(clk)"));
 }
 
 TEST(SynthWrapper, ConnectsTheClockOfAxi) {
-  const auto text = wrapper("module top\n  (input  aclk,\n   output q);\nendmodule\n", "top", 256);
-  ASSERT_TRUE(text) << text.error().message;
-  EXPECT_THAT(*text, HasSubstr(".aclk(clk)"));
-  EXPECT_THAT(*text, Not(HasSubstr("assign aclk")));
+  const auto text = must(wrapper("module top\n  (input  aclk,\n   output q);\nendmodule\n", "top", 256));
+  EXPECT_THAT(text, HasSubstr(".aclk(clk)"));
+  EXPECT_THAT(text, Not(HasSubstr("assign aclk")));
 }
 
 TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {
-  const auto text = wrapper(c_leaf_netlist, "top", 3);
-  ASSERT_TRUE(text) << text.error().message;
-  EXPECT_THAT(*text, HasSubstr("reg [2:0] in;"));
-  EXPECT_THAT(*text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
+  const auto text = must(wrapper(c_leaf_netlist, "top", 3));
+  EXPECT_THAT(text, HasSubstr("reg [2:0] in;"));
+  EXPECT_THAT(text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
 }
 
 TEST(SynthWrapper, RefusesAMissingModuleOrOutput) {
@@ -66,18 +65,17 @@ constexpr const char* c_report = R"({"critical_paths": [
   "utilization": {"ICESTORM_LC": {"available": 7680, "used": 12}}})";
 
 TEST(SynthPlacement, ReadsClockCellsAndPath) {
-  const auto placement = read_placement(c_report, c_wrapped, 4);
-  ASSERT_TRUE(placement) << placement.error().message;
-  EXPECT_EQ(placement->seed, 4U);
-  EXPECT_EQ(placement->mhz, 125.5);
-  EXPECT_EQ(placement->cells_used, 12U);
-  EXPECT_EQ(placement->cells_there, 7680U);
-  EXPECT_EQ(placement->path.from, "unit.first[1]");
-  EXPECT_EQ(placement->path.to, "second");
-  EXPECT_EQ(placement->path.luts, 1U);
-  EXPECT_EQ(placement->path.carries, 1U);
-  EXPECT_DOUBLE_EQ(placement->path.logic, 1.5);
-  EXPECT_DOUBLE_EQ(placement->path.routing, 1.5);
+  const auto placement = must(read_placement(c_report, c_wrapped, 4));
+  EXPECT_EQ(placement.seed, 4U);
+  EXPECT_EQ(placement.mhz, 125.5);
+  EXPECT_EQ(placement.cells_used, 12U);
+  EXPECT_EQ(placement.cells_there, 7680U);
+  EXPECT_EQ(placement.path.from, "unit.first[1]");
+  EXPECT_EQ(placement.path.to, "second");
+  EXPECT_EQ(placement.path.luts, 1U);
+  EXPECT_EQ(placement.path.carries, 1U);
+  EXPECT_DOUBLE_EQ(placement.path.logic, 1.5);
+  EXPECT_DOUBLE_EQ(placement.path.routing, 1.5);
 }
 
 TEST(SynthPlacement, RefusesWhatItCannotRead) {
@@ -87,13 +85,12 @@ TEST(SynthPlacement, RefusesWhatItCannotRead) {
 }
 
 TEST(SynthPacking, ReadsNextpnrsOutput) {
-  const auto packing = read_packing(
+  const auto packing = must(read_packing(
       "Info: Packing..\nInfo: Device utilisation:\nInfo: \t         ICESTORM_LC:  2814/ 7680    36%\nInfo: "
       "\t        "
-      "ICESTORM_RAM:     8/   32    25%\n");
-  ASSERT_TRUE(packing) << packing.error().message;
-  EXPECT_EQ(packing->cells_used, 2814U);
-  EXPECT_EQ(packing->cells_there, 7680U);
+      "ICESTORM_RAM:     8/   32    25%\n"));
+  EXPECT_EQ(packing.cells_used, 2814U);
+  EXPECT_EQ(packing.cells_there, 7680U);
   EXPECT_FALSE(read_packing("ERROR: no such file"));
   EXPECT_FALSE(read_packing("ICESTORM_LC: many"));
 }

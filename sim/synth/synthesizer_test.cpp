@@ -11,6 +11,7 @@
 #include "sim/synth/stand_ins_test.hpp"
 #include "sim/synth/synthesis.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
@@ -99,16 +100,13 @@ class SynthesizerTest : public StandInTools {
 };
 
 TEST_F(SynthesizerTest, AnUnfinishedPlacementIsReportedAndCached) {
-  const auto synthesizer = open();
-  ASSERT_TRUE(synthesizer) << synthesizer.error().message;
+  const auto synthesizer = must(open());
   for (int time = 0; time < 2; ++time) {
-    const auto first = synthesizer->place(design_, 1), second = synthesizer->place(design_, 2);
-    ASSERT_TRUE(first) << first.error().message;
-    ASSERT_TRUE(second) << second.error().message;
-    EXPECT_TRUE(first->ended);
-    EXPECT_EQ(first->mhz, 100.0);
-    EXPECT_FALSE(second->ended);
-    EXPECT_FALSE(second->fits());
+    const auto first = must(synthesizer.place(design_, 1)), second = must(synthesizer.place(design_, 2));
+    EXPECT_TRUE(first.ended);
+    EXPECT_EQ(first.mhz, 100.0);
+    EXPECT_FALSE(second.ended);
+    EXPECT_FALSE(second.fits());
   }
   EXPECT_EQ(lines("placed"), 2U);
 }

@@ -5,33 +5,29 @@
 
 #include <chrono>
 #include <fstream>
-#include <optional>
+
+#include "common/test/is_error.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
 
 class File : public testing::Test {
  protected:
-  void SetUp() override {
-    auto made = TemporaryFolder::make(testing::TempDir());
-    ASSERT_TRUE(made) << made.error().message;
-    folder_.emplace(std::move(*made));
-  }
-  std::filesystem::path operator/(const char* name) const { return folder_->path() / name; }
+  std::filesystem::path operator/(const char* name) const { return folder_.path() / name; }
   std::size_t files() const {
-    const std::filesystem::directory_iterator all(folder_->path());
+    const std::filesystem::directory_iterator all(folder_.path());
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
 };
 
 TEST_F(File, WritesAndReadsWhole) {
   std::string content(3'000'001, 'x');
   content[17] = '\0';
   ASSERT_TRUE(write_file(*this / "a/b/c", content));
-  const auto read = read_file(*this / "a/b/c");
-  ASSERT_TRUE(read);
-  EXPECT_TRUE(*read == content);
+  const auto read = must(read_file(*this / "a/b/c"));
+  EXPECT_TRUE(read == content);
   EXPECT_EQ(read_file(*this / "none").error().code, ExitCode::bad_input);
 }
 
@@ -48,15 +44,14 @@ TEST_F(File, ErrorsNameTheFileAndLeaveNothing) {
 
 TEST_F(File, WithoutCommitThereIsNoFile) {
   {
-    auto writer = LineWriter::open(*this / "a");
-    ASSERT_TRUE(writer);
-    writer->append("text");
+    auto writer = must(LineWriter::open(*this / "a"));
+    writer.append("text");
   }
   EXPECT_EQ(files(), 0U);
 }
 
 TEST_F(File, AreListedByName) {
-  const auto& folder = folder_->path();
+  const auto& folder = folder_.path();
   ASSERT_TRUE(make_folders(folder / "b"));
   for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"})
     ASSERT_TRUE(write_file(folder / name, ""));
@@ -65,24 +60,21 @@ TEST_F(File, AreListedByName) {
   using Files = std::vector<std::filesystem::path>;
   EXPECT_EQ(*all, (Files{"a.vhd", "b/a.txt", "b/d.vhd", "c.vhd"}));
   EXPECT_EQ(*some, (Files{"a.vhd", "b/d.vhd", "c.vhd"}));
-  const auto none = files_below(folder / "none");
-  ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("none: No such file or directory"), std::string::npos);
+  EXPECT_TRUE(is_error(files_below(folder / "none"), "none: No such file or directory"));
 }
 
 TEST_F(File, ReadsLines) {
   const std::string longest(100, 'l');
   ASSERT_TRUE(write_file(*this / "a", "one\n\nthree\n" + longest + "\nlast"));
-  auto reader = LineReader::open(*this / "a", 100);
-  ASSERT_TRUE(reader);
+  auto reader = must(LineReader::open(*this / "a", 100));
   std::string_view line;
   for (const std::string& expected :
        {std::string("one"), std::string(), std::string("three"), longest, std::string("last")}) {
-    ASSERT_EQ(reader->next(line), LineReader::Next::line);
+    ASSERT_EQ(reader.next(line), LineReader::Next::line);
     EXPECT_EQ(line, expected);
   }
-  EXPECT_EQ(reader->line_number(), 5U);
-  EXPECT_EQ(reader->next(line), LineReader::Next::end_of_file);
+  EXPECT_EQ(reader.line_number(), 5U);
+  EXPECT_EQ(reader.next(line), LineReader::Next::end_of_file);
 }
 
 TEST_F(File, RefusesLinesThatAreTooLong) {
@@ -119,9 +111,8 @@ TEST(ContentHash, SeparatesFields) {
 TEST_F(File, TemporaryFolderIsRemovedUnlessMoved) {
   std::filesystem::path gone;
   {
-    auto made = TemporaryFolder::make(*this / "x");
-    ASSERT_TRUE(made);
-    gone = made->path();
+    auto made = must(TemporaryFolder::make(*this / "x"));
+    gone = made.path();
     ASSERT_TRUE(write_file(gone / "f", "1"));
   }
   EXPECT_FALSE(std::filesystem::exists(gone));
@@ -146,25 +137,23 @@ TEST_F(File, LeftoversAreRemovedAndFilesInUseStay) {
   std::filesystem::create_directory_symlink(*this / "x/other", *this / "x/.halfway-link");
   for (const char* name : {"f.part-old", "f.part-new", "g.part-old", "f"}) std::ofstream(*this / name) << "x";
   for (const char* name : {"x/.halfway-old", "x/other", "f.part-old", "g.part-old", "f"}) age(*this / name);
-  const auto used = TemporaryFolder::make(*this / "x");
-  ASSERT_TRUE(used);
+  const auto used = must(TemporaryFolder::make(*this / "x"));
   EXPECT_FALSE(std::filesystem::exists(*this / "x/.halfway-old"));
   for (const char* name : {"x/.halfway-new", "x/other", "x/.halfway-link"})
     EXPECT_TRUE(std::filesystem::exists(*this / name)) << name;
-  age(used->path());
+  age(used.path());
   const auto next = TemporaryFolder::make(*this / "x");
-  EXPECT_TRUE(std::filesystem::exists(used->path()));
+  EXPECT_TRUE(std::filesystem::exists(used.path()));
 
-  auto writer = LineWriter::open(*this / "f");
-  ASSERT_TRUE(writer);
+  auto writer = must(LineWriter::open(*this / "f"));
   EXPECT_FALSE(std::filesystem::exists(*this / "f.part-old"));
   for (const char* name : {"f.part-new", "g.part-old", "f"})
     EXPECT_TRUE(std::filesystem::exists(*this / name)) << name;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_->path()))
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
     if (entry.path().filename().string().starts_with("f.part-")) age(entry.path());
-  writer->append("whole");
+  writer.append("whole");
   ASSERT_TRUE(write_file(*this / "f", "another"));
-  ASSERT_TRUE(writer->commit());
+  ASSERT_TRUE(writer.commit());
   EXPECT_EQ(*read_file(*this / "f"), "whole");
   EXPECT_FALSE(std::filesystem::exists(*this / "f.part-new"));
 }

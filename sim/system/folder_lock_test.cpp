@@ -8,20 +8,20 @@
 #include <optional>
 #include <thread>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
 
 TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder);
-  auto first = FolderLock::take(folder->path(), [] { FAIL() << "it is not locked"; });
-  ASSERT_TRUE(first) << first.error().message;
-  std::optional<FolderLock> held(std::move(*first));
+  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  auto first = must(FolderLock::take(folder.path(), [] { FAIL() << "it is not locked"; }));
+  std::optional<FolderLock> held(std::move(first));
   std::atomic<bool> waited = false, taken = false;
   std::jthread second([&] {
-    const auto lock = FolderLock::take(folder->path(), [&] { waited = true; });
+    const auto lock = FolderLock::take(folder.path(), [&] { waited = true; });
     EXPECT_TRUE(lock);
     taken = true;
   });
@@ -34,9 +34,7 @@ TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
 }
 
 TEST(FolderLock, FailsWithoutFolder) {
-  const auto lock = FolderLock::take("/nonexistent/folder", [] {});
-  ASSERT_FALSE(lock);
-  EXPECT_NE(lock.error().message.find("/nonexistent/folder"), std::string::npos);
+  EXPECT_TRUE(is_error(FolderLock::take("/nonexistent/folder", [] {}), "/nonexistent/folder"));
 }
 
 }  // namespace

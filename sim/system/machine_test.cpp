@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -17,11 +18,10 @@ using ::testing::MatchesRegex;
 TEST(Machine, IsReadFromTheSystem) {
   const std::string text = machine();
   EXPECT_THAT(text, MatchesRegex("[1-9][0-9]* cores of [^,:]+(, AVX2|, AVX-512)?, [1-9][0-9]* GiB"));
-  const auto processors = read_file("/proc/cpuinfo");
-  ASSERT_TRUE(processors);
-  if (processors->find("model name") == std::string::npos) GTEST_SKIP() << "no processor is named here";
+  const auto processors = must(read_file("/proc/cpuinfo"));
+  if (processors.find("model name") == std::string::npos) GTEST_SKIP() << "no processor is named here";
   const std::size_t from = text.find(" of ") + 4;
-  EXPECT_THAT(*processors, HasSubstr("model name\t: " + text.substr(from, text.find(',') - from) + "\n"));
+  EXPECT_THAT(processors, HasSubstr("model name\t: " + text.substr(from, text.find(',') - from) + "\n"));
   const auto release = read_file("/etc/os-release");
   if (release && release->find("PRETTY_NAME=\"") != std::string::npos) {
     EXPECT_THAT(*release, HasSubstr("PRETTY_NAME=\"" + operating_system() + "\""));

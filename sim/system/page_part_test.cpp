@@ -6,7 +6,9 @@
 
 #include <filesystem>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -16,24 +18,20 @@ constexpr std::string_view c_page =
     "<!-- two: none -->\n<!-- end of two -->\n";
 
 TEST(PagePart, IsTheTextBetweenItsMarks) {
-  const auto one = page_part(c_page, "one");
-  ASSERT_TRUE(one) << one.error().message;
-  EXPECT_EQ(*one, "first\n\nsecond\n");
-  const auto two = page_part(c_page, "two");
-  ASSERT_TRUE(two) << two.error().message;
-  EXPECT_EQ(*two, "");
+  const auto one = must(page_part(c_page, "one"));
+  EXPECT_EQ(one, "first\n\nsecond\n");
+  const auto two = must(page_part(c_page, "two"));
+  EXPECT_EQ(two, "");
 }
 
 TEST(PagePart, IsReplacedWithoutOtherChanges) {
-  const auto page = with_page_part(c_page, "one", "new\n");
-  ASSERT_TRUE(page) << page.error().message;
-  EXPECT_EQ(*page,
+  const auto page = must(with_page_part(c_page, "one", "new\n"));
+  EXPECT_EQ(page,
             "# Page\n\n<!-- one: written by make one -->\n\nnew\n\n<!-- end of one -->\n\nrest\n"
             "<!-- two: none -->\n<!-- end of two -->\n");
-  EXPECT_EQ(*page_part(*page, "one"), "new\n");
-  const auto again = with_page_part(*page, "one", "new\n");
-  ASSERT_TRUE(again);
-  EXPECT_EQ(*again, *page);
+  EXPECT_EQ(*page_part(page, "one"), "new\n");
+  const auto again = must(with_page_part(page, "one", "new\n"));
+  EXPECT_EQ(again, page);
 }
 
 TEST(PagePart, ExistsOnceAndHasAnEnd) {
@@ -41,16 +39,13 @@ TEST(PagePart, ExistsOnceAndHasAnEnd) {
                                   std::string("\n<!-- end of one -->\n<!-- one: by make -->\n"),
                                   std::string(c_page) + std::string(c_page)}) {
     EXPECT_FALSE(page_part(page, "one")) << page;
-    const auto written = with_page_part(page, "one", "new\n");
-    ASSERT_FALSE(written) << page;
-    EXPECT_THAT(written.error().message, ::testing::HasSubstr("'<!-- end of one -->'"));
+    EXPECT_TRUE(is_error(with_page_part(page, "one", "new\n"), "'<!-- end of one -->'")) << page;
   }
 }
 
 TEST(PagePart, IsRewrittenInItsFileOrTheFileIsUnchanged) {
-  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const std::filesystem::path path = folder->path() / "page.md";
+  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path path = folder.path() / "page.md";
   const auto with_one = [](const char* name) {
     return [name](const std::string& page) { return with_page_part(page, name, "new\n"); };
   };

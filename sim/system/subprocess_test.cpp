@@ -8,7 +8,9 @@
 #include <chrono>
 #include <csignal>
 
+#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -18,9 +20,7 @@ Command shell(const std::string& script) {
 }
 
 ProcessEnd run(const Command& command) {
-  const auto end = run_process(command, "apt-get install nothing");
-  EXPECT_TRUE(end) << end.error().message;
-  return end ? *end : ProcessEnd{};
+  return must(run_process(command, "apt-get install nothing"));
 }
 
 TEST(Subprocess, ReturnsStatusAndOutput) {
@@ -67,9 +67,7 @@ TEST(Subprocess, ReportsAMissingProgram) {
 TEST(Subprocess, ReportsAMissingFolder) {
   Command command = shell("true");
   command.working_folder = "/no/such/folder";
-  const auto end = run_process(command, "");
-  ASSERT_FALSE(end);
-  EXPECT_EQ(end.error().code, ExitCode::tool_failed);
+  EXPECT_TRUE(is_error(run_process(command, ""), ExitCode::tool_failed));
 }
 
 TEST(Subprocess, EndsAllProcessesAtATimeout) {
@@ -96,15 +94,14 @@ TEST(Subprocess, KeepsStartAndEndOfLongOutput) {
 }
 
 TEST(Subprocess, SetsFolderEnvironmentAndOutputFile) {
-  const auto folder = TemporaryFolder::make(testing::TempDir());
-  ASSERT_TRUE(folder);
+  const auto folder = must(TemporaryFolder::make(testing::TempDir()));
   Command command = shell("echo $HALFWAY_TEST; pwd; echo err >&2");
-  command.working_folder = folder->path();
+  command.working_folder = folder.path();
   command.environment = {{"HALFWAY_TEST", "a b"}};
-  command.standard_output = folder->path() / "out";
+  command.standard_output = folder.path() / "out";
   EXPECT_EQ(run(command).output, "err\n");
-  EXPECT_EQ(*read_file(folder->path() / "out"),
-            "a b\n" + std::filesystem::canonical(folder->path()).string() + "\n");
+  EXPECT_EQ(*read_file(folder.path() / "out"),
+            "a b\n" + std::filesystem::canonical(folder.path()).string() + "\n");
 }
 
 TEST(Subprocess, Polls) {
