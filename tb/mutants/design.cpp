@@ -61,6 +61,7 @@ Result<std::vector<Design>> read_designs(const std::filesystem::path& file) {
     common.skip = entity["skip"].value_or(0U);
     common.stalled = entity["stalled"].value_or(std::string());
     common.reset = entity["reset"].value_or(false);
+    common.proofs = entity["proofs"].value_or(true);
     if (const toml::table* input = entity["input"].as_table()) common.input = read_stream(*input);
     if (const toml::array* outputs = entity["outputs"].as_array())
       for (const toml::node& output : *outputs) common.outputs.push_back(read_stream(*output.as_table()));

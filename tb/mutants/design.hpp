@@ -32,6 +32,7 @@ struct Design {
   std::vector<Stream> outputs;
   std::string stalled;  ///< a ready input without a stream
   bool reset = false;   ///< before each pass, since the vectors start from that state
+  bool proofs = true;   ///< whether survivors are tried to be proved equivalent
   bool quick = false;   ///< part of the quick form
 };
 

@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Limit of one proof. The quick form has a longer one, so that a busy machine does not change its result.
-constexpr std::chrono::seconds c_proof_time{1}, c_quick_proof_time{60};
+constexpr std::chrono::seconds c_proof_time{2}, c_quick_proof_time{60};
 constexpr unsigned c_fewest = 25;     // faults that a row is of, if the netlist has so many
 constexpr unsigned c_quick_step = 8;  // the quick form replays every eighth fault
 
@@ -105,7 +105,7 @@ Result<NetlistResult> run_netlist(const Options& options, const Design& design, 
         {fault, number, difference ? End::found : End::survived, difference.value_or(std::string())});
     if (!difference) survivors.push_back(number);
   }
-  if (options.prove) {
+  if (options.prove && design.proofs) {
     const auto proved =
         prove_equivalent(*netlist, survivors, options.quick ? c_quick_proof_time : c_proof_time);
     if (!proved) return proved.error();

@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* c_install_yosys = "apt-get install yosys";
 constexpr std::chrono::seconds c_yosys_time{3600};
-constexpr std::chrono::seconds c_miter_time{20};     // of a netlist; for larger ones nothing is proved
-constexpr std::chrono::seconds c_reduction_time{2};  // of one fault, before the proof
+constexpr std::chrono::seconds c_miter_time{60};     // of a netlist; for larger ones nothing is proved
+constexpr std::chrono::seconds c_reduction_time{5};  // of one fault, before the proof
 
 // {0}: top, {1}: faults, {2}: seed. Make the faults after optimization: a fault in logic that is constant, or
 // that no output depends on, would have no effect.
