@@ -34,7 +34,6 @@ about_PSNR := study query: the cheapest hardware with at least this PSNR in dB
 about_TIME := study query: the best hardware that draws a frame in this time, such as 10ms
 about_CLOCK := study MHz assumed for hardware whose clock is unknown
 about_PLACE := study 1: place and route hardware for its clock, minutes for each design
-about_PIN := study,synth,board 1: store the figures instead of comparing them; make study PLACE=1: store the clocks
 about_EXECUTOR := study local or slurm (a job array) (default: local)
 about_PARTS := study tasks of the job array (default: 64)
 about_ADDRESS_BITS := tables,check-tables address bits of the cosine tables (default: 9; published 6)
@@ -94,8 +93,6 @@ sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
-synth_options := --jobs "$(jobs)" $(call option,SEEDS,--seeds) $(call flag,PIN,--pin --readme docs/performance.md) \
-  --evidence all . build/cache $${DESIGN:+"$$DESIGN"}
 
 .PHONY: help help-all $(sort $(foreach name,$(variables),$(call users_of,$(name)))) mcode configure setup diagrams doctor format \
   check-format clean
@@ -152,7 +149,7 @@ savings: program ## measure the tables of docs/effects.md again (minutes)
 study: studies ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/studies/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
-	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) $(call flag,PIN,--pin) \
+	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 
@@ -228,15 +225,15 @@ search: configure ## test random triangles and scenes in the golden model, some 
 bounds: configure ## make evidence PAGE=bounds: error bounds of formats and tables
 	@$(call measure,bounds)
 
-synth: configure ## compare cells on two FPGAs and the clock on one with the stored figures (DESIGN, SEEDS, PIN=1)
+synth: configure ## compare cells on two FPGAs and the clock on one with the thresholds (DESIGN, SEEDS)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
-	@build/tb/halfway_synth --check $(synth_options)
+	@build/tb/halfway_synth cells --jobs "$(jobs)" $${DESIGN:+"$$DESIGN"}
 	@build/tb/synth_frames
-	@build/tb/halfway_synth $(synth_options)
+	@build/tb/halfway_synth clocks --jobs "$(jobs)" $(call option,SEEDS,--seeds) $${DESIGN:+"$$DESIGN"}
 
-board: configure ## make the bitstream of the board and compare its figures with the stored ones (PIN=1)
+board: configure ## make the bitstream of the board and compare its figures with the thresholds
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_board
-	@build/tb/halfway_board $(call flag,PIN,--pin) . build/cache build/board/board.bin
+	@build/tb/halfway_board . build/cache build/board/board.bin
 
 bench: configure mcode ## make evidence PAGE=speed: ways to the same picture, growth, small triangles, cores
 	@$(call measure,speed)

@@ -303,13 +303,13 @@ void print_errors(const std::string& which, const FrameDistance& planes, const F
             "");
 }
 
-// The clocks of hardware with a pinned netlist, without placement.
+// The stored clocks, without placement.
 void print_clocks(const HardwareKey& planes, const HardwareKey& quadratics, const SimulatorFolders& folders) {
   const auto text = [&](const HardwareKey& key) -> std::string {
-    const auto figures = study::pinned_figures(key, folders);
+    const auto figures = study::stored_figures({{.key = key, .tables = {}}, folders}, folders);
     return figures && figures->mhz ? fmt::format("{:.1f}", *figures->mhz) : "-";
   };
-  print_row("clock, MHz on an iCE40 HX8K, as pinned", text(planes), text(quadratics), "");
+  print_row("clock, MHz on an iCE40 HX8K, as stored", text(planes), text(quadratics), "");
 }
 
 // Quadratics and planes: for which triangles a plane is enough, what either costs, and their errors.

@@ -67,8 +67,8 @@ TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
   EXPECT_THAT(few, AllOf(ContainsRegex("160x120: [1-9][0-9]* of [1-9][0-9]* triangles are within 2 steps"),
                          ContainsRegex("\nbits of an init vector +640 +880 +27 %\n"),
                          ContainsRegex("\nsamples shaded +[0-9]+ +[0-9]+"), Not(HasSubstr("LUTs"))));
-  // The netlists of the default preset and one channel are pinned.
-  EXPECT_THAT(few, ContainsRegex("\nclock, MHz on an iCE40 HX8K, as pinned +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
+  // The clocks of the default preset and one channel are stored.
+  EXPECT_THAT(few, ContainsRegex("\nclock, MHz on an iCE40 HX8K, as stored +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
   // Splitting makes the error of planes smaller, and that of quadratics is smaller unsplit.
   const auto figures = [&](const std::string& name) {
     double planes = 0, quadratics = 0;

@@ -39,7 +39,7 @@ struct StudyCommand {
   std::string size, tile;  ///< empty: those of the space
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
-  bool place = false, pin = false;
+  bool place = false;
   std::string out = "build/study";
   unsigned threads = 0;
   std::string executor = "local";
@@ -63,7 +63,6 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   if (!demand) return demand.error();
   plan.demand = *demand;
   if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
-  if (command.pin && !command.place) return bad_input("--pin: needs --place, which makes the clocks to pin");
   if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
     return tool_failed(fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}",
                                    synth::c_install_tools));
@@ -269,11 +268,6 @@ int run(const Folders& folders, const StudyCommand& command) {
   if (interruption) writing.lock();
   progress.clear();
   if (!hardware) return report(hardware.error());
-  if (command.pin) {
-    const auto pinned = study::pin_clocks(*hardware, settings.folders);
-    if (!pinned) return report(pinned.error());
-    fmt::print("{}: {} pinned\n", (settings.folders.source / synth::c_study_pins).string(), *pinned);
-  }
   return conclude(*plan, *study, *hardware, {command.clock_mhz});
 }
 
@@ -295,9 +289,6 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
   study->add_option("--clock", command->clock_mhz, "clock in MHz assumed for hardware without a known clock");
   study->add_flag("--place", command->place,
                   "place and route hardware without a known clock: minutes for each design");
-  study->add_flag(
-      "--pin", command->pin,
-      fmt::format("write placed clocks, and hardware that does not fit, into {}", synth::c_study_pins));
   study
       ->add_option("--out", command->out,
                    fmt::format("folder for results: the table {}, of a query {}, and points/", c_study_table,

@@ -60,7 +60,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
               Ends(1, AllOf(HasSubstr("3 points, 0 measured in this run"),
                             HasSubstr("none of 2 points of hardware meets it"),
                             HasSubstr("most accurate  adaptive exact"))));
-  // With three channels; these are pinned as not fitting the device.
+  // With three channels; these are stored as not fitting the device.
   EXPECT_THAT(study({"spheres", "--time", "1s"}),
               Ends(1, HasSubstr("2 points have no clock: they do not fit the device")));
   EXPECT_THAT(study({"--time", "1s", "--clock", "50"}),

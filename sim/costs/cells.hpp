@@ -11,10 +11,9 @@
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/synth/yosys.hpp"
 
 namespace halfway {
-
-inline constexpr const char* c_install_yosys = "apt-get install yosys";
 
 /// Generic cells of no FPGA family: LUTs with up to four inputs, flip-flops, and bits of writable memory.
 /// Tables are LUTs. Multipliers are LUTs too, except those of the shading processors, which are counted
@@ -35,9 +34,8 @@ struct MultiplierShape {
   friend auto operator<=>(const MultiplierShape&, const MultiplierShape&) = default;
 };
 
-/// Shapes of all cells of this type in a netlist in Yosys's JSON format, in file order.
-Result<std::vector<MultiplierShape>> read_multiplier_shapes(const std::string& netlist,
-                                                            const std::string& type);
+/// Shapes of all cells of this type in a netlist in Yosys's JSON format, in file order. Throws Failure.
+std::vector<MultiplierShape> read_multiplier_shapes(const std::string& netlist, const std::string& type);
 
 class CellCounter {
  public:
@@ -47,23 +45,15 @@ class CellCounter {
   /// Synthesize the flattened netlist, or read its counts from the cache. Thread-safe.
   Result<Cells> count(const HardwareKey& key) const;
   /// Version of Yosys, as Yosys prints it.
-  const std::string& version() const { return version_; }
+  const std::string& version() const { return yosys_.version(); }
 
  private:
-  CellCounter(std::string version, GhdlLibrary library, std::filesystem::path cache)
-      : version_(std::move(version)), library_(std::move(library)), cache_(std::move(cache)) {}
-  /// Pairs of name and text.
-  using Files = std::vector<std::pair<std::string, std::string>>;
-  /// Run Yosys on the files and return what `read` extracts from the folder with its output. The output is
-  /// cached.
-  template <class Figures, class Read>
-  Result<Figures> figures(const std::string& name, const std::string& script, const Files& files,
-                          const Read& read) const;
-  Result<Cells> read(const std::filesystem::path& folder) const;
-  Result<std::uint64_t> luts_of(const MultiplierShape& shape) const;
-  std::string version_;
+  CellCounter(synth::Yosys yosys, GhdlLibrary library)
+      : yosys_(std::move(yosys)), library_(std::move(library)) {}
+  Cells read_cells(const std::filesystem::path& folder) const;
+  std::uint64_t luts_of(const MultiplierShape& shape) const;
+  synth::Yosys yosys_;
   GhdlLibrary library_;
-  std::filesystem::path cache_;
 };
 
 }  // namespace halfway

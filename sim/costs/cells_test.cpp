@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <set>
 
-#include "common/test/is_error.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
@@ -24,10 +23,10 @@ class CellsTest : public ::testing::Test {
 
   /// Put a replacement for Yosys at the front of PATH.
   void put_yosys(const std::string& script) {
-    ASSERT_TRUE(make_folders(folder_.path() / "bin"));
-    ASSERT_TRUE(write_file(folder_.path() / "bin" / "yosys", "#!/bin/sh\n" + script));
-    std::filesystem::permissions(folder_.path() / "bin" / "yosys", std::filesystem::perms::all);
-    ::setenv("PATH", ((folder_.path() / "bin").string() + ":" + path_).c_str(), 1);
+    ASSERT_TRUE(make_folders(folder_->path() / "bin"));
+    ASSERT_TRUE(write_file(folder_->path() / "bin" / "yosys", "#!/bin/sh\n" + script));
+    std::filesystem::permissions(folder_->path() / "bin" / "yosys", std::filesystem::perms::all);
+    ::setenv("PATH", ((folder_->path() / "bin").string() + ":" + path_).c_str(), 1);
   }
   Result<Cells> count(const HardwareKey& key) const {
     const auto counter = CellCounter::open(folders_);
@@ -45,33 +44,39 @@ class CellsTest : public ::testing::Test {
 
   const std::string path_ = std::getenv("PATH");
   const HardwareKey grey_{.channels = 1}, coloured_{.channels = 3};
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, folder_.path() / "cache"};
+  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, folder_->path() / "cache"};
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_yosys;
-  const auto grey = must(count(grey_)), coloured = must(count(coloured_));
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << synth::c_install_tools;
+  const auto grey = count(grey_), coloured = count(coloured_);
+  ASSERT_TRUE(grey) << grey.error().message;
+  ASSERT_TRUE(coloured) << coloured.error().message;
   // A channel has six line interpolators of 40 bits, six constant words, and ten words for each of the
   // waiting triangles.
-  const std::uint64_t flip_flops = coloured.flip_flops - grey.flip_flops;
+  const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
   EXPECT_GT(flip_flops, 2 * 6 * 40U);
   EXPECT_LT(flip_flops, 2 * 40 * 40U);
-  EXPECT_GT(coloured.luts, grey.luts + 2 * 6 * 40U);  // an adder takes at least one LUT per bit
+  EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes at least one LUT per bit
   EXPECT_EQ(cached(), 2U);
 
   // The second count uses the cache. Yosys only reports its version.
-  const auto version = run_process({.arguments = {"yosys", "-V"}}, c_install_yosys);
+  const auto version = run_process({.arguments = {"yosys", "-V"}}, synth::c_install_tools);
   ASSERT_TRUE(version);
   put_yosys("[ $# = 1 ] && printf '" + version->output + "' || exit 9\n");
-  const auto again = must(count(grey_));
-  EXPECT_EQ(again, grey);
+  const auto again = count(grey_);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(*again, *grey);
   EXPECT_FALSE(count({.preset = Preset::published}));
 }
 
 TEST_F(CellsTest, AMissingYosysIsReportedWithItsInstallCommand) {
-  ::setenv("PATH", (folder_.path() / "empty").c_str(), 1);
-  EXPECT_TRUE(is_error(count(grey_), ExitCode::tool_failed, "apt-get install yosys"));
+  ::setenv("PATH", (folder_->path() / "empty").c_str(), 1);
+  const auto none = count(grey_);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ExitCode::tool_failed);
+  EXPECT_THAT(none.error().message, HasSubstr("apt-get install yosys"));
 }
 
 // Another netlist is counted again, although the key is the same.
@@ -80,18 +85,19 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
   ASSERT_TRUE(count(grey_));
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 1U);
-  const std::filesystem::path copy = folder_.path() / "source";
+  const std::filesystem::path copy = folder_->path() / "source";
   ASSERT_TRUE(make_folders(copy));
   std::filesystem::copy(folders_.source / "rtl", copy / "rtl", std::filesystem::copy_options::recursive);
   folders_.source = copy;
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 1U);
   const auto adder = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
-  const auto text = must(read_file(adder));
+  const auto text = read_file(adder);
+  ASSERT_TRUE(text);
   const std::string from = "sum_of(value, addend";
-  const std::size_t at = text.find(from);
+  const std::size_t at = text->find(from);
   ASSERT_NE(at, std::string::npos) << "mend this test";
-  std::string changed = text;
+  std::string changed = *text;
   ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "sum_of(value, not addend")));
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 2U);
@@ -99,27 +105,29 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
 
 // Only the shading processors, whose multipliers are wide and many.
 TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNotLuts) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_yosys;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << synth::c_install_tools;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
-  const auto ambient = must(count(key));
+  const auto ambient = count(key);
+  ASSERT_TRUE(ambient) << ambient.error().message;
   // Only k I.
-  EXPECT_EQ(ambient.multipliers, 1U);
+  EXPECT_EQ(ambient->multipliers, 1U);
   const int k_bits = golden::Published::c_coefficient_bits,
             i_bits = golden::Published::c_light_intensity_bits;
-  EXPECT_GE(ambient.product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
-  EXPECT_LE(ambient.product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // sign bits
+  EXPECT_GE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
+  EXPECT_LE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // sign bits
   key.processors = {.directional = 1, .diffuse = true};
-  const auto lit = must(count(key));
+  const auto lit = count(key);
+  ASSERT_TRUE(lit) << lit.error().message;
   // N.L has three multipliers; k I and the weighted term have one each.
-  EXPECT_EQ(lit.multipliers, 1 + 3 + 2U);
-  EXPECT_GT(lit.luts, ambient.luts);
-  EXPECT_GT(lit.flip_flops, ambient.flip_flops);
+  EXPECT_EQ(lit->multipliers, 1 + 3 + 2U);
+  EXPECT_GT(lit->luts, ambient->luts);
+  EXPECT_GT(lit->flip_flops, ambient->flip_flops);
   // Each bit product of a multiplier takes one or two LUTs.
-  EXPECT_GT(ambient.multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
-  EXPECT_LT(ambient.multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
-  EXPECT_GT(lit.multiplier_luts, 5 * ambient.multiplier_luts);
+  EXPECT_GT(ambient->multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
+  EXPECT_LT(ambient->multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
+  EXPECT_GT(lit->multiplier_luts, 5 * ambient->multiplier_luts);
   // LUTs are the table and the adders only. The multipliers would double the count.
-  EXPECT_LT(lit.luts, 4000U);
+  EXPECT_LT(lit->luts, 4000U);
 }
 
 // Operands in Yosys's JSON format, lowest bit first: with sign extension, with zero extension, and without
@@ -134,9 +142,7 @@ TEST(MultiplierShapes, HaveNoRedundantSignBits) {
   };
   const auto shape = [&](const std::string& a, const std::string& b) {
     const auto shapes = read_multiplier_shapes(netlist(a, b), "mul");
-    EXPECT_TRUE(shapes) << shapes.error().message;
-    return shapes && shapes->size() == 2 && shapes->front() == shapes->back() ? shapes->front()
-                                                                              : MultiplierShape{};
+    return shapes.size() == 2 && shapes.front() == shapes.back() ? shapes.front() : MultiplierShape{};
   };
   EXPECT_EQ(shape("1, 2, 3, 4", "11, 12"), (MultiplierShape{false, false, 4, 2, 3}));
   EXPECT_EQ(shape("1, 2, 3, 4", "1, 2, 3, 4"), (MultiplierShape{false, true, 4, 4, 3}));
@@ -146,11 +152,11 @@ TEST(MultiplierShapes, HaveNoRedundantSignBits) {
   EXPECT_EQ(shape(R"(1, 2, "1", "1")", "11, 12"), (MultiplierShape{false, false, 4, 2, 3}));
   // In a product with a signed word, one of the zeros is the sign.
   EXPECT_EQ(shape(R"(1, 2, "0", "0", "0")", "11, 12, 12"), (MultiplierShape{true, false, 3, 2, 3}));
-  EXPECT_TRUE(read_multiplier_shapes(netlist("1", "11"), "other")->empty());
+  EXPECT_TRUE(read_multiplier_shapes(netlist("1", "11"), "other").empty());
   for (const char* damaged : {"", R"("0", "0")"})
-    EXPECT_FALSE(read_multiplier_shapes(netlist(damaged, "1"), "mul"));
-  EXPECT_FALSE(read_multiplier_shapes("{}", "mul"));
-  EXPECT_FALSE(read_multiplier_shapes("nonsense", "mul"));
+    EXPECT_THROW(read_multiplier_shapes(netlist(damaged, "1"), "mul"), Failure);
+  EXPECT_THROW(read_multiplier_shapes("{}", "mul"), Failure);
+  EXPECT_THROW(read_multiplier_shapes("nonsense", "mul"), Failure);
 }
 
 // Invalid results of Yosys and their error messages. They are removed from the cache.
@@ -160,8 +166,9 @@ TEST_F(CellsTest, InvalidCountsAreRefused) {
            "}}}\nEOF\n";
   };
   put_yosys(stat("\"$lut\": 12, \"$_DFF_P_\": 3, \"$_SDFFCE_PP0P_\": 4"));
-  const auto whole = must(count(coloured_));
-  EXPECT_EQ(whole, (Cells{12, 7}));
+  const auto whole = count(coloured_);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(*whole, (Cells{12, 7}));
   const std::size_t before = cached();
   const std::vector<std::pair<std::string, std::string>> cases = {
       {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
@@ -176,7 +183,10 @@ TEST_F(CellsTest, InvalidCountsAreRefused) {
   };
   for (const auto& [script, message] : cases) {
     put_yosys(script + "\n");
-    EXPECT_TRUE(is_error(count(grey_), ExitCode::tool_failed, message)) << script;
+    const auto refused = count(grey_);
+    ASSERT_FALSE(refused) << script;
+    EXPECT_EQ(refused.error().code, ExitCode::tool_failed);
+    EXPECT_THAT(refused.error().message, HasSubstr(message));
     EXPECT_EQ(cached(), before) << script;
   }
 }

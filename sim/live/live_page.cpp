@@ -97,7 +97,8 @@ Result<std::map<std::string, Hardware>> build_hardware(const std::vector<Hardwar
     if (!module) return module.error();
     auto text = packed(*module);
     if (!text) return text.error();
-    const auto figures = study::pinned_figures(keys[i], settings.folders);
+    const auto figures =
+        study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders);
     if (!figures) return figures.error();
     const std::lock_guard lock(mutex);
     built.emplace(name, Hardware{std::move(*text), figures->mhz});

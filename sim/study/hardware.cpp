@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,12 +14,13 @@
 
 #include "plan/own_bells.hpp"
 #include "sim/formats/made_tables.hpp"
-#include "sim/ghdl/hardware_units.hpp"
 #include "sim/study/pictures.hpp"
-#include "sim/synth/pinned.hpp"
+#include "sim/synth/netlist_identity.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/threads.hpp"
+#include "sim/verilator/netlist.hpp"
 
 namespace halfway::study {
 
@@ -99,53 +99,28 @@ double cell_count(const Cells& cells) {
 
 namespace {
 
-Result<HardwareSource> source_of(const std::string& scene, const DesignPoint& point,
-                                 const SimulatorFolders& folders) {
-  const auto drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
-  if (!drawn) return drawn.error();
-  auto hardware = hardware_of(point, *drawn);
-  if (!hardware) return hardware.error();
-  auto rtl = rtl_of(point, *drawn, folders);
-  if (!rtl) return rtl.error();
-  return HardwareSource{std::move(*hardware), std::move(*rtl)};
-}
-
 struct Open {
   HardwareSource source;
   HardwareFigures* figures;
 };
 
-// Run `each` for `count` items on all threads until one fails. Progress messages contain `what` and the
-// number done.
-Status do_all(std::size_t count, const FiguresOptions& options, const std::string& what,
-              const std::function<Status(std::size_t)>& each) {
+// Run `each` on all threads until one fails. Progress messages contain `what` and the number done.
+void do_all(const std::vector<Open>& open, const FiguresOptions& options, const std::string& what,
+            const std::function<void(const HardwareSource&, HardwareFigures&)>& each) {
   std::size_t done = 0;
   std::mutex mutex;
-  if (count > 0) options.on_progress(fmt::format("{}: {}", what, count));
-  return for_each_on_threads(options.threads, count, [&](std::size_t at) -> Status {
-    Status status = each(at);
+  if (!open.empty()) options.on_progress(fmt::format("{}: {}", what, open.size()));
+  must_for_each(options.threads, open.size(), [&](std::size_t at) {
+    each(open[at].source, *open[at].figures);
     const std::scoped_lock lock(mutex);
-    options.on_progress(fmt::format("{}: {} of {}", what, ++done, count));
-    return status;
+    options.on_progress(fmt::format("{}: {} of {}", what, ++done, open.size()));
   });
 }
 
-Status add_pinned(const std::filesystem::path& file, PinnedClocks& clocks) {
-  const auto pins = synth::read_pins(file);
-  if (!pins) return pins.error();
-  const auto tools = synth::pin_versions(file);
-  if (!tools) return tools.error();
-  for (const auto& [name, pin] : *pins)
-    if (!pin.netlist.empty()) clocks.try_emplace(pin.netlist, PinnedClock{name, pin, *tools});
-  return Ok{};
-}
-
-Result<PinnedClocks> pinned_clocks(const SimulatorFolders& folders) {
-  PinnedClocks clocks;
-  if (Status added = add_pinned(folders.source / synth::c_pins, clocks); !added) return added.error();
-  const std::filesystem::path of_studies = folders.source / synth::c_study_pins;
-  if (std::filesystem::exists(of_studies))
-    if (Status added = add_pinned(of_studies, clocks); !added) return added.error();
+ClocksByNetlist stored_clocks(const SimulatorFolders& folders) {
+  ClocksByNetlist clocks;
+  for (const auto& [name, clock] : must(synth::read_clocks(folders.source)))
+    clocks.try_emplace(clock.netlist, name, clock);
   return clocks;
 }
 
@@ -154,73 +129,52 @@ void add_tools(HardwareFigures& figures, const std::string& tools) {
   figures.tools += tools;
 }
 
-// Reason why pinned hardware has no clock.
+// Reason why stored hardware has no clock.
 std::string no_placement(const synth::Ice40Cells& cells) {
   const std::string why = synth::does_not_fit(cells);
   return why.empty() ? "too full, or nextpnr does not end" : why;
 }
 
-// GHDL's library of the RTL, and the names of its entities.
-struct Rtl {
-  GhdlLibrary library;
-  std::set<std::string> entities;
-};
-Result<Rtl> rtl_in(const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
-  if (!library) return library.error();
-  return Rtl{std::move(*library), entities_of(*sources)};
+std::string netlist_of(const HardwareSource& source) {
+  const GhdlLibrary library = must(GhdlLibrary::for_synthesis(
+      must(GhdlTool::find()), must(read_rtl_sources(source.folders.source)), source.folders.cache));
+  const HardwareKey& key = source.hardware.key;
+  return must(mend_netlist(must(library.synthesize(key.entity(), key.generics()))));
 }
 
-Status take_pinned(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
-  const auto rtl = rtl_in(source.folders);
-  if (!rtl) return rtl.error();
-  const auto hash = synth::netlist_hash(rtl->library, source.design());
-  if (!hash) return hash.error();
-  figures.netlist = *hash;
-  const auto found = clocks.find(*hash);
-  if (found == clocks.end()) return Ok{};
-  const auto& [name, pin, tools] = found->second;
-  figures.ice40 = pin.cells;
-  if (pin.mhz > 0) {
-    figures.mhz = pin.mhz;
-    figures.clock = "pinned";
+void take_stored(const HardwareSource& source, const ClocksByNetlist& clocks, HardwareFigures& figures) {
+  const auto found = clocks.find(synth::netlist_identity(netlist_of(source)));
+  if (found == clocks.end()) return;
+  const synth::StoredClock& stored = found->second.second;
+  figures.ice40 = stored.cells;
+  if (stored.mhz > 0) {
+    figures.mhz = stored.mhz;
+    figures.clock = c_stored;
   } else {
-    figures.clock = no_placement(pin.cells);
+    figures.clock = no_placement(stored.cells);
     figures.fits = false;
   }
-  if (!tools.empty()) add_tools(figures, "pinned with " + tools);
-  return Ok{};
+  add_tools(figures, "placed with " + stored.tools);
 }
 
-// For hardware that does not fit: the slowest clock of the parts inside it that are pinned by themselves.
-Status take_slowest_part(const HardwareSource& source, const PinnedClocks& clocks, HardwareFigures& figures) {
-  const auto rtl = rtl_in(source.folders);
-  if (!rtl) return rtl.error();
-  const auto parts = synth::part_hashes(rtl->library, source.design(), rtl->entities);
-  if (!parts) return parts.error();
-  for (const std::string& part : *parts) {
+// For hardware that does not fit: the slowest stored clock of the parts inside it.
+void take_slowest_part(const HardwareSource& source, const ClocksByNetlist& clocks,
+                       HardwareFigures& figures) {
+  if (figures.fits) return;
+  for (const std::string& part : synth::part_identities(netlist_of(source))) {
     const auto found = clocks.find(part);
     if (found == clocks.end()) continue;
-    const auto& [name, pin, tools] = found->second;
-    if (pin.mhz <= 0 || (figures.part_mhz && *figures.part_mhz <= pin.mhz)) continue;
-    figures.part_mhz = pin.mhz;
+    const auto& [name, stored] = found->second;
+    if (stored.mhz <= 0 || (figures.part_mhz && *figures.part_mhz <= stored.mhz)) continue;
+    figures.part_mhz = stored.mhz;
     figures.slowest_part = name;
   }
-  return Ok{};
 }
 
-Status count_cells(const HardwareSource& source, HardwareFigures& figures) {
-  const auto counter = CellCounter::open(source.folders);
-  if (!counter) return counter.error();
-  const auto cells = counter->count(source.hardware.key);
-  if (!cells) return cells.error();
-  figures.cells = *cells;
-  add_tools(figures, "cells by " + counter->version().substr(0, counter->version().find('\n')));
-  return Ok{};
+void count_cells(const HardwareSource& source, HardwareFigures& figures) {
+  const CellCounter counter = must(CellCounter::open(source.folders));
+  figures.cells = must(counter.count(source.hardware.key));
+  add_tools(figures, "cells by " + counter.version());
 }
 
 // Yosys's generic synthesis already shows that some hardware is too large for the device, because every cell
@@ -235,160 +189,96 @@ void take_size(HardwareFigures& figures) {
   figures.fits = false;
 }
 
-// Return the synthesizer for placement, or std::nullopt if the clock or the reason for its absence is known.
-Result<std::optional<synth::Synthesizer>> placer_of(const HardwareSource& source, HardwareFigures& figures) {
-  if (figures.mhz || !figures.fits) return std::optional<synth::Synthesizer>();
-  auto synthesizer = synth::Synthesizer::open(source.folders, true);
-  if (!synthesizer) return synthesizer.error();
-  const auto cells = synthesizer->ice40(source.design());
-  if (!cells) return cells.error();
-  figures.ice40 = *cells;
-  add_tools(figures, "placed with " + synthesizer->versions());
-  auto no_room = synthesizer->no_room(source.design());
-  if (!no_room) return no_room.error();
-  if (no_room->empty()) return std::optional(std::move(*synthesizer));
-  figures.clock = std::move(*no_room);
-  figures.fits = false;
-  return std::optional<synth::Synthesizer>();
+void place(const HardwareSource& source, HardwareFigures& figures) {
+  if (figures.mhz || !figures.fits) return;
+  const synth::Synthesizer synthesizer = synth::Synthesizer::open(source.folders, true);
+  const synth::Clock clock = synthesizer.clock(source.design(), synth::c_seeds);
+  figures.ice40 = synthesizer.ice40(source.design());
+  add_tools(figures, "placed with " + synthesizer.versions());
+  if (const synth::Placement* median = clock.median(); median != nullptr) {
+    figures.mhz = median->mhz;
+    figures.clock = "placed";
+  } else {
+    figures.clock = clock.none;
+    figures.fits = clock.endless > 0;
+  }
 }
 
-// Place each design with each seed as one list of jobs, so that all threads are busy to the end.
-Status place_all(std::vector<Open>& open, const FiguresOptions& options) {
-  struct Placed {
-    Open* open;
-    std::optional<synth::Synthesizer> placer{};
-    std::vector<double> mhz{};
-  };
-  std::vector<Placed> placed;
-  for (Open& each : open) placed.push_back({&each});
-  Status packed = do_all(placed.size(), options, "logic cells", [&](std::size_t at) -> Status {
-    auto placer = placer_of(placed[at].open->source, *placed[at].open->figures);
-    if (!placer) return placer.error();
-    placed[at].placer = std::move(*placer);
-    return Ok{};
-  });
-  if (!packed) return packed;
-  std::erase_if(placed, [](const Placed& each) { return !each.placer; });
-  std::mutex mutex;
-  Status routed =
-      do_all(placed.size() * synth::c_seeds, options, "placements", [&](std::size_t job) -> Status {
-        Placed& each = placed[job / synth::c_seeds];
-        const auto placement =
-            each.placer->place(each.open->source.design(), static_cast<unsigned>(1 + job % synth::c_seeds));
-        if (!placement) return placement.error();
-        if (!placement->ended) return Ok{};  // another seed may succeed
-        const std::scoped_lock lock(mutex);
-        each.mhz.push_back(placement->mhz);
-        return Ok{};
-      });
-  if (!routed) return routed;
-  for (Placed& each : placed) {
-    HardwareFigures& figures = *each.open->figures;
-    std::ranges::sort(each.mhz);
-    if (each.mhz.empty()) {
-      figures.clock = "not placed: nextpnr's router does not end";
-    } else if (each.mhz.front() > 0) {
-      figures.mhz = each.mhz[each.mhz.size() / 2];
-      figures.clock = "placed";
-    } else {
-      figures.clock = "does not fit the HX8K";
-      figures.fits = false;
-    }
+std::vector<HardwareSource> sources_of(const std::string& scene, std::span<const DesignPoint> points,
+                                       const SimulatorFolders& folders) {
+  std::vector<HardwareSource> sources;
+  std::set<std::string> names;
+  for (const DesignPoint& point : points) {
+    if (!in_hardware(point.method)) continue;
+    const Scene drawn = must(drawn_scene(scene, folders.source / "sim" / "scenes", point));
+    auto hardware = hardware_of(point, drawn);
+    if (!hardware || !names.insert(hardware->key.name()).second) continue;
+    sources.push_back({std::move(*hardware), must(rtl_of(point, drawn, folders))});
   }
-  return Ok{};
+  return sources;
+}
+
+HardwareTable table_of(const std::string& scene, std::span<const Record> records,
+                       const SimulatorFolders& folders, const FiguresOptions& options) {
+  HardwareTable table;
+  std::vector<DesignPoint> points;
+  for (const Record& record : records)
+    if (in_hardware(record.point.method) && table.try_emplace(record.measured.hardware).second)
+      points.push_back(record.point);
+  std::vector<Open> open;
+  for (HardwareSource& source : sources_of(scene, points, folders)) {
+    HardwareFigures& figures = table[source.hardware.key.name()];
+    open.push_back({std::move(source), &figures});
+  }
+  const ClocksByNetlist clocks = stored_clocks(folders);
+  do_all(open, options, "stored clocks", [&](const HardwareSource& source, HardwareFigures& figures) {
+    take_stored(source, clocks, figures);
+  });
+  if (options.cells && !find_program("yosys").empty()) do_all(open, options, "cells", count_cells);
+  for (const Open& each : open) take_size(*each.figures);
+  if (options.place) do_all(open, options, "placements", place);
+  do_all(open, options, "parts of hardware that does not fit",
+         [&](const HardwareSource& source, HardwareFigures& figures) {
+           take_slowest_part(source, clocks, figures);
+         });
+  return table;
 }
 
 }  // namespace
 
+Result<std::vector<HardwareSource>> hardware_of_space(const std::string& scene,
+                                                      std::span<const DesignPoint> points,
+                                                      const SimulatorFolders& folders) {
+  return caught([&] { return sources_of(scene, points, folders); });
+}
+
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options) {
-  HardwareTable table;
-  std::vector<Open> open;
-  for (const Record& record : records) {
-    if (!in_hardware(record.point.method)) continue;
-    const auto [entry, is_new] = table.try_emplace(record.measured.hardware);
-    if (!is_new) continue;
-    auto source = source_of(scene, record.point, folders);
-    if (!source) return source.error();
-    open.push_back({std::move(*source), &entry->second});
-  }
-  const auto clocks = pinned_clocks(folders);
-  if (!clocks) return clocks.error();
-  const Status pinned = do_all(open.size(), options, "pinned clocks", [&](std::size_t at) {
-    return take_pinned(open[at].source, *clocks, *open[at].figures);
+  return caught([&] { return table_of(scene, records, folders, options); });
+}
+
+Result<HardwareFigures> stored_figures(const HardwareSource& source, const SimulatorFolders& folders) {
+  return caught([&] {
+    HardwareFigures figures;
+    take_stored(source, stored_clocks(folders), figures);
+    return figures;
   });
-  if (!pinned) return pinned.error();
-  if (options.cells && !find_program("yosys").empty()) {
-    const Status counted = do_all(open.size(), options, "cells", [&](std::size_t at) {
-      return count_cells(open[at].source, *open[at].figures);
-    });
-    if (!counted) return counted.error();
-  }
-  for (const Open& each : open) take_size(*each.figures);
-  if (options.place)
-    if (Status placed = place_all(open, options); !placed) return placed.error();
-  std::vector<Open> too_large;
-  std::ranges::copy_if(open, std::back_inserter(too_large),
-                       [](const Open& each) { return !each.figures->fits; });
-  const Status parts =
-      do_all(too_large.size(), options, "parts of hardware that does not fit", [&](std::size_t at) {
-        return take_slowest_part(too_large[at].source, *clocks, *too_large[at].figures);
-      });
-  if (!parts) return parts.error();
-  return table;
-}
-
-Result<HardwareFigures> pinned_figures(const HardwareKey& key, const SimulatorFolders& folders) {
-  const auto clocks = pinned_clocks(folders);
-  if (!clocks) return clocks.error();
-  HardwareFigures figures;
-  if (Status taken = take_pinned({{.key = key}, folders}, *clocks, figures); !taken) return taken.error();
-  return figures;
-}
-
-Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders) {
-  const std::filesystem::path file = folders.source / synth::c_study_pins;
-  synth::Pins pins;
-  if (std::filesystem::exists(file)) {
-    auto there = synth::read_pins(file);
-    if (!there) return there.error();
-    pins = std::move(*there);
-    std::erase_if(pins, [](const auto& entry) { return entry.second.netlist.empty(); });
-  }
-  PinnedClocks designs;
-  if (Status added = add_pinned(folders.source / synth::c_pins, designs); !added) return added.error();
-  for (const auto& [name, figures] : table) {
-    pins.erase(name);
-    if (figures.ice40 && !designs.contains(figures.netlist))
-      pins[name] = {*figures.ice40, figures.mhz.value_or(0), figures.netlist};
-  }
-  const auto synthesizer = synth::Synthesizer::open(folders, true);
-  if (!synthesizer) return synthesizer.error();
-  if (Status written = synth::write_study_pins(file, pins, synthesizer->versions()); !written)
-    return written.error();
-  return pins.size();
 }
 
 Result<Placements> Placements::open(const std::string& scene, std::span<const DesignPoint> points,
                                     const SimulatorFolders& folders, const std::string& rtl) {
-  Placements placements;
-  for (const DesignPoint& point : points) {
-    auto source = study::source_of(scene, point, folders);
-    if (!source) return source.error();
-    placements.hardware_.push_back(std::move(*source));
-  }
-  auto pinned = pinned_clocks(folders);
-  if (!pinned) return pinned.error();
-  const auto synthesizer = synth::Synthesizer::open(folders, true);
-  if (!synthesizer) return synthesizer.error();
-  ContentHash made_by;
-  made_by.add("placed 1").add(synth::flow_hash()).add(rtl).add(synthesizer->versions());
-  for (const auto& [netlist, clock] : *pinned) made_by.add(netlist);
-  placements.pinned_ = std::move(*pinned);
-  placements.made_by_ = made_by.hex();
-  placements.marks_ = folders.cache / "placed";
-  if (Status made = make_folders(placements.marks_); !made) return made.error();
-  return placements;
+  return caught([&] {
+    Placements placements;
+    placements.hardware_ = sources_of(scene, points, folders);
+    placements.stored_ = stored_clocks(folders);
+    ContentHash made_by;
+    made_by.add("placed 2").add(rtl).add(synth::Synthesizer::open(folders, true).versions());
+    for (const auto& [netlist, clock] : placements.stored_) made_by.add(netlist);
+    placements.made_by_ = made_by.hex();
+    placements.marks_ = folders.cache / "placed";
+    must(make_folders(placements.marks_));
+    return placements;
+  });
 }
 
 std::string Placements::name(std::size_t number) const {
@@ -404,17 +294,18 @@ bool Placements::is_done(std::size_t number) const {
 }
 
 Status Placements::make(std::size_t number) const {
-  const HardwareSource& source = source_of(number);
-  HardwareFigures figures;
-  if (Status pinned = take_pinned(source, pinned_, figures); !pinned) return pinned;
-  if (Status counted = count_cells(source, figures); !counted) return counted;
-  take_size(figures);
-  const auto placer = placer_of(source, figures);
-  if (!placer) return placer.error();
-  if (*placer)
-    if (const auto placed = (*placer)->place(source.design(), seed_of(number)); !placed)
-      return placed.error();
-  return write_file(mark(number), "");
+  return caught([&] {
+    const HardwareSource& source = source_of(number);
+    HardwareFigures figures;
+    take_stored(source, stored_, figures);
+    count_cells(source, figures);
+    take_size(figures);
+    if (!figures.mhz && figures.fits) {
+      const synth::Synthesizer synthesizer = synth::Synthesizer::open(source.folders, true);
+      if (synthesizer.no_room(source.design()).empty()) synthesizer.place(source.design(), seed_of(number));
+    }
+    must(write_file(mark(number), ""));
+  });
 }
 
 }  // namespace halfway::study

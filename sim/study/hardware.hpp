@@ -21,7 +21,7 @@
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/record.hpp"
-#include "sim/synth/pinned.hpp"
+#include "sim/synth/clock_store.hpp"
 #include "sim/synth/synthesis.hpp"
 
 namespace halfway::study {
@@ -53,24 +53,24 @@ struct HardwareSource {
 };
 
 inline constexpr const char* c_not_placed = "not placed";
+inline constexpr const char* c_stored = "stored";
 
 struct HardwareFigures {
   std::optional<Cells> cells;  ///< generic synthesis, no FPGA family; std::nullopt without Yosys
   /// On an iCE40 HX8K with registered ports: the median of synth::c_seeds placements.
   std::optional<double> mhz;
-  /// Origin of the clock: `pinned` or `placed`; otherwise the reason why there is none.
+  /// Origin of the clock: `stored` or `placed`; otherwise the reason why there is none.
   std::string clock = c_not_placed;
-  /// Cells of hardware that was placed, in this run or when it was pinned, without the port registers.
+  /// Cells of hardware that was placed, in this run or for the store, without the port registers.
   std::optional<synth::Ice40Cells> ice40;
   /// False: the hardware is larger than the device, so it has no clock.
   bool fits = true;
-  /// Of hardware that does not fit: the slowest of its parts that are placed by themselves, by its name in
-  /// the pins, and its clock. The clock of the whole is not higher. Empty: no part is placed.
+  /// Of hardware that does not fit: the slowest of its parts whose clock is stored, and that clock. The clock
+  /// of the whole is not higher. Empty: no part's clock is stored.
   std::string slowest_part{};
   std::optional<double> part_mhz{};
-  /// Tool versions for all values, such as `pinned with nextpnr-ice40 0.4, cells by Yosys 0.23`.
+  /// Tool versions for all values, such as `placed with nextpnr-ice40 0.4, cells by Yosys 0.23`.
   std::string tools{};
-  std::string netlist{};  ///< synth::netlist_hash of the hardware
 };
 /// By the key's name.
 using HardwareTable = std::map<std::string, HardwareFigures>;
@@ -79,34 +79,29 @@ using HardwareTable = std::map<std::string, HardwareFigures>;
 /// 16 bits.
 double cell_count(const Cells& cells);
 
-struct PinnedClock {
-  std::string name;  ///< of the pin
-  synth::Pin pin;
-  std::string tools;  ///< tools of the placement
-};
-/// By netlist hash.
-using PinnedClocks = std::map<std::string, PinnedClock>;
+/// The stored clocks by synth::netlist_identity, with the names of their designs.
+using ClocksByNetlist = std::map<std::string, std::pair<std::string, synth::StoredClock>>;
 
 struct FiguresOptions {
   unsigned threads = 1;
   bool cells = true;  ///< false: run Yosys only if `place` needs it
-  /// Synthesize and place hardware without a pinned clock (minutes each). false: such clocks stay unknown.
+  /// Synthesize and place hardware without a stored clock (minutes each). false: such clocks stay unknown.
   bool place = false;
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
 };
 
+/// Each hardware of the points once, in their order. Points that cannot draw the scene have none.
+Result<std::vector<HardwareSource>> hardware_of_space(const std::string& scene,
+                                                      std::span<const DesignPoint> points,
+                                                      const SimulatorFolders& folders);
+
 /// The cells and clocks of all hardware that the records name, from the cache if present. Without Yosys the
-/// table has no cells. Pinned clocks are in synth::c_pins and synth::c_study_pins; they are found by netlist
-/// hash.
+/// table has no cells. A stored clock belongs to hardware with the same netlist, whatever its name is.
 Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
                                        const SimulatorFolders& folders, const FiguresOptions& options);
 
-/// The clock and cells of one hardware, if its netlist is pinned.
-Result<HardwareFigures> pinned_figures(const HardwareKey& key, const SimulatorFolders& folders);
-
-/// Write the clocks of a table made with `place` to synth::c_study_pins, unless synth::c_pins has them. Keep
-/// the file's pins of other hardware with the same flow. Return the number of pins in the file.
-Result<std::size_t> pin_clocks(const HardwareTable& table, const SimulatorFolders& folders);
+/// The stored clock and cells of one hardware, if there are any. `folders`: with the stored clocks.
+Result<HardwareFigures> stored_figures(const HardwareSource& source, const SimulatorFolders& folders);
 
 /// The slowest part of hardware_figures with `place`, in independent pieces: a placement of each hardware
 /// with each seed. Results are stored in the cache with a mark for each finished piece. If the hardware does
@@ -120,7 +115,7 @@ class Placements {
 
   std::size_t count() const { return hardware_.size() * synth::c_seeds; }
   bool is_done(std::size_t number) const;
-  /// Make one placement. For hardware with a pinned clock, or that does not fit, only write the mark.
+  /// Make one placement. For hardware with a stored clock, or that does not fit, only write the mark.
   Status make(std::size_t number) const;
   /// The hardware's name and the seed, for messages.
   std::string name(std::size_t number) const;
@@ -132,7 +127,7 @@ class Placements {
   std::filesystem::path mark(std::size_t number) const;
 
   std::vector<HardwareSource> hardware_;
-  PinnedClocks pinned_;
+  ClocksByNetlist stored_;
   std::filesystem::path marks_;
   std::string made_by_;  ///< hash of all that a placement depends on, except the hardware's name and the seed
 };

@@ -406,7 +406,7 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
   HardwareFigures& figures = hardware[made.records[2].measured.hardware];
   figures.cells = Cells{.luts = 100, .flip_flops = 20};
   figures.mhz = 80.0;
-  figures.clock = "pinned";
+  figures.clock = "stored";
   figures.tools = "cells by Tool 1";
   std::vector<std::string> lines;
   std::istringstream stream(
@@ -427,7 +427,7 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
   EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
              fragments = static_cast<double>(made.records[2].measured.fragments);
-  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"pinned\",{:.6g},{:.6g},,,,,,,,,1,,,", 12.5 * cycles,
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"stored\",{:.6g},{:.6g},,,,,,,,,1,,,", 12.5 * cycles,
                                              12.5 * cycles / fragments)));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {

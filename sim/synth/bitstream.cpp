@@ -7,10 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "sim/synth/ice40_cells.hpp"
-#include "sim/synth/nameless_netlist.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/system/must.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::synth {
@@ -20,19 +18,8 @@ using nlohmann::json;
 
 constexpr const char* c_top = "board_top";
 constexpr const char* c_constraints = "rtl/board/board.pcf";
-constexpr std::chrono::minutes c_bitstream_timeout{60};
 // The placement of this seed meets the clock.
 constexpr const char* c_seed = "1";
-
-Result<std::string> run(const std::filesystem::path& folder, std::vector<std::string> arguments) {
-  const Command command{
-      .arguments = std::move(arguments), .working_folder = folder, .timeout = c_bitstream_timeout};
-  const auto end = run_process(command, c_install_board_tools);
-  if (!end) return end.error();
-  if (end->succeeded()) return end->output;
-  return tool_failed(fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", c_top,
-                                 command.arguments.front(), end->how(), end->output, to_string(command)));
-}
 
 // The text that the bits of a GHDL constant spell, 8 bits per character.
 std::string text_of_bits(std::string_view bits) {
@@ -43,26 +30,6 @@ std::string text_of_bits(std::string_view bits) {
     text += static_cast<char>(character);
   }
   return text;
-}
-
-Result<json> read_json(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return tool_failed(text.error().message);
-  json whole = json::parse(*text, nullptr, false);
-  if (!whole.is_discarded()) return whole;
-  return tool_failed(fmt::format("{}: not JSON", path.string()));
-}
-
-Ice40Cells count_cells(const json& statistics) {
-  Ice40Cells cells;
-  for (const auto& [type, count] : statistics.at("design").at("num_cells_by_type").items()) {
-    const auto n = count.get<std::uint64_t>();
-    if (type == "SB_LUT4") cells.luts += n;
-    if (type == "SB_CARRY") cells.carries += n;
-    if (is_register_type(type)) cells.flip_flops += n;
-    if (type.starts_with("SB_RAM40_4K")) cells.rams += n;
-  }
-  return cells;
 }
 
 // The longest path from the falling edge of the clock to the rising edge of the late clock.
@@ -78,27 +45,26 @@ double strobe_delay(const json& report) {
   return longest;
 }
 
-Result<BoardFigures> read_figures(const std::filesystem::path& folder) {
-  const auto statistics = read_json(folder / "cells.json");
-  if (!statistics) return statistics.error();
-  const auto report = read_json(folder / "report.json");
-  if (!report) return report.error();
-  const auto bytes = read_file(folder / "board.bin");
-  if (!bytes) return tool_failed(bytes.error().message);
+BoardFigures read_figures(const std::filesystem::path& folder) {
   BoardFigures figures;
   try {
-    figures.cells = count_cells(*statistics);
-    figures.logic_cells = report->at("utilization").at("ICESTORM_LC").at("used");
-    for (const auto& [clock, speed] : report->at("fmax").items()) figures.mhz = speed.at("achieved");
-    figures.strobe_ns = strobe_delay(*report);
+    const json report = json::parse(must(read_file(folder / "report.json")));
+    // Others are cells of pins, clocks and the PLL.
+    count_cells(folder, {{"SB_LUT4", &figures.cells.luts},
+                         {"SB_CARRY", &figures.cells.carries},
+                         {"SB_DFF", &figures.cells.flip_flops},
+                         {"SB_RAM40_4K", &figures.cells.rams},
+                         {"SB_", nullptr}});
+    figures.logic_cells = report.at("utilization").at("ICESTORM_LC").at("used");
+    for (const auto& [clock, speed] : report.at("fmax").items()) figures.mhz = speed.at("achieved");
+    figures.strobe_ns = strobe_delay(report);
   } catch (const json::exception& error) {
-    return tool_failed(fmt::format("not what Yosys 0.23 and nextpnr 0.4 report: {}", error.what()));
+    throw Failure{tool_failed(fmt::format("not what Yosys 0.23 and nextpnr 0.4 report: {}", error.what()))};
   }
   if (figures.strobe_ns <= 0 || figures.strobe_ns > c_strobe_ns)
-    return tool_failed(
+    throw Failure{tool_failed(
         fmt::format("{}: the strobes of the SRAM take {:.1f} ns to the late clock; {} ns are the limit",
-                    c_top, figures.strobe_ns, c_strobe_ns));
-  figures.bitstream = ContentHash().add(*bytes).hex();
+                    c_top, figures.strobe_ns, c_strobe_ns))};
   return figures;
 }
 
@@ -119,65 +85,33 @@ Result<std::string> mend_cells(std::string_view netlist) {
   return result.append(from, mended->cend());
 }
 
-Result<std::string> board_netlist(const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  const auto board = read_rtl_sources(folders.source, "rtl/board");
-  if (!board) return board.error();
-  sources->insert(sources->end(), board->begin(), board->end());
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache, true);
-  if (!library) return library.error();
-  const auto text = library->synthesize(c_top, {});
-  if (!text) return text.error();
-  return mend_cells(*text);
+std::string board_netlist(const SimulatorFolders& folders) {
+  const GhdlTool ghdl = must(GhdlTool::find());
+  std::vector<VhdlSource> sources = must(read_rtl_sources(folders.source));
+  for (VhdlSource& source : must(read_rtl_sources(folders.source, "rtl/board")))
+    sources.push_back(std::move(source));
+  const GhdlLibrary library = must(GhdlLibrary::for_synthesis(ghdl, sources, folders.cache, true));
+  return must(mend_cells(must(library.synthesize(c_top, {}))));
 }
 
-Result<std::string> board_hash(const SimulatorFolders& folders) {
-  const auto netlist = board_netlist(folders);
-  if (!netlist) return netlist.error();
-  const auto constraints = read_file(folders.source / c_constraints);
-  if (!constraints) return constraints.error();
-  return ContentHash().add("board 1").add(c_seed).add(nameless(*netlist)).add(*constraints).hex();
-}
-
-Result<BoardFigures> make_bitstream(const SimulatorFolders& folders, const std::filesystem::path& output) {
-  const auto netlist = board_netlist(folders);
-  if (!netlist) return netlist.error();
-  const auto scratch = TemporaryFolder::make(folders.cache);
-  if (!scratch) return scratch.error();
-  const std::filesystem::path& folder = scratch->path();
-  if (Status written = write_file(folder / "netlist.v", *netlist); !written) return written.error();
+BoardFigures make_bitstream(const SimulatorFolders& folders, const std::filesystem::path& output) {
+  const std::string netlist = board_netlist(folders);
+  const TemporaryFolder scratch = must(TemporaryFolder::make(folders.cache));
+  const std::filesystem::path& folder = scratch.path();
+  must(write_file(folder / "netlist.v", netlist));
   const std::vector<std::vector<std::string>> commands = {
       {"yosys", "-q", "-p",
-       fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {} -json board.json; tee -q -o "
-                   "cells.json stat -json",
-                   c_top)},
+       fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {} -json board.json; {}", c_top,
+                   c_statistics)},
       {"nextpnr-ice40", "--hx8k", "--package", "ct256", "--freq", std::to_string(c_board_mhz), "--pcf",
        (folders.source / c_constraints).string(), "--json", "board.json", "--asc", "board.asc", "--seed",
        c_seed, "--report", "report.json", "--quiet"},
       {"icepack", "board.asc", "board.bin"}};
-  for (const std::vector<std::string>& command : commands)
-    if (const auto done = run(folder, command); !done) return done.error();
-  const auto figures = read_figures(folder);
-  if (!figures) return figures;
-  const auto bytes = read_file(folder / "board.bin");
-  if (!bytes) return bytes.error();
-  if (Status made = make_folders(output.parent_path()); !made) return made.error();
-  if (Status written = write_file(output, *bytes); !written) return written.error();
+  for (const std::vector<std::string>& command : commands) run_tool(command, folder, c_top);
+  const BoardFigures figures = read_figures(folder);
+  must(make_folders(output.parent_path()));
+  must(write_file(output, must(read_file(folder / "board.bin"))));
   return figures;
-}
-
-Result<std::string> board_tools() {
-  const auto ghdl = GhdlTool::find();
-  if (!ghdl) return ghdl.error();
-  const auto yosys = run({}, {"yosys", "-V"});
-  if (!yosys) return yosys.error();
-  const auto nextpnr = run({}, {"nextpnr-ice40", "--version"});
-  if (!nextpnr) return nextpnr.error();
-  const auto line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
-  return fmt::format("{}; {}; {}", line(ghdl->version), line(*yosys), line(*nextpnr));
 }
 
 }  // namespace halfway::synth

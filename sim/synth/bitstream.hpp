@@ -13,8 +13,6 @@
 
 namespace halfway::synth {
 
-inline constexpr const char* c_install_board_tools = "apt-get install yosys nextpnr-ice40 fpga-icestorm";
-
 inline constexpr int c_board_mhz = 50;  ///< the clock of rtl/board; nextpnr fails if the placement is slower
 /// Limit of the paths from the clock's falling edge to the late clock's rising edge, three quarters of a
 /// period. nextpnr reports their delay, but does not compare it with a limit.
@@ -24,25 +22,19 @@ inline constexpr double c_strobe_ns = 15.0;
 /// SB_*, and make texts of their parameters that GHDL prints as the bits of a text.
 Result<std::string> mend_cells(std::string_view netlist);
 
-/// What the tools report of a bitstream, in the form that tb/board/pinned.txt stores.
+/// What the tools report of a bitstream.
 struct BoardFigures {
   Ice40Cells cells;               ///< after Yosys
   std::uint64_t logic_cells = 0;  ///< of the HX8K, after placement
   double mhz = 0;                 ///< the clock
   double strobe_ns = 0;           ///< the longest path to the late clock
-  std::string bitstream;          ///< hash of the file's bytes
 };
 
-/// The design's netlist for Yosys, of the sources in `folders`.
-Result<std::string> board_netlist(const SimulatorFolders& folders);
-/// Hash of the netlist without names and of the constraints: the bitstream depends on nothing else but the
-/// tools.
-Result<std::string> board_hash(const SimulatorFolders& folders);
+/// The design's netlist for Yosys, of the sources in `folders`. Throws Failure.
+std::string board_netlist(const SimulatorFolders& folders);
 
-/// Make the bitstream and write it to `output`. Fails if the clock is too slow or a tool is missing.
-Result<BoardFigures> make_bitstream(const SimulatorFolders& folders, const std::filesystem::path& output);
-
-/// Versions of the tools, for the file of the figures.
-Result<std::string> board_tools();
+/// Make the bitstream and write it to `output`. Throws Failure if the
+/// clock is too slow or a tool is missing.
+BoardFigures make_bitstream(const SimulatorFolders& folders, const std::filesystem::path& output);
 
 }  // namespace halfway::synth

@@ -16,10 +16,6 @@ inline constexpr std::size_t c_enable_buffers = 4;
 /// Minimum number of full sums for an enable to get a buffer: the cells of a tile.
 inline constexpr std::size_t c_least_sums = 8;
 
-/// Version of with_global_buffers for hashes, so that results of another version are not used. Change it when
-/// the result of the function changes; a test checks this.
-inline constexpr const char* c_buffers_rule = "flow 2";
-
 /// `netlist` is Yosys's JSON. Insert an SB_GB after port clk of module `wrapped`, and one for each of at most
 /// c_enable_buffers enables. An enable's buffer drives only the registers' enable pins; other loads keep the
 /// original net, because a buffer that reaches enables reaches no reset. Enables with the most full sums are

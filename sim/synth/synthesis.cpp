@@ -11,12 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "sim/ghdl/hardware_units.hpp"
 #include "sim/synth/global_buffers.hpp"
 #include "sim/synth/ice40_cells.hpp"
-#include "sim/synth/nameless_netlist.hpp"
-#include "sim/synth/netlist_parts.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
 
@@ -25,101 +23,28 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::chrono::minutes c_timeout{60};
 constexpr const char* c_no_end = "no_end";
 constexpr const char* c_wrapped = "wrapped.json";
+constexpr const char* c_report = "report.json";
+constexpr const char* c_packing = "packing";
 constexpr unsigned c_most_inputs = 256;  // flip-flops before a design
 constexpr int c_frequency = 200;         // target clock in MHz, higher than any design reaches
 
 // nextpnr's error message if it runs out of logic cells.
 constexpr std::string_view c_too_large = "Unable to place cell";
 
-Result<std::string> run(Command command, const std::string& doing) {
-  command.timeout = c_timeout;
-  const auto end = run_process(command, c_install_tools);
-  if (!end) return end.error();
-  if (end->succeeded()) return end->output;
-  return tool_failed(fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing,
-                                 command.arguments.front(), end->how(), end->output, to_string(command)));
-}
-
-// Return the folder. Call `make` to fill it if it is missing. Concurrent calls make equal contents.
-Result<std::filesystem::path> kept(const std::filesystem::path& folder,
-                                   const std::function<Status(const std::filesystem::path&)>& make) {
-  if (std::filesystem::exists(folder)) return folder;
-  auto fresh = TemporaryFolder::make(folder.parent_path());
-  if (!fresh) return fresh.error();
-  if (Status made = make(fresh->path()); !made) return made.error();
-  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  return folder;
-}
-
-Status run_yosys(const std::string& script, const std::filesystem::path& folder, const Design& design) {
-  const auto done = run({.arguments = {"yosys", "-q", "-p", script}, .working_folder = folder}, design.name);
-  if (!done) return done.error();
-  return Ok{};
-}
-
-std::string ice40_script(std::string_view entity) {
-  return fmt::format(
-      "read_verilog netlist.v; synth_ice40 -device hx -top {}; tee -q -o cells.json stat "
-      "-json; write_rtlil mapped.il",
-      entity);
-}
-
-// Synthesize the wrapper separately and then insert the already synthesized design, so that no optimization
-// crosses the boundary.
-std::string wrapped_script(std::string_view entity) {
-  return fmt::format(
-      "read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
-      "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset "
-      "top {0}; "
-      "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {1}",
-      entity, c_wrapped);
-}
-
 std::vector<std::string> nextpnr_arguments() {
-  return {"nextpnr-ice40",       "--hx8k", "--package", "ct256", "--freq", std::to_string(c_frequency),
-          "--no-promote-globals"};
-}
-// nextpnr's options for a placement that affect the result.
-std::vector<std::string> place_arguments(unsigned seed) {
-  std::vector<std::string> arguments = nextpnr_arguments();
-  arguments.insert(arguments.end(), {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet",
-                                     "--report", "report.json"});
-  return arguments;
+  return {"nextpnr-ice40",        "--hx8k", "--package", "ct256", "--freq", std::to_string(c_frequency),
+          "--no-promote-globals", "--json", c_wrapped};
 }
 
-std::string first_line(std::string_view text) {
-  return std::string(text.substr(0, text.find('\n')));
-}
-
-// "Yosys 0.23 (git ...)" and "nextpnr-ice40 -- ... (Version 0.4-1+b1)": keep only the name before the
-// version.
-std::string version_of(std::string_view said) {
-  const std::size_t digit = std::min(said.find_first_of("0123456789", said.find(' ')), said.size());
-  const std::size_t version = said.find("Version ");
-  const std::size_t from =
-      version == std::string_view::npos ? digit : version + std::string_view("Version ").size();
-  return std::string(said.substr(from, said.find_first_of(" )\n", from) - from));
-}
-
-Status buffer_globals(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  const auto buffered = with_global_buffers(*text);
-  if (!buffered) return tool_failed(fmt::format("{}: {}", path.string(), buffered.error().message));
-  return write_file(path, *buffered);
-}
-
-Result<std::string> netlist_of(const GhdlLibrary& library, const Design& design) {
-  const auto text = library.synthesize(design.entity, design.generics);
-  if (!text) return text.error();
-  return mend_netlist(*text);
-}
-
-std::string hash_of(std::string_view entity, std::string_view netlist) {
-  return ContentHash().add("netlist 3").add("flow 2").add(entity).add(nameless(netlist)).hex();
+// The number in "Yosys 0.23 (git ...)" and "nextpnr-ice40 -- ... (Version 0.4-1+b1)".
+std::string number_of(std::string_view version) {
+  const std::size_t digit = std::min(version.find_first_of("0123456789", version.find(' ')), version.size());
+  constexpr std::string_view c_mark = "Version ";
+  const std::size_t mark = version.find(c_mark);
+  const std::size_t from = mark == std::string_view::npos ? digit : mark + c_mark.size();
+  return std::string(version.substr(from, version.find_first_of(" )\n", from) - from));
 }
 
 struct Port {
@@ -128,12 +53,12 @@ struct Port {
   unsigned bits = 1;
 };
 
-Result<std::vector<Port>> ports_of(std::string_view netlist, std::string_view top) {
+std::vector<Port> ports_of(std::string_view netlist, std::string_view top) {
   const std::string head = fmt::format("module {}\n", top);
   const std::size_t at = netlist.find(head);
   const std::size_t end = at == std::string_view::npos ? at : netlist.find(';', at);
   if (end == std::string_view::npos)
-    return tool_failed(fmt::format("{}: the netlist has no such module", top));
+    throw Failure{tool_failed(fmt::format("{}: the netlist has no such module", top))};
   std::string_view text = netlist.substr(at + head.size(), end - at - head.size());
   std::vector<Port> ports;
   while (!text.empty()) {
@@ -154,23 +79,6 @@ Result<std::vector<Port>> ports_of(std::string_view netlist, std::string_view to
     ports.push_back(std::move(port));
   }
   return ports;
-}
-
-// Read the statistics of the whole design from Yosys's stat: number of cells by type.
-Result<json> read_types(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return tool_failed(text.error().message);
-  const json whole = json::parse(*text, nullptr, false);
-  if (whole.is_object()) {
-    json types = whole.value("design", json::object()).value("num_cells_by_type", json());
-    if (types.is_object()) return types;
-  }
-  return tool_failed(
-      fmt::format("{}: not the output of Yosys's stat; delete it and try again", path.string()));
-}
-
-Error unknown_cells(const Design& design, const std::string& type) {
-  return tool_failed(fmt::format("{}: cells of type {}, which nothing counts", design.name, type));
 }
 
 // The registers of a netlist for nextpnr, by the names of the logic cells that nextpnr packs them into.
@@ -231,7 +139,7 @@ class Registers {
   const json& names_;
 };
 
-Result<CriticalPath> read_path(const json& path, const Registers& registers) {
+CriticalPath read_path(const json& path, const Registers& registers) {
   CriticalPath result;
   for (const json& part : path) {
     const double delay = part.value("delay", 0.0);
@@ -248,12 +156,10 @@ Result<CriticalPath> read_path(const json& path, const Registers& registers) {
 
 }  // namespace
 
-Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
-  const auto ports = ports_of(netlist, top);
-  if (!ports) return ports.error();
+std::string wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
   unsigned inputs = 0, outputs = 0;
   std::string wires, pins, connections;
-  for (const Port& port : *ports) {
+  for (const Port& port : ports_of(netlist, top)) {
     const bool is_clock = port.name == "clk" || port.name == "aclk";
     connections += fmt::format(",\n    .{}({})", port.name, is_clock ? "clk" : port.name);
     if (is_clock) continue;
@@ -272,7 +178,7 @@ Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsi
     wires += fmt::format("  assign {} = {{{}}};\n", port.name, bits);
     inputs += port.bits;
   }
-  if (outputs == 0) return tool_failed(fmt::format("{}: has no output to register", top));
+  if (outputs == 0) throw Failure{tool_failed(fmt::format("{}: has no output to register", top))};
   inputs = std::max(std::min(inputs, most_inputs), 1U);
   return fmt::format(
       "module wrapped (input clk, input serial_in, output serial_out);\n"
@@ -284,7 +190,7 @@ Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsi
       inputs - 1, outputs - 1, wires, pins, top, connections.substr(1));
 }
 
-Result<Placement> read_placement(std::string_view report, std::string_view netlist, unsigned seed) {
+Placement read_placement(std::string_view report, std::string_view netlist, unsigned seed) {
   Placement placement{.seed = seed};
   const json figures = json::parse(report, nullptr, false);
   const json design = json::parse(netlist, nullptr, false);
@@ -294,18 +200,17 @@ Result<Placement> read_placement(std::string_view report, std::string_view netli
     placement.cells_used = logic_cells.at("used");
     placement.cells_there = logic_cells.at("available");
     if (figures.at("fmax").size() != 1)
-      return tool_failed(fmt::format("nextpnr reports {} clocks, not one", figures.at("fmax").size()));
+      throw Failure{
+          tool_failed(fmt::format("nextpnr reports {} clocks, not one", figures.at("fmax").size()))};
     const auto clock = figures.at("fmax").begin();
     placement.mhz = clock->at("achieved");
     for (const json& path : figures.at("critical_paths")) {
       const std::string edge = "posedge " + clock.key();
       if (path.value("from", "") != edge || path.value("to", "") != edge) continue;
-      auto read = read_path(path.at("path"), registers);
-      if (!read) return read.error();
-      placement.path = std::move(*read);
+      placement.path = read_path(path.at("path"), registers);
     }
   } catch (const json::exception& error) {
-    return tool_failed(fmt::format("not what nextpnr 0.4 reports: {}", error.what()));
+    throw Failure{tool_failed(fmt::format("not what nextpnr 0.4 reports: {}", error.what()))};
   }
   return placement;
 }
@@ -322,7 +227,7 @@ std::string does_not_fit(const Ice40Cells& cells) {
   return {};
 }
 
-Result<Packing> read_packing(std::string_view said) {
+Packing read_packing(std::string_view said) {
   constexpr std::string_view c_cells = "ICESTORM_LC:";
   const std::size_t at = said.find(c_cells);
   Packing packing;
@@ -332,254 +237,182 @@ Result<Packing> read_packing(std::string_view said) {
         2)
       return packing;
   }
-  return tool_failed(fmt::format("not what nextpnr 0.4 says of a device's utilisation:\n{}", said));
+  throw Failure{tool_failed(fmt::format("not what nextpnr 0.4 says of a device's utilisation:\n{}", said))};
 }
 
-Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design) {
-  const auto text = netlist_of(library, design);
-  if (!text) return text.error();
-  return hash_of(design.entity, *text);
+const Placement* Clock::median() const {
+  return placements.empty() ? nullptr : &placements[placements.size() / 2];
 }
 
-Result<std::set<std::string>> part_hashes(const GhdlLibrary& library, const Design& design,
-                                          const std::set<std::string>& entities) {
-  const auto text = netlist_of(library, design);
-  if (!text) return text.error();
-  std::set<std::string> hashes;
-  for (const NetlistPart& part : parts_of(*text))
-    if (const std::string entity = entity_of(part.module, entities); !entity.empty())
-      hashes.insert(hash_of(entity, part.netlist));
-  return hashes;
-}
-
-std::string flow_hash() {
-  constexpr std::string_view c_top = "top";
-  // A port of each kind, and more input bits than the wrapper's flip-flops.
-  static_assert(c_most_inputs < 300);
-  const auto around = wrapper(
-      "module top\n  (input  clk,\n   input  [299:0] a,\n   input  b,\n   output [1:0] c,\n   output d);\n"
-      "endmodule\n",
-      c_top, c_most_inputs);
-  ContentHash hash;
-  hash.add(ice40_script(c_top)).add(wrapped_script(c_top)).add(*around).add(c_buffers_rule);
-  for (const std::string& argument : place_arguments(1)) hash.add(argument);
-  return hash.hex();
-}
-
-Result<Synthesizer> Synthesizer::open(const SimulatorFolders& folders, bool place,
-                                      const std::vector<std::string>& more, std::chrono::seconds place_time) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  auto yosys = run({.arguments = {"yosys", "-V"}}, "looking for yosys");
-  if (!yosys) return yosys.error();
-  std::string nextpnr;
+Synthesizer Synthesizer::open(const SimulatorFolders& folders, bool place,
+                              const std::vector<std::string>& more, std::chrono::seconds place_time) {
+  const Folder cache = std::filesystem::absolute(folders.cache) / "synth";
+  Yosys yosys = Yosys::find(cache);
+  const GhdlTool ghdl = must(GhdlTool::find());
+  std::vector<VhdlSource> sources = must(read_rtl_sources(folders.source));
+  for (const std::string& file : more) sources.push_back(must(read_vhdl_source(folders.source, file)));
+  Synthesizer synthesizer(must(GhdlLibrary::for_synthesis(ghdl, sources, folders.cache)), std::move(yosys),
+                          cache);
+  synthesizer.versions_ =
+      fmt::format("GHDL {}, Yosys {}", number_of(ghdl.version), number_of(synthesizer.yosys_.version()));
   if (place) {
-    const auto said = run({.arguments = {"nextpnr-ice40", "--version"}}, "looking for nextpnr-ice40");
-    if (!said) return said.error();
-    nextpnr = first_line(*said);
+    synthesizer.nextpnr_ = version_of("nextpnr-ice40", "--version");
+    synthesizer.versions_ += ", nextpnr-ice40 " + number_of(synthesizer.nextpnr_);
   }
-  auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  for (const std::string& file : more) {
-    auto source = read_vhdl_source(folders.source, file);
-    if (!source) return source.error();
-    sources->push_back(std::move(*source));
-  }
-  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
-  if (!library) return library.error();
-  Synthesizer synthesizer(std::move(*library), std::filesystem::absolute(folders.cache) / "synth");
-  synthesizer.yosys_ = *yosys;
-  synthesizer.nextpnr_ = nextpnr;
   synthesizer.place_time_ = place_time;
-  synthesizer.versions_ = fmt::format("GHDL {}, Yosys {}{}", version_of(tool->version), version_of(*yosys),
-                                      nextpnr.empty() ? "" : ", nextpnr-ice40 " + version_of(nextpnr));
   return synthesizer;
 }
 
-Result<std::filesystem::path> Synthesizer::synthesized(const Design& design, const std::string& family,
-                                                       const std::string& script) const {
-  const auto text = netlist_of(library_, design);
-  if (!text) return text.error();
-  ContentHash hash;
-  hash.add("synth 1").add(yosys_).add(script).add(*text);
-  return kept(cache_ / fmt::format("{}-{}-{}", design.name, family, hash.hex()),
-              [&](const std::filesystem::path& fresh) -> Status {
-                if (Status written = write_file(fresh / "netlist.v", *text); !written) return written;
-                return run_yosys(script, fresh, design);
-              });
+std::string Synthesizer::netlist(const Design& design) const {
+  return must(mend_netlist(must(library_.synthesize(design.entity, design.generics))));
 }
 
-Result<std::filesystem::path> Synthesizer::ice40_folder(const Design& design) const {
-  return synthesized(design, "ice40", ice40_script(design.entity));
+Synthesizer::Folder Synthesizer::synthesized(const Design& design, const std::string& family,
+                                             const std::string& script) const {
+  return yosys_.run(design.name + "-" + family, script, {{"netlist.v", netlist(design)}}, read_statistics);
 }
 
-Result<Ice40Cells> Synthesizer::ice40(const Design& design) const {
-  const auto folder = ice40_folder(design);
-  if (!folder) return folder.error();
-  const auto types = read_types(*folder / "cells.json");
-  if (!types) return types.error();
+Synthesizer::Folder Synthesizer::mapped(const Design& design) const {
+  return synthesized(
+      design, "ice40",
+      fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {}; {}; write_rtlil mapped.il",
+                  design.entity, c_statistics));
+}
+
+Ice40Cells Synthesizer::ice40(const Design& design) const {
   Ice40Cells cells;
-  for (const auto& [type, count] : types->items()) {
-    const auto n = count.get<std::uint64_t>();
-    if (type == "SB_LUT4")
-      cells.luts += n;
-    else if (type == "SB_CARRY")
-      cells.carries += n;
-    else if (is_register_type(type))
-      cells.flip_flops += n;
-    else if (type.starts_with("SB_RAM40_4K"))
-      cells.rams += n;
-    else
-      return unknown_cells(design, type);
-  }
+  count_cells(mapped(design), {{"SB_LUT4", &cells.luts},
+                               {"SB_CARRY", &cells.carries},
+                               {"SB_DFF", &cells.flip_flops},
+                               {"SB_RAM40_4K", &cells.rams}});
   return cells;
 }
 
-Result<std::filesystem::path> Synthesizer::from_mapped(const Design& design, const std::string& kind,
-                                                       const std::string& script,
-                                                       const std::string& around) const {
-  const auto core = ice40_folder(design);
-  if (!core) return core.error();
-  ContentHash hash;
-  hash.add("mapped 1").add(yosys_).add(script).add(around).add(core->filename().string());
-  if (!around.empty()) hash.add(c_buffers_rule);
-  return kept(
-      cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex()),
-      [&](const std::filesystem::path& fresh) -> Status {
-        std::error_code error;
-        std::filesystem::copy(*core / "mapped.il", fresh / "mapped.il", error);
-        if (error)
-          return tool_failed(fmt::format("{}: cannot be copied: {}", core->string(), error.message()));
-        if (!around.empty())
-          if (Status written = write_file(fresh / "wrapper.v", around); !written) return written;
-        if (Status made = run_yosys(script, fresh, design); !made || around.empty()) return made;
-        return buffer_globals(fresh / c_wrapped);
-      });
+Ecp5Cells Synthesizer::ecp5(const Design& design) const {
+  Ecp5Cells cells;
+  count_cells(
+      synthesized(design, "ecp5",
+                  fmt::format("read_verilog netlist.v; synth_ecp5 -top {}; {}", design.entity, c_statistics)),
+      {{"LUT4", &cells.luts},
+       {"CCU2C", &cells.luts, 2},
+       {"TRELLIS_FF", &cells.flip_flops},
+       {"DP16KD", &cells.rams},
+       {"MULT18X18D", &cells.multipliers},
+       {"TRELLIS_DPR16X4", &cells.luts, 4},
+       // Multiplexers between the LUTs of a slice.
+       {"PFUMX", nullptr},
+       {"L6MUX21", nullptr}});
+  return cells;
+}
+
+std::string Synthesizer::from_mapped(const Design& design, const std::string& script, const std::string& file,
+                                     const std::string& around) const {
+  const std::string core = must(read_file(mapped(design) / "mapped.il"));
+  const Folder folder = yosys_.run(fmt::format("{}-{}", design.name, file), script,
+                                   {{"mapped.il", core}, {"wrapper.v", around}},
+                                   [&](const Folder& fresh) { must(read_file(fresh / file)); });
+  return must(read_file(folder / file));
 }
 
 // splitnets, because Verilator takes a carry chain in one vector for a combinational loop.
-Result<std::string> Synthesizer::simulated(const Design& design) const {
-  const auto folder = from_mapped(
-      design, "simulated",
+std::string Synthesizer::simulated(const Design& design) const {
+  return from_mapped(
+      design,
       fmt::format(
           "read_rtlil mapped.il; delete =A:blackbox; read_verilog -defer -D ICE40_HX +/ice40/cells_sim.v; "
           "hierarchy -top {}; proc; flatten; opt_clean -purge; splitnets; write_verilog -noattr simulated.v",
           design.entity),
-      "");
-  if (!folder) return folder.error();
-  return read_file(*folder / "simulated.v");
+      "simulated.v", "");
 }
 
-Result<Ecp5Cells> Synthesizer::ecp5(const Design& design) const {
-  const auto folder =
-      synthesized(design, "ecp5",
-                  fmt::format("read_verilog netlist.v; synth_ecp5 -top {}; tee -q -o cells.json stat -json",
-                              design.entity));
-  if (!folder) return folder.error();
-  const auto types = read_types(*folder / "cells.json");
-  if (!types) return types.error();
-  Ecp5Cells cells;
-  for (const auto& [type, count] : types->items()) {
-    const auto n = count.get<std::uint64_t>();
-    if (type == "LUT4")
-      cells.luts += n;
-    else if (type == "CCU2C")
-      cells.luts += 2 * n;
-    else if (type == "TRELLIS_FF")
-      cells.flip_flops += n;
-    else if (type == "DP16KD")
-      cells.rams += n;
-    else if (type == "MULT18X18D")
-      cells.multipliers += n;
-    else if (type == "TRELLIS_DPR16X4")
-      cells.luts += 4 * n;
-    else if (type != "PFUMX" && type != "L6MUX21")  // multiplexers between the LUTs of a slice
-      return unknown_cells(design, type);
-  }
-  return cells;
+// Synthesize the wrapper separately and then insert the already synthesized design, so that no optimization
+// crosses the boundary.
+std::string Synthesizer::wrapped(const Design& design) const {
+  const std::string script = fmt::format(
+      "read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
+      "synth_ice40 -device hx -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset top {0}; "
+      "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {1}",
+      design.entity, c_wrapped);
+  const auto buffered = with_global_buffers(
+      from_mapped(design, script, c_wrapped, wrapper(netlist(design), design.entity, c_most_inputs)));
+  if (!buffered) throw Failure{tool_failed(fmt::format("{}: {}", design.name, buffered.error().message))};
+  return *buffered;
 }
 
-Result<std::filesystem::path> Synthesizer::wrapped_folder(const Design& design) const {
-  const auto text = netlist_of(library_, design);
-  if (!text) return text.error();
-  const auto around = wrapper(*text, design.entity, c_most_inputs);
-  if (!around) return around.error();
-  return from_mapped(design, "wrapped", wrapped_script(design.entity), *around);
+Synthesizer::Folder Synthesizer::placed(const Design& design, const std::string& kind,
+                                        const std::vector<std::string>& arguments, const std::string& netlist,
+                                        const std::function<void(const Folder&)>& run) const {
+  ContentHash hash;
+  hash.add("placed 2").add(nextpnr_).add(netlist);
+  for (const std::string& argument : arguments) hash.add(argument);
+  Folder folder = cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex());
+  keep_folder(folder, [&](const Folder& fresh) {
+    must(write_file(fresh / c_wrapped, netlist));
+    run(fresh);
+    std::filesystem::remove(fresh / c_wrapped);
+  });
+  return folder;
 }
 
-Result<std::string> Synthesizer::netlist_hash(const Design& design) const {
-  return synth::netlist_hash(library_, design);
-}
-
-Result<Packing> Synthesizer::pack(const Design& design) const {
-  const auto wrapped = wrapped_folder(design);
-  if (!wrapped) return wrapped.error();
+Packing Synthesizer::pack(const Design& design) const {
   std::vector<std::string> arguments = nextpnr_arguments();
-  ContentHash hash;
-  hash.add("packed 1").add(nextpnr_).add(wrapped->filename().string());
-  for (const std::string& argument : arguments) hash.add(argument);
-  arguments.insert(arguments.end(), {"--pack-only", "--json", (*wrapped / c_wrapped).string()});
-  const auto folder = kept(cache_ / fmt::format("{}-packed-{}", design.name, hash.hex()),
-                           [&](const std::filesystem::path& fresh) -> Status {
-                             const auto said =
-                                 run({.arguments = arguments, .working_folder = fresh}, design.name);
-                             if (!said) return said.error();
-                             if (const auto read = read_packing(*said); !read) return read.error();
-                             return write_file(fresh / "said", *said);
-                           });
-  if (!folder) return folder.error();
-  const auto said = read_file(*folder / "said");
-  if (!said) return said.error();
-  return read_packing(*said);
+  arguments.push_back("--pack-only");
+  const Folder folder = placed(design, "packed", arguments, wrapped(design), [&](const Folder& fresh) {
+    const std::string said = run_tool(arguments, fresh, design.name);
+    read_packing(said);
+    must(write_file(fresh / c_packing, said));
+  });
+  return read_packing(must(read_file(folder / c_packing)));
 }
 
-Result<std::string> Synthesizer::no_room(const Design& design) const {
-  const auto cells = ice40(design);
-  if (!cells) return cells.error();
-  // Each cell takes a logic cell; some share one.
-  if (std::string why = does_not_fit(*cells); !why.empty()) return why;
-  const auto packing = pack(design);
-  if (!packing) return packing.error();
-  if (packing->cells_used > c_most_placed)
-    return fmt::format("too full: {} of the HX8K's {} logic cells", packing->cells_used,
-                       packing->cells_there);
-  return std::string();
-}
-
-Result<Placement> Synthesizer::place(const Design& design, unsigned seed) const {
-  const auto wrapped = wrapped_folder(design);
-  if (!wrapped) return wrapped.error();
-  const std::string net = (*wrapped / c_wrapped).string();
-  const std::vector<std::string> arguments = place_arguments(seed);
-  ContentHash hash;
-  hash.add("placed 1").add(nextpnr_).add(wrapped->filename().string());
-  for (const std::string& argument : arguments) hash.add(argument);
+Placement Synthesizer::place(const Design& design, unsigned seed) const {
   // Limit the processor time by the shell's ulimit, because elapsed time depends on the machine's load. A
   // soft limit, so that the process ends with SIGXCPU.
-  std::vector<std::string> limited = {"sh", "-c", "ulimit -c 0 && ulimit -S -t \"$0\" && exec \"$@\"",
-                                      std::to_string(place_time_.count())};
-  limited.insert(limited.end(), arguments.begin(), arguments.end());
-  limited.insert(limited.end(), {"--json", net});
-  hash.add(limited[3]);
-  const auto folder =
-      kept(cache_ / fmt::format("{}-placed{}-{}", design.name, seed, hash.hex()),
-           [&](const std::filesystem::path& fresh) -> Status {
-             const Command command{.arguments = limited, .working_folder = fresh, .timeout = c_timeout};
-             const auto end = run_process(command, c_install_tools);
-             if (!end) return end.error();
-             // A timeout and a full device are valid results without a report.
-             if (end->signal == SIGXCPU) return write_file(fresh / c_no_end, "");
-             if (end->succeeded() || end->output.find(c_too_large) != std::string::npos) return Ok{};
-             return tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}",
-                                            design.name, end->how(), end->output, to_string(command)));
-           });
-  if (!folder) return folder.error();
-  if (std::filesystem::exists(*folder / c_no_end)) return Placement{.seed = seed, .ended = false};
-  const auto report = read_file(*folder / "report.json");
-  if (!report) return Placement{.seed = seed};
-  const auto text = read_file(net);
-  if (!text) return text.error();
-  return read_placement(*report, *text, seed);
+  std::vector<std::string> arguments = {"sh", "-c", "ulimit -c 0 && ulimit -S -t \"$0\" && exec \"$@\"",
+                                        std::to_string(place_time_.count())};
+  for (const std::string& argument : nextpnr_arguments()) arguments.push_back(argument);
+  arguments.insert(arguments.end(),
+                   {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet", "--report", c_report});
+  const std::string netlist = wrapped(design);
+  const Folder folder =
+      placed(design, fmt::format("placed{}", seed), arguments, netlist, [&](const Folder& fresh) {
+        const Command command{.arguments = arguments, .working_folder = fresh, .timeout = c_tool_timeout};
+        const ProcessEnd end = must(run_process(command, c_install_tools));
+        // A timeout and a full device are valid results without a report.
+        if (end.signal == SIGXCPU)
+          must(write_file(fresh / c_no_end, ""));
+        else if (!end.succeeded() && end.output.find(c_too_large) == std::string::npos)
+          throw Failure{tool_failed(fmt::format("{}: nextpnr-ice40 failed ({}):\n{}\n  while running: {}",
+                                                design.name, end.how(), end.output, to_string(command)))};
+      });
+  if (std::filesystem::exists(folder / c_no_end)) return {.seed = seed, .ended = false};
+  if (!std::filesystem::exists(folder / c_report)) return {.seed = seed};
+  return read_placement(must(read_file(folder / c_report)), netlist, seed);
+}
+
+std::string Synthesizer::no_room(const Design& design) const {
+  // Each cell takes a logic cell; some share one.
+  if (std::string why = does_not_fit(ice40(design)); !why.empty()) return why;
+  const Packing packing = pack(design);
+  if (packing.cells_used <= c_most_placed) return {};
+  return fmt::format("too full: {} of the HX8K's {} logic cells", packing.cells_used, packing.cells_there);
+}
+
+Clock Synthesizer::clock(const Design& design, unsigned seeds) const {
+  Clock clock{.none = no_room(design)};
+  for (unsigned seed = 1; clock.none.empty() && seed <= seeds; ++seed) {
+    Placement placement = place(design, seed);
+    if (!placement.ended)
+      ++clock.endless;
+    else if (placement.fits())
+      clock.placements.push_back(std::move(placement));
+    else
+      clock = {.none = "does not fit the HX8K"};
+  }
+  std::ranges::sort(clock.placements, {}, &Placement::mhz);
+  if (clock.none.empty() && clock.placements.empty())
+    clock.none = fmt::format("nextpnr does not end with {} seeds", clock.endless);
+  return clock;
 }
 
 }  // namespace halfway::synth

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // Synthesize an entity with GHDL, Yosys and nextpnr: cells on two FPGA families, clock on an iCE40 HX8K.
+// Errors are thrown as Failure.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <set>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
+#include "sim/synth/yosys.hpp"
 
 namespace halfway::synth {
-
-inline constexpr const char* c_install_tools = "apt-get install yosys nextpnr-ice40";
 
 /// Number of logic cells of an HX8K, and the largest number that nextpnr 0.4's placers can place; they do not
 /// finish at 95 %.
@@ -64,6 +63,14 @@ struct Placement {
   bool fits() const { return mhz > 0; }
 };
 
+/// The placements of a design that ended, slowest first. The clock is that of the median.
+struct Clock {
+  std::vector<Placement> placements{};
+  unsigned endless = 0;  ///< number of placements that did not end
+  std::string none{};    ///< the reason why there is no clock
+  const Placement* median() const;
+};
+
 /// Logic cells of a packed design with its wrapper. nextpnr reports no number if the device is too small.
 struct Packing {
   std::uint64_t cells_used = 0, cells_there = 0;
@@ -75,71 +82,65 @@ std::string does_not_fit(std::string_view what, std::uint64_t count, std::uint64
 std::string does_not_fit(const Ice40Cells& cells);
 
 /// Read the device's utilisation from nextpnr's output.
-Result<Packing> read_packing(std::string_view said);
-
-/// Hash of a design's netlist after GHDL, mend_netlist and nameless. Designs with equal hashes are the same
-/// hardware, even if their names differ. With equal flow_hash they have the same clock.
-Result<std::string> netlist_hash(const GhdlLibrary& library, const Design& design);
-/// The hashes of the netlists inside the design, each with all that it contains: the netlist_hash that the
-/// part has if it is synthesized by itself. `entities` are those of the RTL (entities_of).
-Result<std::set<std::string>> part_hashes(const GhdlLibrary& library, const Design& design,
-                                          const std::set<std::string>& entities);
-
-/// Hash of everything else that a clock depends on, except the tools' versions: Yosys's scripts, the wrapper,
-/// the global buffers, nextpnr's options. It is computed from their contents, so that every change changes
-/// the hash.
-std::string flow_hash();
+Packing read_packing(std::string_view said);
 
 /// The wrapper around `top` for nextpnr: a flip-flop before every input except the clock, and one after every
 /// output bit. Input flip-flops are a shift register of at most `most_inputs` bits; wider inputs share them.
 /// Output bits are combined by exclusive or into a chain of flip-flops. Each exclusive or uses the lookup
 /// table that is before a flip-flop on this family.
-Result<std::string> wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs);
+std::string wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs);
 
 /// Read nextpnr's --report of the design's clock. `netlist` is nextpnr's input; it has the names of the
 /// registers at both ends of the path.
-Result<Placement> read_placement(std::string_view report, std::string_view netlist, unsigned seed);
+Placement read_placement(std::string_view report, std::string_view netlist, unsigned seed);
 
 class Synthesizer {
  public:
   /// If a tool is missing, the error (exit code tool_failed) names the command that installs it. Without
   /// `place`, nextpnr is not needed. `more`: VHDL sources in addition to those of rtl/, relative to the
   /// project's root. A placement that exceeds `place_time` counts as not ended.
-  static Result<Synthesizer> open(const SimulatorFolders& folders, bool place,
-                                  const std::vector<std::string>& more = {},
-                                  std::chrono::seconds place_time = c_place_time);
+  static Synthesizer open(const SimulatorFolders& folders, bool place,
+                          const std::vector<std::string>& more = {},
+                          std::chrono::seconds place_time = c_place_time);
 
-  /// Versions of GHDL, Yosys and nextpnr, for the page.
+  /// Versions of GHDL, Yosys and nextpnr.
   const std::string& versions() const { return versions_; }
-  const std::string& yosys_version() const { return yosys_; }
 
   /// Results are taken from the cache if present. Thread-safe.
-  Result<Ice40Cells> ice40(const Design& design) const;
-  Result<Ecp5Cells> ecp5(const Design& design) const;
-  Result<Placement> place(const Design& design, unsigned seed) const;
-  /// Takes seconds; a placement can take an hour.
-  Result<Packing> pack(const Design& design) const;
+  std::string netlist(const Design& design) const;  ///< by GHDL, mended
+  Ice40Cells ice40(const Design& design) const;
+  Ecp5Cells ecp5(const Design& design) const;
+  /// One placement: minutes.
+  Placement place(const Design& design, unsigned seed) const;
+  /// Takes seconds.
+  Packing pack(const Design& design) const;
   /// Reason why an HX8K or nextpnr's placers have too little room for the design; empty if it can be placed.
-  Result<std::string> no_room(const Design& design) const;
-  Result<std::string> netlist_hash(const Design& design) const;
+  std::string no_room(const Design& design) const;
+  /// Placements with the seeds 1 to `seeds`, if there is room.
+  Clock clock(const Design& design, unsigned seeds) const;
   /// The design after synthesis for iCE40, as flat Verilog in which each cell is Yosys's simulation model.
-  Result<std::string> simulated(const Design& design) const;
+  std::string simulated(const Design& design) const;
 
  private:
-  Synthesizer(GhdlLibrary library, std::filesystem::path cache)
-      : library_(std::move(library)), cache_(std::move(cache)) {}
+  using Folder = std::filesystem::path;
+  Synthesizer(GhdlLibrary library, Yosys yosys, Folder cache)
+      : library_(std::move(library)), yosys_(std::move(yosys)), cache_(std::move(cache)) {}
   /// Folder with the result of Yosys's `script` on the netlist, netlist.v.
-  Result<std::filesystem::path> synthesized(const Design& design, const std::string& family,
-                                            const std::string& script) const;
-  Result<std::filesystem::path> ice40_folder(const Design& design) const;
-  Result<std::filesystem::path> wrapped_folder(const Design& design) const;
-  /// Folder with the result of Yosys's `script` on mapped.il and, unless empty, wrapper.v. For a wrapper, the
-  /// global buffers are added to the netlist for nextpnr.
-  Result<std::filesystem::path> from_mapped(const Design& design, const std::string& kind,
-                                            const std::string& script, const std::string& around) const;
+  Folder synthesized(const Design& design, const std::string& family, const std::string& script) const;
+  /// Folder with the netlist for iCE40, mapped.il.
+  Folder mapped(const Design& design) const;
+  /// What Yosys's `script` writes into `file` from mapped.il and wrapper.v, which contains `around`.
+  std::string from_mapped(const Design& design, const std::string& script, const std::string& file,
+                          const std::string& around) const;
+  /// The netlist for nextpnr, with wrapper and global buffers.
+  std::string wrapped(const Design& design) const;
+  /// Folder with what `run` keeps of nextpnr's output for the netlist.
+  Folder placed(const Design& design, const std::string& kind, const std::vector<std::string>& arguments,
+                const std::string& netlist, const std::function<void(const Folder&)>& run) const;
   GhdlLibrary library_;
-  std::filesystem::path cache_;
-  std::string yosys_, nextpnr_, versions_;
+  Yosys yosys_;
+  Folder cache_;
+  std::string nextpnr_, versions_;
   std::chrono::seconds place_time_ = c_place_time;
 };
 

@@ -19,7 +19,7 @@ constexpr const char* c_leaf_netlist =
     "   output [1:0] sum,\n   output done);\nendmodule\n";
 
 TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
-  const auto text = must(wrapper(c_leaf_netlist, "top", 256));
+  const std::string text = wrapper(c_leaf_netlist, "top", 256);
   EXPECT_THAT(text, HasSubstr("reg [3:0] in;"));
   EXPECT_THAT(text, HasSubstr("assign go = {in[0]};"));
   EXPECT_THAT(text, HasSubstr("assign a = {in[3], in[2], in[1]};"));
@@ -29,20 +29,20 @@ TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
 }
 
 TEST(SynthWrapper, ConnectsTheClockOfAxi) {
-  const auto text = must(wrapper("module top\n  (input  aclk,\n   output q);\nendmodule\n", "top", 256));
+  const std::string text = wrapper("module top\n  (input  aclk,\n   output q);\nendmodule\n", "top", 256);
   EXPECT_THAT(text, HasSubstr(".aclk(clk)"));
   EXPECT_THAT(text, Not(HasSubstr("assign aclk")));
 }
 
 TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {
-  const auto text = must(wrapper(c_leaf_netlist, "top", 3));
+  const std::string text = wrapper(c_leaf_netlist, "top", 3);
   EXPECT_THAT(text, HasSubstr("reg [2:0] in;"));
   EXPECT_THAT(text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
 }
 
 TEST(SynthWrapper, RefusesAMissingModuleOrOutput) {
-  EXPECT_FALSE(wrapper(c_leaf_netlist, "absent", 256));
-  EXPECT_FALSE(wrapper(c_leaf_netlist, "other", 256));  // no output
+  EXPECT_THROW(wrapper(c_leaf_netlist, "absent", 256), Failure);
+  EXPECT_THROW(wrapper(c_leaf_netlist, "other", 256), Failure);  // no output
 }
 
 // Two flip-flops, with a lookup table and a carry between them.
@@ -65,7 +65,7 @@ constexpr const char* c_report = R"({"critical_paths": [
   "utilization": {"ICESTORM_LC": {"available": 7680, "used": 12}}})";
 
 TEST(SynthPlacement, ReadsClockCellsAndPath) {
-  const auto placement = must(read_placement(c_report, c_wrapped, 4));
+  const Placement placement = read_placement(c_report, c_wrapped, 4);
   EXPECT_EQ(placement.seed, 4U);
   EXPECT_EQ(placement.mhz, 125.5);
   EXPECT_EQ(placement.cells_used, 12U);
@@ -79,20 +79,20 @@ TEST(SynthPlacement, ReadsClockCellsAndPath) {
 }
 
 TEST(SynthPlacement, RefusesWhatItCannotRead) {
-  EXPECT_FALSE(read_placement("", c_wrapped, 1));
-  EXPECT_FALSE(read_placement("{}", c_wrapped, 1));
-  EXPECT_FALSE(read_placement(c_report, "{}", 1));
+  EXPECT_THROW(read_placement("", c_wrapped, 1), Failure);
+  EXPECT_THROW(read_placement("{}", c_wrapped, 1), Failure);
+  EXPECT_THROW(read_placement(c_report, "{}", 1), Failure);
 }
 
 TEST(SynthPacking, ReadsNextpnrsOutput) {
-  const auto packing = must(read_packing(
+  const Packing packing = read_packing(
       "Info: Packing..\nInfo: Device utilisation:\nInfo: \t         ICESTORM_LC:  2814/ 7680    36%\nInfo: "
       "\t        "
-      "ICESTORM_RAM:     8/   32    25%\n"));
+      "ICESTORM_RAM:     8/   32    25%\n");
   EXPECT_EQ(packing.cells_used, 2814U);
   EXPECT_EQ(packing.cells_there, 7680U);
-  EXPECT_FALSE(read_packing("ERROR: no such file"));
-  EXPECT_FALSE(read_packing("ICESTORM_LC: many"));
+  EXPECT_THROW(read_packing("ERROR: no such file"), Failure);
+  EXPECT_THROW(read_packing("ICESTORM_LC: many"), Failure);
 }
 
 }  // namespace

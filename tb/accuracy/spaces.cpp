@@ -10,7 +10,6 @@
 #include "common/to_integer.hpp"
 #include "golden/formats.hpp"
 #include "sim/study/highlight_error.hpp"
-#include "sim/synth/pinned.hpp"
 #include "sim/system/must.hpp"
 #include "tables/cosine.hpp"
 

@@ -274,15 +274,11 @@ echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critica
 END
 chmod +x "$scratch/bin/yosys" "$scratch/bin/nextpnr-ice40"
 
-# A checkout without pinned clocks. Its cache contains nothing from Yosys and nextpnr.
+# A checkout without stored clocks. Its cache contains nothing from Yosys and nextpnr.
 checkout_without_clocks() { # name
-  local root=$scratch/checkout-$1 folder entry
-  mkdir -p "$root/tb/synth" "$root/build/cache" "$root/sim/studies"
-  : >"$root/tb/synth/pinned.txt"
-  ln -s "$checkout/rtl" "$root"
-  for entry in "$checkout"/sim/*; do [ "${entry##*/}" = studies ] || ln -s "$entry" "$root/sim"; done
-  for entry in "$checkout"/sim/studies/*; do [ "${entry##*/}" = clocks.txt ] || ln -s "$entry" "$root/sim/studies"; done
-  : >"$root/sim/studies/clocks.txt"
+  local root=$scratch/checkout-$1 folder
+  mkdir -p "$root/build/cache"
+  ln -s "$checkout/rtl" "$checkout/sim" "$root"
   for folder in "$checkout"/build/cache/*; do
     case ${folder##*/} in yosys | synth | placed) ;; *) ln -s "$folder" "$root/build/cache" ;; esac
   done

@@ -90,8 +90,6 @@ constexpr Site c_sites[] = {
     {"sim/cli/options.cpp", 1, "Progress::show: a percentage; any part of the work done"},
     {"sim/cli/plan.cpp", 1, "saved: a percentage of cells"},
     {"sim/cli/sim.cpp", 1, "run: a percentage"},
-    {"sim/costs/savings.cpp", 1,
-     "read_savings: counts of a table of this project, not negative; savings_test"},
     {"sim/figures/quadratic_figures.cpp", 1, "draw_times: words of an interpolator; numbers of its own"},
     {"sim/figures/rings.cpp", 1, "measure_rings: half a line of a disc"},
     {"sim/figures/spherical_figures.cpp", 1, "entry_at: an entry of a table; angles within it"},
@@ -114,7 +112,7 @@ constexpr Site c_sites[] = {
     {"model/tables/cosine.cpp", 1, "entries, checked sizes; cosine_test"},
     {"model/tables/functions.cpp", 2,
      "entries, and the root's raise, less than 2^24 of relative errors below 1; functions_test"},
-    {"sim/synth/pinned.cpp", 1, "a share of a count of cells; pinned_test"},
+    {"sim/synth/clock_store.cpp", 1, "read_clocks: counts, not negative; clock_store_test"},
 };
 
 std::size_t closing(const std::string& text, std::size_t open) {

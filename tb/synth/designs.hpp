@@ -13,10 +13,10 @@ namespace halfway::synth {
 inline constexpr const char* c_accumulator = "tb/synth/accumulator.vhd";  ///< not in rtl/
 
 struct ListedDesign {
-  Design design;       ///< its name in the page and in pinned.txt
+  Design design;       ///< its name in pages and thresholds
   bool quick = false;  ///< one or two seconds of Yosys: also in `make test`
-  bool ice40 =
-      true;  ///< false: much too large for the device and slow to synthesize; only for ECP5, and not pinned
+  bool ice40 = true;  ///< false: much too large for the device and slow to synthesize; only for ECP5, without
+                      ///< thresholds
 };
 
 /// All designs, in the order of the page.

@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the list of designs with rtl/, and the pinned and printed figures with the list.
+// Compares the list of designs with rtl/ and with the thresholds.
 #include "designs.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "sim/synth/pinned.hpp"
-#include "sim/system/file.hpp"
+#include "page/thresholds.hpp"
+#include "performance.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::synth {
 namespace {
 
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
-
-std::vector<std::string> names() {
-  std::vector<std::string> names;
-  for (const ListedDesign& listed : all_designs()) names.push_back(listed.design.name);
-  return names;
-}
 
 TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   auto sources = read_rtl_sources(c_root);
@@ -54,46 +46,33 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   EXPECT_GT(there.size(), 30U);
 }
 
-TEST(SynthDesigns, ArePinnedEachOnceAndNothingElseIs) {
-  std::vector<std::string> listed;
-  for (const ListedDesign& design : all_designs())
-    if (design.ice40) listed.push_back(design.design.name);
-  std::ranges::sort(listed);
-  EXPECT_EQ(std::ranges::adjacent_find(listed), listed.end()) << "two designs of one name";
-  const auto pins = read_pins(c_root / c_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  std::vector<std::string> pinned;
-  for (const auto& [name, pin] : *pins) pinned.push_back(name);
-  EXPECT_THAT(pinned, ::testing::ContainerEq(listed));
+TEST(SynthDesigns, HaveThresholds) {
+  const auto thresholds = page::Thresholds::read(c_root);
+  ASSERT_TRUE(thresholds) << thresholds.error().message;
+  std::set<std::string> names;
+  std::vector<page::Value> values;
+  for (const ListedDesign& listed : all_designs()) {
+    const std::string& name = listed.design.name;
+    EXPECT_TRUE(names.insert(name).second) << name << ": a second design of this name";
+    if (!listed.ice40) continue;
+    EXPECT_FALSE(thresholds->numbers("cells", name).empty()) << name;
+    values.push_back({"cells", name, {}});
+  }
+  EXPECT_THAT(thresholds->unmeasured(values), ::testing::IsEmpty());
 }
 
-// Within the permitted difference: the page may be from another run with other seeds.
-TEST(SynthDesigns, HaveTheirRowsInThePage) {
-  const auto page = read_file(c_root / "docs/results/synthesis.md");
-  ASSERT_TRUE(page) << page.error().message;
-  const auto pins = read_pins(c_root / c_pins);
-  ASSERT_TRUE(pins) << pins.error().message;
-  const std::size_t figures = page->find("\n## Figures\n");
-  ASSERT_NE(figures, std::string::npos);
-  const std::string table = page->substr(figures);
-  const std::regex row(
-      R"(\n\| `(\w+)` \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| (\d+|–) \| [^|]+ \| [^|]+ \| (\d+|–) \|)");
-  std::vector<std::string> rows;
-  for (std::sregex_iterator it(table.begin(), table.end(), row), end; it != end; ++it) {
-    const std::string name = (*it)[1];
-    rows.push_back(name);
-    const auto published = published_ns(name);
-    EXPECT_EQ((*it)[7], published ? std::to_string(*published) : "–") << name;
-    const auto found = pins->find(name);
-    EXPECT_EQ(found == pins->end(), (*it)[2] == "–") << name;
-    if (found == pins->end()) continue;
-    const Pin& pin = found->second;
-    const auto cells = [&](std::size_t column) { return std::stoull((*it)[column]); };
-    EXPECT_EQ(compare(name, *pins, {cells(2), cells(3), cells(4), cells(5)}, std::nullopt), "");
-    const double mhz = (*it)[6] == "–" ? 0 : std::stod((*it)[6]);
-    EXPECT_LE(std::fabs(mhz - pin.mhz), c_clock_share * pin.mhz + 0.5) << name;
-  }
-  EXPECT_THAT(rows, ::testing::ContainerEq(names()));
+TEST(SynthDesigns, HaveThePapersTimes) {
+  EXPECT_EQ(published_ns("quadratic_shader_grey_exact"), 50);
+  EXPECT_EQ(published_ns("spherical_shader_published"), 60);
+  EXPECT_EQ(published_ns("shading_processor_diffuse_published"), 50);
+  EXPECT_FALSE(published_ns("unrolled_shading_processor_diffuse_published"));
+}
+
+TEST(SynthDesigns, HaveTheClocksOfThePage) {
+  ClockStore clocks = must(read_clocks(c_root));
+  EXPECT_THAT(performance_table(clocks), ::testing::HasSubstr("\n| `quadratic_shader_grey_exact` | "));
+  clocks.at("accumulator_40").mhz = 0;
+  EXPECT_THROW(performance_table(clocks), Failure);
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs synthesis tools and keeps their results in build/cache. Errors are thrown as Failure.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace halfway::synth {
+
+inline constexpr std::chrono::minutes c_tool_timeout{60};
+inline constexpr const char* c_install_tools = "apt-get install yosys nextpnr-ice40 fpga-icestorm";
+
+/// What the command prints. If it fails, the error has its output; `doing` is for the message.
+std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                     const std::string& doing);
+
+/// The first line that a tool prints for its version.
+std::string version_of(const std::string& tool, const std::string& option);
+
+/// Calls `fill` for a new folder, unless the folder exists. If `fill` throws, no folder remains.
+void keep_folder(const std::filesystem::path& folder,
+                 const std::function<void(const std::filesystem::path&)>& fill);
+
+class Yosys {
+ public:
+  /// Results are kept in `cache`.
+  static Yosys find(const std::filesystem::path& cache);
+  const std::string& version() const { return version_; }
+
+  /// Names and texts.
+  using Files = std::vector<std::pair<std::string, std::string>>;
+  /// The folder of the files and of what the script writes. It is kept if `check` does not throw.
+  /// Thread-safe.
+  std::filesystem::path run(const std::string& name, const std::string& script, const Files& files,
+                            const std::function<void(const std::filesystem::path&)>& check) const;
+
+ private:
+  Yosys(std::string version, std::filesystem::path cache)
+      : version_(std::move(version)), cache_(std::move(cache)) {}
+  std::string version_;
+  std::filesystem::path cache_;
+};
+
+/// The file cells.json that every script writes by c_statistics, and its numbers of the whole design.
+inline constexpr std::string_view c_statistics = "tee -q -o cells.json stat -json";
+nlohmann::json read_statistics(const std::filesystem::path& folder);
+
+/// Cell types whose names start with `prefix` add `weight` to the number; nullptr: they are not counted.
+struct CellKind {
+  std::string_view prefix;
+  std::uint64_t* number;
+  std::uint64_t weight = 1;
+};
+/// Count each type of the folder's statistics as the first kind that it is of.
+void count_cells(const std::filesystem::path& folder, std::initializer_list<CellKind> kinds);
+
+}  // namespace halfway::synth
