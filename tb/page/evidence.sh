@@ -10,11 +10,12 @@ mkdir -p "$work/tb" "$work/build"
 cd "$work"
 fail() { echo "evidence: $*" >&2; cat log >&2; exit 1; }
 git() { command git -c user.name=n -c user.email=e -c init.defaultBranch=main "$@" >/dev/null; }
-run() { # wanted exit code, words of the output
-  code=0
-  "$program" --gtest_brief=1 --evidence >log 2>&1 || code=$?
-  [ $code = "$1" ] || fail "the exit code is $code, not $1"
-  grep -qF -- "$2" log || fail "'$2' is missing"
+run() { # wanted exit code, words of the output, options
+  wanted=$1 words=$2 code=0
+  shift 2
+  "$program" --gtest_brief=1 --evidence "$@" >log 2>&1 || code=$?
+  [ $code = "$wanted" ] || fail "the exit code is $code, not $wanted"
+  grep -qF -- "$words" log || fail "'$words' is missing"
 }
 measured() { tr -d '\n' <build/measured; }
 
@@ -63,6 +64,8 @@ git checkout -q tb
 echo 2 >source.c
 run 2 'source.c'
 git commit -am two
+run 0 'small: 1 of 3 rows are measured; the page is not written' --part=items/a
+cmp page.md before.md || fail 'a page was written although rows are missing'
 echo -1 >build/c
 run 1 'FAILED'
 cmp page.md before.md || fail 'a page was written although a row is missing'
