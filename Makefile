@@ -217,10 +217,10 @@ evidence: configure $(if $(filter speed,$(PAGE)),mcode) ## measure the pages of 
 stability: configure ## make evidence PAGE=hard_cases: hard cases in specification, golden model and RTL
 	@$(call measure,hard_cases)
 
-search: configure ## test random triangles and scenes in the golden model, some of them in the RTL; reduce and store a failing input (TRIANGLES, SEED)
+search: configure ## test random triangles and scenes in the golden model, some of them in the RTL (TRIANGLES, SEED)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_search
 	@build/tb/halfway_search $(call option,TRIANGLES,--triangles) $(call option,SEED,--seed) \
-	  --page=docs/results/hard_cases.md --keep=tb/stability/regressions .
+	  --page=docs/results/hard_cases.md .
 
 bounds: configure ## make evidence PAGE=bounds: error bounds of formats and tables
 	@$(call measure,bounds)

@@ -18,19 +18,18 @@ void Tally::add(const Tally& other) {
   }
 }
 
-void InputFigures::add(const char* quantity, const Worst& worst) {
-  if (worst.count == 0) return;
-  tally_.worst[quantity].add(worst.figure, worst.bound, [&] { return worst.where; });
-  if (!worst.within() && !failure_)
-    failure_ = {quantity, fmt::format("{}: {:.4g} of {:.4g}", worst.where, worst.figure, worst.bound)};
+std::string Tally::add(const char* quantity, const Worst& of_input) {
+  if (of_input.count == 0) return "";
+  worst[quantity].add(of_input.figure, of_input.bound, [&] { return of_input.where; });
+  if (of_input.within()) return "";
+  return fmt::format("{}: {}: {:.4g} of {:.4g}", quantity, of_input.where, of_input.figure, of_input.bound);
 }
 
-Result<std::optional<Failure>> rtl_failure(const Trial& trial, std::uint64_t inputs, Tally& tally) {
+Result<std::string> rtl_failure(const Trial& trial, std::uint64_t inputs, Tally& tally) {
   if (!trial.tools()) return trial.tools().error();
   tally.rtl_inputs += inputs;
   tally.rtl_fragments += trial.rtl_fragments();
-  if (trial.failure().empty()) return std::optional<Failure>{};
-  return std::optional(Failure{"rtl", trial.failure()});
+  return trial.failure();
 }
 
 }  // namespace halfway::stability

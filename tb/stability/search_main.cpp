@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_search: tries random inputs, or the kept ones. A failing input is shrunk, printed and written to a
-// file.
+// halfway_search: tries random inputs, until one fails.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,7 +10,6 @@
 #include <cstdio>
 #include <ctime>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -21,253 +19,182 @@
 #include "page/page.hpp"
 #include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
-#include "sim/system/file.hpp"
 #include "sim/system/seconds.hpp"
-#include "stability/scene_search.hpp"
 #include "stability/search.hpp"
-#include "stability/shrink.hpp"
-#include "stability/triangle_search.hpp"
 
 namespace halfway::stability {
-
 namespace {
-
-std::vector<std::unique_ptr<Search>> all_searches() {
-  std::vector<std::unique_ptr<Search>> searches;
-  searches.push_back(make_triangle_search());
-  searches.push_back(make_spherical_search());
-  searches.push_back(make_processors_search());
-  return searches;
-}
 
 // Number of inputs that a thread takes at a time and draws together in the RTL.
 constexpr std::uint64_t c_batch = 100;
 
+struct SearchKind {
+  std::string_view name;                  ///< the kind of inputs, in the plural
+  std::string_view about;                 ///< for the page
+  std::uint64_t quick_count, full_count;  ///< inputs of `make test` and of `make search`
+  std::uint64_t rtl_every;                ///< one batch in so many is checked in the RTL
+  MakeSearch* make;
+};
+
+constexpr SearchKind c_searches[] = {
+    {"triangles",
+     "Random triangles of every kind: slivers one unit thick, triangles of one line, triangles within a "
+     "pixel, vertices on pixel centres, vertices anywhere in the guard band. One in four is a piece of a "
+     "split triangle, down to level 5. Samples are up to 1023 steps, depths from the near to the far plane, "
+     "sides of frames 1 to 4096 pixels. Colour and depth are in steps, minus the half step of rounding; the "
+     "bound is that of the pixel's forward differences.",
+     20'000, 10'000'000, 25, make_triangle_search},
+    {"spherical-scenes",
+     "Random scenes in the spherical shader, both presets: up to eight triangles with their own normals, up "
+     "to sixteen lights of all kinds, from close to the surface to far away. The figure of a scene is that "
+     "of its worst pixel; the bound is that of the set-up's threshold, of bells and of tables. Preset "
+     "`published` is only drawn by the RTL.",
+     200, 25'000, 10, make_spherical_search},
+    {"processor-scenes",
+     "The same scenes in the shading processors, both presets and both forms, with and without shadows, with "
+     "near planes that cut triangles. The figure of a scene is that of its worst pixel; the bound is that of "
+     "the errors of the units. A shadow may fall on any pixel here; the family `shadows` checks shadows.",
+     200, 25'000, 10, make_processors_search},
+};
+
 struct Options {
   bool quick = false;
   std::uint32_t seed = 1;
+  std::uint64_t first = 0;
   std::map<std::string_view, std::uint64_t> counts{};  ///< by name of the search; empty: all searches
-  std::filesystem::path page{}, keep{}, replay{}, source{};
+  std::filesystem::path page{}, source{};
   SimulatorFolders folders() const { return {source, source / "build" / "cache"}; }
-};
-
-// Different seeds of a run, and runs with neighbouring seeds, share no input.
-std::uint32_t seed_of(std::uint32_t run, std::uint64_t index) {
-  return run * 0x9E37'79B9U + static_cast<std::uint32_t>(index);
-}
-
-struct Found {
-  std::uint64_t index;  ///< of the input, or of the first one of its batch
-  bool in_rtl;
-  Failure failure;
 };
 
 // State that all threads of one search share.
 class Run {
  public:
-  Run(const Search& search, const Options& options, std::uint64_t count)
-      : search_(search), options_(options), count_(count) {}
+  Run(const SearchKind& kind, const Options& options, std::uint64_t count)
+      : kind_(kind), options_(options), end_(options.first + count), next_(options.first) {}
 
+  // Batches are taken in order, so that the first failure does not depend on the number of threads.
   void work() {
-    const auto checker = search_.checker(options_.folders(), options_.quick);
+    const auto search = kind_.make(options_.folders(), options_.quick);
     Tally tally;
-    std::vector<Input> batch;
-    // Batches are taken in order, so that the first failure does not depend on the number of threads.
-    for (std::uint64_t at; !stop_ && (at = next_.fetch_add(c_batch)) < count_;) {
-      const std::uint64_t end = std::min(at + c_batch, count_);
-      batch.clear();
-      for (std::uint64_t i = at; i < end; ++i) {
-        batch.push_back(search_.make(seed_of(options_.seed, i)));
-        if (auto failure = checker->check(batch.back(), tally)) return found({i, false, *failure}, tally);
+    std::vector<std::uint32_t> seeds;
+    for (std::uint64_t at; !stop_ && (at = next_.fetch_add(c_batch)) < end_;) {
+      seeds.clear();
+      for (std::uint64_t i = at; i < std::min(at + c_batch, end_); ++i) {
+        seeds.push_back(seed_of(i));
+        fail(i, search->check(seeds.back(), tally));
       }
-      if (at / c_batch % search_.rtl_every() == 0) {
-        const auto rtl = checker->check_rtl(batch, tally);
-        if (!rtl) return broken(rtl.error(), tally);
-        if (*rtl) return found({at, true, **rtl}, tally);
-      }
-      done_ += end - at;
+      if ((at - options_.first) / c_batch % kind_.rtl_every != 0) continue;
+      if (const auto rtl = search->check_rtl(seeds, tally))
+        fail(at, *rtl);
+      else
+        break_off(rtl.error());
     }
     const std::lock_guard lock(mutex_);
     tally_.add(tally);
   }
 
-  std::uint64_t done() const { return done_; }
+  std::uint64_t done() const { return std::min(next_.load(), end_) - options_.first; }
   const Tally& tally() const { return tally_; }
-  const std::optional<Found>& failure() const { return found_; }
+  /// The first input that fails, or the first one of its batch, and the reason.
+  const std::map<std::uint64_t, std::string>& failures() const { return failures_; }
   const Status& tools() const { return tools_; }
 
  private:
-  void found(Found failure, const Tally& tally) {
-    const std::lock_guard lock(mutex_);
-    tally_.add(tally);
-    stop_ = true;
-    if (!found_ || failure.index < found_->index) found_ = std::move(failure);
+  // Different numbers of a run, and runs with neighbouring seeds, share no input.
+  std::uint32_t seed_of(std::uint64_t number) const {
+    return options_.seed * 0x9E37'79B9U + static_cast<std::uint32_t>(number);
   }
-  void broken(const Error& error, const Tally& tally) {
+  void fail(std::uint64_t number, const std::string& what) {
+    if (what.empty()) return;
     const std::lock_guard lock(mutex_);
-    tally_.add(tally);
+    failures_.emplace(number, what);
     stop_ = true;
+  }
+  void break_off(const Error& error) {
+    const std::lock_guard lock(mutex_);
     tools_ = error;
+    stop_ = true;
   }
 
-  const Search& search_;
+  const SearchKind& kind_;
   const Options& options_;
-  std::uint64_t count_;
-  std::atomic<std::uint64_t> next_ = 0, done_ = 0;
+  std::uint64_t end_;
+  std::atomic<std::uint64_t> next_;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
   Tally tally_;
-  std::optional<Found> found_;
+  std::map<std::uint64_t, std::string> failures_;
   Status tools_ = Ok{};
 };
 
-// Shrinks the failing input, prints it and writes it to a file.
-Status report(const Search& search, const Options& options, const Found& found) {
-  const auto checker = search.checker(options.folders(), options.quick);
-  Tally ignored;
-  const auto failure_of = [&](const Input& input) -> std::optional<Failure> {
-    if (!found.in_rtl) return checker->check(input, ignored);
-    const auto rtl = checker->check_rtl(std::span(&input, 1), ignored);
-    return rtl ? *rtl : std::nullopt;
-  };
-  const auto fails = [&](const Input& input) {
-    const auto failure = failure_of(input);
-    return failure && failure->quantity == found.failure.quantity;
-  };
-  const std::uint64_t last = found.in_rtl ? found.index + c_batch : found.index + 1;
-  for (std::uint64_t i = found.index; i < last; ++i) {
-    Input input = search.make(seed_of(options.seed, i));
-    if (!fails(input)) continue;
-    input = shrink(search.parameters(), std::move(input), fails,
-                   [&](const Input& from) { return search.simpler(from); });
-    const Failure shrunk = *failure_of(input);
-    const std::string text = write_regression(
-        search.name(), search.parameters(), input,
-        fmt::format("{}: {} (seed {}, input {})", shrunk.quantity, shrunk.what, options.seed, i));
-    fmt::print("{}: input {} of seed {} FAILS: {}: {}\nthe reduced input:\n{}", search.name(), i,
-               options.seed, found.failure.quantity, found.failure.what, text);
-    if (options.keep.empty()) return Ok{};
-    if (auto made = make_folders(options.keep); !made) return made;
-    const auto file =
-        options.keep / fmt::format("{}_{}_{}_{}.txt", search.name(), shrunk.quantity, options.seed, i);
-    fmt::print("stored as {}\n", file.string());
-    return write_file(file, text);
+// Runs the workers and shows their progress on a terminal.
+void run_threads(Run& run, const SearchKind& kind, std::uint64_t count, unsigned threads) {
+  std::atomic<unsigned> working = threads;  // outlives the workers: each one decrements it at its end
+  std::vector<std::jthread> workers;
+  for (unsigned i = 0; i < threads; ++i)
+    workers.emplace_back([&] {
+      run.work();
+      --working;
+    });
+  while (isatty(STDERR_FILENO) && working > 0) {
+    fmt::print(stderr, "{}: {} of {}\r", kind.name, run.done(), count);
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
   }
-  fmt::print("{}: inputs {} to {} of seed {} FAIL when drawn in sequence, but none of them alone: {}\n",
-             search.name(), found.index, last - 1, options.seed, found.failure.what);
-  return Ok{};
 }
 
-std::string section_body(const Search& search, const Options& options, const Tally& tally, double seconds,
+page::Section section_of(const SearchKind& kind, const Options& options, const Tally& tally, double seconds,
                          double processor_seconds) {
   const std::vector<std::string> columns = {"quantity", "inputs", "worst", "of"};
   std::vector<std::vector<std::string>> rows;
   for (const auto& [quantity, worst] : tally.worst)
     rows.push_back({quantity, std::to_string(worst.count), fmt::format("{:.3g}", worst.figure),
                     fmt::format("{:.3g}", worst.bound)});
-  return fmt::format(
-      "{}\n\n`make search` with seed {}: {} inputs and {} fragments through the golden model against the "
-      "specification, {} inputs and {} fragments through the RTL (Verilator) against the golden model; "
-      "{:.0f} s, {:.0f} s of processor time.\n\n{}",
-      search.about(), options.seed, tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments,
-      seconds, processor_seconds, markdown_table(columns, rows));
+  return {fmt::format("Search: {}", kind.name),
+          fmt::format("{}\n\n`make search` with seed {}: {} inputs and {} fragments through the golden model "
+                      "against the specification, {} inputs and {} fragments through the RTL (Verilator) "
+                      "against the golden model; {:.0f} s, {:.0f} s of processor time.\n\n{}",
+                      kind.about, options.seed, tally.inputs, tally.fragments, tally.rtl_inputs,
+                      tally.rtl_fragments, seconds, processor_seconds, markdown_table(columns, rows))};
 }
 
-ExitCode run_search(const Search& search, const Options& options, std::uint64_t count,
+ExitCode run_search(const SearchKind& kind, const Options& options, std::uint64_t count,
                     std::vector<page::Section>& sections) {
   const auto began = std::chrono::steady_clock::now();
   const std::clock_t processor_began = std::clock();
-  const auto seconds = [&] { return seconds_since(began); };
-  Run run(search, options, count);
-  {
-    // Must outlive the workers: each one decrements it at its end.
-    std::atomic<unsigned> working = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
-    std::vector<std::jthread> workers;
-    for (unsigned i = working; i > 0; --i)
-      workers.emplace_back([&] {
-        run.work();
-        --working;
-      });
-    while (isatty(STDERR_FILENO) && working > 0) {
-      fmt::print(stderr, "{}: {} of {}, {:.0f} s\r", search.name(), run.done(), count, seconds());
-      std::this_thread::sleep_for(std::chrono::milliseconds(200));
-    }
-  }
+  Run run(kind, options, count);
+  run_threads(run, kind, count, options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency()));
   const Tally& tally = run.tally();
-  fmt::print("{}: {} inputs, {} fragments; {} inputs, {} fragments in the RTL; {:.1f} s\n", search.name(),
-             tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments, seconds());
+  fmt::print("{}: {} inputs, {} fragments; {} inputs, {} fragments in the RTL; {:.1f} s\n", kind.name,
+             tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments, seconds_since(began));
   for (const auto& [quantity, worst] : tally.worst)
     fmt::print("  {}: {:.4g} of {:.4g} at worst, {} inputs {}\n", quantity, worst.figure, worst.bound,
                worst.count, worst.where.empty() ? "" : "(" + worst.where + ")");
-  if (run.failure()) {
-    const auto reported = report(search, options, *run.failure());
-    if (!reported) fmt::print(stderr, "{}\n", reported.error().message);
+  if (!run.failures().empty()) {
+    const auto& [number, what] = *run.failures().begin();
+    fmt::print("FAILS: {}; again: halfway_search --seed {} --first {} --{} {} .\n", what, options.seed,
+               number, kind.name, c_batch);
     return ExitCode::differs;
   }
   if (!run.tools()) {
     fmt::print(stderr, "{}\n", run.tools().error().message);
     return run.tools().error().code;
   }
-  sections.push_back({fmt::format("Search: {}", search.name()),
-                      section_body(search, options, tally, seconds(),
-                                   double(std::clock() - processor_began) / CLOCKS_PER_SEC)});
+  sections.push_back(section_of(kind, options, tally, seconds_since(began),
+                                double(std::clock() - processor_began) / CLOCKS_PER_SEC));
   return ExitCode::equal;
 }
 
-ExitCode replay(const std::vector<std::unique_ptr<Search>>& searches, const Options& options) {
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(options.replay, error))
-    if (entry.path().extension() == ".txt") files.push_back(entry.path());
-  std::ranges::sort(files);
-  std::size_t failed = 0;
-  for (const auto& file : files) {
-    const auto text = read_file(file);
-    if (!text) {
-      fmt::print(stderr, "{}\n", text.error().message);
-      return text.error().code;
-    }
-    const auto search_of = [&](std::string_view name) {
-      return std::ranges::find_if(searches, [&](const auto& search) { return search->name() == name; });
-    };
-    const auto regression = read_regression(file.string(), *text, [&](std::string_view name) {
-      const auto search = search_of(name);
-      return search == searches.end() ? std::span<const Parameter>() : (*search)->parameters();
-    });
-    if (!regression) {
-      fmt::print(stderr, "{}\n", regression.error().message);
-      return regression.error().code;
-    }
-    const auto checker = (*search_of(regression->search))->checker(options.folders(), false);
-    Tally tally;
-    auto failure = checker->check(regression->input, tally);
-    if (!failure) {
-      const auto rtl = checker->check_rtl(std::span(&regression->input, 1), tally);
-      if (!rtl) {
-        fmt::print(stderr, "{}\n", rtl.error().message);
-        return rtl.error().code;
-      }
-      failure = *rtl;
-    }
-    failed += failure.has_value();
-    fmt::print("{}: {}\n", file.filename().string(),
-               failure ? fmt::format("FAILS: {}: {}", failure->quantity, failure->what) : "holds");
-  }
-  fmt::print("{} of {} regressions fail\n", failed, files.size());
-  return failed > 0 ? ExitCode::differs : ExitCode::equal;
-}
-
-ExitCode run_all(const std::vector<std::unique_ptr<Search>>& searches, const Options& options) {
+ExitCode run_all(const Options& options) {
   std::vector<page::Section> sections;
   ExitCode worst = ExitCode::equal;
-  for (const auto& search : searches) {
-    std::uint64_t count = options.quick ? search->quick_count() : search->full_count();
+  for (const SearchKind& kind : c_searches) {
+    std::uint64_t count = options.quick ? kind.quick_count : kind.full_count;
     if (!options.counts.empty()) {
-      const auto asked = options.counts.find(search->name());
+      const auto asked = options.counts.find(kind.name);
       if (asked == options.counts.end()) continue;
       count = asked->second;
     }
-    worst = std::max(worst, run_search(*search, options, count, sections));
+    worst = std::max(worst, run_search(kind, options, count, sections));
   }
   if (options.page.empty()) return worst;
   const auto written = page::write_sections(options.page, sections);
@@ -282,25 +209,22 @@ ExitCode run_all(const std::vector<std::unique_ptr<Search>>& searches, const Opt
 int main(int argc, char** argv) {
   using namespace halfway;
   using namespace halfway::stability;
-  const auto searches = all_searches();
   Options options;
-  CLI::App app{"Tests random inputs; a failing input is reduced, printed and stored", "halfway_search"};
+  CLI::App app{"Tests random inputs, until one fails", "halfway_search"};
   app.add_flag("--quick", options.quick, "few inputs of each search");
   app.add_option("--seed", options.seed, "other inputs")->capture_default_str();
-  for (const auto& search : searches)
+  app.add_option("--first", options.first, "number of the first input")->capture_default_str();
+  for (const SearchKind& kind : c_searches)
     app.add_option_function<std::uint64_t>(
-        fmt::format("--{}", search->name()),
-        [&options, name = search->name()](std::uint64_t count) { options.counts[name] = count; },
+        fmt::format("--{}", kind.name),
+        [&options, name = kind.name](std::uint64_t count) { options.counts[name] = count; },
         "run this search with this number of inputs; searches without such an option do not run");
   app.add_option("--page", options.page, "page whose sections of searches are written");
-  app.add_option("--keep", options.keep, "folder for inputs that fail");
-  app.add_option("--replay", options.replay, "checks the inputs of this folder instead");
   app.add_option("SOURCE", options.source, "the project's root")->required();
   int exit_code = 0;
   app.callback([&] {
     options.source = std::filesystem::absolute(options.source);
-    exit_code =
-        static_cast<int>(options.replay.empty() ? run_all(searches, options) : replay(searches, options));
+    exit_code = static_cast<int>(run_all(options));
   });
   return cli::run_program(app, argc, argv, exit_code);
 }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stability/triangle_search.hpp"
-
+// The search over triangles on the screen: coverage, colour and depth of the quadratic shader.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <tuple>
 
 #include "golden/formats.hpp"
@@ -16,6 +14,7 @@
 #include "setup/quadratic_setup.hpp"
 #include "setup/test/random_triangles.hpp"
 #include "stability/screen_drawing.hpp"
+#include "stability/search.hpp"
 
 namespace halfway::stability {
 namespace {
@@ -28,53 +27,6 @@ constexpr std::int64_t c_greatest_sample = std::int64_t{1023} << c_sample_bits;
 constexpr std::int64_t c_least_depth = std::int64_t{1} << c_depth_bits,
                        c_greatest_depth = std::int64_t{(1 << 24) - 3} << c_depth_bits;
 constexpr std::int64_t c_least_place = c_guard_begin * 16, c_greatest_place = c_guard_end * 16;
-
-constexpr Parameter place(std::string_view name) {
-  return {name, 0, c_least_place, c_greatest_place, 8};
-}
-constexpr Parameter depth(std::string_view name) {
-  return {name, c_least_depth, c_least_depth, c_greatest_depth, 1 << c_depth_bits};
-}
-constexpr Parameter sample(std::string_view name) {
-  return {name, 0, 0, c_greatest_sample, 1 << c_sample_bits};
-}
-
-// The corners of a triangle in 1/16 pixel; the number of splits, and the quarter taken by each split, in two
-// bits; depths in 2^-15 steps, and samples of the last quarter in 2^-28 colour steps.
-constexpr Parameter c_parameters[] = {{"width", 1, 1, 4096},
-                                      {"height", 1, 1, 4096},
-                                      {"colours", 1, 1, 3},
-                                      {"level", 0, 0, 5},
-                                      {"quarters", 0, 0, 1023},
-                                      place("x1"),
-                                      place("y1"),
-                                      place("x2"),
-                                      place("y2"),
-                                      place("x3"),
-                                      place("y3"),
-                                      depth("depth1"),
-                                      depth("depth2"),
-                                      depth("depth3"),
-                                      sample("red1"),
-                                      sample("red2"),
-                                      sample("red3"),
-                                      sample("red12"),
-                                      sample("red13"),
-                                      sample("red23"),
-                                      sample("green1"),
-                                      sample("green2"),
-                                      sample("green3"),
-                                      sample("green12"),
-                                      sample("green13"),
-                                      sample("green23"),
-                                      sample("blue1"),
-                                      sample("blue2"),
-                                      sample("blue3"),
-                                      sample("blue12"),
-                                      sample("blue13"),
-                                      sample("blue23")};
-enum At : std::size_t { width, height, colours, level, quarters, corners, depths = 11, samples = 14 };
-static_assert(std::size(c_parameters) == samples + 18);
 
 HardwareKey key_of(unsigned channels) {
   return {.shader = Shader::quadratic, .preset = Preset::exact, .channels = channels};
@@ -90,23 +42,75 @@ struct Subject {
   ChannelSamples sample;
 };
 
-Subject subject_of(const Input& input) {
+std::int64_t wide(RandomTriangles& random, std::int64_t least, std::int64_t greatest) {
+  const std::int64_t any =
+      std::int64_t{random.within(0, (1 << 24) - 1)} << 24 | random.within(0, (1 << 24) - 1);
+  return least + any % (greatest - least + 1);
+}
+// All sizes, but mostly small frames, so that many triangles fit into a minute.
+FrameSize random_frame(RandomTriangles& random) {
+  const auto side = [&](int most) { return static_cast<std::uint32_t>(random.within(1, most)); };
+  const int draw = random.within(0, 99'999);
+  if (draw < 10) return {4096, 4096};
+  if (draw < 500) return {4096, side(12)};
+  if (draw < 1'000) return {side(12), 4096};
+  if (draw < 9'000) return {side(320), side(240)};
+  return {side(64), side(64)};
+}
+// Moves the triangle so that a point of its piece lies in the frame, within the limits of the guard band.
+void bring_into_frame(RandomTriangles& random, FrameSize frame, const Points& piece, int level,
+                      Points& corners) {
+  const int share = random.within(0, 64), other = random.within(0, 64 - share);
+  const auto move = [&](std::int32_t ScreenPoint::*axis, std::uint32_t side) {
+    const auto at = [&](std::size_t n) { return std::int64_t{piece[n].*axis} >> level; };
+    const auto [least, greatest] = std::minmax({corners[0].*axis, corners[1].*axis, corners[2].*axis});
+    const std::int64_t place = (share * at(0) + other * at(1) + (64 - share - other) * at(2)) / 64,
+                       to = random.within(0, static_cast<int>(side) * 16);
+    const std::int64_t by = std::clamp(to - place, c_least_place - least, c_greatest_place - greatest);
+    for (ScreenPoint& p : corners) p.*axis += static_cast<std::int32_t>(by);
+  };
+  move(&ScreenPoint::x, frame.width);
+  move(&ScreenPoint::y, frame.height);
+}
+
+// The quarter of each of `level` splits is two bits of `path`.
+Points piece_of(Points whole, int level, int path) {
+  for (int i = 0; i < level; ++i) whole = quarters(whole)[static_cast<std::size_t>(path >> (2 * i) & 3)];
+  return whole;
+}
+
+Subject subject_of(std::uint32_t seed) {
+  RandomTriangles random(seed);
   Subject s;
-  s.frame = {static_cast<std::uint32_t>(input[At::width]), static_cast<std::uint32_t>(input[At::height])};
-  s.channels = input[At::colours] == 1 ? 1 : 3;
-  s.unit_bits = c_subpixel_bits + static_cast<int>(input[At::level]);
-  for (std::size_t i = 0; i < 3; ++i) {
-    s.whole[i] = {static_cast<std::int32_t>(input[At::corners + 2 * i]),
-                  static_cast<std::int32_t>(input[At::corners + 2 * i + 1])};
-    s.depth[i] = input[At::depths + i];
-  }
-  s.piece = s.whole;
-  for (std::int64_t i = 0; i < input[At::level]; ++i)
-    s.piece = stability::quarters(s.piece)[static_cast<std::size_t>(input[At::quarters] >> (2 * i) & 3)];
-  for (ScreenPoint& p : s.whole) p = {p.x << input[At::level], p.y << input[At::level]};
-  for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t i = 0; i < 6; ++i)
-      s.sample[c][i] = std::ldexp(double(input[At::samples + 6 * c + i]), -c_sample_bits);
+  s.frame = random_frame(random);
+  s.channels = random.within(0, 3) == 0 ? 3 : 1;
+  const int level = std::max(0, random.within(-5, 5)), path = random.within(0, (1 << (2 * level)) - 1);
+  s.unit_bits = c_subpixel_bits + level;
+  const TriangleKind kind =
+      c_triangle_kinds[static_cast<std::size_t>(random.within(0, c_triangle_kinds.size() - 1))];
+  s.whole = random.next(kind, c_subpixel_bits, s.frame);
+  const auto clamped = [](std::int32_t at) {
+    return static_cast<std::int32_t>(std::clamp<std::int64_t>(at, c_least_place, c_greatest_place));
+  };
+  for (ScreenPoint& p : s.whole) p = {clamped(p.x), clamped(p.y)};
+  if (random.within(0, 3) > 0)
+    bring_into_frame(random, s.frame, piece_of(s.whole, level, path), level, s.whole);
+  s.piece = piece_of(s.whole, level, path);
+  for (ScreenPoint& p : s.whole) p = {p.x << level, p.y << level};
+  const int deep = random.within(0, 2);
+  for (std::int64_t& depth : s.depth)
+    depth = deep == 0 ? (random.within(0, 1) == 0 ? c_least_depth : c_greatest_depth)
+                      : wide(random, c_least_depth, c_greatest_depth);
+  const int bright = random.within(0, 3);
+  for (auto& channel : s.sample)
+    for (double& sample : channel) {
+      const std::int64_t any = wide(random, 0, c_greatest_sample);
+      sample = std::ldexp(double(bright == 0   ? (any & 1) * any                        // 0 or odd
+                                 : bright == 1 ? (any & 1) * c_greatest_sample          // an end of the range
+                                 : bright == 2 ? any >> c_sample_bits << c_sample_bits  // an integer
+                                               : any / 4),  // within the range that a frame stores
+                          -c_sample_bits);
+    }
   return s;
 }
 
@@ -117,13 +121,13 @@ void append(const Subject& s, std::uint32_t triangle, std::vector<std::uint32_t>
                  DepthFit(s.whole, s.unit_bits, s.depth), s.sample);
 }
 
-class TriangleChecker final : public Checker {
+class TriangleSearch final : public Search {
  public:
-  explicit TriangleChecker(SimulatorFolders folders)
+  explicit TriangleSearch(SimulatorFolders folders)
       : folders_(std::move(folders)), golden_{make_golden_model(key_of(1)), make_golden_model(key_of(3))} {}
 
-  std::optional<Failure> check(const Input& input, Tally& tally) override {
-    const Subject s = subject_of(input);
+  std::string check(std::uint32_t seed, Tally& tally) override {
+    const Subject s = subject_of(seed);
     ++tally.inputs;
     words_.clear();
     if (fragments_.capacity() > c_most_kept)
@@ -163,24 +167,21 @@ class TriangleChecker final : public Checker {
                           });
     while (at < fragments_.size()) uncovered(fragments_[at++]);
 
-    InputFigures figures(tally);
     Worst coverage;
     coverage.add(static_cast<double>(pixels), 0, [&] { return wrong; });
-    figures.add("coverage", coverage);
-    figures.add("colour", colour);
-    figures.add("depth", z);
-    if (!figures.failure() &&
-        std::ranges::any_of(fragments_, [](const Fragment& f) { return f.triangle != c_tag; }))
-      return Failure{"tag", "a fragment has another triangle's number"};
-    return figures.failure();
+    std::string failure =
+        tally.add("coverage", coverage) + tally.add("colour", colour) + tally.add("depth", z);
+    if (std::ranges::any_of(fragments_, [](const Fragment& f) { return f.triangle != c_tag; }))
+      failure += "a fragment has another triangle's number";
+    return failure;
   }
 
-  Result<std::optional<Failure>> check_rtl(std::span<const Input> inputs, Tally& tally) override {
+  Result<std::string> check_rtl(std::span<const std::uint32_t> seeds, Tally& tally) override {
     for (const unsigned channels : {1u, 3u}) {
       words_.clear();
       std::uint64_t count = 0;
-      for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const Subject s = subject_of(inputs[i]);
+      for (std::size_t i = 0; i < seeds.size(); ++i) {
+        const Subject s = subject_of(seeds[i]);
         if (s.channels != channels) continue;
         append(s, static_cast<std::uint32_t>(i), words_);
         ++count;
@@ -188,9 +189,9 @@ class TriangleChecker final : public Checker {
       Trial trial(folders_, rtl_, true);
       trial.draw(key_of(channels), words_);
       auto failure = rtl_failure(trial, count, tally);
-      if (!failure || *failure) return failure;
+      if (!failure || !failure->empty()) return failure;
     }
-    return std::optional<Failure>{};
+    return std::string();
   }
 
  private:
@@ -269,137 +270,10 @@ class TriangleChecker final : public Checker {
   std::vector<Fragment> fragments_;
 };
 
-class TriangleSearch final : public Search {
- public:
-  std::string_view name() const override { return "triangles"; }
-  std::string_view about() const override {
-    return "Random triangles of every kind: slivers one unit thick, triangles of one line, triangles within "
-           "a pixel, vertices on pixel centres, vertices anywhere in the guard band. One in four is a piece "
-           "of a split triangle, down to level 5. Samples are up to 1023 steps, depths from the near to the "
-           "far plane, sides of frames 1 to 4096 pixels. Colour and depth are in steps, minus the half step "
-           "of rounding; the bound is that of the pixel's forward differences.";
-  }
-  std::span<const Parameter> parameters() const override { return c_parameters; }
-  std::uint64_t full_count() const override { return 10'000'000; }
-  std::uint64_t quick_count() const override { return 20'000; }
-  std::uint64_t rtl_every() const override { return 25; }
-  std::unique_ptr<Checker> checker(const SimulatorFolders& folders, bool /*quick*/) const override {
-    return std::make_unique<TriangleChecker>(folders);
-  }
-
-  Input make(std::uint32_t seed) const override {
-    RandomTriangles random(seed);
-    Input input(std::size(c_parameters));
-    const FrameSize frame = random_frame(random);
-    input[At::width] = frame.width;
-    input[At::height] = frame.height;
-    input[At::colours] = random.within(0, 3) == 0 ? 3 : 1;
-    input[At::level] = std::max(0, random.within(-5, 5));
-    input[At::quarters] = random.within(0, (1 << (2 * input[At::level])) - 1);
-    const TriangleKind kind =
-        c_triangle_kinds[static_cast<std::size_t>(random.within(0, c_triangle_kinds.size() - 1))];
-    const Points p = random.next(kind, c_subpixel_bits, frame);
-    for (std::size_t i = 0; i < 3; ++i) {
-      input[At::corners + 2 * i] = std::clamp<std::int64_t>(p[i].x, c_least_place, c_greatest_place);
-      input[At::corners + 2 * i + 1] = std::clamp<std::int64_t>(p[i].y, c_least_place, c_greatest_place);
-    }
-    if (random.within(0, 3) > 0) bring_into_frame(random, input);
-    const int deep = random.within(0, 2);
-    for (std::size_t i = 0; i < 3; ++i)
-      input[At::depths + i] = deep == 0 ? (random.within(0, 1) == 0 ? c_least_depth : c_greatest_depth)
-                                        : wide(random, c_least_depth, c_greatest_depth);
-    const int bright = random.within(0, 3);
-    for (std::size_t i = At::samples; i < input.size(); ++i) {
-      const std::int64_t any = wide(random, 0, c_greatest_sample);
-      input[i] = bright == 0   ? (any & 1) * any                        // 0 or odd
-                 : bright == 1 ? (any & 1) * c_greatest_sample          // an end of the range
-                 : bright == 2 ? any >> c_sample_bits << c_sample_bits  // an integer
-                               : any / 4;  // within the range that a frame stores
-    }
-    if (input[At::colours] == 1) std::fill(input.begin() + At::samples + 6, input.end(), 0);
-    return input;
-  }
-
-  std::vector<Input> simpler(const Input& input) const override {
-    std::vector<Input> out;
-    const auto change = [&](auto&& how) {
-      out.push_back(input);
-      how(out.back());
-    };
-    change([](Input& i) { i[At::colours] = 1, std::fill(i.begin() + At::samples + 6, i.end(), 0); });
-    for (const std::size_t other : {6, 12})  // all colours equal to red
-      change([&](Input& i) {
-        i[At::colours] = 1;
-        std::copy_n(input.begin() + At::samples + other, 6, i.begin() + At::samples);
-        std::fill(i.begin() + At::samples + 6, i.end(), 0);
-      });
-    // Use the piece as a triangle of its own, if its corners are whole units.
-    if (input[At::level] > 0)
-      change([&](Input& i) {
-        const Subject s = subject_of(input);
-        for (std::size_t n = 0; n < 3; ++n) {
-          i[At::corners + 2 * n] = s.piece[n].x >> input[At::level];
-          i[At::corners + 2 * n + 1] = s.piece[n].y >> input[At::level];
-        }
-        i[At::level] = i[At::quarters] = 0;
-      });
-    for (const std::size_t axis : {0, 1}) {
-      std::array<std::int64_t, 3> at;
-      for (std::size_t n = 0; n < 3; ++n) at[n] = input[At::corners + 2 * n + axis];
-      for (const std::int64_t to : at)  // move one corner to a corner of the frame
-        change([&](Input& i) {
-          for (std::size_t n = 0; n < 3; ++n) i[At::corners + 2 * n + axis] -= to;
-        });
-      for (const std::int64_t by : {4096, 1024, 256, 64, 16, 1})
-        for (const std::int64_t sign : {-1, 1})
-          change([&](Input& i) {
-            for (std::size_t n = 0; n < 3; ++n) i[At::corners + 2 * n + axis] += sign * by;
-          });
-    }
-    change([](Input& i) {
-      for (std::size_t n = 0; n < 6; ++n) i[At::corners + n] /= 2;
-    });
-    return out;
-  }
-
- private:
-  static std::int64_t wide(RandomTriangles& random, std::int64_t least, std::int64_t greatest) {
-    const std::int64_t any =
-        std::int64_t{random.within(0, (1 << 24) - 1)} << 24 | random.within(0, (1 << 24) - 1);
-    return least + any % (greatest - least + 1);
-  }
-  // Moves the triangle so that a point of its piece lies in the frame, within the limits of the guard band.
-  static void bring_into_frame(RandomTriangles& random, Input& input) {
-    const Subject s = subject_of(input);
-    const int share = random.within(0, 64), other = random.within(0, 64 - share);
-    for (const std::size_t axis : {0, 1}) {
-      const auto at = [&](std::size_t n) {
-        return std::int64_t{axis == 0 ? s.piece[n].x : s.piece[n].y} >> input[At::level];
-      };
-      const auto corner = [&](std::size_t n) -> std::int64_t& { return input[At::corners + 2 * n + axis]; };
-      const auto [least, greatest] = std::minmax({corner(0), corner(1), corner(2)});
-      const std::int64_t place = (share * at(0) + other * at(1) + (64 - share - other) * at(2)) / 64,
-                         to = random.within(0, static_cast<int>(input[axis]) * 16);
-      const std::int64_t by = std::clamp(to - place, c_least_place - least, c_greatest_place - greatest);
-      for (std::size_t n = 0; n < 3; ++n) corner(n) += by;
-    }
-  }
-  // All sizes, but mostly small frames, so that many triangles fit into a minute.
-  static FrameSize random_frame(RandomTriangles& random) {
-    const auto side = [&](int most) { return static_cast<std::uint32_t>(random.within(1, most)); };
-    const int draw = random.within(0, 99'999);
-    if (draw < 10) return {4096, 4096};
-    if (draw < 500) return {4096, side(12)};
-    if (draw < 1'000) return {side(12), 4096};
-    if (draw < 9'000) return {side(320), side(240)};
-    return {side(64), side(64)};
-  }
-};
-
 }  // namespace
 
-std::unique_ptr<Search> make_triangle_search() {
-  return std::make_unique<TriangleSearch>();
+std::unique_ptr<Search> make_triangle_search(const SimulatorFolders& folders, bool /*quick*/) {
+  return std::make_unique<TriangleSearch>(folders);
 }
 
 }  // namespace halfway::stability
