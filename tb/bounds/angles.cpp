@@ -52,31 +52,16 @@ Finding drift(int fraction, std::int64_t steps, int tries) {
 }
 
 template <class P>
-Finding angle(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-              const tables::Bound& bound) {
+Finding angle(const Context& context, const Stated& stated) {
   constexpr std::int64_t c_steps = 4095;
   Finding finding = drift<P::c_angle_bits>(P::c_angle_fraction_bits, c_steps, context.quick ? 20 : 2000);
   const auto said = gappa(context, fmt::format("@fx = fixed<-{},ne>;\na = fx(A); s = fx(S);\n"
                                                "{{ K in [0, {}] -> |(a + K * s) - (A + K * S)| <= {} }}\n"
                                                "(a + K * s) - (A + K * S) -> (a - A) + K * (s - S);\n",
-                                               format.fraction_bits, c_steps, bound.value));
+                                               stated.format.fraction_bits, c_steps, stated.bound.value));
   if (said && !said->empty()) finding.failure = "Gappa does not prove it: " + *said;
-  if (said && said->empty()) finding.proved = bound.value;
+  if (said && said->empty()) finding.proved = stated.bound.value;
   return finding;
-}
-
-template <int... BitsBelow>
-std::vector<DriftRow> rows_of(std::integer_sequence<int, BitsBelow...>) {
-  constexpr int c_address_bits = 6;
-  std::vector<DriftRow> rows;
-  for (const int steps : {1023, 4095})
-    (rows.push_back(
-         {BitsBelow, steps,
-          std::ldexp(drift<c_address_bits + BitsBelow>(c_address_bits + BitsBelow - 1, steps, 10).worst,
-                     c_address_bits - 1),
-          (1 + steps) * std::ldexp(0.5, -BitsBelow)}),
-     ...);
-  return rows;
 }
 
 }  // namespace
@@ -84,10 +69,6 @@ std::vector<DriftRow> rows_of(std::integer_sequence<int, BitsBelow...>) {
 std::vector<Check> angle_checks() {
   return {{"exact", "angle", "", "Gappa; angles along a span by the golden adder", angle<Exact>},
           {"published", "angle", "", "Gappa; angles along a span by the golden adder", angle<Published>}};
-}
-
-std::vector<DriftRow> drift_rows() {
-  return rows_of(std::integer_sequence<int, 6, 8, 10, 12, 14>{});
 }
 
 }  // namespace halfway::bounds

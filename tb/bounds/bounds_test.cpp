@@ -67,7 +67,7 @@ struct StatedBound {
   const tables::Bound* bound;
   Check check;  ///< without `run` nothing checks the bound
 
-  Finding find(const Context& context) const { return check.run(context, *preset, *format, *bound); }
+  Finding find(const Context& context) const { return check.run(context, {*preset, *format, *bound}); }
 
   friend void PrintTo(const StatedBound& b, std::ostream* out) {
     *out << b.format->name << ' ' << b.bound->of;
@@ -203,41 +203,14 @@ Rows rows_of(const std::vector<TableFinding>& findings) {
     EXPECT_EQ(f.failure, "") << f.table;
     EXPECT_LE(f.derived, f.bound * (1 + c_rounding)) << f.table;
     expect_near_bound(f.worst, f.bound, f.table);
-    rows.push_back({f.table, number(f.bound), number(f.worst), fmt::format("{:.2f}", f.worst / f.bound),
-                    number_or_dash(f.sollya), f.where});
-  }
-  return rows;
-}
-
-Rows rows_of_rule(const Context& context) {
-  Rows rows;
-  for (const RuleRow& row : rule_rows(context)) {
-    expect_near_bound(row.our_error, row.our_bound, fmt::format("M = {}", row.walked));
-    // If the rule were right, the error with the rule's bits would be below half a step.
-    EXPECT_GE(row.rule_error, 0.5) << "M = " << row.walked << ": the published rule holds";
-    EXPECT_GE(row.rule_shown, 2) << "M = " << row.walked << ": the published rule holds";
-    rows.push_back({fmt::format("{}", row.walked), fmt::format("{}", row.rule_bits),
-                    fmt::format("{:.2f}", row.rule_error), fmt::format("{}", row.rule_shown),
-                    fmt::format("{}", row.our_bits), fmt::format("{:.3f}", row.our_bound),
-                    fmt::format("{:.3f}", row.our_error),
-                    fmt::format("{:.2f}", row.our_error / row.our_bound), row.triangle});
-  }
-  return rows;
-}
-
-Rows rows_of_drift(const Context& /*context*/) {
-  Rows rows;
-  for (const DriftRow& row : drift_rows()) {
-    expect_near_bound(row.addresses, row.bound, fmt::format("{} bits below the address", row.bits_below));
-    rows.push_back({fmt::format("{}", row.bits_below), fmt::format("{}", row.steps), number(row.bound),
-                    fmt::format("{:.3f}", row.addresses)});
+    rows.push_back(
+        {f.table, number(f.bound), number(f.worst), fmt::format("{:.2f}", f.worst / f.bound), f.where});
   }
   return rows;
 }
 
 const std::vector<std::string>& table_columns() {
-  static const std::vector<std::string> c_columns = {"table",        "bound",  "found",
-                                                     "of the bound", "Sollya", "where"};
+  static const std::vector<std::string> c_columns = {"table", "bound", "found", "of the bound", "where"};
   return c_columns;
 }
 
@@ -246,19 +219,9 @@ INSTANTIATE_TEST_SUITE_P(Cosine_tables, TableBounds,
                                                  return rows_of(cosine_tables(context));
                                                }}));
 INSTANTIATE_TEST_SUITE_P(Function_tables, TableBounds,
-                         testing::Values(Table{"function", table_columns(), [](const Context& context) {
-                                                 return rows_of(function_tables(context));
+                         testing::Values(Table{"function", table_columns(), [](const Context& /*context*/) {
+                                                 return rows_of(function_tables());
                                                }}));
-INSTANTIATE_TEST_SUITE_P(The_published_rule_of_fraction_bits, TableBounds,
-                         testing::Values(Table{"rule",
-                                               {"lines + pixels M", "rule: bits", "off by, colour steps",
-                                                "a pixel shown wrong by", "ours: bits", "bound", "found",
-                                                "of the bound", "the rule's triangle"},
-                                               rows_of_rule}));
-INSTANTIATE_TEST_SUITE_P(
-    Drift_of_the_spherical_angle, TableBounds,
-    testing::Values(Table{
-        "drift", {"bits below the table's address", "steps", "addresses, bound", "found"}, rows_of_drift}));
 
 }  // namespace
 }  // namespace halfway::bounds

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Forward differences in two dimensions at the largest frame. Gappa proves the stated errors for every start
-// word. Triangles of the real setup, walked by the golden interpolators, come close to them. Also computes
-// the errors that the published rule of fraction bits leaves.
+// word. Triangles of the real setup, walked by the golden interpolators, come close to them.
 #include <fmt/format.h>
 
 #include <array>
@@ -134,16 +133,16 @@ std::string text_of(const SixSamples& s, int fraction_bits) {
                      sample(s.vertex[2]), sample(s.edge12), sample(s.edge13), sample(s.edge23));
 }
 
-// `sample_bits`: fraction bits of the samples. Few bits make the samples easy to read.
-Case worst_case(std::array<ScreenPoint, 3> points, const Walk& walk, int fraction_bits, int sample_bits,
-                int tries, std::uint64_t seed, const WalkLine& line, std::int64_t steps) {
+Case worst_case(std::array<ScreenPoint, 3> points, const Walk& walk, int fraction_bits, int tries,
+                const WalkLine& line, std::int64_t steps) {
+  constexpr int c_sample_bits = 8;  // few bits, so that the samples are easy to read
   const QuadraticStart start = QuadraticFit(points, c_unit_bits).at(difference_start(walk));
-  std::mt19937_64 random(seed);
+  std::mt19937_64 random(1);
   Case best;
   for (int i = 0; i < tries; ++i) {
     const auto sample = [&] {
-      return static_cast<std::int64_t>(random() % ((255ULL << sample_bits) + 1))
-             << (fraction_bits - sample_bits);
+      return static_cast<std::int64_t>(random() % ((255ULL << c_sample_bits) + 1))
+             << (fraction_bits - c_sample_bits);
     };
     SixSamples s{{sample(), sample(), sample()}, sample(), sample(), sample()};
     const QuadraticWords w = start.words(s, 0);
@@ -205,120 +204,38 @@ void prove(const Context& context, const std::string& script, double limit, Find
 
 constexpr double c_lines = c_side - 1, c_pixels = c_side - 1, c_carries = c_side - 1;
 
-// Preset exact: a triangle through setup and golden interpolator. Every pixel is compared with exact
-// rationals.
-Finding exact_intensity(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                        const tables::Bound& bound) {
-  constexpr int c_fraction = Exact::c_intensity_fraction_bits;
-  const Walk walk = only_walk(c_longest_walk, c_frame);
+// A triangle through fit and golden interpolator. Every pixel is compared with exact rationals. Preset
+// published has no carries, so its start edge is vertical.
+template <class P>
+Finding intensity(const Context& context, const Stated& stated) {
+  constexpr bool c_exact = std::is_same_v<P, Exact>;
+  constexpr int c_fraction = P::c_intensity_fraction_bits;
+  const auto& points = c_exact ? c_longest_walk : c_plain_walk;
+  const Walk walk = only_walk(points, c_frame);
   const WalkLine last = line_of(walk, c_side - 1);
-  const Case worst =
-      worst_case(c_longest_walk, walk, c_fraction, 8, context.quick ? 20'000 : 400'000, 1, last, c_side - 2);
-  golden::QuadraticInterpolator<Exact> interpolator;
-  interpolator.line_load(channel_words<Exact>(worst.words), 0);
-  const Truth truth = Truth::of(c_longest_walk, worst.samples);
+  const Case worst = worst_case(points, walk, c_fraction, context.quick ? 20'000 : 400'000, last,
+                                c_side - (c_exact ? 2 : 1));
+  golden::QuadraticInterpolator<P> interpolator;
+  interpolator.line_load(channel_words<P>(worst.words), 0);
+  const Truth truth = Truth::of(points, worst.samples);
   const Worst found =
       drawn(walk, interpolator, context.quick ? c_seldom : c_every,
             [&](std::int64_t v, std::int64_t x, std::int64_t y) { return truth.error(v, x, y); });
   Finding finding;
   finding.worst = std::ldexp(std::fabs(found.error), -c_fraction);
   finding.where =
-      fmt::format("pixel ({}, {}) of the triangle (1/16, 0) (4096, 4096) (0, 4096), {} carries, {}", found.x,
-                  found.y, last.carries, text_of(worst.samples, c_fraction));
-  if (c_fraction != format.fraction_bits) finding.failure = "make tables has not been run";
-  prove(context, quadratic_script(format.fraction_bits, bound.value, c_lines, c_carries + c_pixels),
-        bound.value, finding);
-  return finding;
-}
-
-// So many fraction bits in the published interpolator: the whole step of the edge, no carry.
-template <int FractionBits>
-struct Narrow {
-  static constexpr int c_intensity_bits = 12 + FractionBits;
-  // NOLINTBEGIN(readability-identifier-naming): the names of the generated formats
-  struct init_channel_at {
-    static constexpr golden::Field field(int i) {
-      return {"", i * c_intensity_bits, c_intensity_bits, true, FractionBits};
-    }
-    static constexpr golden::Field value = {"", 0, c_intensity_bits, true, FractionBits};
-    static constexpr golden::Field dx = {"", c_intensity_bits, c_intensity_bits, true, FractionBits};
-    static constexpr golden::Field de0 = {"", 2 * c_intensity_bits, c_intensity_bits, true, FractionBits};
-    static constexpr golden::Field dxx = {"", 3 * c_intensity_bits, c_intensity_bits, true, FractionBits};
-    static constexpr golden::Field dxe0 = {"", 4 * c_intensity_bits, c_intensity_bits, true, FractionBits};
-    static constexpr golden::Field de0e0 = {"", 5 * c_intensity_bits, c_intensity_bits, true, FractionBits};
-  };
-  // NOLINTEND(readability-identifier-naming)
-};
-
-struct Drawn {
-  double error = 0;  ///< in colour steps, from the words only
-  int shown = 0;     ///< in colour steps, between the drawn and the correct pixel
-  std::int64_t x = 0, y = 0;
-  std::string samples;
-};
-
-// A right triangle of `side` lines and pixels with a vertical start edge, drawn with FractionBits fraction
-// bits. As in setup, the value contains half a colour step for rounding.
-template <class P, int FractionBits>
-Drawn right_triangle(int side, int sample_bits, int tries, std::int64_t stride) {
-  const std::array<ScreenPoint, 3> points = {{{0, 0}, {side * c_unit, side * c_unit}, {0, side * c_unit}}};
-  const FrameSize frame{static_cast<std::uint32_t>(side), static_cast<std::uint32_t>(side)};
-  const Walk walk = only_walk(points, frame);
-  const WalkLine last = line_of(walk, side - 1);
-  const Case worst =
-      worst_case(points, walk, FractionBits, std::min(sample_bits, FractionBits), tries, 7, last, side - 1);
-  const Truth truth = Truth::of(points, worst.samples);
-  const std::int64_t half_step = half(FractionBits);
-  QuadraticWords words = worst.words;
-  words.value += half_step;
-  golden::QuadraticInterpolator<P> interpolator;
-  interpolator.line_load(channel_words<P>(words), 0);
-  Drawn result;
-  const Worst found = drawn(walk, interpolator, stride, [&](std::int64_t v, std::int64_t x, std::int64_t y) {
-    const double error = truth.error(v - half_step, x, y);
-    const auto shown = [](double value) { return std::clamp(std::floor(value), 0.0, 255.0); };
-    const double is = std::ldexp(static_cast<double>(v), -FractionBits),
-                 right = is - std::ldexp(error, -FractionBits);
-    result.shown = std::max(result.shown, static_cast<int>(std::fabs(shown(is) - shown(right))));
-    return error;
-  });
-  result.error = std::ldexp(std::fabs(found.error), -FractionBits);
-  result.x = found.x;
-  result.y = found.y;
-  result.samples = text_of(worst.samples, FractionBits);
-  return result;
-}
-
-// Calls a template with a number that is known at run time only.
-template <int... Bits, class Call>
-auto with_bits(int bits, std::integer_sequence<int, Bits...>, Call&& call) {
-  decltype(call.template operator()<1>()) result{};
-  ((bits == Bits + 1 ? (void)(result = call.template operator()<Bits + 1>()) : (void)0), ...);
-  return result;
-}
-
-constexpr double newton_bound(double walked, int bits) {
-  return (1 + walked + walked * (walked - 1) / 2) * 0.5 / static_cast<double>(std::int64_t{1} << bits);
-}
-
-// Preset published, without carries.
-Finding published_intensity(const Context& context, const tables::PresetFormats&,
-                            const tables::Format& format, const tables::Bound& bound) {
-  const Drawn found = right_triangle<Published, Published::c_intensity_fraction_bits>(
-      c_side, 8, context.quick ? 20'000 : 400'000, context.quick ? c_seldom : c_every);
-  Finding finding;
-  finding.worst = found.error;
-  finding.where = fmt::format("pixel ({}, {}) of the triangle (0, 0) (4096, 4096) (0, 4096), {}", found.x,
-                              found.y, found.samples);
-  prove(context, quadratic_script(format.fraction_bits, bound.value, c_lines, c_pixels), bound.value,
-        finding);
+      fmt::format("pixel ({}, {}) of the triangle ({}/16, 0) (4096, 4096) (0, 4096), {} carries, {}", found.x,
+                  found.y, points[0].x, last.carries, text_of(worst.samples, c_fraction));
+  if (c_fraction != stated.format.fraction_bits) finding.failure = "make tables has not been run";
+  prove(context,
+        quadratic_script(c_fraction, stated.bound.value, c_lines, c_pixels + (c_exact ? c_carries : 0)),
+        stated.bound.value, finding);
   return finding;
 }
 
 // The sum of the absolute weights of a quadratic's six samples, over the triangle: on small boxes, with the
 // largest value of each shape function.
-Finding sample_weights(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                       const tables::Bound&) {
+Finding sample_weights(const Context&, const Stated& stated) {
   // |l (2l - 1)| and 4 l m on boxes of two barycentric coordinates.
   constexpr int c_cells = 3000;
   const auto vertex = [](double low, double high) {
@@ -336,9 +253,9 @@ Finding sample_weights(const Context&, const tables::PresetFormats&, const table
     }
   // At the centre each vertex has the weight -1/9, each edge 4/9.
   const double centre = 3.0 / 9 + 3 * 4.0 / 9;
-  return {.worst = centre * format.unit() / 2,
+  return {.worst = centre * stated.format.unit() / 2,
           .where = "the triangle's centre, samples at odd half units",
-          .proved = bound * format.unit() / 2};
+          .proved = bound * stated.format.unit() / 2};
 }
 
 // Depth, or a plane of N, P and 1/w.
@@ -389,27 +306,24 @@ Finding plane_finding(const Context& context, int fraction, double scale, double
   return finding;
 }
 
-Finding depth(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-              const tables::Bound& bound) {
+Finding depth(const Context& context, const Stated& stated) {
   return plane_finding<golden::PlaneInterpolator<Exact::c_depth_sum_bits>, Exact::c_depth_sum_bits>(
-      context, format.fraction_bits, format.unit(), bound.value,
-      std::int64_t{1} << (24 + format.fraction_bits));
+      context, stated.format.fraction_bits, stated.format.unit(), stated.bound.value,
+      std::int64_t{1} << (24 + stated.format.fraction_bits));
 }
 
 template <class P>
-Finding plane(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-              const tables::Bound& bound) {
+Finding plane(const Context& context, const Stated& stated) {
   const double step_of_vector = std::ldexp(1.0, -P::c_vector_fraction_bits);
   Finding finding = plane_finding<golden::PlaneInterpolator<P::c_plane_sum_bits>, P::c_plane_sum_bits>(
-      context, format.fraction_bits, format.unit() / step_of_vector, bound.value * step_of_vector,
-      std::int64_t{1} << format.fraction_bits);
-  if (finding.proved > 0) finding.proved = bound.value;
+      context, stated.format.fraction_bits, stated.format.unit() / step_of_vector,
+      stated.bound.value * step_of_vector, std::int64_t{1} << stated.format.fraction_bits);
+  if (finding.proved > 0) finding.proved = stated.bound.value;
   return finding;
 }
 
 // Start and slope of a published edge, each with the largest rounding error, in the golden walker's adder.
-Finding edge(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-             const tables::Bound& bound) {
+Finding edge(const Context& context, const Stated& stated) {
   constexpr int c_fraction = Published::c_edge_x_fraction_bits;
   Finding finding;
   std::mt19937_64 random(3);
@@ -426,11 +340,10 @@ Finding edge(const Context& context, const tables::PresetFormats&, const tables:
         static_cast<std::uint64_t>(wrapped_word(slope, c_fraction, Published::c_edge_x_bits)));
     for (std::int64_t line = 0; line < lines; ++line) x.step(step);
     const double error = std::fabs(std::ldexp(static_cast<double>(x.value().value()), -c_fraction) - x1);
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("x from {} to {} in {} lines", x0, x1, lines);
+    keep_worst(finding, error, [&] { return fmt::format("x from {} to {} in {} lines", x0, x1, lines); });
   }
-  prove(context, plane_script(format.fraction_bits, bound.value, c_lines, 0), bound.value, finding);
+  prove(context, plane_script(stated.format.fraction_bits, stated.bound.value, c_lines, 0),
+        stated.bound.value, finding);
   return finding;
 }
 
@@ -439,77 +352,15 @@ Finding edge(const Context& context, const tables::PresetFormats&, const tables:
 std::vector<Check> difference_checks() {
   return {
       {"both", "depth_sum", "", "Gappa; a triangle through setup and golden interpolator", depth},
-      {"exact", "intensity", "", "Gappa; a triangle through setup and golden interpolator", exact_intensity},
+      {"exact", "intensity", "", "Gappa; a triangle through setup and golden interpolator", intensity<Exact>},
       {"published", "intensity", "", "Gappa; a triangle through fit and golden interpolator",
-       published_intensity},
+       intensity<Published>},
       {"both", "intensity", "samples", "intervals over the whole triangle", sample_weights},
       {"exact", "plane_sum", "", "Gappa; a triangle through setup and golden interpolator", plane<Exact>},
       {"published", "plane_sum", "", "Gappa; a triangle through setup and golden interpolator",
        plane<Published>},
       {"published", "edge_x", "", "Gappa; edges between whole pixels by the golden adder", edge},
   };
-}
-
-RuleCase published_rule_case() {
-  // Preset published has vertices at whole pixels and draws the pixels at both ends of an edge: (0, 0), (1,
-  // 4095), (0, 4095). The second differences accumulate down the edge.
-  constexpr int c_fraction = Published::c_intensity_fraction_bits,
-                c_x_fraction = Published::c_edge_x_fraction_bits;
-  constexpr std::int32_t c_middle = c_unit / 2, c_foot = (c_side - 1) * c_unit + c_middle;
-  const std::array<ScreenPoint, 3> points = {
-      {{c_middle, c_middle}, {c_unit + c_middle, c_foot}, {c_middle, c_foot}}};
-  const Walk walk{.upper_lines = c_side};
-  WalkLine last{walk, c_side - 1, 0};
-  last.walk.y = c_side - 1;
-  const Case worst = worst_case(points, walk, c_fraction, 3, 20'000, 11, last, 0);
-  using At = Published::init_header_at;
-  RuleCase rule;
-  rule.bound = newton_bound(c_side - 1 + 1, c_fraction);
-  InitVector init(rule.init, Published::c_init_header_bits + Published::c_init_channel_bits);
-  init.put(At::upper_lines, c_side);
-  init.put(At::start_x, half(c_x_fraction));
-  init.put(At::upper_x, half(c_x_fraction));
-  init.put(At::upper_slope, (std::int64_t{1} << c_x_fraction) / (c_side - 1));
-  using ChannelAt = Published::init_channel_at;
-  const QuadraticWords& w = worst.words;
-  for (const auto& [field, word] : {std::pair{ChannelAt::value, w.value + half(c_fraction)},
-                                    {ChannelAt::dx, w.dx},
-                                    {ChannelAt::de0, w.de0},
-                                    {ChannelAt::dxx, w.dxx},
-                                    {ChannelAt::dxe0, w.dxe0},
-                                    {ChannelAt::de0e0, w.de0e0}})
-    init.put(field, word, Published::c_init_header_bits);
-  rule.right = [truth = Truth::of(points, worst.samples)](std::int64_t x, std::int64_t y) {
-    return -std::ldexp(truth.error(0, x, y), -c_fraction);
-  };
-  return rule;
-}
-
-std::vector<RuleRow> rule_rows(const Context& context) {
-  std::vector<RuleRow> rows;
-  for (int walked = 64; walked <= 4096; walked *= 2) {
-    // The sum of lines and pixels is M, and the divisor is not a power of two.
-    const int side = walked / 2 - 1;
-    const std::int64_t stride = context.quick && side > 256 ? c_seldom : c_every;
-    RuleRow row;
-    row.walked = walked;
-    row.rule_bits = std::bit_width(static_cast<unsigned>(walked));  // the least integer above log2 M
-    row.our_bits = 1;
-    while (newton_bound(2 * (side - 1), row.our_bits) >= 0.5) ++row.our_bits;
-    row.our_bound = newton_bound(2 * (side - 1), row.our_bits);
-    const auto draw = [&](int bits) {
-      return with_bits(bits, std::make_integer_sequence<int, 28>{}, [&]<int Bits>() {
-        return right_triangle<Narrow<Bits>, Bits>(side, 3, context.quick ? 4'000 : 100'000, stride);
-      });
-    };
-    const Drawn rule = draw(row.rule_bits), ours = draw(row.our_bits);
-    row.rule_error = rule.error;
-    row.rule_shown = rule.shown;
-    row.our_error = ours.error;
-    row.triangle = rule.samples;
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 }  // namespace halfway::bounds

@@ -23,7 +23,7 @@ Check limit(std::string_view preset, std::string_view name, double largest, cons
           name,
           "",
           "the program's own limits",
-          [=](const Context&, const tables::PresetFormats&, const tables::Format&, const tables::Bound&) {
+          [=](const Context&, const Stated&) {
             return Finding{.worst = largest, .where = where, .proved = largest};
           },
           roomy};
@@ -32,11 +32,11 @@ Check limit(std::string_view preset, std::string_view name, double largest, cons
 constexpr std::int32_t c_unit = 16, c_side = static_cast<std::int32_t>(c_max_frame_side);
 
 // The largest pixel coordinate of a walk, for triangles that fill the largest frame or extend beyond it.
-Finding largest_pixel(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                      const tables::Bound&) {
+Finding largest_pixel(const Context&, const Stated& stated) {
   Finding finding;
   const auto see = [&](std::int64_t pixel, const char* what, std::array<ScreenPoint, 3> p) {
-    if (pixel < -(std::int64_t{1} << format.integer_bits) || pixel >= std::int64_t{1} << format.integer_bits)
+    if (pixel < -(std::int64_t{1} << stated.format.integer_bits) ||
+        pixel >= std::int64_t{1} << stated.format.integer_bits)
       finding.failure = fmt::format("{} is not clamped", pixel);
     if (std::abs(static_cast<double>(pixel)) <= finding.worst) return;
     finding.worst = std::abs(static_cast<double>(pixel));
@@ -60,8 +60,7 @@ Finding largest_pixel(const Context&, const tables::PresetFormats&, const tables
 }
 
 // The divisor is the edge's height.
-Finding largest_divisor(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                        const tables::Bound&) {
+Finding largest_divisor(const Context&, const Stated& stated) {
   const std::int32_t top = c_guard_begin * c_unit, bottom = c_guard_end * c_unit;
   const std::array<ScreenPoint, 3> p = {{{top, top}, {top + 16, bottom}, {bottom, bottom}}};
   Finding finding;
@@ -70,12 +69,11 @@ Finding largest_divisor(const Context&, const tables::PresetFormats&, const tabl
       finding.worst = std::max({finding.worst, static_cast<double>(s.divisor), static_cast<double>(s.error)});
   finding.where = "an edge from line -2048 to 6143";
   finding.proved = (c_guard_end - c_guard_begin) * double{c_unit};
-  if (finding.proved >= std::ldexp(1.0, format.integer_bits)) finding.failure = "it is not clamped";
+  if (finding.proved >= std::ldexp(1.0, stated.format.integer_bits)) finding.failure = "it is not clamped";
   return finding;
 }
 
-Finding deepest_count(const Context&, const tables::PresetFormats&, const tables::Format&,
-                      const tables::Bound&) {
+Finding deepest_count(const Context&, const Stated&) {
   golden::ShadowCounter counter;
   for (int i = 0; i < 1000; ++i) counter.count(0, false);
   for (int i = 0; i < 1000; ++i) counter.count(1, true);

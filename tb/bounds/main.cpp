@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
                          {.name = "bounds",
                           .root = HALFWAY_SOURCE_DIR,
                           .file = "docs/results/bounds.md",
-                          .tools = {"gappa", "sollya"},
+                          .tools = {"gappa"},
                           .rows = {}});
 }

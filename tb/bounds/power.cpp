@@ -110,27 +110,27 @@ double exact_ratio(bool quick) {
 }
 
 template <class P>
-Finding power(const Context& context, const tables::PresetFormats& preset, const tables::Format& format,
-              const tables::Bound& bound) {
+Finding power(const Context& context, const Stated& stated) {
   constexpr std::uint32_t c_one = Power<P>::c_one, c_largest = (1U << P::c_exponent_bits) - 1;
   constexpr bool c_exact = std::is_same_v<P, Exact>;
   Finding finding;
-  const auto see = [&](std::uint32_t base, std::uint32_t exponent, double stated) {
+  const auto see = [&](std::uint32_t base, std::uint32_t exponent, double allowed) {
     const double error = std::fabs(power_error<P>(base, exponent));
     finding.worst = std::max(finding.worst, error);
-    if (error / stated <= finding.of_stated) return;
-    finding.of_stated = error / stated;
+    if (error / allowed <= finding.of_stated) return;
+    finding.of_stated = error / allowed;
     finding.where = fmt::format("base {} / 2^{}, exponent {}", base, Power<P>::c_base_fraction,
                                 std::ldexp(exponent, -P::c_exponent_fraction_bits));
   };
-  const auto stated_at = [&](std::uint32_t exponent) {
-    return tables::derived(preset, format, bound, std::ldexp(exponent, -P::c_exponent_fraction_bits));
+  const auto allowed_at = [&](std::uint32_t exponent) {
+    return tables::derived(stated.preset, stated.format, stated.bound,
+                           std::ldexp(exponent, -P::c_exponent_fraction_bits));
   };
   if constexpr (c_exact) {
     std::mt19937_64 random(8);
     for (int i = 0; i < (context.quick ? 3'000 : 60'000); ++i) {
       const auto exponent = static_cast<std::uint32_t>(1 + random() % c_largest) >> random() % 16;
-      const double stated = stated_at(exponent);
+      const double allowed = allowed_at(exponent);
       // Choose bases whose power is not almost 0.
       const auto width = std::max<std::uint64_t>(1, c_one / (1 + (exponent >> P::c_exponent_fraction_bits)));
       std::uint32_t base =
@@ -144,16 +144,16 @@ Finding power(const Context& context, const tables::PresetFormats& preset, const
         if (const double error = std::fabs(power_error<P>(next, exponent)); error > best)
           best = error, base = next;
       }
-      see(base, exponent, stated);
+      see(base, exponent, allowed);
     }
-    finding.proved = exact_ratio(context.quick) * bound.value;
+    finding.proved = exact_ratio(context.quick) * stated.bound.value;
   } else {
     const std::uint32_t base_step = context.quick ? 61 : 1, exponent_step = context.quick ? 13 : 1;
     for (std::uint32_t exponent = 1; exponent <= c_largest; exponent += exponent_step) {
-      const double stated = stated_at(exponent);
-      for (std::uint32_t base = 0; base <= c_one; base += base_step) see(base, exponent, stated);
+      const double allowed = allowed_at(exponent);
+      for (std::uint32_t base = 0; base <= c_one; base += base_step) see(base, exponent, allowed);
     }
-    if (!context.quick) finding.proved = finding.of_stated * bound.value;
+    if (!context.quick) finding.proved = finding.of_stated * stated.bound.value;
   }
   return finding;
 }
@@ -172,8 +172,7 @@ double share_error(std::int64_t over, std::uint32_t slope) {
 }
 
 template <class P>
-Finding spot(const Context& context, const tables::PresetFormats&, const tables::Format&,
-             const tables::Bound& bound) {
+Finding spot(const Context& context, const Stated& stated) {
   constexpr int c_slope_bits = 12 + P::c_spot_slope_fraction_bits, c_sum = 2 * P::c_direction_fraction_bits;
   std::mt19937_64 random(2);
   Finding finding;
@@ -186,9 +185,9 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
     const long double t = 0.5L + (static_cast<long double>(random() % 1'000'000) / 1'000'000 - 0.5L) * 0.3L;
     const auto over = static_cast<std::int64_t>(std::ldexp(std::min(t / s, 2.0L), c_sum));
     const double error = std::fabs(share_error<P>(over, slope));
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("slope word {}, cosine {} / 2^{} above the edge", slope, over, c_sum);
+    keep_worst(finding, error, [&] {
+      return fmt::format("slope word {}, cosine {} / 2^{} above the edge", slope, over, c_sum);
+    });
   }
   // t is within [0, 1] or clamped. The other errors are the cuts and the rounding.
   const int weight = P::c_weight_fraction_bits;
@@ -200,8 +199,8 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
                   "g = t * t * (3 - 2 * t); f = fixed<-{},ne>(g); F = T * T * (3 - 2 * T);\n"
                   "{{ s in [0, 4096] /\\ T in [0, 1] /\\ t in [0, 1] -> |f - F| <= {} }}\n"
                   "F - g -> d * rise;\nd -> (O - o) * s + (o * s - t);\nf - F -> (f - g) - (F - g);\n",
-                  c_sum, SpotCone<P>::c_over_fraction, weight, weight, bound.value));
-  if (said && said->empty()) finding.proved = bound.value;
+                  c_sum, SpotCone<P>::c_over_fraction, weight, weight, stated.bound.value));
+  if (said && said->empty()) finding.proved = stated.bound.value;
   if (said && !said->empty()) finding.failure = "Gappa does not prove it: " + *said;
   return finding;
 }
@@ -209,16 +208,15 @@ Finding spot(const Context& context, const tables::PresetFormats&, const tables:
 // The weight of a diffuse term is its rounded cosine. All cosines of preset published, a stride of preset
 // exact's.
 template <class P>
-Finding diffuse(const Context&, const tables::PresetFormats&, const tables::Format&, const tables::Bound&) {
+Finding diffuse(const Context&, const Stated&) {
   constexpr int c_drop = P::c_direction_fraction_bits - P::c_weight_fraction_bits;
   Finding finding;
   for (std::int64_t cosine = 0; cosine <= std::int64_t{1} << P::c_direction_fraction_bits; ++cosine) {
     const double error =
         std::fabs(static_cast<double>((golden::round_half_up(cosine, c_drop) << c_drop) - cosine)) *
         std::ldexp(1.0, -P::c_direction_fraction_bits);
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("a cosine of {} / 2^{}", cosine, P::c_direction_fraction_bits);
+    keep_worst(finding, error,
+               [&] { return fmt::format("a cosine of {} / 2^{}", cosine, P::c_direction_fraction_bits); });
   }
   finding.proved = finding.worst;
   return finding;

@@ -19,14 +19,4 @@ std::optional<std::string> gappa(const Context& context, std::string_view script
                           : end->output.substr(std::min(end->output.rfind("Error"), end->output.size()));
 }
 
-std::optional<std::string> sollya(const Context& context, std::string_view script) {
-  if (context.quick) return std::nullopt;
-  const std::filesystem::path file = context.scratch / "bound.sollya";
-  if (const auto written = write_file(file, script); !written) return written.error().message;
-  const auto end = run_process({.arguments = {"sollya", file.string()}, .timeout = std::chrono::minutes(60)},
-                               "apt-get install sollya");
-  if (!end) return end.error().message;
-  return end->succeeded() ? end->output : "it ended with " + end->how();
-}
-
 }  // namespace halfway::bounds

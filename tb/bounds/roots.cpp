@@ -16,8 +16,7 @@ using golden::Axes, golden::Exact, golden::Published, golden::ReciprocalRoot;
 
 // The table only: each entry over its whole cell.
 template <class P>
-Finding entry(const Context&, const tables::PresetFormats&, const tables::Format&,
-              const tables::Bound& bound) {
+Finding entry(const Context&, const Stated& stated) {
   const golden::FunctionTable& table = golden::function_table<P>(golden::Function::reciprocal_root);
   const int cells = 1 << table.address_bits;
   Finding finding;
@@ -28,11 +27,10 @@ Finding entry(const Context&, const tables::PresetFormats&, const tables::Format
           end < cells / 2 ? Dyadic{cells + 2 * end, table.address_bits} : Dyadic{4 * end, table.address_bits};
       const Enclosure truth = reciprocal_root(x);
       // Relative to the root. x^-1/2 decreases, so both errors are largest at an end of the cell.
-      const double error = bound.of == "relative" ? farthest(value, truth) / truth.low * (1 + 0x1p-51)
-                                                  : farthest(value, truth);
-      if (error <= finding.worst) continue;
-      finding.worst = error;
-      finding.where = fmt::format("entry {} at x = {}", i, std::ldexp(x.number, -x.shift));
+      const double error = stated.bound.of == "relative" ? farthest(value, truth) / truth.low * (1 + 0x1p-51)
+                                                         : farthest(value, truth);
+      keep_worst(finding, error,
+                 [&] { return fmt::format("entry {} at x = {}", i, std::ldexp(x.number, -x.shift)); });
     }
   }
   finding.proved = finding.worst;
@@ -50,8 +48,7 @@ double relative_error(std::uint32_t x) {
 }
 
 template <class P>
-Finding root(const Context& context, const tables::PresetFormats&, const tables::Format&,
-             const tables::Bound&) {
+Finding root(const Context& context, const Stated&) {
   constexpr std::uint32_t c_one = std::uint32_t{1} << P::c_square_fraction_bits;
   constexpr bool c_newton = P::c_root_fraction_bits > P::c_root_entry_fraction_bits;
   // The Newton step cuts x to 22 fraction bits. Its error is largest at an end of each range of equal cut
@@ -61,9 +58,9 @@ Finding root(const Context& context, const tables::PresetFormats&, const tables:
   Finding finding;
   const auto see = [&](std::uint32_t x) {
     const double error = std::fabs(relative_error<P>(x)) + 0x1p-50;
-    if (error <= finding.worst) return;
-    finding.worst = error;
-    finding.where = fmt::format("x = {:.9f}, word {}", std::ldexp(x, -P::c_square_fraction_bits), x);
+    keep_worst(finding, error, [&] {
+      return fmt::format("x = {:.9f}, word {}", std::ldexp(x, -P::c_square_fraction_bits), x);
+    });
   };
   for (std::uint64_t x = c_one; x < std::uint64_t{4} * c_one; x += stride) {
     see(static_cast<std::uint32_t>(x));
@@ -75,8 +72,7 @@ Finding root(const Context& context, const tables::PresetFormats&, const tables:
 
 // The square is the upper bits of the exact one.
 template <class P>
-Finding square(const Context&, const tables::PresetFormats&, const tables::Format& format,
-               const tables::Bound&) {
+Finding square(const Context&, const Stated& stated) {
   constexpr int c_bits = P::c_direction_bits, c_drop = 2 * (c_bits - 1) - P::c_square_fraction_bits;
   std::mt19937_64 random(4);
   Finding finding;
@@ -86,11 +82,9 @@ Finding square(const Context&, const tables::PresetFormats&, const tables::Forma
     const std::int64_t exact = golden::dot_product(u, u);
     const double error =
         std::ldexp(static_cast<double>(exact - (exact >> c_drop << c_drop)), -2 * (c_bits - 1));
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("({}, {}, {}) in units", u[0], u[1], u[2]);
+    keep_worst(finding, error, [&] { return fmt::format("({}, {}, {}) in units", u[0], u[1], u[2]); });
   }
-  finding.proved = format.unit() * (1 - std::ldexp(1.0, -c_drop));
+  finding.proved = stated.format.unit() * (1 - std::ldexp(1.0, -c_drop));
   return finding;
 }
 
@@ -142,24 +136,22 @@ void climb(bool of_length, int starts, Finding& finding) {
       if (next == Axes{}) continue;
       if (const double e = value(next); e > best) best = e, v = next;
     }
-    if (best <= finding.worst) continue;
-    finding.worst = best;
-    finding.where = fmt::format("({}, {}, {}) of {} bits", v[0], v[1], v[2], VectorBits);
+    keep_worst(finding, best,
+               [&] { return fmt::format("({}, {}, {}) of {} bits", v[0], v[1], v[2], VectorBits); });
   }
 }
 
 template <class P>
-Finding length(const Context& context, const tables::PresetFormats& preset, const tables::Format& format,
-               const tables::Bound& bound) {
+Finding length(const Context& context, const Stated& stated) {
   Finding finding;
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(true, starts, finding);
   climb<P, P::c_offset_bits>(true, starts, finding);
   // The derivation, with the error of the root over every x.
-  const double all_roots = root<P>(context, preset, format, bound).proved;
+  const double all_roots = root<P>(context, stated).proved;
   if (all_roots > 0)
-    finding.proved =
-        all_roots + 2 * std::ldexp(1.0, -P::c_square_fraction_bits) + std::sqrt(3.0) * format.unit() / 2;
+    finding.proved = all_roots + 2 * std::ldexp(1.0, -P::c_square_fraction_bits) +
+                     std::sqrt(3.0) * stated.format.unit() / 2;
   return finding;
 }
 
@@ -195,17 +187,17 @@ double angle_bound(double cut, double half) {
 }
 
 template <class P>
-Finding direction_angle(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                        const tables::Bound&) {
+Finding direction_angle(const Context& context, const Stated& stated) {
   Finding finding;
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(false, starts, finding);
   climb<P, P::c_offset_bits>(false, starts, finding);
   // Use the longest vectors: their lowest bits are cut.
   constexpr int c_cut = std::max(0, P::c_offset_bits - P::c_direction_bits);
-  const double unit = format.unit() / 2;  // unit of a shifted vector
+  const double unit = stated.format.unit() / 2;  // unit of a shifted vector
   const double shrunk = std::is_same_v<P, Exact> ? 1.42e-6 : 0.0094;
-  const double across = angle_bound(unit * (1 - std::ldexp(1.0, -c_cut)), format.unit() / 2 / (1 - shrunk));
+  const double across =
+      angle_bound(unit * (1 - std::ldexp(1.0, -c_cut)), stated.format.unit() / 2 / (1 - shrunk));
   finding.proved = std::asin(across);
   return finding;
 }
@@ -213,8 +205,7 @@ Finding direction_angle(const Context& context, const tables::PresetFormats&, co
 // The rounding of a cosine to a direction's fraction, for the processors' dot products; and the rounding of a
 // component of a vector.
 template <class P>
-Finding component(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                  const tables::Bound&) {
+Finding component(const Context&, const Stated& stated) {
   constexpr int c_fraction = P::c_direction_fraction_bits;
   const std::int64_t most = std::int64_t{1} << c_fraction;
   Finding finding;
@@ -222,19 +213,16 @@ Finding component(const Context&, const tables::PresetFormats&, const tables::Fo
     const std::int64_t dot = most * (most / 3) + low * (most >> std::min(20, c_fraction));
     const double error =
         std::fabs(static_cast<double>((std::int64_t{golden::cosine<P>(dot)} << c_fraction) - dot)) *
-        format.unit() * format.unit();
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("a dot product of {}", dot);
+        stated.format.unit() * stated.format.unit();
+    keep_worst(finding, error, [&] { return fmt::format("a dot product of {}", dot); });
   }
-  finding.proved = format.unit() / 2;
+  finding.proved = stated.format.unit() / 2;
   return finding;
 }
 
 // The offset from the surface to a light: place times 1/w, rounded, minus the shifted place, as in
 // shading_processor.
-Finding offset(const Context&, const tables::PresetFormats&, const tables::Format& format,
-               const tables::Bound&) {
+Finding offset(const Context&, const Stated& stated) {
   using P = Exact;
   constexpr int c_drop =
       P::c_light_place_fraction_bits + P::c_vector_fraction_bits - P::c_offset_fraction_bits;
@@ -249,12 +237,13 @@ Finding offset(const Context&, const tables::PresetFormats&, const tables::Forma
     const long double truth =
         std::ldexp(static_cast<long double>(place) * static_cast<long double>(distance), -c_drop) -
         std::ldexp(static_cast<long double>(point), -shift);
-    const auto error = static_cast<double>(std::fabs(static_cast<long double>(made) - truth)) * format.unit();
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("place {}, 1/w {}, point {}, shift {}", place, distance, point, shift);
+    const auto error =
+        static_cast<double>(std::fabs(static_cast<long double>(made) - truth)) * stated.format.unit();
+    keep_worst(finding, error, [&] {
+      return fmt::format("place {}, 1/w {}, point {}, shift {}", place, distance, point, shift);
+    });
   }
-  finding.proved = 1.5 * format.unit();
+  finding.proved = 1.5 * stated.format.unit();
   return finding;
 }
 

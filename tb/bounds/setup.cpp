@@ -67,9 +67,7 @@ struct Seen {
   int fraction;
   void word(std::int64_t is, double number, std::string_view what) const {
     const double error = std::fabs(std::ldexp(static_cast<double>(is), -fraction) - number);
-    if (error <= finding.worst) return;
-    finding.worst = error;
-    finding.where = fmt::format("{} of {:.12g}", what, number);
+    keep_worst(finding, error, [&] { return fmt::format("{} of {:.12g}", what, number); });
   }
 };
 
@@ -100,9 +98,9 @@ SetupWords<P> setup_words(const Scene& scene) {
 }
 
 template <class P, class See>
-Finding over_scenes(const Context& context, const tables::Format& format, See&& see) {
+Finding over_scenes(const Context& context, const Stated& stated, See&& see) {
   Finding finding;
-  const Seen seen{finding, format.fraction_bits};
+  const Seen seen{finding, stated.format.fraction_bits};
   for (int i = 0; i < (context.quick ? 40 : 2000); ++i) {
     const RandomScene random(static_cast<std::uint64_t>(i));
     const SetupWords<P> words = setup_words<P>(random.scene);
@@ -112,16 +110,15 @@ Finding over_scenes(const Context& context, const tables::Format& format, See&& 
     }
     see(seen, random.scene, words);
   }
-  finding.proved = format.unit() / 2;  // one rounding
+  finding.proved = stated.format.unit() / 2;  // one rounding
   return finding;
 }
 
 // Lights are in the order directional, positional, spots.
 template <class P>
-Finding light_intensity(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                        const tables::Bound&) {
+Finding light_intensity(const Context& context, const Stated& stated) {
   return over_scenes<P>(
-      context, format, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+      context, stated, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
         for (int c = 0; c < 3; ++c) {
           const auto channel = static_cast<std::size_t>(c);
           seen.word(words.lights[0].intensity[channel], 255 * scene.ambient[c], "an ambient light");
@@ -133,10 +130,9 @@ Finding light_intensity(const Context& context, const tables::PresetFormats&, co
 }
 
 template <class P>
-Finding light_place(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                    const tables::Bound&) {
+Finding light_place(const Context& context, const Stated& stated) {
   return over_scenes<P>(
-      context, format, [&](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+      context, stated, [&](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
         for (std::size_t i = 0; i < 4; ++i) {
           const glm::dvec3 place = scene.positional[i].position_world - scene.camera.eye_world;
           // Setup chooses the power of two by which the largest component has the most bits.
@@ -144,8 +140,8 @@ Finding light_place(const Context& context, const tables::PresetFormats&, const 
           int largest = 0;
           for (int axis = 1; axis < 3; ++axis)
             if (std::fabs(place[axis]) > std::fabs(place[largest])) largest = axis;
-          const double word =
-              std::ldexp(static_cast<double>(axes[static_cast<std::size_t>(largest)]), -format.fraction_bits);
+          const double word = std::ldexp(static_cast<double>(axes[static_cast<std::size_t>(largest)]),
+                                         -stated.format.fraction_bits);
           const double scale = std::exp2(std::round(std::log2(word / place[largest])));
           for (int axis = 0; axis < 3; ++axis)
             seen.word(axes[static_cast<std::size_t>(axis)], scale * place[axis], "a light's place");
@@ -154,11 +150,10 @@ Finding light_place(const Context& context, const tables::PresetFormats&, const 
 }
 
 template <class P>
-Finding spot_slope(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                   const tables::Bound& bound) {
-  const bool share = bound.of == "share";
+Finding spot_slope(const Context& context, const Stated& stated) {
+  const bool share = stated.bound.of == "share";
   Finding finding =
-      over_scenes<P>(context, format, [&](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+      over_scenes<P>(context, stated, [&](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
         for (std::size_t i = 0; i < 4; ++i) {
           const double slope = 1 / (scene.spots[i].cos_inner - scene.spots[i].cos_outer);
           if (!share) {
@@ -167,7 +162,7 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
           }
           // The cubic at two thirds of the cone's edge, by the word and by the number.
           const auto cubic = [](double t) { return t * t * (3 - 2 * t); };
-          const double is = std::ldexp(words.lights[9 + i].slope, -format.fraction_bits), t = 2.0 / 3;
+          const double is = std::ldexp(words.lights[9 + i].slope, -stated.format.fraction_bits), t = 2.0 / 3;
           const double error = std::fabs(cubic(std::min(1.0, t * is / slope)) - cubic(t));
           if (error <= seen.finding.worst) continue;
           seen.finding.worst = error;
@@ -177,12 +172,12 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
   if (share) {
     // The smallest slopes, next to the middle between two words.
     for (int word = 32; word < 40; ++word) {
-      const double slope = (word + 0.5 - 1e-9) * format.unit(), is = word * format.unit(), t = 2.0 / 3;
+      const double slope = (word + 0.5 - 1e-9) * stated.format.unit(), is = word * stated.format.unit(),
+                   t = 2.0 / 3;
       const auto cubic = [](double x) { return x * x * (3 - 2 * x); };
       const double error = std::fabs(cubic(t * is / slope) - cubic(t));
-      if (error <= finding.worst) continue;
-      finding.worst = error;
-      finding.where = fmt::format("a slope of {:.9f}, two thirds into its edge", slope);
+      keep_worst(finding, error,
+                 [&] { return fmt::format("a slope of {:.9f}, two thirds into its edge", slope); });
     }
     finding.proved = 0;
   }
@@ -190,10 +185,9 @@ Finding spot_slope(const Context& context, const tables::PresetFormats&, const t
 }
 
 template <class P>
-Finding coefficient(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                    const tables::Bound&) {
+Finding coefficient(const Context& context, const Stated& stated) {
   return over_scenes<P>(
-      context, format, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+      context, stated, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
         const golden::ProcessorsLayout<P> layout(words.config);
         const Material& m = scene.materials[0];
         const auto word = [&](int low) {
@@ -209,23 +203,21 @@ Finding coefficient(const Context& context, const tables::PresetFormats&, const 
 }
 
 template <class P>
-Finding exponent(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-                 const tables::Bound& bound) {
-  if (bound.of == "highlight") {
+Finding exponent(const Context& context, const Stated& stated) {
+  if (stated.bound.of == "highlight") {
     // The slope of x^n is steepest at x = 1/e^(1/n). Start at the smallest exponent, next to the middle
     // between two words.
     Finding finding;
-    for (double n = 1; n < 4; n += format.unit()) {
-      const double word = n, real = n + format.unit() / 2 - 1e-9, x = std::exp(-1 / real);
+    for (double n = 1; n < 4; n += stated.format.unit()) {
+      const double word = n, real = n + stated.format.unit() / 2 - 1e-9, x = std::exp(-1 / real);
       const double error = std::fabs(std::pow(x, word) - std::pow(x, real));
-      if (error <= finding.worst) continue;
-      finding.worst = error;
-      finding.where = fmt::format("an exponent of {:.9f} at a cosine of {:.6f}", real, x);
+      keep_worst(finding, error,
+                 [&] { return fmt::format("an exponent of {:.9f} at a cosine of {:.6f}", real, x); });
     }
     return finding;
   }
   return over_scenes<P>(
-      context, format, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
+      context, stated, [](const Seen& seen, const Scene& scene, const SetupWords<P>& words) {
         const golden::ProcessorsLayout<P> layout(words.config);
         const auto word =
             static_cast<std::int64_t>(golden::get_bits(words.draw, {"", 0, P::c_exponent_bits, false, 0},
@@ -236,11 +228,10 @@ Finding exponent(const Context& context, const tables::PresetFormats&, const tab
 
 // The value of a plane plus half a step of vector, cut to a vector, as in processors_shader.
 template <class P>
-Finding vector(const Context&, const tables::PresetFormats&, const tables::Format& format,
-               const tables::Bound&) {
+Finding vector(const Context&, const Stated& stated) {
   constexpr int c_drop = P::c_plane_sum_fraction_bits - P::c_vector_fraction_bits;
   Finding finding;
-  const Seen seen{finding, format.fraction_bits};
+  const Seen seen{finding, stated.format.fraction_bits};
   for (std::int64_t value = -(std::int64_t{1} << c_drop); value <= std::int64_t{1} << c_drop; ++value)
     seen.word((value + half(c_drop)) >> c_drop,
               std::ldexp(static_cast<double>(value), -P::c_plane_sum_fraction_bits), "a plane's value");
@@ -249,11 +240,10 @@ Finding vector(const Context&, const tables::PresetFormats&, const tables::Forma
 }
 
 template <class P>
-Finding factor(const Context& context, const tables::PresetFormats&, const tables::Format& format,
-               const tables::Bound&) {
+Finding factor(const Context& context, const Stated& stated) {
   constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
   Finding finding;
-  const Seen seen{finding, format.fraction_bits};
+  const Seen seen{finding, stated.format.fraction_bits};
   for (int i = 0; i < (context.quick ? 40 : 300); ++i) {
     const RandomScene random(static_cast<std::uint64_t>(i));
     const auto plan = plan_scene(random.scene, {.shader = Shader::spherical, .preset = c_preset});
@@ -272,7 +262,7 @@ Finding factor(const Context& context, const tables::PresetFormats&, const table
                     golden::get_bits(words, P::ambient_channel_at::ambient, layout.ambient_low(c))),
                 255 * random.scene.ambient[c] * m.ambient * m.colour[c] + 0.5, "an ambient factor");
   }
-  finding.proved = format.unit() / 2;
+  finding.proved = stated.format.unit() / 2;
   return finding;
 }
 

@@ -15,8 +15,7 @@ namespace {
 
 using golden::Exact, golden::Published;
 
-Finding colour_range(const Context&, const tables::PresetFormats&, const tables::Format&,
-                     const tables::Bound&) {
+Finding colour_range(const Context&, const Stated&) {
   golden::SaturatingSum sum;
   for (int i = 0; i < 33; ++i) sum.add(~std::uint64_t{0} >> 8);
   using Value = golden::Word<Exact::c_intensity_bits>;
@@ -31,8 +30,7 @@ Finding colour_range(const Context&, const tables::PresetFormats&, const tables:
 
 // The half step that setup adds to the value, and the cut of the result: every fraction of preset published;
 // in preset exact the fractions next to both halves.
-Finding colour_rounded(const Context&, const tables::PresetFormats&, const tables::Format&,
-                       const tables::Bound&) {
+Finding colour_rounded(const Context&, const Stated&) {
   constexpr int c_bits = Published::c_intensity_bits, c_fraction = Published::c_intensity_fraction_bits;
   Finding finding;
   for (std::int64_t value = 0; value <= std::int64_t{2} << c_fraction; ++value) {
@@ -41,33 +39,30 @@ Finding colour_rounded(const Context&, const tables::PresetFormats&, const table
         std::fabs(double(golden::saturate<c_bits, c_fraction, Published::c_colour_bits>(
                       golden::Word<c_bits>::from_bits(static_cast<std::uint64_t>(with_half)))) -
                   std::ldexp(static_cast<double>(value), -c_fraction));
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("a value of {:.7f}", std::ldexp(static_cast<double>(value), -c_fraction));
+    keep_worst(finding, error, [&] {
+      return fmt::format("a value of {:.7f}", std::ldexp(static_cast<double>(value), -c_fraction));
+    });
   }
   finding.proved = finding.worst;
   return finding;
 }
 
 // Setup keeps depths one step away from both ends, so that depth plus half a step stays in the format.
-Finding depth_range(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                    const tables::Bound&) {
-  const double most = std::ldexp(1.0, format.integer_bits) - 1;
+Finding depth_range(const Context&, const Stated& stated) {
+  const double most = std::ldexp(1.0, stated.format.integer_bits) - 1;
   return {.worst = most - 1,
           .where = "the far plane, clamped to one step below the end, plus half a step and an error of 0.19",
           .proved = most};
 }
 
-Finding depth_rounded(const Context&, const tables::PresetFormats&, const tables::Format&,
-                      const tables::Bound&) {
+Finding depth_rounded(const Context&, const Stated&) {
   constexpr int c_fraction = Exact::c_depth_sum_fraction_bits;
   Finding finding;
   for (std::int64_t value = 0; value <= std::int64_t{2} << c_fraction; ++value) {
     const std::int64_t whole = (value + (std::int64_t{1} << (c_fraction - 1))) >> c_fraction;
     const double error = std::fabs(double(whole) - std::ldexp(double(value), -c_fraction));
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("a depth of {:.6f}", std::ldexp(double(value), -c_fraction));
+    keep_worst(finding, error,
+               [&] { return fmt::format("a depth of {:.6f}", std::ldexp(double(value), -c_fraction)); });
   }
   finding.proved = finding.worst;
   return finding;
@@ -76,8 +71,7 @@ Finding depth_rounded(const Context&, const tables::PresetFormats&, const tables
 // k I with the processor's own rounding: an ambient term, with weight 1, over random k and I. All bits of the
 // term are visible, since radiance has at least as many fraction bits.
 template <class P>
-Finding reflected(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                  const tables::Bound&) {
+Finding reflected(const Context&, const Stated& stated) {
   static_assert(P::c_radiance_fraction_bits >= P::c_reflected_fraction_bits);
   const golden::ProcessorsConfig config{
       .channels = 1, .diffuse = false, .specular = false, .normalize = false};
@@ -98,19 +92,18 @@ Finding reflected(const Context&, const tables::PresetFormats&, const tables::Fo
                                     -P::c_light_intensity_fraction_bits - P::c_coefficient_fraction_bits);
     const double error =
         std::fabs(std::ldexp(double(token.radiance[0]), -P::c_radiance_fraction_bits) - exact);
-    if (error <= finding.worst) continue;
-    finding.worst = error;
-    finding.where = fmt::format("k {}, I {} in units", token.ambient[0], light.light.intensity[0]);
+    keep_worst(finding, error, [&] {
+      return fmt::format("k {}, I {} in units", token.ambient[0], light.light.intensity[0]);
+    });
   }
-  finding.proved = format.unit() / 2;
+  finding.proved = stated.format.unit() / 2;
   return finding;
 }
 
 // Each term's product is cut, except the ambient one's, with weight 1. Uses sixteen lights with the greatest
 // cut of the diffuse and specular terms: odd weights w, and reflected lights r with r w = -1 modulo a unit.
 template <class P>
-Finding radiance(const Context&, const tables::PresetFormats&, const tables::Format& format,
-                 const tables::Bound&) {
+Finding radiance(const Context&, const Stated& stated) {
   constexpr int c_cut =
       P::c_reflected_fraction_bits + P::c_weight_fraction_bits - P::c_radiance_fraction_bits;
   constexpr int c_fraction = P::c_direction_fraction_bits, c_lights = 16;
@@ -182,7 +175,7 @@ Finding radiance(const Context&, const tables::PresetFormats&, const tables::For
   finding.worst = exact - std::ldexp(double(token.radiance[0]), -P::c_radiance_fraction_bits);
   finding.where = fmt::format("16 lights at a cosine of {} units, k I {} and {} units", best.to_light[0],
                               best.diffuse_light, best.specular_light);
-  finding.proved = 2 * c_lights * format.unit();
+  finding.proved = 2 * c_lights * stated.format.unit();
   return finding;
 }
 

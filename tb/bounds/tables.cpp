@@ -16,32 +16,6 @@ namespace {
 
 using tables::CosineTable, tables::Function, tables::FunctionTable;
 
-// Computes by Sollya the largest distance between f and each cell's constant or chord.
-class SollyaScript {
- public:
-  explicit SollyaScript(std::string f)
-      : text_(fmt::format("prec = 120!;\nverbosity = 0!;\nf = {};\nm = 0;\n", f)) {}
-  /// On [low, high] / 2^shift. (supnorm does not accept the zero polynomial, infnorm is slow for chords.)
-  void constant(const std::string& value, long low, long high, int shift) {
-    text_ += fmt::format("m = max(m, sup(infnorm({} - f, [{} * 2^-{}; {} * 2^-{}])));\n", value, low, shift,
-                         high, shift);
-  }
-  void chord(const std::string& polynomial, long low, long high, int shift) {
-    text_ += fmt::format("m = max(m, sup(supnorm({}, f, [{} * 2^-{}; {} * 2^-{}], absolute, 2^-20)));\n",
-                         polynomial, low, shift, high, shift);
-  }
-  void run(const Context& context, TableFinding& finding) const {
-    const auto said = sollya(context, text_ + "print(m);\nquit;\n");
-    if (!said) return;
-    char* end = nullptr;
-    finding.sollya = std::strtod(said->c_str(), &end);
-    if (end == said->c_str() || !(finding.sollya > 0)) finding.failure = "Sollya says " + *said;
-  }
-
- private:
-  std::string text_;
-};
-
 // A table value must be the nearest one to its function at its argument, and not only within the table's
 // bound.
 void expect_nearest(double value, double unit, Enclosure truth, int index, TableFinding& finding) {
@@ -75,10 +49,10 @@ TableFinding cosine_finding(const CosineTable& table) {
       const Enclosure truth = cosine_at(table, std::abs(end), shift);
       // The rounding of the quotient is added.
       const double error = farthest(value, truth) + 0x1p-52;
-      if (error <= finding.worst) continue;
-      finding.worst = error;
-      finding.where = fmt::format("entry {} at {}/{} of {}", entry, end, quarter,
-                                  table.own > 0.0 ? "the table's reach" : "a quarter turn");
+      keep_worst(finding, error, [&] {
+        return fmt::format("entry {} at {}/{} of {}", entry, end, quarter,
+                           table.own > 0.0 ? "the table's reach" : "a quarter turn");
+      });
     }
   }
   return finding;
@@ -108,9 +82,8 @@ TableFinding step_finding(const FunctionTable& table, TableFinding finding) {
     for (const int end : {i, i + 1}) {
       const Dyadic x = argument(table, end);
       const double error = farthest(value, value_at(table, x));
-      if (error <= finding.worst) continue;
-      finding.worst = error;
-      finding.where = fmt::format("value {} at x = {}", i, std::ldexp(x.number, -x.shift));
+      keep_worst(finding, error,
+                 [&] { return fmt::format("value {} at x = {}", i, std::ldexp(x.number, -x.shift)); });
     }
   }
   return finding;
@@ -146,52 +119,10 @@ TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
       const double error =
           std::max(high + bend + (rises ? 0 : unit), -low + bend + (rises ? unit : 0)) + 0x1p-52;
       from = to;
-      if (error <= finding.worst) continue;
-      finding.worst = error;
-      finding.where = fmt::format("cell {}, part {} of {}", i, part, c_parts);
+      keep_worst(finding, error, [&] { return fmt::format("cell {}, part {} of {}", i, part, c_parts); });
     }
   }
   return finding;
-}
-
-void ask_sollya(const Context& context, const CosineTable& table, TableFinding& finding) {
-  const int cells = 1 << table.address_bits, full = (1 << table.data_bits) - 1;
-  const int shift = table.address_bits - (table.exact ? 0 : table.power == 1 ? 2 : 1);
-  SollyaScript script(fmt::format("cos(pi / 2 * x)^{}", table.power));
-  for (int entry = 0; entry < cells; ++entry) {
-    const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
-    if (low < -(1 << shift) || low >= 1 << shift) continue;  // both table and function are zero
-    script.constant(fmt::format("{} / {}", table.entries[static_cast<std::size_t>(entry)], full), low,
-                    low + 1, shift);
-  }
-  script.run(context, finding);
-  if (finding.sollya > 0 && std::fabs(finding.sollya / finding.worst - 1) > 0x1p-18)
-    finding.failure = fmt::format("Sollya has {}", finding.sollya);
-}
-
-void ask_sollya(const Context& context, const FunctionTable& table, TableFinding& finding) {
-  SollyaScript script(table.function == Function::logarithm ? "log2(x)"
-                      : table.function == Function::decay   ? "2^(-x)"
-                                                            : "1 / sqrt(x)");
-  for (int i = 0; i < 1 << table.address_bits; ++i) {
-    const Dyadic from = argument(table, i), to = argument(table, i + 1);
-    const std::uint32_t value = table.values[static_cast<std::size_t>(i)];
-    const std::string begins = fmt::format("{} * 2^-{}", value, table.fraction_bits);
-    if (table.slope_bits == 0) {
-      script.constant(begins, from.number, to.number, from.shift);
-    } else {
-      const std::int64_t slope = std::int64_t{table.values[static_cast<std::size_t>(i) + 1]} - value;
-      script.chord(fmt::format("{} + ({}) * 2^{} * (x - {} * 2^-{})", begins, slope,
-                               table.address_bits - table.fraction_bits, from.number, from.shift),
-                   from.number, to.number, from.shift);
-    }
-  }
-  script.run(context, finding);
-  // Our result also includes the cut along a chord and the bend of its parts.
-  const double cut = table.slope_bits > 0 ? std::ldexp(1.0, -table.fraction_bits) : 0;
-  if (finding.sollya > finding.worst * (1 + 0x1p-18) ||
-      (finding.sollya > 0 && finding.sollya + cut < finding.worst * (1 - 0x1p-10)))
-    finding.failure = fmt::format("Sollya has {}", finding.sollya);
 }
 
 constexpr const char* c_functions[] = {"1/sqrt(x)", "log2(x)", "2^-x"};
@@ -200,10 +131,7 @@ constexpr const char* c_functions[] = {"1/sqrt(x)", "log2(x)", "2^-x"};
 
 std::vector<TableFinding> cosine_tables(const Context& context) {
   std::vector<TableFinding> findings;
-  for (const CosineTable& table : tables::cosine_tables()) {
-    findings.push_back(cosine_finding(table));
-    ask_sollya(context, table, findings.back());
-  }
+  for (const CosineTable& table : tables::cosine_tables()) findings.push_back(cosine_finding(table));
   // Own tables, of exponents from the smallest to the largest.
   for (const double exponent : {1.0, 1.305, 2.65, 20.0, 1000.0, 1e6})
     findings.push_back(cosine_finding(
@@ -234,7 +162,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
   return findings;
 }
 
-std::vector<TableFinding> function_tables(const Context& context) {
+std::vector<TableFinding> function_tables() {
   std::vector<TableFinding> findings;
   for (const FunctionTable& table : tables::function_tables()) {
     TableFinding finding;
@@ -243,7 +171,6 @@ std::vector<TableFinding> function_tables(const Context& context) {
     finding.bound = table.error.value;
     finding.derived = tables::derived(table);
     findings.push_back(table.slope_bits > 0 ? chord_finding(table, finding) : step_finding(table, finding));
-    ask_sollya(context, table, findings.back());
   }
   return findings;
 }
