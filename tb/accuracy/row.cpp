@@ -96,7 +96,6 @@ TEST_P(Accuracy, Full) {
 INSTANTIATE_TEST_SUITE_P(quadratic_shader, Accuracy, testing::ValuesIn(quadratic_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(spherical_shader, Accuracy, testing::ValuesIn(spherical_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(cosine_tables, Accuracy, testing::ValuesIn(cosine_rows()), id_of);
-INSTANTIATE_TEST_SUITE_P(fits, Accuracy, testing::ValuesIn(fit_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(within_one_step, Accuracy, testing::ValuesIn(one_step_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(bright_lights, Accuracy, testing::ValuesIn(bright_rows()), id_of);
 INSTANTIATE_TEST_SUITE_P(shading_processors, Accuracy, testing::ValuesIn(processors_rows()), id_of);

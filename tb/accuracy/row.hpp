@@ -67,7 +67,6 @@ std::vector<Row> spherical_rows();
 std::vector<Row> bright_rows();
 std::vector<Row> processors_rows();
 std::vector<Row> cosine_rows();
-std::vector<Row> fit_rows();
 std::vector<Row> one_step_rows();
 std::vector<Row> root_rows();
 
