@@ -93,52 +93,6 @@ World copy(const halfway::Scene& scene) {
   return world;
 }
 
-const char* name(Fault fault) {
-  constexpr const char* c_names[] = {"none",
-                                     "mirrored",
-                                     "upside_down",
-                                     "fov_is_horizontal",
-                                     "fov_is_half",
-                                     "snapped_down",
-                                     "depth_of_distance",
-                                     "depth_one_step_deeper",
-                                     "bottom_right_rule",
-                                     "closed_edges",
-                                     "pixel_corners",
-                                     "back_faces_shown",
-                                     "last_of_depth",
-                                     "linear_on_screen",
-                                     "normal_not_unit",
-                                     "flat_normal",
-                                     "ambient_missing",
-                                     "diffuse_unclamped",
-                                     "highlight_below_horizon",
-                                     "eye_at_infinity",
-                                     "halfway_not_unit",
-                                     "halfway_of_normal",
-                                     "phong_by_light",
-                                     "exponent_plus_one",
-                                     "beckmann_without_pi",
-                                     "beckmann_squared_cosine",
-                                     "fresnel_of_fourth_power",
-                                     "masking_missing",
-                                     "specular_takes_colour",
-                                     "diffuse_in_all_channels",
-                                     "positional_is_directional",
-                                     "falls_off_by_distance",
-                                     "spot_backwards",
-                                     "spot_linear",
-                                     "spot_without_edge",
-                                     "second_light_missing",
-                                     "shadows_missing",
-                                     "lit_faces_cast",
-                                     "averted_faces_lit",
-                                     "shadows_beyond_light",
-                                     "truncated_to_byte"};
-  static_assert(std::size(c_names) == static_cast<std::size_t>(Fault::end));
-  return c_names[static_cast<std::size_t>(fault)];
-}
-
 // The camera's axes are found by Gram-Schmidt. The slope fills the frame: a point at distance w along the
 // viewing axis and h above it is (h/w) (height/2) / tan(fov/2) pixels above the centre of the frame.
 Oracle::Oracle(World world, unsigned width, unsigned height, Fault fault)
@@ -146,10 +100,10 @@ Oracle::Oracle(World world, unsigned width, unsigned height, Fault fault)
   forward_ = unit(world_.target - world_.eye);
   up_ = unit(world_.up - dot(world_.up, forward_) * forward_);
   right_ = cross(forward_, up_);
-  if (has(Fault::mirrored)) right_ = -1 * right_;
-  if (has(Fault::upside_down)) up_ = -1 * up_;
-  const Real half_angle = world_.fov_degrees * c_pi / 180 / (has(Fault::fov_is_half) ? 1 : 2);
-  const Real half_side = Real(has(Fault::fov_is_horizontal) ? width : height) / 2;
+  if (has("mirrored")) right_ = -1 * right_;
+  if (has("upside_down")) up_ = -1 * up_;
+  const Real half_angle = world_.fov_degrees * c_pi / 180 / (has("fov_is_half") ? 1 : 2);
+  const Real half_side = Real(has("fov_is_horizontal") ? width : height) / 2;
   pixels_per_slope_ = half_side / std::tan(half_angle);
 
   Vector low = world_.eye, high = world_.eye;
@@ -181,7 +135,7 @@ void Oracle::project(std::size_t triangle) {
     const Vector from_eye = position - world_.eye;
     const Real x = Real(width_) / 2 + pixels_per_slope_ * dot(from_eye, right_) / w;
     const Real y = Real(height_) / 2 - pixels_per_slope_ * dot(from_eye, up_) / w;
-    const Real half = has(Fault::snapped_down) ? 0 : 0.5L;
+    const Real half = has("snapped_down") ? 0 : 0.5L;
     const auto snapped = [&](Real pixels) {
       const Real steps = pixels * c_units + half;
       if (std::abs(steps - std::round(steps)) < c_doubt) ++doubtful_corners_;
@@ -192,7 +146,7 @@ void Oracle::project(std::size_t triangle) {
   const auto& [a, b, c] = corners;
   // Twice the area in a frame with y downwards: negative for counter-clockwise corners.
   const std::int64_t area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  if (area < 0 || (has(Fault::back_faces_shown) && area != 0)) screen_[triangle] = corners;
+  if (area < 0 || (has("back_faces_shown") && area != 0)) screen_[triangle] = corners;
 }
 
 // A point is inside if it is on the inner side of each edge, or on a top edge (horizontal, the triangle below
@@ -200,7 +154,7 @@ void Oracle::project(std::size_t triangle) {
 bool Oracle::covers(std::size_t triangle, int x, int y) const {
   if (!screen_[triangle]) return false;
   ScreenTriangle t = *screen_[triangle];
-  const int centre = has(Fault::pixel_corners) ? 0 : c_units / 2;
+  const int centre = has("pixel_corners") ? 0 : c_units / 2;
   const std::int64_t px = std::int64_t{c_units} * x + centre, py = std::int64_t{c_units} * y + centre;
   const auto side = [](const ScreenCorner& a, const ScreenCorner& b, std::int64_t qx, std::int64_t qy) {
     return (b.x - a.x) * (qy - a.y) - (b.y - a.y) * (qx - a.x);
@@ -210,9 +164,9 @@ bool Oracle::covers(std::size_t triangle, int x, int y) const {
     const ScreenCorner &a = t[i], &b = t[(i + 1) % 3];
     const std::int64_t inside = side(a, b, px, py);
     if (inside < 0) return false;
-    if (inside > 0 || has(Fault::closed_edges)) continue;
+    if (inside > 0 || has("closed_edges")) continue;
     const bool top = a.y == b.y && b.x > a.x, left = b.y < a.y;
-    if ((top || left) == has(Fault::bottom_right_rule)) return false;
+    if ((top || left) == has("bottom_right_rule")) return false;
   }
   return true;
 }
@@ -247,7 +201,7 @@ Real real(const mpq_class& q) {
 // and 1 at the far plane.
 Real Oracle::depth_of(const Corner& corner) const {
   const Real w = distance(corner.position), near = world_.near, far = world_.far;
-  if (has(Fault::depth_of_distance)) return (w - near) / (far - near);
+  if (has("depth_of_distance")) return (w - near) / (far - near);
   return far / (far - near) * (1 - near / w);
 }
 
@@ -255,7 +209,7 @@ Real Oracle::depth_steps(std::size_t triangle, int x, int y) const {
   const auto weight = weights(*screen_[triangle], x, y);
   Real depth = 0;
   for (int i = 0; i < 3; ++i) depth += real(weight[i]) * depth_of(world_.triangles[triangle].corner[i]);
-  return depth * c_last_depth + (has(Fault::depth_one_step_deeper) ? 1 : 0);
+  return depth * c_last_depth + (has("depth_one_step_deeper") ? 1 : 0);
 }
 
 // An attribute that is linear on the surface is linear on the screen after division by w. The weights on the
@@ -266,7 +220,7 @@ Oracle::Surface Oracle::surface(std::size_t triangle, int x, int y) const {
   std::array<Real, 3> share;
   Real sum = 0;
   for (int i = 0; i < 3; ++i) {
-    share[i] = real(weight[i]) * (has(Fault::linear_on_screen) ? 1 : t[i].inverse_w);
+    share[i] = real(weight[i]) * (has("linear_on_screen") ? 1 : t[i].inverse_w);
     sum += share[i];
   }
   Surface s;
@@ -275,20 +229,20 @@ Oracle::Surface Oracle::surface(std::size_t triangle, int x, int y) const {
     s.position = s.position + (share[i] / sum) * corner.position;
     s.normal = s.normal + (share[i] / sum) * corner.normal;
   }
-  if (has(Fault::flat_normal)) s.normal = world_.triangles[triangle].corner[0].normal;
-  if (!has(Fault::normal_not_unit)) s.normal = unit(s.normal);
+  if (has("flat_normal")) s.normal = world_.triangles[triangle].corner[0].normal;
+  if (!has("normal_not_unit")) s.normal = unit(s.normal);
   return s;
 }
 
 // The factor of k_s. N.L > 0 is known.
 Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, const Vector& v) const {
-  const Real nl = dot(n, l), exponent = m.exponent + (has(Fault::exponent_plus_one) ? 1 : 0);
+  const Real nl = dot(n, l), exponent = m.exponent + (has("exponent_plus_one") ? 1 : 0);
   // R = 2 (N.L) N - L; (R.V)^n.
   if (m.reflection == Reflection::phong)
-    return power(dot(has(Fault::phong_by_light) ? l : 2 * nl * n - l, v), exponent);
+    return power(dot(has("phong_by_light") ? l : 2 * nl * n - l, v), exponent);
   // H = (L + V)/|L + V|; (N.H)^n.
-  const Vector sum = (has(Fault::halfway_of_normal) ? n : l) + v;
-  const Vector h = has(Fault::halfway_not_unit) ? 0.5L * sum : unit(sum);
+  const Vector sum = (has("halfway_of_normal") ? n : l) + v;
+  const Vector h = has("halfway_not_unit") ? 0.5L * sum : unit(sum);
   const Real nh = dot(n, h);
   if (m.reflection == Reflection::blinn) return power(nh, exponent);
   // P F G / (4 (N.L)(N.V)), times N.L for the irradiance.
@@ -297,14 +251,13 @@ Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, cons
   // P = exp(-tan^2/m^2) / (pi m^2 cos^4).
   const Real cos2 = nh * nh, slope2 = m.roughness * m.roughness;
   const Real density =
-      std::exp(-(1 - cos2) / cos2 / slope2) / ((has(Fault::beckmann_without_pi) ? 1 : c_pi) * slope2 * cos2 *
-                                               (has(Fault::beckmann_squared_cosine) ? 1 : cos2));
+      std::exp(-(1 - cos2) / cos2 / slope2) /
+      ((has("beckmann_without_pi") ? 1 : c_pi) * slope2 * cos2 * (has("beckmann_squared_cosine") ? 1 : cos2));
   // F = F0 + (1 - F0)(1 - L.H)^5.
   const Real fresnel =
-      m.reflectance + (1 - m.reflectance) * power(1 - lh, has(Fault::fresnel_of_fourth_power) ? 4 : 5);
+      m.reflectance + (1 - m.reflectance) * power(1 - lh, has("fresnel_of_fourth_power") ? 4 : 5);
   // G = min{1, 2 (N.H)(N.V)/(V.H), 2 (N.H)(N.L)/(L.H)}.
-  const Real masking =
-      has(Fault::masking_missing) ? 1 : std::min({Real(1), 2 * nh * nv / vh, 2 * nh * nl / lh});
+  const Real masking = has("masking_missing") ? 1 : std::min({Real(1), 2 * nh * nv / vh, 2 * nh * nl / lh});
   return density * fresnel * masking / (4 * nl * nv) * nl;
 }
 
@@ -324,14 +277,14 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
   };
   const Real own = facing(world_.triangles[triangle]);
   doubt(own);
-  if (own < 0 && !has(Fault::averted_faces_lit)) return true;
+  if (own < 0 && !has("averted_faces_lit")) return true;
 
   // The ray from + s way, with s from 0 to 1, or without an upper limit.
   const Vector way = far ? light.place : light.place - from;
   bool shadowed = false;
   for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
     const Triangle& t = world_.triangles[i];
-    if (i == triangle || (facing(t) < 0) == has(Fault::lit_faces_cast)) continue;
+    if (i == triangle || (facing(t) < 0) == has("lit_faces_cast")) continue;
     const Vector e1 = t.corner[1].position - t.corner[0].position,
                  e2 = t.corner[2].position - t.corner[0].position;
     const Vector p = cross(way, e2);
@@ -341,7 +294,7 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
     const Vector q = cross(to, e1);
     const Real u = dot(to, p) / determinant, v = dot(way, q) / determinant, s = dot(e2, q) / determinant;
     // The margin by which the ray passes inside (above 0) or outside.
-    const Real least = s * length(way) / radius_, most = far || has(Fault::shadows_beyond_light) ? 1 : 1 - s;
+    const Real least = s * length(way) / radius_, most = far || has("shadows_beyond_light") ? 1 : 1 - s;
     const Real margin = std::min({u, v, 1 - u - v, least - c_doubt, most});
     // If two triangles share an edge, the start may lie on the other one. Such touching triangles do not
     // count.
@@ -356,29 +309,29 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
 Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doubtful) const {
   const Material& m = world_.materials[world_.triangles[triangle].material];
   const Vector& n = surface.normal;
-  const Vector v = has(Fault::eye_at_infinity) ? -1 * forward_ : unit(world_.eye - surface.position);
+  const Vector v = has("eye_at_infinity") ? -1 * forward_ : unit(world_.eye - surface.position);
   Vector sum;
-  if (!has(Fault::ambient_missing)) sum = m.ambient * (world_.ambient * m.colour);
+  if (!has("ambient_missing")) sum = m.ambient * (world_.ambient * m.colour);
   for (std::size_t i = 0; i < world_.lights.size(); ++i) {
-    if (has(Fault::second_light_missing) && i == 1) continue;
+    if (has("second_light_missing") && i == 1) continue;
     const Light& light = world_.lights[i];
     const bool far = light.kind == Kind::directional;
-    const bool by_direction = has(Fault::positional_is_directional) && !far;
+    const bool by_direction = has("positional_is_directional") && !far;
     const Vector way = far || by_direction ? light.place : light.place - surface.position;
     const Vector l = unit(way);
     Vector intensity = light.intensity;
-    if (has(Fault::falls_off_by_distance) && !far) intensity = (1 / dot(way, way)) * intensity;
+    if (has("falls_off_by_distance") && !far) intensity = (1 / dot(way, way)) * intensity;
     if (light.kind == Kind::spot) {
       // 1 within the inner cone, 0 outside the outer cone, 3 t^2 - 2 t^3 of the cosine between.
-      const Real cosine = dot(l, light.axis) * (has(Fault::spot_backwards) ? 1 : -1);
+      const Real cosine = dot(l, light.axis) * (has("spot_backwards") ? 1 : -1);
       const Real width = light.cos_inner - light.cos_outer;
       const Real t = width > 0 ? std::clamp((cosine - light.cos_outer) / width, Real(0), Real(1))
                                : Real(cosine >= light.cos_inner);
       if (!(width > 0) && std::abs(cosine - light.cos_inner) < c_doubt && doubtful != nullptr)
         *doubtful = true;
-      const Real share = has(Fault::spot_linear)         ? t
-                         : has(Fault::spot_without_edge) ? Real(t > 0)
-                                                         : t * t * (3 - 2 * t);
+      const Real share = has("spot_linear")         ? t
+                         : has("spot_without_edge") ? Real(t > 0)
+                                                    : t * t * (3 - 2 * t);
       if (!(share > 0)) continue;
       intensity = share * intensity;
     }
@@ -386,17 +339,17 @@ Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doub
     // A highlight may be non-zero at the horizon.
     if (std::abs(nl) < c_doubt && doubtful != nullptr) *doubtful = true;
     const bool lit = nl > 0;
-    if (lit || has(Fault::averted_faces_lit))
-      if (world_.shadows && !has(Fault::shadows_missing) &&
+    if (lit || has("averted_faces_lit"))
+      if (world_.shadows && !has("shadows_missing") &&
           is_shadowed(triangle, surface.position, light, doubtful))
         continue;
-    if (lit || has(Fault::diffuse_unclamped)) {
-      const Vector colour = has(Fault::diffuse_in_all_channels) ? m.colour.x * Vector{1, 1, 1} : m.colour;
+    if (lit || has("diffuse_unclamped")) {
+      const Vector colour = has("diffuse_in_all_channels") ? m.colour.x * Vector{1, 1, 1} : m.colour;
       sum = sum + (m.diffuse * nl) * (intensity * colour);
     }
-    if (lit || has(Fault::highlight_below_horizon))
+    if (lit || has("highlight_below_horizon"))
       sum = sum + (m.specular * highlight(m, n, l, v)) *
-                      (intensity * (has(Fault::specular_takes_colour) ? m.colour : m.specular_colour));
+                      (intensity * (has("specular_takes_colour") ? m.colour : m.specular_colour));
   }
   return sum;
 }
@@ -408,7 +361,7 @@ Oracle::Pixel Oracle::pixel(int x, int y) const {
   bool doubtful = false;
   for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
     if (!covers(i, x, y)) continue;
-    const Real depth = depth_steps(i, x, y) * (has(Fault::last_of_depth) ? -1 : 1);
+    const Real depth = depth_steps(i, x, y) * (has("last_of_depth") ? -1 : 1);
     if (pixel.triangle && std::abs(depth - nearest) < 1e-3L) doubtful = true;
     if (pixel.triangle && !(depth < nearest)) continue;
     pixel.triangle = i;
@@ -417,8 +370,7 @@ Oracle::Pixel Oracle::pixel(int x, int y) const {
   if (pixel.triangle) pixel.colour = radiance(*pixel.triangle, surface(*pixel.triangle, x, y), &doubtful);
   const Real channel[3] = {pixel.colour.x, pixel.colour.y, pixel.colour.z};
   for (int i = 0; i < 3; ++i) {
-    const Real steps =
-        255 * std::clamp(channel[i], Real(0), Real(1)) + (has(Fault::truncated_to_byte) ? 0 : 0.5L);
+    const Real steps = 255 * std::clamp(channel[i], Real(0), Real(1)) + (has("truncated_to_byte") ? 0 : 0.5L);
     pixel.byte[i] = static_cast<std::uint8_t>(std::floor(steps));
     pixel.doubtful[i] = doubtful || std::abs(steps - std::round(steps)) < c_doubt;
   }

@@ -36,7 +36,6 @@ namespace {
 
 using oracle::copy;
 using oracle::Fault;
-using oracle::name;
 using oracle::Oracle;
 using oracle::Real;
 
@@ -363,7 +362,7 @@ struct AllFindings {
 };
 
 void compare_all(const Case& one, AllFindings& found) {
-  const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, Fault::none);
+  const Oracle oracle(copy(*one.scene), one.size.width, one.size.height);
   ASSERT_FALSE(oracle.is_clipped());
   ASSERT_EQ(oracle.doubtful_corners(), 0U) << "take another size or seed";
   AllFindings here;
@@ -371,8 +370,7 @@ void compare_all(const Case& one, AllFindings& found) {
   // radiance() does not compute shadows.
   oracle::World lit = copy(*one.scene);
   lit.shadows = false;
-  here.radiance =
-      compare_radiance(*one.scene, one.size, Oracle(lit, one.size.width, one.size.height, Fault::none));
+  here.radiance = compare_radiance(*one.scene, one.size, Oracle(lit, one.size.width, one.size.height));
   for (const Shader shader : c_shaders)
     if (is_compared(*one.scene, shader)) {
       here.fragments += compare_fragments(*one.scene, one.size, oracle, shader);
@@ -415,28 +413,78 @@ TEST(Oracle, AgreesOnBuiltInScenes) {
   compare_all(cases);
 }
 
-class OracleFault : public ::testing::TestWithParam<int> {};
+// Faults that are put into the oracle. A fault in it is equivalent to the same fault in everything that is
+// compared with it.
+constexpr Fault c_faults[] = {
+    // Projection
+    "mirrored",               // right and left are exchanged
+    "upside_down",            // y increases upwards
+    "fov_is_horizontal",      // the angle of view is that of the width
+    "fov_is_half",            // the angle is measured from the axis
+    "snapped_down",           // rounded down to 1/16 pixel instead of to the nearest
+    "depth_of_distance",      // linear in the distance instead of in its reciprocal
+    "depth_one_step_deeper",  // by 2^-24
+    // Coverage
+    "bottom_right_rule",  // pixels on bottom and right edges instead of on top and left edges
+    "closed_edges",       // pixels on every edge
+    "pixel_corners",      // a pixel's sample is its top left corner
+    "back_faces_shown",
+    "last_of_depth",  // the farthest triangle is visible
+    // Interpolation
+    "linear_on_screen",  // without perspective correction
+    "normal_not_unit",
+    "flat_normal",  // normal of the first corner
+    // Illumination
+    "ambient_missing",
+    "diffuse_unclamped",        // lights below the horizon reduce the radiance
+    "highlight_below_horizon",  // also where N.L <= 0
+    "eye_at_infinity",          // V is the viewing axis
+    "halfway_not_unit",
+    "halfway_of_normal",  // N + V instead of L + V
+    "phong_by_light",     // L.V instead of R.V
+    "exponent_plus_one",
+    "beckmann_without_pi",
+    "beckmann_squared_cosine",  // cos^2 instead of cos^4
+    "fresnel_of_fourth_power",
+    "masking_missing",          // G = 1
+    "specular_takes_colour",    // highlights have the diffuse colour
+    "diffuse_in_all_channels",  // all channels have the red coefficient
+    // Lights
+    "positional_is_directional",
+    "falls_off_by_distance",
+    "spot_backwards",
+    "spot_linear",        // no smoothstep
+    "spot_without_edge",  // a step at the outer cone
+    "second_light_missing",
+    // Shadows
+    "shadows_missing",
+    "lit_faces_cast",        // triangles that face the light cast shadows
+    "averted_faces_lit",     // a triangle averted from the light is lit if its normal faces the light
+    "shadows_beyond_light",  // triangles beyond the light cast shadows
+    // Frame
+    "truncated_to_byte",
+};
 
-// A fault in the oracle is equivalent to the same fault in everything that is compared with it.
+class OracleFault : public ::testing::TestWithParam<Fault> {};
+
 TEST_P(OracleFault, IsFound) {
   static const std::vector<Case> c_cases = random_cases(1);
-  const auto fault = static_cast<Fault>(GetParam());
-  for (const Case& one : c_cases) {
-    const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
-    if (compare_picture(*one.scene, one.size, oracle).wrong != 0) return;
-  }
-  // Compare depth, which the picture does not show.
-  for (const Case& one : c_cases) {
-    const Oracle oracle(copy(*one.scene), one.size.width, one.size.height, fault);
-    if (compare_fragments(*one.scene, one.size, oracle, Shader::quadratic).wrong != 0) return;
-  }
-  ADD_FAILURE() << name(fault) << " is not found";
+  const auto any = [&](auto&& compare) {
+    return std::ranges::any_of(c_cases, [&](const Case& one) {
+      return compare(one, Oracle(copy(*one.scene), one.size.width, one.size.height, GetParam())).wrong != 0;
+    });
+  };
+  // Compare depth, which the picture does not show, if the picture is right.
+  EXPECT_TRUE(any([](const Case& one, const Oracle& oracle) {
+                return compare_picture(*one.scene, one.size, oracle);
+              }) ||
+              any([](const Case& one, const Oracle& oracle) {
+                return compare_fragments(*one.scene, one.size, oracle, Shader::quadratic);
+              }));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, OracleFault, ::testing::Range(1, static_cast<int>(Fault::end)),
-                         [](const auto& fault) {
-                           return std::string(name(static_cast<Fault>(fault.param)));
-                         });
+INSTANTIATE_TEST_SUITE_P(All, OracleFault, ::testing::ValuesIn(c_faults),
+                         [](const auto& fault) { return std::string(fault.param); });
 
 }  // namespace
 }  // namespace halfway
