@@ -8,8 +8,8 @@
 
 namespace halfway {
 
-/// Rounds towards zero and clamps to the range of Integer. NaN gives 0. tb/stability/conversions.cpp lists
-/// the callers.
+/// Rounds towards zero and clamps to the range of Integer. NaN gives 0. `make sanitize` finds
+/// conversions by a plain cast that do not fit.
 template <class Integer, std::floating_point Real>
 constexpr Integer to_integer(Real value) {
   using Range = std::numeric_limits<Integer>;

@@ -65,6 +65,22 @@ TEST(ShadowRays, AgreeWithALinearSearch) {
   EXPECT_LT(blocked, rays_cast / 5 * 4);
 }
 
+// Coordinates that are no numbers, or too large for the tree's bins.
+TEST(ShadowRays, HostileCoordinatesBlockTheSameRays) {
+  RandomSolids random(32);
+  for (const double value : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1.7e308, -1.7e308, 1e155, -1e100, 5e-324})
+    for (int axis = 0; axis < 3; ++axis) {
+      Scene scene = loose(random, 60, 0.5, glm::dvec3(1.0));
+      for (const std::size_t vertex : {0U, 1U, 5U, 9U, 10U, 11U, 60U})
+        scene.positions_world[vertex][axis] = value;
+      const ShadowRays rays(scene);
+      for (int i = 0; i < 50; ++i) {
+        const LightRay ray(2.0 * random.cube(1.0), {random.unit(), 0.0});
+        ASSERT_EQ(rays.is_blocked(ray, 1e-6), blocked_by_search(scene, ray, 1e-6)) << value << ' ' << axis;
+      }
+    }
+}
+
 TEST(ShadowRays, ManyTrianglesInOnePlaceStillFormATree) {
   Scene scene;
   scene.positions_world = {{-1, 0, -1}, {2, 0, -1}, {-1, 0, 2}};

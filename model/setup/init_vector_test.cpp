@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
+
+#include "setup/test/gmp_numbers.hpp"
 
 namespace halfway {
 namespace {
@@ -66,6 +69,25 @@ TEST(InitVector, NearestRoundsAsTheLibraryDoes) {
        {0.0, -0.0, 0x1p51 + 0.5, 0x1p52 + 1.0, 0x1p53, 1e300, -1e300, std::numeric_limits<double>::infinity(),
         std::numeric_limits<double>::quiet_NaN()})
     expect_same(value);
+}
+
+TEST(InitVector, WrappedWordsAreModuloTheirWidth) {
+  std::mt19937_64 random(31);
+  const auto expect_congruent = [](double v) {
+    for (const int fraction : {0, 8, 20, 22})
+      for (const int bits : {12, 32, 40}) {
+        const double scaled = std::ldexp(v, fraction);
+        // Above 2^1023 a number is a multiple of every modulus.
+        mpz_class off = to_mpz(wrapped_word(v, fraction, bits));
+        if (std::isfinite(scaled)) off -= mpz_class(std::nearbyint(scaled));
+        mpz_fdiv_r_2exp(off.get_mpz_t(), off.get_mpz_t(), static_cast<mp_bitcnt_t>(bits));
+        ASSERT_EQ(off, 0) << v << " in " << bits << " bits, fraction " << fraction;
+      }
+  };
+  for (int i = 0; i < 20'000; ++i) expect_congruent(std::bit_cast<double>(random()));
+  for (const double v : {0x1p63, -0x1p63, 0x1p64, 1e300, std::numeric_limits<double>::infinity(),
+                         std::numeric_limits<double>::quiet_NaN()})
+    expect_congruent(v);
 }
 
 // Fields of 1 to 64 bits one after the other, from any bit on, against golden::set_bits.

@@ -7,12 +7,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "golden/processors_layout.hpp"
-#include "golden/word.hpp"
-#include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/lights.hpp"
-#include "setup/init_vector.hpp"
 #include "setup/project.hpp"
 #include "setup/shadow_volume.hpp"
 #include "setup/test/random_solids.hpp"
@@ -317,7 +313,7 @@ Sum cast_all(Trial& trial, unsigned seed, Make&& make, bool with_published = tru
              int subpixel_bits = c_subpixel_bits) {
   RandomSolids random(seed);
   Sum sum;
-  for (int i = 0; i < trial.rounds(4, 20); ++i)
+  for (int i = 0; i < trial.rounds(3, 20); ++i)
     cast(trial, make(random, i), fmt::format("scene {}", i), sum, with_published, subpixel_bits);
   finish(trial, sum);
   return sum;
@@ -332,37 +328,13 @@ void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
   });
 }
 
-void shared_edges(Trial& trial) {
+// Solids, open meshes, lights inside a solid, and smooth spheres, whose triangles turn away from the light
+// one by one.
+void volumes(Trial& trial) {
   cast_all(trial, 5, [](RandomSolids& random, int i) { return random.scene(1 + i % 5); });
-}
-
-void within_volumes(Trial& trial) {
-  cast_on_floors(trial, 8, [](RandomSolids& random, Scene& scene, int i) {
-    const LightPoint light =
-        light_of(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0}).point;
-    const glm::dvec3 caster = scene.positions_world[i % 4 < 2 ? 0 : 5];
-    scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
-                             random.within(1e-4, 0.3) * random.unit();
-    scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
-    scene.camera.target_world = random.cube(1.0);
-  });
-}
-
-void near_plane_cuts(Trial& trial) {
-  cast_on_floors(trial, 9, [](RandomSolids& random, Scene& scene, int) {
-    scene.camera.eye_world = 3.0 * random.unit();
-    scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
-    scene.camera.near = random.within(1.0, 3.0);
-  });
-}
-
-void open_meshes(Trial& trial) {
   cast_on_floors(trial, 10, [](RandomSolids& random, Scene& scene, int) {
     for (int k = 0; k < 20; ++k) scene.triangles.erase(scene.triangles.begin() + random.whole(0, 30));
   });
-}
-
-void light_inside(Trial& trial) {
   cast_on_floors(trial, 11, [](RandomSolids& random, Scene& scene, int) {
     // Put the light just behind the first triangle of the first solid.
     const CornersWorld c = corners_world(scene, scene.triangles[0]);
@@ -370,10 +342,6 @@ void light_inside(Trial& trial) {
         (c[0] + c[1] + c[2]) / 3.0 -
         random.within(1e-3, 0.1) * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
   });
-}
-
-// Smooth spheres: the triangles turn away from the light one by one.
-void terminators(Trial& trial) {
   const auto sphere = [](RandomSolids& random, int) {
     Scene scene = random.scene(0);
     add_mesh(scene, make_uv_sphere(random.whole(5, 24), random.whole(4, 16), 1.3));
@@ -386,6 +354,24 @@ void terminators(Trial& trial) {
     return scene;
   };
   cast_all(trial, 12, sphere, false);
+}
+
+// The eye inside of volumes, and near planes that cut them.
+void eye_and_near_plane(Trial& trial) {
+  cast_on_floors(trial, 8, [](RandomSolids& random, Scene& scene, int i) {
+    const LightPoint light =
+        light_of(scene, {i % 2 ? LightKind::directional : LightKind::positional, 0}).point;
+    const glm::dvec3 caster = scene.positions_world[i % 4 < 2 ? 0 : 5];
+    scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
+                             random.within(1e-4, 0.3) * random.unit();
+    scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
+    scene.camera.target_world = random.cube(1.0);
+  });
+  cast_on_floors(trial, 9, [](RandomSolids& random, Scene& scene, int) {
+    scene.camera.eye_world = 3.0 * random.unit();
+    scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
+    scene.camera.near = random.within(1.0, 3.0);
+  });
 }
 
 // Plates that touch and lie on each other, with lights almost in their plane.
@@ -443,103 +429,6 @@ void add_front(Scene& scene, double z) {
   add_mesh(scene, wall);
 }
 
-using Request = golden::Exact::request_header_at;
-using Axes = golden::Exact::light_axes_header_at;
-using Walked = golden::Exact::init_header_at;
-
-// The stream of a wall of one line, after `opening` and `closing` shadow polygons of light 1.
-std::vector<std::uint32_t> counted(const Scene& scene, FrameSize frame, ProcessorForm form, int around,
-                                   int opening, int closing, HardwareKey& key) {
-  std::vector<std::uint32_t> words;
-  const auto plan = plan_scene(scene, request_of(form));
-  if (!plan) return words;
-  key = plan->key;
-  const auto setup = make_setup(scene, frame, key, {});
-  const std::size_t size = (setup->init_bits() + 31) / 32;
-  SetupCounts counts;
-  setup->append_prologue(words, counts);
-  const int low = golden::ProcessorsLayout<golden::Exact>::light_axes_low();
-  golden::set_bits(std::span(words).subspan(2 * size, size), Axes::around_eye,
-                   static_cast<std::uint64_t>(around), low);
-  std::vector<std::uint32_t> line;
-  setup->append(0, line, counts);
-  bool counted = false;
-  for (std::size_t at = 0; at < line.size(); at += size) {
-    const auto vector = std::span(line).subspan(at, size);
-    if (!counted &&
-        golden::get_bits(vector, Request::command) == static_cast<std::uint32_t>(golden::Command::draw)) {
-      counted = true;
-      for (int i = 0; i < opening + closing; ++i)
-        for (std::size_t depth = 0; depth < at; depth += size) {
-          if (golden::get_bits(std::span(line).subspan(depth, size), Request::command) !=
-              static_cast<std::uint32_t>(golden::Command::depth))
-            continue;
-          const std::size_t begin = words.size();
-          words.insert(words.end(), line.begin() + static_cast<std::ptrdiff_t>(depth),
-                       line.begin() + static_cast<std::ptrdiff_t>(depth + size));
-          const auto polygon = std::span(words).subspan(begin, size);
-          const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
-          golden::set_bits(polygon, Request::command, static_cast<std::uint32_t>(golden::Command::shadow));
-          golden::set_bits(polygon, Request::light, 1);
-          golden::set_bits(polygon, Request::opens, i < opening);
-          for (const golden::Field* z : {&Walked::z, &Walked::z_dx, &Walked::z_de0, &Walked::z_de1})
-            golden::set_bits(polygon, *z, 0, walk);
-        }
-    }
-    words.insert(words.end(), vector.begin(), vector.end());
-  }
-  return words;
-}
-
-void counters(Trial& trial) {
-  constexpr FrameSize c_frame{8, 1};
-  RandomSolids random(1);
-  Scene scene = random.scene(0);
-  add_front(scene, 0.0);
-  scene.camera = {.eye_world = {0.0, 0.0, 5.0}};
-  scene.directional[0].to_light_world = {0.0, 0.0, 1.0};
-  set_colours(scene);
-  struct Case {
-    int around, opening, closing;
-  };
-  constexpr int c_most = static_cast<int>(c_most_shadows);
-  constexpr Case c_counts[] = {{0, 0, 0},
-                               {0, c_most, c_most},
-                               {0, c_most, c_most - 1},
-                               {0, c_most + 1, c_most + 1},
-                               {c_most, 0, c_most},
-                               {c_most, 0, c_most - 1},
-                               {c_most, 0, c_most + 1},
-                               {c_most, c_most, 2 * c_most},
-                               {c_most, c_most, 2 * c_most - 1},
-                               {c_most, c_most, 0},
-                               {c_most, c_most + 1, 0},
-                               {0, 0, 1},
-                               {1, 0, 1},
-                               {0, 0, c_most + 2}};
-  for (const ProcessorForm form : c_forms)
-    for (const Case& c : c_counts) {
-      const int around = c.around, opening = c.opening, closing = c.closing;
-      const int count = around + opening - closing;
-      const bool fault = opening > c_most || opening - closing < -c_most - 1;
-      // After a fault the simulator is opened again.
-      if (trial.quick() && fault && form == ProcessorForm::folded && opening > 0) continue;
-      HardwareKey key;
-      const auto words = counted(scene, c_frame, form, around, opening, closing, key);
-      const auto golden = make_golden_model(key);
-      std::vector<Fragment> fragments;
-      golden->draw(words, fragments);
-      trial.draw(key, words);
-      int wrong = golden->fault() != fault;
-      for (const Fragment& f : fragments) wrong += !fault && (f.red > 200) != (count <= 0);
-      wrong += fragments.size() != c_frame.width;
-      trial.ours(wrong, 0, [&] {
-        return fmt::format("{}: {} volumes around the eye, {} polygons that open and {} that close",
-                           key.name(), around, opening, closing);
-      });
-    }
-}
-
 // Sheets one behind the other in front of a wall, with the sun behind the eye.
 Scene sheets(int count) {
   Scene scene;
@@ -559,7 +448,7 @@ Scene sheets(int count) {
   return scene;
 }
 
-void deep_shadows(Trial& trial) {
+void nested_volumes(Trial& trial) {
   const FrameSize frame{24, 18};
   for (const int count : {40, 500, 511, 512, 600}) {
     if (trial.quick() && (count == 500 || count == 512)) continue;
@@ -585,50 +474,33 @@ void deep_shadows(Trial& trial) {
   }
 }
 
-constexpr std::string_view c_published_walk =
-    "quadratic, section 5: spans include both ends, so a counter counts a shared edge twice";
-
 constexpr std::string_view c_holds =
     "away from edges of shadows, light is wrong only where it is nearly parallel to its triangle: up to this "
     "angle";
 
 constexpr HardCase c_cases[] = {
-    {"shared_edges", "Shared edges of shadow volumes", c_published_walk,
-     "both presets walk shadow polygons with exact edges", c_holds, "sine of the light's angle",
-     PublishedForm::breaks, shared_edges},
-    {"within_volumes", "The eye inside shadow volumes",
-     "processors, section 3.3: an object is lit if the counter is 0",
-     "the counter starts with the number of volumes around the eye", c_holds, "sine of the light's angle",
-     PublishedForm::breaks, within_volumes},
-    {"near_plane_cuts", "Volumes that cross the near plane",
-     "processors, section 3.3: shadow polygons open and close volumes",
-     "the part in front of the near plane is drawn at depth 0", c_holds, "sine of the light's angle",
-     PublishedForm::breaks, near_plane_cuts},
-    {"open_meshes", "Open meshes", "processors, section 3.3: shadow polygons open and close volumes",
-     "the volume of all triangles that face away from the light, closed for every mesh", c_holds,
-     "sine of the light's angle", PublishedForm::breaks, open_meshes},
-    {"light_inside", "A light inside a solid",
-     "processors, section 3.3: shadow polygons open and close volumes",
-     "shadows are cast by the triangles that face away from the light", c_holds, "sine of the light's angle",
-     PublishedForm::breaks, light_inside},
-    {"terminators", "Silhouettes at the terminator",
-     "processors: N.L of an interpolated N is positive on triangles that face away from the light",
-     "a triangle that faces away from the light is inside its own volume", c_holds,
-     "sine of the light's angle", PublishedForm::silent, terminators},
+    {"volumes",
+     "Shared edges of shadow volumes, open meshes, a light inside a solid, silhouettes at the terminator",
+     "quadratic, section 5: spans include both ends, so a counter counts a shared edge twice",
+     "both presets walk shadow polygons with exact edges; the volume of all triangles that face away from "
+     "the light is closed for every mesh, and they are inside of it",
+     c_holds, "sine of the light's angle", PublishedForm::breaks, volumes},
+    {"eye_and_near_plane", "The eye inside shadow volumes, volumes that cross the near plane",
+     "processors, section 3.3: an object is lit if the counter is 0, and shadow polygons open and close "
+     "volumes",
+     "the counter starts with the number of volumes around the eye; the part in front of the near plane is "
+     "drawn at depth 0",
+     c_holds, "sine of the light's angle", PublishedForm::breaks, eye_and_near_plane},
     {"plates", "Plates that touch, in grazing light",
      "processors, section 3.3: shadow polygons have vertices of finitely many bits",
      "surfaces and the sides of volumes that meet them are planes through vertices rounded to 1/16 pixel; "
      "the set-up rounds more finely on request (`ProcessorsSetupOptions::subpixel_bits`)",
      c_holds, "sine of the light's angle", PublishedForm::breaks, plates},
-    {"counters", "A counter at the ends of its range",
+    {"nested_volumes", "511 nested volumes, and 512",
      "processors, figure 2: a shadow counter of unspecified width",
-     "10 bits; an overflow raises `fault` in golden model and RTL; a negative count is not a shadow",
-     "lit for counts up to 0, dark above 0, fault on overflow at both ends", "pixels", PublishedForm::silent,
-     counters},
-    {"deep_shadows", "511 nested volumes, and 512",
-     "processors, figure 2: a shadow counter of unspecified width",
-     "the set-up counts the nested volumes and refuses a scene with more than 511",
-     "pixels, counts and faults equal those of rays", "pixels", PublishedForm::silent, deep_shadows},
+     "10 bits; an overflow raises `fault` in golden model and RTL; the set-up counts the nested volumes and "
+     "refuses a scene with more than 511",
+     "pixels, counts and faults equal those of rays", "pixels", PublishedForm::silent, nested_volumes},
 };
 
 INSTANTIATE_TEST_SUITE_P(shadows, HardCases, testing::ValuesIn(c_cases), id_of);
