@@ -235,7 +235,7 @@ board: configure ## make the bitstream of the board and compare its figures with
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_board
 	@build/tb/halfway_board . build/cache build/board/board.bin
 
-bench: configure mcode ## make evidence PAGE=speed: ways to the same picture, growth, small triangles, cores
+bench: configure mcode ## make evidence PAGE=speed: ways to the same picture, whole frames, frames in a browser, small triangles
 	@$(call measure,speed)
 
 # GHDL's other back end, in addition to the installed one.

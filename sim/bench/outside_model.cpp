@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/shared_library.hpp"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/shader_netlist.hpp"
@@ -26,24 +27,18 @@ std::string cxxrtl_name(const std::string& module) {
 
 }  // namespace
 
-Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key,
-                                        const SimulatorFolders& folders, bool fast) {
+OutsideModel::OutsideModel(OutsideTool tool, const HardwareKey& key, const SimulatorFolders& folders,
+                           bool fast)
+    : scratch_(std::filesystem::absolute(folders.cache) / "bench") {
   const bool verilated = tool == OutsideTool::verilator;
-  const auto version = verilated ? ask({"verilator", "--version"}, c_install_verilator)
-                                 : ask({"yosys", "-V"}, c_install_yosys);
-  if (!version) return version.error();
-  const auto include = verilated ? Result<std::string>(std::string())
-                                 : ask({"yosys-config", "--datdir/include"}, c_install_yosys);
-  if (!include) return include.error();
-  const auto compiler = Compiler::find(verilated ? "g++" : "");
-  if (!compiler) return compiler.error();
-  const auto netlist = netlist_of(key, folders);
-  if (!netlist) return netlist.error();
-  const auto harness = read_file(folders.source / "sim/bench/plain_harness.cpp");
-  if (!harness) return tool_failed(harness.error().message);
+  const std::string version = must(verilated ? ask({"verilator", "--version"}, c_install_verilator)
+                                             : ask({"yosys", "-V"}, c_install_yosys));
+  const Compiler compiler = must(Compiler::find(verilated ? "g++" : ""));
+  const std::string netlist = must(netlist_of(key, folders));
+  const std::string harness = must(read_file(folders.source / "sim/bench/plain_harness.cpp"));
 
   const std::string bits =
-      fmt::format("-DHALFWAY_INIT_BITS={}", port_bits(*netlist, key.entity(), "init_data"));
+      fmt::format("-DHALFWAY_INIT_BITS={}", port_bits(netlist, key.entity(), "init_data"));
   Command translate, compile;
   if (verilated) {
     // The same warnings as in sim/verilator are waived.
@@ -54,12 +49,12 @@ Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key
     translate.arguments = {
         "yosys", "-q", "-p",
         fmt::format("read_verilog netlist.v; hierarchy -top {}; write_cxxrtl model.cc", key.entity())};
-    compile.arguments = {compiler->program,
+    compile.arguments = {compiler.program,
                          "-std=c++17",
                          fast ? "-O3" : "-O0",
                          "-march=native",
                          "-w",
-                         "-I" + *include,
+                         "-I" + must(ask({"yosys-config", "--datdir/include"}, c_install_yosys)),
                          "-DHALFWAY_CXXRTL",
                          "-DHALFWAY_TOP=" + cxxrtl_name(key.entity()),
                          bits,
@@ -68,47 +63,36 @@ Result<OutsideModel> OutsideModel::open(OutsideTool tool, const HardwareKey& key
                          "shader"};
   }
   ContentHash hash;
-  hash.add("outside model 1").add(*version).add(compiler->identity).add(*netlist).add(*harness);
+  hash.add("outside model 1").add(version).add(compiler.identity).add(netlist).add(harness);
   for (const Command* command : {&translate, &compile})
     for (const std::string& argument : command->arguments) hash.add(argument);
-  const std::filesystem::path parent = std::filesystem::absolute(folders.cache) / "bench";
-  const std::filesystem::path folder =
-      parent / fmt::format("{}-{}-{}", verilated ? "verilator" : "cxxrtl", key.name(), hash.hex());
-  const std::filesystem::path program = folder / (verilated ? "obj_dir/Vshader" : "shader");
-  if (std::filesystem::exists(folder)) return OutsideModel(program, parent);
+  const char* const name = verilated ? "verilator" : "cxxrtl";
+  const std::filesystem::path folder = scratch_ / fmt::format("{}-{}-{}", name, key.name(), hash.hex());
+  program_ = folder / (verilated ? "obj_dir/Vshader" : "shader");
+  if (std::filesystem::exists(folder)) return;
 
-  auto fresh = TemporaryFolder::make(parent);
-  if (!fresh) return fresh.error();
-  if (auto written = write_file(fresh->path() / "netlist.v", *netlist); !written) return written.error();
-  if (auto written = write_file(fresh->path() / "harness.cpp", *harness); !written) return written.error();
-  const std::string doing = fmt::format("{} of {}", to_string(tool), key.name());
-  translate.working_folder = compile.working_folder = fresh->path();
-  if (auto done = run_tool(translate, verilated ? c_install_verilator : c_install_yosys, doing); !done)
-    return done.error();
-  if (!verilated)
-    if (auto done = run_tool(compile, c_install_compiler, doing); !done) return done.error();
-  if (auto moved = fresh->move_to(folder); !moved) return moved.error();
-  return OutsideModel(program, parent);
+  TemporaryFolder fresh = must(TemporaryFolder::make(scratch_));
+  must(write_file(fresh.path() / "netlist.v", netlist));
+  must(write_file(fresh.path() / "harness.cpp", harness));
+  const std::string doing = fmt::format("{} of {}", name, key.name());
+  translate.working_folder = compile.working_folder = fresh.path();
+  must(run_tool(translate, verilated ? c_install_verilator : c_install_yosys, doing));
+  if (!verilated) must(run_tool(compile, c_install_compiler, doing));
+  must(fresh.move_to(folder));
 }
 
-Result<OutsideRun> OutsideModel::run(std::span<const std::uint32_t> init_words) const {
-  auto scratch = TemporaryFolder::make(scratch_);
-  if (!scratch) return scratch.error();
-  const std::filesystem::path init = scratch->path() / "init", drawn = scratch->path() / "fragments";
-  const std::string_view bytes(reinterpret_cast<const char*>(init_words.data()), init_words.size_bytes());
-  if (auto written = write_file(init, bytes); !written) return written.error();
-  const auto end =
-      run_process({.arguments = {program_.string(), init.string(), drawn.string()}}, "make bench");
-  if (!end) return end.error();
+OutsideRun OutsideModel::run(std::span<const std::uint32_t> init_words) const {
+  const TemporaryFolder scratch = must(TemporaryFolder::make(scratch_));
+  const std::filesystem::path init = scratch.path() / "init", drawn = scratch.path() / "fragments";
+  must(write_file(init, {reinterpret_cast<const char*>(init_words.data()), init_words.size_bytes()}));
+  const ProcessEnd end =
+      must(run_process({.arguments = {program_.string(), init.string(), drawn.string()}}, "make bench"));
   OutsideRun run;
-  unsigned long long cycles = 0;
-  if (!end->succeeded() || std::sscanf(end->output.c_str(), "%lf %llu", &run.seconds, &cycles) != 2)
-    return Error{ExitCode::differs, fmt::format("{}: {}: {}", program_.string(), end->how(), end->output)};
-  run.cycles = cycles;
-  const auto fragments = read_file(drawn);
-  if (!fragments) return fragments.error();
-  run.fragments.resize(fragments->size() / sizeof(Fragment));
-  std::memcpy(run.fragments.data(), fragments->data(), run.fragments.size() * sizeof(Fragment));
+  if (!end.succeeded() || std::sscanf(end.output.c_str(), "%lf", &run.seconds) != 1)
+    throw Failure{{ExitCode::differs, fmt::format("{}: {}: {}", program_.string(), end.how(), end.output)}};
+  const std::string fragments = must(read_file(drawn));
+  run.fragments.resize(fragments.size() / sizeof(Fragment));
+  std::memcpy(run.fragments.data(), fragments.data(), run.fragments.size() * sizeof(Fragment));
   return run;
 }
 

@@ -3,12 +3,10 @@
 // netlist. `make bench` compares them with the project's own simulator.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/fragment.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
@@ -19,29 +17,23 @@ enum class OutsideTool {
   verilator,  ///< `verilator --cc --exe --build`: Verilator's default flags, make and g++
   cxxrtl,     ///< Yosys's write_cxxrtl with its default flags, compiled by clang++ (otherwise g++) with -O3
 };
-inline const char* to_string(OutsideTool tool) {
-  return tool == OutsideTool::verilator ? "Verilator as it comes" : "CXXRTL";
-}
 
 struct OutsideRun {
   std::vector<Fragment> fragments;
-  double seconds = 0.0;      ///< processor seconds of the clock loop only
-  std::uint64_t cycles = 0;  ///< from the first vector offered until the hardware is idle
+  double seconds = 0.0;  ///< processor seconds of the clock loop only
 };
 
+/// Its functions throw Failure.
 class OutsideModel {
  public:
   /// Build the program in build/cache/bench/, or use the cached one. Without `fast`, the C++ is compiled
   /// without optimization if the tool allows it; this suffices for comparing pictures, but not for timing.
-  static Result<OutsideModel> open(OutsideTool tool, const HardwareKey& key, const SimulatorFolders& folders,
-                                   bool fast = true);
+  OutsideModel(OutsideTool tool, const HardwareKey& key, const SimulatorFolders& folders, bool fast = true);
 
   /// Run a process that draws all vectors at full speed.
-  Result<OutsideRun> run(std::span<const std::uint32_t> init_words) const;
+  OutsideRun run(std::span<const std::uint32_t> init_words) const;
 
  private:
-  OutsideModel(std::filesystem::path program, std::filesystem::path scratch)
-      : program_(std::move(program)), scratch_(std::move(scratch)) {}
   std::filesystem::path program_, scratch_;
 };
 

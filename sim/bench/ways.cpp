@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "frame/metrics.hpp"
@@ -20,7 +19,7 @@
 #include "sim/run/open_engine.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/stream_files/trace.hpp"
-#include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/subprocess.hpp"
 
@@ -48,9 +47,10 @@ const Name& name_of(Way way) {
   return c_names.at(static_cast<std::size_t>(way));
 }
 
-Error wrong(Way way, const HardwareKey& key) {
-  return {ExitCode::differs,
-          fmt::format("{}, {}: not the golden model's fragments", to_string(way), key.name())};
+void check(bool right, Way way, const GoldenStream& s) {
+  if (!right)
+    throw Failure{{ExitCode::differs,
+                   fmt::format("{}, {}: not the golden model's fragments", to_string(way), s.key.name())}};
 }
 
 std::string ghdl_program(Way way, const SimulatorFolders& folders) {
@@ -62,75 +62,73 @@ bool without_avx512(Way way) {
 }
 
 /// RTL in this process, alone, or with the golden model and a comparison of every field on the same thread.
-Result<Go> in_process(Way way, const WayInput& input) {
-  const bool compared = is_compared(way);
-  auto opened = open_engine(
-      in_lanes(way) ? EngineKind::lanes : EngineKind::verilator, input.batches->key, input.folders,
-      {.fast = input.fast, .vectors = without_avx512(way) ? LaneVectors::avx2 : LaneVectors::avx512});
-  if (!opened) return opened.error();
-  const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
-  return Go([=, engine = *opened, &s = *input.batches]() -> Result<double> {
+Go in_process(Way way, const WayInput& input) {
+  const std::shared_ptr<Engine> engine = must(open_engine(
+      in_lanes(way) ? EngineKind::lanes : EngineKind::verilator, input.stream->key, input.folders,
+      {.fast = input.fast, .vectors = without_avx512(way) ? LaneVectors::avx2 : LaneVectors::avx512}));
+  const std::shared_ptr<GoldenModel> golden = make_golden_model(input.stream->key);
+  return [=, compared = is_compared(way), &s = *input.stream] {
+    const auto draw = [&](const Engine::OnDrawn& on_drawn) {
+      must(engine->draw(s.words, SIZE_MAX, on_drawn));
+      must(engine->drain(SIZE_MAX, on_drawn));
+    };
     StreamComparator comparator;
     std::span<const std::uint32_t> words = s.words;  // not yet drawn by the golden model
     std::size_t count = 0;
-    const auto draw = [&](const Engine::OnDrawn& on_drawn) -> Status {
-      if (Status ran = engine->draw(s.words, SIZE_MAX, on_drawn); !ran) return ran;
-      return engine->drain(SIZE_MAX, on_drawn);
-    };
     const double start = process_seconds();
-    const Status ran = draw([&](std::span<const Fragment> drawn) {
+    draw([&](std::span<const Fragment> drawn) {
       count += drawn.size();
       if (compared) comparator.add(golden->draw_next(words, drawn.size()), drawn);
     });
     const double seconds = process_seconds() - start;
-    if (!ran) return ran.error();
     comparator.finish();
-    if (comparator.mismatches() != 0 || count != s.golden.size()) return wrong(way, s.key);
+    check(comparator.mismatches() == 0 && count == s.golden.size(), way, s);
     if (compared) return seconds;
     // Draw once more, not timed, and check the picture.
-    std::size_t known = 0;
-    bool same = true;
-    if (Status again = draw([&](std::span<const Fragment> drawn) {
-          same =
-              same && drawn.size() <= s.golden.size() - known &&
-              std::equal(drawn.begin(), drawn.end(), s.golden.begin() + static_cast<std::ptrdiff_t>(known));
-          known += drawn.size();
-        });
-        !again)
-      return again.error();
-    if (!same || known != s.golden.size()) return wrong(way, s.key);
+    std::vector<Fragment> again;
+    draw([&](std::span<const Fragment> drawn) { again.insert(again.end(), drawn.begin(), drawn.end()); });
+    check(again == s.golden, way, s);
     return seconds;
-  });
+  };
 }
 
-Result<Go> outside(Way way, const WayInput& input) {
-  auto model = OutsideModel::open(way == Way::cxxrtl ? OutsideTool::cxxrtl : OutsideTool::verilator,
-                                  input.batches->key, input.folders, input.fast);
-  if (!model) return model.error();
-  return Go([way, model = std::move(*model), &s = *input.batches]() -> Result<double> {
-    const auto run = model.run(s.words);
-    if (!run) return run.error();
-    if (run->fragments != s.golden) return wrong(way, s.key);
-    return run->seconds;
-  });
+Go outside(Way way, const WayInput& input) {
+  const OutsideModel model(way == Way::cxxrtl ? OutsideTool::cxxrtl : OutsideTool::verilator,
+                           input.stream->key, input.folders, input.fast);
+  return [=, &s = *input.stream] {
+    const OutsideRun run = model.run(s.words);
+    check(run.fragments == s.golden, way, s);
+    return run.seconds;
+  };
 }
 
-Result<Go> in_ghdl(Way way, const WayInput& input) {
-  auto runner = GhdlRunner::open(input.batches->key, input.folders, ghdl_program(way, input.folders));
-  if (!runner) return runner.error();
+Go in_ghdl(Way way, const WayInput& input) {
+  const auto runner = std::make_shared<const GhdlRunner>(
+      must(GhdlRunner::open(input.stream->key, input.folders, ghdl_program(way, input.folders))));
   const std::filesystem::path init = input.scratch / (short_name(way) + ".init"),
                               trace = input.scratch / (short_name(way) + ".trace");
-  return Go([=, runner = std::move(*runner), &s = *input.batches]() -> Result<double> {
-    if (const Status wrote = write_init_file(init, s.key.name(), {s.init_bits, s.words}); !wrote)
-      return wrote.error();
+  return [=, &s = *input.stream] {
+    must(write_init_file(init, s.key.name(), {s.init_bits, s.words}));
     const double before = children_seconds();
-    if (const auto run = runner.run(init, trace); !run) return run.error();
+    must(runner->run(init, trace));
     const double seconds = children_seconds() - before;
-    const auto drawn = read_trace(trace, s.key.name());
-    if (!drawn) return drawn.error();
-    if (drawn->fragments != s.golden) return wrong(way, s.key);
+    check(must(read_trace(trace, s.key.name())).fragments == s.golden, way, s);
     return seconds;
-  });
+  };
+}
+
+Go golden_alone(Way way, const WayInput& input) {
+  constexpr std::size_t c_at_a_time = 4096;  // fragments
+  const std::shared_ptr<GoldenModel> golden = make_golden_model(input.stream->key);
+  return [=, &s = *input.stream] {
+    std::size_t count = 0;
+    std::span<const std::uint32_t> words = s.words;
+    const double start = process_seconds();
+    while (!words.empty()) count += golden->draw_next(words, c_at_a_time).size();
+    const double seconds = process_seconds() - start;
+    check(count == s.golden.size(), way, s);
+    return seconds;
+  };
 }
 
 ReferenceImage reference_of(const WayInput& input, const std::vector<ScreenTriangle>& triangles) {
@@ -191,79 +189,58 @@ std::string ghdl_mcode(const SimulatorFolders& folders) {
                            : installed.string();
 }
 
-Result<MesaRun> run_mesa(const WayInput& input, int repetitions) {
-  const auto drawn = draw_by_mesa(
-      {.scene = input.scene->name, .size = input.size, .repetitions = repetitions}, input.folders.source);
-  if (!drawn) return drawn.error();
-  MesaRun run{.seconds = drawn->seconds,
-              .elapsed_seconds = drawn->elapsed_seconds / repetitions,
-              .renderer = drawn->renderer};
+MesaRun run_mesa(const WayInput& input, int repetitions) {
+  const MesaPicture drawn = must(draw_by_mesa(
+      {.scene = input.scene->name, .size = input.size, .repetitions = repetitions}, input.folders.source));
   const ReferenceImage reference = reference_of(input, Projector(*input.scene, input.size, {}).project_all());
-  const auto whole = frame_distance(drawn->frame, reference.frame, reference.mask);
-  if (!whole) return whole.error();
-  const auto inner = frame_distance(drawn->frame, reference.frame, inside(reference.mask, input.size));
-  if (!inner) return inner.error();
-  run.outline_off = static_cast<double>(whole->off - inner->off) / static_cast<double>(whole->pixels);
-  run.psnr_db = inner->psnr_db;
-  run.max_lsb = inner->max_lsb;
-  if (inner->pixels == 0 || !(run.psnr_db >= c_mesa_least_psnr_db) || run.outline_off > c_mesa_most_off)
-    return Error{
-        ExitCode::differs,
-        fmt::format("Mesa draws another picture: {:.1f} dB and {}/255 against the reference, {:.2g} of the "
-                    "pixels off on outlines",
-                    run.psnr_db, run.max_lsb, run.outline_off)};
+  const FrameDistance whole = must(frame_distance(drawn.frame, reference.frame, reference.mask)),
+                      inner = must(frame_distance(drawn.frame, reference.frame,
+                                                  inside(reference.mask, input.size)));
+  const MesaRun run{.seconds = drawn.seconds,
+                    .elapsed_seconds = drawn.elapsed_seconds / repetitions,
+                    .psnr_db = inner.psnr_db,
+                    .max_lsb = inner.max_lsb,
+                    .outline_off =
+                        static_cast<double>(whole.off - inner.off) / static_cast<double>(whole.pixels),
+                    .renderer = drawn.renderer};
+  if (inner.pixels == 0 || !(run.psnr_db >= c_mesa_least_psnr_db) || run.outline_off > c_mesa_most_off)
+    throw Failure{
+        {ExitCode::differs,
+         fmt::format("Mesa draws another picture: {:.1f} dB and {}/255 against the reference, {:.2g} of the "
+                     "pixels off on outlines",
+                     run.psnr_db, run.max_lsb, run.outline_off)}};
   return run;
 }
 
-Result<Go> make_way(Way way, const WayInput& input) {
+Go make_way(Way way, const WayInput& input) {
   if (const std::string program = lacking(way, input.folders); !program.empty())
-    return tool_failed(fmt::format("{} is not here", program));
+    throw Failure{tool_failed(fmt::format("{} is not here", program))};
   switch (way) {
-    case Way::lanes_compared:
-    case Way::lanes:
-    case Way::lanes_without_avx512_compared:
-    case Way::lanes_without_avx512:
-    case Way::verilator_compared:
-    case Way::verilator:
-      return in_process(way, input);
     case Way::verilator_as_it_comes:
     case Way::cxxrtl:
       return outside(way, input);
     case Way::ghdl_llvm:
     case Way::ghdl_mcode:
       return in_ghdl(way, input);
-    case Way::golden: {
-      const std::shared_ptr<GoldenModel> golden = make_golden_model(input.batches->key);
-      return Go([way, golden, &s = *input.batches]() -> Result<double> {
-        std::size_t count = 0;
-        auto rest = std::span<const std::uint32_t>(s.words);
+    case Way::golden:
+      return golden_alone(way, input);
+    case Way::reference:
+      return [input, triangles = Projector(*input.scene, input.size, {}).project_all()] {
         const double start = process_seconds();
-        for (const std::size_t vectors : s.batches) {
-          const auto words = rest.first(vectors * s.words_per_vector());
-          rest = rest.subspan(words.size());
-          count += golden->draw(words).size();
-        }
-        const double seconds = process_seconds() - start;
-        if (count != s.golden.size()) return wrong(way, s.key);
-        return seconds;
-      });
-    }
-    case Way::reference: {
-      auto triangles = Projector(*input.scene, input.size, {}).project_all();
-      return Go([triangles = std::move(triangles), input]() -> Result<double> {
-        const double start = process_seconds();
-        const ReferenceImage image = reference_of(input, triangles);
+        reference_of(input, triangles);
         return process_seconds() - start;
-      });
-    }
+      };
     case Way::mesa:
+      return [input] { return run_mesa(input, 3).seconds; };
+    case Way::lanes_compared:
+    case Way::lanes:
+    case Way::lanes_without_avx512_compared:
+    case Way::lanes_without_avx512:
+    case Way::verilator_compared:
+    case Way::verilator:
       break;
   }
-  return Go([input]() -> Result<double> {
-    const auto run = run_mesa(input, 3);
-    if (!run) return run.error();
-    return run->seconds;
-  });
+  return in_process(way, input);
 }
 
 }  // namespace halfway

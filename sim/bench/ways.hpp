@@ -7,7 +7,6 @@
 #include <functional>
 #include <string>
 
-#include "common/result.hpp"
 #include "sim/bench/workload.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
@@ -48,16 +47,16 @@ std::string lacking(Way way, const SimulatorFolders& folders);
 struct WayInput {
   const Scene* scene;  ///< a built-in scene for Way::mesa
   FrameSize size;
-  const InitBatches* batches;  ///< of that scene and size
+  const GoldenStream* stream;  ///< of that scene and size
   SimulatorFolders folders;
   std::filesystem::path scratch;  ///< an existing folder
   bool fast = true;               ///< false: compile without optimization, for checking but not for timing
 };
 
-/// Draw the picture once and return the processor seconds. A wrong picture is an error.
-using Go = std::function<Result<double>()>;
-/// Build everything that the way needs. The input must outlive the result.
-Result<Go> make_way(Way way, const WayInput& input);
+/// Draw the picture once and return the processor seconds. Throws Failure if the picture is wrong.
+using Go = std::function<double()>;
+/// Build everything that the way needs, or throw Failure. The input must outlive the result.
+Go make_way(Way way, const WayInput& input);
 
 /// Limits for Way::mesa against the reference. Pixels inside outlines differ, because Mesa uses floats and
 /// another subpixel grid for vertices: limit on PSNR. On outlines the grids cover different pixels: limit on
@@ -71,8 +70,8 @@ struct MesaRun {
   double outline_off = 0.0;      ///< part of the covered pixels that differ on outlines
   std::string renderer;          ///< the renderer's name
 };
-/// Draw the built-in scene and compare the picture with the reference.
-Result<MesaRun> run_mesa(const WayInput& input, int repetitions);
+/// Draw the built-in scene and compare the picture with the reference. Throws Failure if they differ by more.
+MesaRun run_mesa(const WayInput& input, int repetitions);
 
 /// Path of the program `ghdl-mcode`: installed, or unpacked in build/tools by scripts/unpack.sh. The file may
 /// not exist.

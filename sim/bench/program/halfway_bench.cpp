@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_bench [--page FILE] [--jobs N] [--benchmark_…]: measures speed as ratios within one run. It
-// compares all ways to draw a picture with the project's own; growth of time and memory with triangles,
-// pixels and lights; whole frames; small triangles; cores; and whole runs of `make sim`. --page writes the
-// page. Times are processor times: the median of several repetitions in random order, scaled to the best
-// speed of the run. Absolute times are valid only for the machine that prints them.
+// halfway_bench [--page FILE] [--jobs N] [--only SECTION…]: measures speed as ratios within one run. It compares
+// all ways to draw a picture with the project's own; whole frames; frames in a browser; small triangles; and
+// whole runs of `make sim` and `halfway view`. --page writes the page. Times are processor times: the median of
+// several repetitions in random order, scaled to the best speed of the run. Absolute times are valid only for
+// the machine that prints them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -26,6 +26,7 @@ namespace {
 struct Options {
   std::filesystem::path page{};
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+  std::vector<std::string> only{};
 };
 
 std::string first_line(const std::vector<std::string>& question) {
@@ -41,7 +42,7 @@ std::array<double, 3> load() {
   return minutes;
 }
 
-int run(const Options& options) {
+void run(const Options& options) {
   must(make_folders(c_scratch));
   const auto text = [](double value) { return fmt::format("{:.1f}", value); };
   Json speed = {
@@ -55,29 +56,23 @@ int run(const Options& options) {
         {"clang", first_line({"clang++", "--version"})},
         {"gcc", first_line({"g++", "--version"})},
         {"yosys", first_line({"yosys", "-V"})}}}};
-  Measurements measurements;
-  const WayTable ways(measurements, options.jobs);
-  const Growth growth(measurements, options.jobs);
-  measurements.run();
-
-  ways.write(speed);
-  growth.write(speed);
-  speed["small_triangles"] = Json::array();
-  speed["cores"] = Json::array();
-  speed["whole_frames"] = speed["browser"] = speed["make_sim"] = speed["views"] = false;
-  if (is_wanted("whole_frames")) measure_whole_frames(speed);
-  if (is_wanted("browser")) measure_browser(speed);
-  if (is_wanted("small_triangles")) measure_small_triangles(speed);
-  ways.write_cores(speed);
-  const bool unchanged = !is_wanted("make_sim") || measure_make(speed);
-  if (is_wanted("view")) measure_view(speed);
+  const std::pair<const char*, std::function<void()>> sections[] = {
+      {"make_sim", [&] { measure_make(speed); }},
+      {"ways", [&] { measure_ways(speed, options.jobs); }},
+      {"whole_frames", [&] { measure_whole_frames(speed); }},
+      {"browser", [&] { measure_browser(speed); }},
+      {"small_triangles", [&] { measure_small_triangles(speed); }},
+      {"view", [&] { measure_view(speed); }}};
+  for (const auto& [name, measure] : sections) {
+    speed[name] = false;
+    if (options.only.empty() || std::ranges::find(options.only, name) != options.only.end()) measure();
+  }
   speed["load"]["after"] = text(load()[0]);
   speed["load"]["long"] = text(load()[2]);
 
   const std::string page = must(filled_template(c_source / "sim/bench/page.md.mustache", speed));
   fmt::print("\n{}", page);
   if (!options.page.empty()) must(write_file(options.page, page));
-  return unchanged ? 0 : 1;
 }
 
 }  // namespace
@@ -85,31 +80,15 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  // The load of a shared machine varies, so interleave the repetitions of different measurements.
-  std::vector<char*> arguments(argv, argv + argc);
-  std::string interleave = "--benchmark_enable_random_interleaving=true";
-  arguments.insert(arguments.begin() + 1, interleave.data());
-  auto count = static_cast<int>(arguments.size());
-  arguments.push_back(nullptr);
-  benchmark::Initialize(&count, arguments.data());
-
   Options options;
-  CLI::App app{
-      "Measures speed, as ratios within one run; of Google Benchmark's options it takes --benchmark_filter",
-      "halfway_bench"};
-  app.add_option("--page", options.page, "page that is written; needs all measurements");
+  CLI::App app{"Measures speed, as ratios within one run", "halfway_bench"};
+  auto* page = app.add_option("--page", options.page, "page that is written; needs all sections");
   app.add_option("--jobs", options.jobs, "builds at a time")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  int exit_code = 0;
-  app.callback([&] {
-    if (!options.page.empty() && !benchmark::GetBenchmarkFilter().empty())
-      throw CLI::ValidationError("--page", "needs all measurements: leave --benchmark_filter out");
-    try {
-      exit_code = run(options);
-    } catch (const Failure& failure) {
-      exit_code = cli::report(failure.error);
-    }
-  });
-  return cli::run_program(app, count, arguments.data(), exit_code);
+  app.add_option("--only", options.only,
+                 "some sections: ways, whole_frames, browser, small_triangles, make_sim, view")
+      ->excludes(page);
+  app.callback([&] { run(options); });
+  return cli::run_program(app, argc, argv, 0);
 }

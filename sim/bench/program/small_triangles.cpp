@@ -5,10 +5,21 @@
 #include <algorithm>
 
 #include "common/to_integer.hpp"
+#include "golden_run/walk_counts.hpp"
 #include "sim/bench/program/bench.hpp"
 #include "sim/run/open_engine.hpp"
 
 namespace halfway {
+
+namespace {
+
+WalkCounts count_walk(const GoldenStream& stream) {
+  WalkCounter counter(stream.key);
+  counter.add(stream.words);
+  return counter.counts();
+}
+
+}  // namespace
 
 void measure_small_triangles(Json& speed) {
   constexpr FrameSize c_frame{500, 500};
@@ -17,24 +28,25 @@ void measure_small_triangles(Json& speed) {
     // Number of triangles for which each triangle that covers a pixel covers `wanted` pixels.
     double triangles = 1e5;
     for (int i = 0; i < 4; ++i) {
-      const InitBatches all = must(make_batches(sphere_scene(to_integer<std::uint64_t>(triangles)), c_frame,
-                                                {.shader = Shader::processors}));
+      const GoldenStream all = golden_stream(sphere_scene(to_integer<std::uint64_t>(triangles)), c_frame,
+                                             {.shader = Shader::processors});
       triangles *=
           static_cast<double>(all.golden.size()) / static_cast<double>(count_walk(all).headers) / wanted;
       triangles = std::clamp(triangles, 100.0, 1e7);
     }
     scenes.emplace_back(wanted, sphere_scene(to_integer<std::uint64_t>(triangles)));
   }
-  for (const Shader shader : {Shader::quadratic, Shader::spherical, Shader::processors})
+  Json rows = Json::array();
+  for (const Shader shader : c_shaders)
     for (const auto& [wanted, scene] : scenes) {
-      const InitBatches all = must(make_batches(scene, c_frame, {.shader = shader}));
+      const GoldenStream all = golden_stream(scene, c_frame, {.shader = shader});
       const auto engine = must(open_engine(EngineKind::verilator, all.key, c_folders));
       std::vector<Fragment> drawn;
       must(engine->run(all.words, drawn, SIZE_MAX));
       must(engine->finish(drawn, SIZE_MAX));
       if (drawn != all.golden) throw Failure{{ExitCode::differs, "small triangles: the RTL differs"}};
       const WalkCounts walk = count_walk(all);
-      Json row = {to_string(shader), count(scene.triangles.size()),
+      Json row = {to_string(shader), scene.triangles.size(),
                   figure(static_cast<double>(walk.pixels) / static_cast<double>(walk.headers))};
       for (const std::uint64_t n :
            {engine->cycles().value(), walk.pixels + walk.lost_to_lines + walk.lost_to_headers,
@@ -44,8 +56,9 @@ void measure_small_triangles(Json& speed) {
         row.push_back(fmt::format("{:.3f}", static_cast<double>(n) / static_cast<double>(walk.pixels)));
       fmt::print(stderr, "small triangles: {}, {} pixels each: {} clocks per fragment\n", to_string(shader),
                  wanted, row[3].get<std::string>());
-      speed["small_triangles"].push_back(row);
+      rows.push_back(row);
     }
+  speed["small_triangles"] = {{"rows", rows}};
 }
 
 }  // namespace halfway

@@ -40,38 +40,21 @@ bool in_ghdl(Way way) {
 // Software draws the same picture for all hardware. Folded processors are measured for their number of
 // clocks.
 bool is_measured(Way way, std::size_t column) {
-  if (!is_wanted(name_of(way, column)) || !lacking(way, c_folders).empty()) return false;
+  if (!lacking(way, c_folders).empty()) return false;
   if (way == Way::reference || way == Way::mesa) return column == 0;
   if (in_lanes(way)) return c_hardware[column].lanes;
   if (way == Way::cxxrtl || way == Way::verilator_as_it_comes) return column != c_folded;
   return true;
 }
 
-Json mesa_note() {
-  if (!lacking(Way::mesa, c_folders).empty()) return false;
-  const Scene scene = builtin("spheres");
-  const auto picture = run_mesa({.scene = &scene,
-                                 .size = c_hardware[0].size,
-                                 .batches = nullptr,
-                                 .folders = c_folders,
-                                 .scratch = c_scratch},
-                                1);
-  if (!picture) return false;
-  return {{"psnr", fmt::format("{:.1f}", picture->psnr_db)},
-          {"max_lsb", picture->max_lsb},
-          {"outline", fmt::format("{:.0f}", 1e6 * picture->outline_off)},
-          {"renderer", picture->renderer}};
-}
+struct Column {
+  Scene scene;
+  GoldenStream stream, ghdl_stream;
+  const GoldenStream& of(Way way) const { return in_ghdl(way) ? ghdl_stream : stream; }
+};
 
-}  // namespace
-
-WayTable::WayTable(Measurements& measurements, unsigned jobs) : measurements_(measurements) {
-  for (const Hardware& hardware : c_hardware) {
-    Column column{builtin("spheres"), {}, {}};
-    column.batches = must(make_batches(column.scene, hardware.size, hardware.plan));
-    column.ghdl_batches = must(make_batches(column.scene, hardware.ghdl_size, hardware.plan));
-    columns_.push_back(std::move(column));
-  }
+// Build each way for each hardware and add its measurement.
+void add_ways(const std::vector<Column>& columns, Measurements& measurements, unsigned jobs) {
   struct Job {
     Way way;
     std::size_t column;
@@ -83,35 +66,55 @@ WayTable::WayTable(Measurements& measurements, unsigned jobs) : measurements_(me
       if (is_measured(way, column)) (is_compared(way) ? compared : alone).push_back({way, column});
   // Ways with comparison use the hardware built for the ways without comparison.
   for (std::vector<Job>* jobs_now : {&alone, &compared}) {
-    must(for_each_on_threads(jobs, jobs_now->size(), [&](std::size_t i) -> Status {
+    must_for_each(jobs, jobs_now->size(), [&](std::size_t i) {
       auto& [way, column, go] = (*jobs_now)[i];
       fmt::print(stderr, "building {}\n", name_of(way, column));
-      const Column& of = columns_[column];
-      auto made =
-          make_way(way, {.scene = &of.scene,
-                         .size = in_ghdl(way) ? c_hardware[column].ghdl_size : c_hardware[column].size,
-                         .batches = in_ghdl(way) ? &of.ghdl_batches : &of.batches,
-                         .folders = c_folders,
-                         .scratch = c_scratch});
-      if (!made) return made.error();
-      go = std::move(*made);
-      return Ok{};
-    }));
+      const Hardware& hardware = c_hardware[column];
+      go = make_way(way, {.scene = &columns[column].scene,
+                          .size = in_ghdl(way) ? hardware.ghdl_size : hardware.size,
+                          .stream = &columns[column].of(way),
+                          .folders = c_folders,
+                          .scratch = c_scratch});
+    });
     for (Job& job : *jobs_now)
-      measurements.add(name_of(job.way, job.column), in_ghdl(job.way) ? 2 : 11, [go = std::move(job.go)] {
-        return Measurements::Counters{{"seconds", must(go())}};
-      });
+      measurements.add(name_of(job.way, job.column), in_ghdl(job.way) ? 2 : 11, std::move(job.go));
   }
 }
 
-void WayTable::write(Json& speed) const {
+Json mesa_note() {
+  if (!lacking(Way::mesa, c_folders).empty()) return false;
+  const Scene scene = builtin("spheres");
+  const MesaRun picture = run_mesa({.scene = &scene,
+                                    .size = c_hardware[0].size,
+                                    .stream = nullptr,
+                                    .folders = c_folders,
+                                    .scratch = c_scratch},
+                                   1);
+  return {{"psnr", fmt::format("{:.1f}", picture.psnr_db)},
+          {"max_lsb", picture.max_lsb},
+          {"outline", fmt::format("{:.0f}", 1e6 * picture.outline_off)},
+          {"renderer", picture.renderer}};
+}
+
+}  // namespace
+
+void measure_ways(Json& speed, unsigned jobs) {
+  std::vector<Column> columns;
+  for (const Hardware& hardware : c_hardware) {
+    const Scene scene = builtin("spheres");
+    columns.push_back({scene, golden_stream(scene, hardware.size, hardware.plan),
+                       golden_stream(scene, hardware.ghdl_size, hardware.plan)});
+  }
+  Measurements measurements;
+  add_ways(columns, measurements, jobs);
+  measurements.run();
+
   const auto nanoseconds = [&](Way way, std::size_t column) -> std::optional<double> {
     // Software has one picture for all columns.
     const std::size_t measured = way == Way::reference || way == Way::mesa ? 0 : column;
-    const auto seconds = measurements_.seconds(name_of(way, measured));
+    const auto seconds = measurements.seconds(name_of(way, measured));
     if (!seconds) return std::nullopt;
-    const Column& of = columns_[measured];
-    return 1e9 * *seconds / static_cast<double>((in_ghdl(way) ? of.ghdl_batches : of.batches).golden.size());
+    return 1e9 * *seconds / static_cast<double>(columns[measured].of(way).golden.size());
   };
   const auto cell = [&](Way way, std::size_t column) {
     const auto ours = nanoseconds(c_hardware[column].lanes ? Way::lanes_compared : Way::verilator_compared,
@@ -133,14 +136,7 @@ void WayTable::write(Json& speed) const {
     for (std::size_t column = 0; column < c_columns; ++column) row.push_back(cell(way, column));
     rows.push_back(row);
   }
-  speed["ways"] = {{"hardware", hardware}, {"rows", rows}};
-  speed["mesa"] = mesa_note();
-}
-
-void WayTable::write_cores(Json& speed) const {
-  for (std::size_t column = 0; column < c_columns; ++column)
-    if (c_hardware[column].lanes && is_wanted(fmt::format("cores/{}", c_hardware[column].name)))
-      measure_cores(c_hardware[column].name, columns_[column].batches, speed["cores"]);
+  speed["ways"] = {{"hardware", hardware}, {"rows", rows}, {"mesa", mesa_note()}};
 }
 
 }  // namespace halfway

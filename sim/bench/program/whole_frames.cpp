@@ -22,7 +22,7 @@ constexpr unsigned c_cores = 2;
 struct Path {
   const char* vectors;
   HardwareKey key;
-  std::vector<std::shared_ptr<Engine>> engines{};  // one per core
+  std::vector<WholeFrame> drawings{};  // one per core
   std::vector<FrameCost> costs{};
   std::vector<double> relative_to_mesa{}, rates{};
 };
@@ -34,26 +34,28 @@ std::vector<Path> open_paths(const Scene& scene, unsigned cores) {
       Path path{vectors == LaneVectors::avx512 ? "this machine's" : "without AVX-512",
                 must(plan_scene(scene, {.shader = shader})).key};
       fmt::print(stderr, "building {}, {}\n", path.key.name(), path.vectors);
-      path.engines.push_back(must(open_engine(EngineKind::lanes, path.key, c_folders, {.vectors = vectors})));
-      while (path.engines.size() < cores) path.engines.push_back(must(path.engines.front()->another()));
+      const auto engine = must(open_engine(EngineKind::lanes, path.key, c_folders, {.vectors = vectors}));
+      path.drawings.emplace_back(scene, c_size, path.key, engine);
+      while (path.drawings.size() < cores)
+        path.drawings.emplace_back(scene, c_size, path.key, must(engine->another()));
+      path.drawings.front().draw();  // not timed
       paths.push_back(std::move(path));
     }
   return paths;
 }
 
-MesaRun run_mesa_once(const Scene& scene, int repetitions) {
-  return must(run_mesa(
-      {.scene = &scene, .size = c_size, .batches = nullptr, .folders = c_folders, .scratch = c_scratch},
-      repetitions));
+MesaRun draw_in_mesa(const Scene& scene, int repetitions) {
+  return run_mesa(
+      {.scene = &scene, .size = c_size, .stream = nullptr, .folders = c_folders, .scratch = c_scratch},
+      repetitions);
 }
 
 // Frames per second of one Mesa per core, at the same time.
 double mesa_rate(const Scene& scene, unsigned cores) {
   std::vector<double> rates(cores);
-  must(for_each_on_threads(cores, cores, [&](std::size_t i) -> Status {
-    rates[i] = 1.0 / run_mesa_once(scene, c_rate_frames).elapsed_seconds;
-    return Ok{};
-  }));
+  must_for_each(cores, cores, [&](std::size_t i) {
+    rates[i] = 1.0 / draw_in_mesa(scene, c_rate_frames).elapsed_seconds;
+  });
   double sum = 0;
   for (const double rate : rates) sum += rate;
   return sum;
@@ -85,28 +87,23 @@ void measure_whole_frames(Json& speed) {
   const unsigned cores = std::min(c_cores, std::thread::hardware_concurrency());
   const bool with_mesa = lacking(Way::mesa, c_folders).empty(), with_rates = cores == c_cores;
   std::vector<Path> paths = open_paths(scene, cores);
-  const InitBatches pace = must(make_batches(scene, {64, 48}, {.shader = Shader::quadratic}));
   std::vector<double> mesa_seconds, mesa_rates;
   std::string renderer;
   for (int repetition = 0; repetition < c_repetitions; ++repetition) {
     fmt::print(stderr, "whole frames: {} of {}\n", repetition + 1, c_repetitions);
     if (with_mesa) {
-      const MesaRun run = run_mesa_once(scene, 1);
+      const MesaRun run = draw_in_mesa(scene, 1);
       mesa_seconds.push_back(run.seconds);
       renderer = run.renderer;
     }
     for (Path& path : paths) {
-      path.costs.push_back(
-          must(draw_frame([&] { return scene; }, c_size, path.key, path.engines.front(), pace)));
-      if (path.costs.back().mismatches != 0)
-        throw Failure{{ExitCode::differs, path.key.name() + ": the RTL differs"}};
+      path.costs.push_back(path.drawings.front().draw());
       if (with_mesa) path.relative_to_mesa.push_back(path.costs.back().seconds() / mesa_seconds.back());
     }
   }
   for (int repetition = 0; with_rates && repetition < c_rate_repetitions; ++repetition) {
     if (with_mesa) mesa_rates.push_back(mesa_rate(scene, cores));
-    for (Path& path : paths)
-      path.rates.push_back(must(frame_rate(scene, c_size, path.key, path.engines, c_rate_frames)));
+    for (Path& path : paths) path.rates.push_back(frame_rate(path.drawings, c_rate_frames));
   }
   Json rows = Json::array();
   for (const Path& path : paths) rows.push_back(row_of(path, with_mesa, with_rates));
