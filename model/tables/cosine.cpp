@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -213,6 +214,20 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
   choose("cosine_data_bits", &CosineSize::data_bits);
   out += "end package body;\n";
   return out;
+}
+
+CosineSizes cosine_sizes_in(const std::string& vhdl_package) {
+  CosineSizes sizes{{}, {}};
+  for (const bool exact : {true, false}) {
+    const std::string mark = fmt::format("constant c_{}_cosine_1_", preset_name(exact));
+    for (std::size_t at = 0; (at = vhdl_package.find(mark, at)) != std::string::npos;) {
+      at += mark.size();
+      CosineSize size{};
+      if (std::sscanf(vhdl_package.c_str() + at, "%d_%d", &size.address_bits, &size.data_bits) == 2)
+        (exact ? sizes.exact : sizes.published).push_back(size);
+    }
+  }
+  return sizes;
 }
 
 std::string cosine_cpp_header(const CosineSizes& sizes) {

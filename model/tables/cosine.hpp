@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cosine tables: sizes, entries and errors. Source of rtl/tables/cosine_pkg.vhd and of
-// model/golden/cosine_tables.hpp.
+// golden/cosine_tables.hpp.
 #pragma once
 
 #include <cstdint>
@@ -71,6 +71,8 @@ double table_error(const CosineTable& table);
 double error_bound(const CosineTable& table);
 
 std::string cosine_vhdl_package(const CosineSizes& sizes = {});
+/// The sizes of the tables in the text of a package that cosine_vhdl_package wrote, in its order.
+CosineSizes cosine_sizes_in(const std::string& vhdl_package);
 std::string cosine_cpp_header(const CosineSizes& sizes = {});
 
 }  // namespace halfway::tables

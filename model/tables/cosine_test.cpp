@@ -157,6 +157,16 @@ TEST(Cosine, EachGeneratedTableExistsOnce) {
   EXPECT_EQ(cosine_tables(sizes).size(), 7U);
 }
 
+// The build makes the C++ tables of these sizes.
+TEST(Cosine, ThePackageTellsItsSizes) {
+  const CosineSizes other{{{12, 8}}, {{5, 6}, {4, 4}}};
+  for (const CosineSizes& sizes : {CosineSizes{}, other}) {
+    const CosineSizes found = cosine_sizes_in(cosine_vhdl_package(sizes));
+    EXPECT_EQ(found.exact, sizes.exact);
+    EXPECT_EQ(found.published, sizes.published);
+  }
+}
+
 using Constants = std::map<std::string, std::vector<std::uint32_t>>;
 
 // The tables in a text by name: the numbers between the start and the end of an aggregate.

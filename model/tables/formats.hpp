@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of number formats, and the layouts composed of them. Source of rtl/tables/formats_pkg.vhd and of
-// model/golden/formats.hpp.
+// golden/formats.hpp.
 #pragma once
 
 #include <cmath>

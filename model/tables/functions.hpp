@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of the functions that the shading processors use. Source of rtl/tables/function_pkg.vhd and of
-// model/golden/function_tables.hpp.
+// golden/function_tables.hpp.
 #pragma once
 
 #include <array>

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "sim/formats/compiled_sizes.hpp"
 #include "sim/formats/format_sources.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/folder_lock.hpp"
-#include "tables/formats.hpp"
-#include "tables/functions.hpp"
+#include "sim/tables/generated_files.hpp"
 
 namespace halfway {
 namespace {
@@ -43,8 +43,7 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
         (source / "model").lexically_normal().string()));
   const bool exact = key.preset == Preset::exact;
   const tables::WordLengths& words = key.words;
-  const std::string formats = tables::cpp_header(tables::preset_formats(exact, words));
-  const std::string functions = tables::function_cpp_header(tables::function_tables(exact, words));
+  const auto headers = tables::cpp_headers(tables::compiled_sizes(), exact, words);
   const auto compiler = Compiler::find(HALFWAY_CXX);
   if (!compiler) return compiler.error();
   std::vector<std::string> flags(c_flags.begin(), c_flags.end());
@@ -53,7 +52,8 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
   flags.push_back(fmt::format("-DHALFWAY_SHADER={}", static_cast<int>(key.shader)));
   flags.emplace_back(exact ? "-DHALFWAY_PRESET=Exact" : "-DHALFWAY_PRESET=Published");
   ContentHash hash;
-  hash.add("formats 3").add(*sources).add(formats).add(functions).add(compiler->identity);
+  hash.add("formats 4").add(*sources).add(compiler->identity);
+  for (const tables::GeneratedFile& header : headers) hash.add(header.text);
   for (const std::string& flag : flags) hash.add(flag);
 
   const fs::path parent = fs::absolute(folders.cache) / "formats";
@@ -69,11 +69,7 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
     if (!fs::exists(folder / c_library)) {
       auto fresh = TemporaryFolder::make(parent);
       if (!fresh) return fresh.error();
-      if (Status made = make_folders(fresh->path() / "golden"); !made) return made.error();
-      for (const auto& [file, text] :
-           {std::pair{"formats.hpp", &formats}, std::pair{"function_tables.hpp", &functions}})
-        if (Status written = write_file(fresh->path() / "golden" / file, *text); !written)
-          return written.error();
+      if (Status written = tables::write_files(fresh->path(), headers); !written) return written.error();
       Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
       compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
       compile.arguments.insert(compile.arguments.end(),

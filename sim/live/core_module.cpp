@@ -9,10 +9,12 @@
 #include <thread>
 #include <vector>
 
+#include "sim/formats/compiled_sizes.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/shared_library.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/threads.hpp"
+#include "sim/tables/generated_files.hpp"
 
 namespace halfway {
 namespace {
@@ -70,6 +72,7 @@ Result<std::vector<std::string>> sources_of(const fs::path& root) {
 
 /// What the module depends on.
 Result<std::string> hash_of(const fs::path& root, const std::vector<std::string>& sources,
+                            const std::vector<tables::GeneratedFile>& generated,
                             const std::vector<std::string>& tools) {
   std::vector<std::string> files = sources;
   for (const std::string& folder : c_header_folders)
@@ -84,6 +87,7 @@ Result<std::string> hash_of(const fs::path& root, const std::vector<std::string>
     hash.add(std::to_string(list->size()));
     for (const std::string& item : *list) hash.add(item);
   }
+  for (const tables::GeneratedFile& header : generated) hash.add(header.text);
   for (const std::string& file : files) {
     const auto text = read_file(root / file);
     if (!text) return text.error();
@@ -104,8 +108,9 @@ Status link_libraries(const fs::path& folder) {
 
 /// Compile the sources in the folder, several at a time, and link them.
 Status compile(const Compiler& compiler, const fs::path& root, const std::vector<std::string>& sources,
-               const fs::path& folder) {
+               const std::vector<tables::GeneratedFile>& generated, const fs::path& folder) {
   if (Status linked = link_libraries(folder / "include"); !linked) return linked;
+  if (Status written = tables::write_files(folder / "include", generated); !written) return written;
   const auto object = [](std::size_t i) { return fmt::format("{}.o", i); };
   const auto run = [&](const std::vector<std::string>& flags, const std::vector<std::string>& arguments) {
     Command command{.arguments = {compiler.program}, .working_folder = folder};
@@ -140,13 +145,14 @@ Result<fs::path> build_core_module(const SimulatorFolders& folders) {
   const fs::path root = fs::absolute(folders.source);
   const auto sources = sources_of(root);
   if (!sources) return sources.error();
-  const auto hash = hash_of(root, *sources, {compiler->identity});
+  const auto generated = tables::cpp_headers(tables::compiled_sizes());
+  const auto hash = hash_of(root, *sources, generated, {compiler->identity});
   if (!hash) return hash.error();
   const fs::path parent = fs::absolute(folders.cache) / "live", folder = parent / ("core-" + *hash);
   if (!fs::exists(folder)) {
     auto fresh = TemporaryFolder::make(parent);
     if (!fresh) return fresh.error();
-    if (Status compiled = compile(*compiler, root, *sources, fresh->path()); !compiled)
+    if (Status compiled = compile(*compiler, root, *sources, generated, fresh->path()); !compiled)
       return compiled.error();
     if (Status moved = fresh->move_to(folder); !moved) return moved.error();
   }

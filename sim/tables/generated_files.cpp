@@ -16,15 +16,33 @@ namespace halfway::tables {
 std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout, const CosineSizes& sizes) {
   const auto presets = preset_formats();
   std::vector<GeneratedFile> files = {{"rtl/tables/formats_pkg.vhd", vhdl_package(presets)},
-                                      {"model/golden/formats.hpp", cpp_header(presets)},
                                       {"rtl/tables/cosine_pkg.vhd", cosine_vhdl_package(sizes)},
-                                      {"model/golden/cosine_tables.hpp", cosine_cpp_header(sizes)},
                                       {"rtl/tables/function_pkg.vhd", function_vhdl_package()},
-                                      {"model/golden/function_tables.hpp", function_cpp_header()},
                                       {"docs/rtl/init-vectors.md", layout_page(presets)}};
   if (const auto list = read_file(checkout / "rtl/files.f"))
     files.push_back({"halfway.core", core_text(*list, HALFWAY_VERSION)});
   return files;
+}
+
+std::vector<GeneratedFile> cpp_headers(const CosineSizes& sizes, bool exact, const WordLengths& words) {
+  return {{"golden/formats.hpp", cpp_header(preset_formats(exact, words))},
+          {"golden/cosine_tables.hpp", cosine_cpp_header(sizes)},
+          {"golden/function_tables.hpp", function_cpp_header(function_tables(exact, words))}};
+}
+
+Status write_files(const std::filesystem::path& folder, const std::vector<GeneratedFile>& files) {
+  for (const auto& [path, text] : files) {
+    if (const auto present = read_file(folder / path); present && *present == text) continue;
+    if (Status made = make_folders((folder / path).parent_path()); !made) return made;
+    if (Status written = write_file(folder / path, text); !written) return written;
+  }
+  return Ok{};
+}
+
+CosineSizes sizes_of(const std::filesystem::path& checkout) {
+  const auto package = read_file(checkout / "rtl/tables/cosine_pkg.vhd");
+  const CosineSizes sizes = package ? cosine_sizes_in(*package) : CosineSizes{};
+  return sizes.exact.empty() || sizes.published.empty() ? CosineSizes{} : sizes;
 }
 
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file) {

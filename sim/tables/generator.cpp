@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway tables` as a separate program, for `make tables`. It does not depend on the files that it writes.
+// `halfway tables` as a separate program, for `make tables`; the build makes the C++ headers by its command
+// `headers`. It does not depend on the files that it writes.
 #include <CLI/CLI.hpp>
 
 #include "sim/program/program.hpp"
+#include "sim/system/must.hpp"
+#include "sim/tables/generated_files.hpp"
 
 int main(int argc, char** argv) {
   using namespace halfway;
@@ -12,5 +15,10 @@ int main(int argc, char** argv) {
   app.add_option("--source", folders.source, "the checkout that is written to")->capture_default_str();
   int exit_code = 0;
   cli::add_tables(app, folders, exit_code);
+  std::filesystem::path out;
+  CLI::App* headers = app.add_subcommand("headers", "write the C++ headers of formats and tables");
+  headers->add_option("FOLDER", out, "folder that is written to")->required();
+  headers->callback(
+      [&] { must(tables::write_files(out, tables::cpp_headers(tables::sizes_of(folders.source)))); });
   return cli::run_program(app, argc, argv, exit_code);
 }

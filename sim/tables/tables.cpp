@@ -86,20 +86,11 @@ void print_errors(bool exact) {
 // Sizes of the checkout's tables that this run would remove.
 std::vector<tables::CosineSize> sizes_that_go(const std::filesystem::path& checkout, bool exact,
                                               const tables::CosineSizes& sizes) {
-  const auto present = read_file(checkout / "rtl" / "tables" / "cosine_pkg.vhd");
-  if (!present) return {};
+  const auto package = read_file(checkout / "rtl/tables/cosine_pkg.vhd");
+  const tables::CosineSizes present = tables::cosine_sizes_in(package ? *package : "");
+  std::vector<tables::CosineSize> gone = exact ? present.exact : present.published;
   const auto& kept = exact ? sizes.exact : sizes.published;
-  std::vector<tables::CosineSize> gone;
-  const auto [least_address, least_data] = tables::c_smallest_cosine_size;
-  const auto [most_address, most_data] = tables::c_largest_cosine_size;
-  for (int address = least_address; address <= most_address; ++address)
-    for (int data = least_data; data <= most_data; ++data) {
-      const std::string name =
-          fmt::format("constant c_{}_cosine_1_{}_{} :", exact ? "exact" : "published", address, data);
-      if (present->find(name) != std::string::npos &&
-          std::ranges::find(kept, tables::CosineSize{address, data}) == kept.end())
-        gone.push_back({address, data});
-    }
+  std::erase_if(gone, [&](const auto& size) { return std::ranges::find(kept, size) != kept.end(); });
   return gone;
 }
 
@@ -141,7 +132,7 @@ int run(const Folders& folders, const TablesOptions& options) {
 void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "tables",
-      "write the generated VHDL and C++ (formats, cosine tables) again; print the cost of the tables");
+      "write the generated VHDL (formats, cosine tables) again; print the cost of the tables");
   auto options = std::make_shared<TablesOptions>();
   CLI::Option* check = command->add_flag("--check", options->check,
                                          "write nothing; exit 1 if a file is not as it would be written");
