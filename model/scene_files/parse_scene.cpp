@@ -87,10 +87,10 @@ class SceneReader {
 
  private:
   void read(const toml::table& root_table) {
-    const Table root(root_table, file_, "the scene",
-                     {"camera", "ambient", "background", "shadows", "directional", "positional", "spot",
-                      "material", "mesh"},
-                     error_);
+    const TomlTable root(root_table, file_, "the scene",
+                         {"camera", "ambient", "background", "shadows", "directional", "positional", "spot",
+                          "material", "mesh"},
+                         error_);
     scene_.name = file_stem(file_);
     scene_.ambient = root.colour("ambient", scene_.ambient);
     scene_.background = root.colour("background", scene_.background);
@@ -114,7 +114,7 @@ class SceneReader {
   }
 
   template <class Read>
-  void each(const Table& root, std::string_view key, const Read& read) {
+  void each(const TomlTable& root, std::string_view key, const Read& read) {
     if (!root.has(key)) return;
     const toml::array* array = root.required(key)->as_array();
     if (array == nullptr) {
@@ -130,15 +130,15 @@ class SceneReader {
     }
   }
 
-  std::optional<CameraFit> read_camera(const Table& root) {
+  std::optional<CameraFit> read_camera(const TomlTable& root) {
     if (!root.has("camera")) return CameraFit{};
     const toml::table* node = root.required("camera")->as_table();
     if (node == nullptr) {
       root.fail("camera", "must be written [camera]");
       return std::nullopt;
     }
-    const Table camera(*node, file_, "camera",
-                       {"fit", "direction", "eye", "target", "up", "fov", "near", "far"}, error_);
+    const TomlTable camera(*node, file_, "camera",
+                           {"fit", "direction", "eye", "target", "up", "fov", "near", "far"}, error_);
     Camera& result = scene_.camera;
     result.up_world = camera.has("up") ? camera.direction("up") : result.up_world;
     result.vertical_fov_degrees =
@@ -184,17 +184,17 @@ class SceneReader {
   }
 
   void read_directional(const toml::table& node) {
-    const Table light(node, file_, "directional", {"to_light", "intensity"}, error_);
+    const TomlTable light(node, file_, "directional", {"to_light", "intensity"}, error_);
     scene_.directional.push_back({light.direction("to_light"), light.colour("intensity", glm::dvec3(1.0))});
   }
 
   void read_positional(const toml::table& node) {
-    const Table light(node, file_, "positional", {"position", "intensity"}, error_);
+    const TomlTable light(node, file_, "positional", {"position", "intensity"}, error_);
     scene_.positional.push_back({light.vector("position"), light.colour("intensity", glm::dvec3(1.0))});
   }
 
   void read_spot(const toml::table& node) {
-    const Table light(node, file_, "spot", {"position", "axis", "inner", "outer", "intensity"}, error_);
+    const TomlTable light(node, file_, "spot", {"position", "axis", "inner", "outer", "intensity"}, error_);
     constexpr Limits c_half_angle{.low = 0.0, .high = 90.0};
     light.required("outer");
     const double outer = light.number("outer", 0.0, c_half_angle);
@@ -206,10 +206,10 @@ class SceneReader {
   }
 
   void read_material(const toml::table& node) {
-    const Table table(node, file_, "material",
-                      {"name", "brdf", "colour", "specular_colour", "k_a", "k_d", "k_s", "exponent",
-                       "roughness", "reflectance"},
-                      error_);
+    const TomlTable table(node, file_, "material",
+                          {"name", "brdf", "colour", "specular_colour", "k_a", "k_d", "k_s", "exponent",
+                           "roughness", "reflectance"},
+                          error_);
     Material material;
     material.name = table.text("name");
     if (named_material(material.name).has_value()) {
@@ -252,7 +252,7 @@ class SceneReader {
     const toml::node* kind_node = node.get("kind");
     const std::string kind =
         is_file || kind_node == nullptr ? "" : kind_node->value<std::string>().value_or(std::string());
-    std::optional<Table> table;
+    std::optional<TomlTable> table;
     const auto open = [&](auto... own) {
       table.emplace(node, file_, "mesh",
                     std::vector<std::string_view>{own..., "material", "translate", "rotate", "scale",
@@ -263,7 +263,7 @@ class SceneReader {
     std::string path;
     if (is_file) {
       if (kind_node != nullptr)
-        Table(node, file_, "mesh", all_mesh_keys(), error_).fail("kind", "cannot be given with file");
+        TomlTable(node, file_, "mesh", all_mesh_keys(), error_).fail("kind", "cannot be given with file");
       open("file");
       if (options_.tessellation != 1.0)
         table->fail("file", "has the triangles it has: no other tessellation");
@@ -287,7 +287,7 @@ class SceneReader {
       if (!check_triangles(*table, box_triangles(divisions))) return;
       loaded.mesh = make_box(size, divisions);
     } else {
-      const Table any(node, file_, "mesh", all_mesh_keys(), error_);
+      const TomlTable any(node, file_, "mesh", all_mesh_keys(), error_);
       if (kind_node == nullptr) any.fail("mesh has neither 'kind' nor 'file'; give it one");
       any.fail("kind", "must be \"sphere\", \"teapot\" or \"box\"; a mesh file goes under 'file'");
       return;
@@ -298,7 +298,7 @@ class SceneReader {
   }
 
   // Number of parts of a generated mesh, with the tessellation factor applied.
-  std::uint32_t parts(const Table& table, std::string_view key, std::uint32_t otherwise,
+  std::uint32_t parts(const TomlTable& table, std::string_view key, std::uint32_t otherwise,
                       std::uint32_t least) const {
     const double wanted = std::round(options_.tessellation * table.count(key, otherwise, least));
     if (wanted > c_max_triangles) {
@@ -314,7 +314,7 @@ class SceneReader {
   }
 
   // Returns false after an error, as check_triangles.
-  bool read_mesh_file(const Table& table, LoadedMesh& loaded, std::string& path) {
+  bool read_mesh_file(const TomlTable& table, LoadedMesh& loaded, std::string& path) {
     const std::string name = table.text("file");
     if (error_) return false;
     MeshFile file = read_mesh_(name);
@@ -328,7 +328,7 @@ class SceneReader {
     return !error_;
   }
 
-  bool check_triangles(const Table& table, std::uint64_t triangles) {
+  bool check_triangles(const TomlTable& table, std::uint64_t triangles) {
     if (scene_.triangles.size() + triangles > c_max_triangles)
       table.fail(
           fmt::format("the scene has {} triangles up to this mesh, but {} is the most; use coarser meshes",
@@ -336,7 +336,7 @@ class SceneReader {
     return !error_;
   }
 
-  void place(const Table& table, LoadedMesh& loaded, const std::string& what) {
+  void place(const TomlTable& table, LoadedMesh& loaded, const std::string& what) {
     Mesh& mesh = loaded.mesh;
     const glm::dmat4 matrix = read_transform(table);
     const std::string normals = table.has("normals") ? table.text("normals") : "";
@@ -377,7 +377,7 @@ class SceneReader {
     }
   }
 
-  glm::dmat4 read_transform(const Table& table) {
+  glm::dmat4 read_transform(const TomlTable& table) {
     const glm::dvec3 scale = table.one_or_three("scale", glm::dvec3(1.0));
     if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0) table.fail("scale", "must not be zero");
     glm::dmat4 matrix = glm::translate(glm::dmat4(1.0), table.vector("translate", glm::dvec3(0.0)));
@@ -387,7 +387,7 @@ class SceneReader {
         table.fail("rotate", "must be written { degrees = 90, axis = [0, 1, 0] }");
         return matrix;
       }
-      const Table rotation(*node, file_, "rotate", {"degrees", "axis"}, error_);
+      const TomlTable rotation(*node, file_, "rotate", {"degrees", "axis"}, error_);
       rotation.required("degrees");
       matrix = glm::rotate(matrix, glm::radians(rotation.number("degrees", 0.0, c_any)),
                            rotation.direction("axis"));

@@ -17,8 +17,8 @@ std::string Limits::text() const {
   return above.empty() ? below : above + " and " + below;
 }
 
-Table::Table(const toml::table& table, std::string file, std::string what,
-             const std::vector<std::string_view>& known, FirstError& error)
+TomlTable::TomlTable(const toml::table& table, std::string file, std::string what,
+                     const std::vector<std::string_view>& known, FirstError& error)
     : table_(table), file_(std::move(file)), what_(std::move(what)), error_(error) {
   for (const auto& [key, value] : table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
@@ -27,31 +27,31 @@ Table::Table(const toml::table& table, std::string file, std::string what,
   }
 }
 
-void Table::fail(std::string_view message) const {
+void TomlTable::fail(std::string_view message) const {
   fail_at(table_.source(), message);
 }
 
-void Table::fail(std::string_view key, std::string_view message) const {
+void TomlTable::fail(std::string_view key, std::string_view message) const {
   const toml::node* node = table_.get(key);
   fail_at(node != nullptr ? node->source() : table_.source(),
           fmt::format("{} of {} {}", key, what_, message));
 }
 
-void Table::fail_at(const toml::source_region& where, std::string_view message) const {
+void TomlTable::fail_at(const toml::source_region& where, std::string_view message) const {
   error_.set(bad_input(fmt::format("{}:{}: {}", file_, where.begin.line, message)));
 }
 
-const toml::node* Table::required(std::string_view key) const {
+const toml::node* TomlTable::required(std::string_view key) const {
   const toml::node* node = table_.get(key);
   if (node == nullptr) fail(fmt::format("{} has no '{}'; give it one", what_, key));
   return node;
 }
 
-double Table::number(std::string_view key, double otherwise, const Limits& limits) const {
+double TomlTable::number(std::string_view key, double otherwise, const Limits& limits) const {
   return has(key) ? number_in(key, *table_.get(key), limits) : otherwise;
 }
 
-double Table::number_in(std::string_view key, const toml::node& node, const Limits& limits) const {
+double TomlTable::number_in(std::string_view key, const toml::node& node, const Limits& limits) const {
   if (!node.is_number()) {
     fail(key, "must be a number");
     return 0.0;
@@ -66,7 +66,7 @@ double Table::number_in(std::string_view key, const toml::node& node, const Limi
   return value;
 }
 
-std::uint32_t Table::count(std::string_view key, std::uint32_t otherwise, std::uint32_t least) const {
+std::uint32_t TomlTable::count(std::string_view key, std::uint32_t otherwise, std::uint32_t least) const {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return otherwise;
   const std::optional<std::int64_t> value = node->value_exact<std::int64_t>();
@@ -81,7 +81,7 @@ std::uint32_t Table::count(std::string_view key, std::uint32_t otherwise, std::u
   return static_cast<std::uint32_t>(*value);
 }
 
-bool Table::flag(std::string_view key, bool otherwise) const {
+bool TomlTable::flag(std::string_view key, bool otherwise) const {
   const toml::node* node = table_.get(key);
   if (node == nullptr) return otherwise;
   const std::optional<bool> value = node->value_exact<bool>();
@@ -89,7 +89,7 @@ bool Table::flag(std::string_view key, bool otherwise) const {
   return value.value_or(otherwise);
 }
 
-std::string Table::text(std::string_view key) const {
+std::string TomlTable::text(std::string_view key) const {
   const toml::node* node = required(key);
   if (node == nullptr) return {};
   const std::optional<std::string> value = node->value_exact<std::string>();
@@ -100,7 +100,7 @@ std::string Table::text(std::string_view key) const {
   return value.value_or(std::string());
 }
 
-glm::dvec3 Table::vector(std::string_view key, const Limits& limits) const {
+glm::dvec3 TomlTable::vector(std::string_view key, const Limits& limits) const {
   const toml::node* node = required(key);
   if (node == nullptr) return glm::dvec3(0.0);
   const toml::array* array = node->as_array();
@@ -113,11 +113,11 @@ glm::dvec3 Table::vector(std::string_view key, const Limits& limits) const {
   return result;
 }
 
-glm::dvec3 Table::vector(std::string_view key, const glm::dvec3& otherwise, const Limits& limits) const {
+glm::dvec3 TomlTable::vector(std::string_view key, const glm::dvec3& otherwise, const Limits& limits) const {
   return has(key) ? vector(key, limits) : otherwise;
 }
 
-glm::dvec3 Table::direction(std::string_view key) const {
+glm::dvec3 TomlTable::direction(std::string_view key) const {
   const glm::dvec3 result = vector(key);
   const double length = glm::length(result);
   if (length > 1e-100) return result / length;
@@ -125,14 +125,14 @@ glm::dvec3 Table::direction(std::string_view key) const {
   return result;
 }
 
-glm::dvec3 Table::one_or_three(std::string_view key, const glm::dvec3& otherwise,
-                               const Limits& limits) const {
+glm::dvec3 TomlTable::one_or_three(std::string_view key, const glm::dvec3& otherwise,
+                                   const Limits& limits) const {
   if (!has(key)) return otherwise;
   if (table_.get(key)->is_number()) return glm::dvec3(number(key, 0.0, limits));
   return vector(key, limits);
 }
 
-glm::dvec3 Table::colour(std::string_view key, const glm::dvec3& otherwise) const {
+glm::dvec3 TomlTable::colour(std::string_view key, const glm::dvec3& otherwise) const {
   return one_or_three(key, otherwise, c_not_negative);
 }
 

@@ -53,11 +53,11 @@ inline constexpr Limits c_positive{.low = 0.0, .low_excluded = true};
 inline constexpr Limits c_at_least_1{.low = 1.0};
 
 /// A table of the scene file. Returns its values checked, and knows their line numbers.
-class Table {
+class TomlTable {
  public:
   /// `what` names the table in messages. A key that is not in `known` is an error.
-  Table(const toml::table& table, std::string file, std::string what,
-        const std::vector<std::string_view>& known, FirstError& error);
+  TomlTable(const toml::table& table, std::string file, std::string what,
+            const std::vector<std::string_view>& known, FirstError& error);
 
   bool has(std::string_view key) const { return table_.contains(key); }
 
