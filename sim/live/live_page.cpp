@@ -14,7 +14,6 @@
 #include "plan/plan.hpp"
 #include "sim/live/core_module.hpp"
 #include "sim/live/hardware_module.hpp"
-#include "sim/live/module_text.hpp"
 #include "sim/live_core/core_values.hpp"
 #include "sim/live_core/live_frame.hpp"
 #include "sim/live_core/live_scene.hpp"
@@ -62,7 +61,7 @@ Json names_of(const Enumerators& enumerators) {
   return names;
 }
 
-// The module, compressed, as text_of_bytes. `-n` omits name and time, so that equal modules give equal pages.
+// The module, compressed, in base64. `-n` omits name and time, so that equal modules give equal pages.
 Result<std::string> packed(const std::filesystem::path& module) {
   const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
   if (!scratch) return scratch.error();
@@ -71,9 +70,7 @@ Result<std::string> packed(const std::filesystem::path& module) {
       run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
                "apt-get install gzip", module.filename().string());
   if (!done) return done.error();
-  const auto bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  return text_of_bytes({reinterpret_cast<const unsigned char*>(bytes->data()), bytes->size()});
+  return report::base64_of(file);
 }
 
 // Everything on the page that depends on a key.

@@ -56,21 +56,8 @@ function requestOf() {
 
 // Modules. Each is compiled once, when it is first needed.
 
-/// The bytes of `text_of_bytes` in sim/live/module_text.hpp: the lower seven bits of each character.
-function bytesOfText(text) {
-  const bytes = new Uint8Array(Math.floor(text.length * 7 / 8));
-  let bits = 0, count = 0, filled = 0;
-  for (let i = 0; i < text.length; ++i) {
-    bits = (bits << 7 | text.charCodeAt(i) & 127) & 0x7fff;
-    count += 7;
-    if (count < 8) continue;
-    count -= 8;
-    bytes[filled++] = bits >> count;
-  }
-  return bytes;
-}
 async function unpacked(text) {
-  const packed = bytesOfText(text);
+  const packed = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
   return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
