@@ -194,15 +194,15 @@ MesaRun run_mesa(const WayInput& input, int repetitions) {
       {.scene = input.scene->name, .size = input.size, .repetitions = repetitions}, input.folders.source));
   const ReferenceImage reference = reference_of(input, Projector(*input.scene, input.size, {}).project_all());
   const FrameDistance whole = must(frame_distance(drawn.frame, reference.frame, reference.mask)),
-                      inner = must(frame_distance(drawn.frame, reference.frame,
-                                                  inside(reference.mask, input.size)));
-  const MesaRun run{.seconds = drawn.seconds,
-                    .elapsed_seconds = drawn.elapsed_seconds / repetitions,
-                    .psnr_db = inner.psnr_db,
-                    .max_lsb = inner.max_lsb,
-                    .outline_off =
-                        static_cast<double>(whole.off - inner.off) / static_cast<double>(whole.pixels),
-                    .renderer = drawn.renderer};
+                      inner = must(
+                          frame_distance(drawn.frame, reference.frame, inside(reference.mask, input.size)));
+  const MesaRun run{
+      .seconds = drawn.seconds,
+      .elapsed_seconds = drawn.elapsed_seconds / repetitions,
+      .psnr_db = inner.psnr_db,
+      .max_lsb = inner.max_lsb,
+      .outline_off = static_cast<double>(whole.off - inner.off) / static_cast<double>(whole.pixels),
+      .renderer = drawn.renderer};
   if (inner.pixels == 0 || !(run.psnr_db >= c_mesa_least_psnr_db) || run.outline_off > c_mesa_most_off)
     throw Failure{
         {ExitCode::differs,

@@ -77,7 +77,8 @@ TEST(BenchWorkload, WholeFramesAreDrawnOnAllThreads) {
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   const Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
   const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
-  const auto engine = must(open_engine(EngineKind::verilator, key, folders)), another = must(engine->another());
+  const auto engine = must(open_engine(EngineKind::verilator, key, folders)),
+             another = must(engine->another());
   std::vector<WholeFrame> drawings;
   for (const auto& each : {engine, another}) drawings.emplace_back(scene, c_size, key, each);
   EXPECT_GT(frame_rate(drawings, 6), 0.0);

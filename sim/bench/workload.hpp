@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Workloads of `make bench`: streams of init vectors with the golden model's fragments, and a whole frame from
-// the scene to the picture.
+// Workloads of `make bench`: streams of init vectors with the golden model's fragments, and a whole frame
+// from the scene to the picture.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ struct FrameCost {
   double seconds() const { return setup + golden + rtl + compare + assemble; }
 };
 
-/// Draws frames of a scene on one thread: set-up, golden model, RTL, comparison of every field and assembly of
-/// the picture. All frames use the same memory. What a host computes once per scene is not measured.
+/// Draws frames of a scene on one thread: set-up, golden model, RTL, comparison of every field and assembly
+/// of the picture. All frames use the same memory. What a host computes once per scene is not measured.
 class WholeFrame {
  public:
   /// The scene must outlive the object.
@@ -53,8 +53,8 @@ class WholeFrame {
   RtlFrame rtl_;
 };
 
-/// Frames per second of elapsed time, each thread drawing with one of the objects. Each thread first draws one
-/// frame that is not timed.
+/// Frames per second of elapsed time, each thread drawing with one of the objects. Each thread first draws
+/// one frame that is not timed.
 double frame_rate(std::span<WholeFrame> drawings, std::size_t frames);
 
 }  // namespace halfway

@@ -18,6 +18,9 @@ std::string bare_vhdl(std::string_view text) {
     text.remove_prefix(taken.size());
     return taken;
   };
+  const auto separate = [&bare] {
+    if (!bare.empty() && bare.back() != ' ') bare += ' ';
+  };
   while (!text.empty()) {
     const char c = text.front();
     if (c == '"' || c == '\\') {  // a string, an extended identifier
@@ -26,11 +29,12 @@ std::string bare_vhdl(std::string_view text) {
       bare += take("'", 1);
     } else if (text.starts_with("--") || text.starts_with("/*")) {
       take(c == '-' ? "\n" : "*/", 2);
-      bare += bare.ends_with(' ') ? "" : " ";
+      separate();
     } else {
-      const bool space = std::isspace(static_cast<unsigned char>(c)) != 0;
-      if (!space) bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      if (space && !bare.ends_with(' ')) bare += ' ';
+      if (std::isspace(static_cast<unsigned char>(c)) != 0)
+        separate();
+      else
+        bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       text.remove_prefix(1);
     }
   }

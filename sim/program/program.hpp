@@ -29,7 +29,8 @@ int report(const Error& error);
 void say(std::string_view line);
 
 /// Parse the command line, run the command, and return the program's exit code. The command's callback sets
-/// `exit_code`, or throws Failure, which is reported here. If writing to stdout failed, report it; a command that succeeded then ends with tool_failed.
+/// `exit_code`, or throws Failure, which is reported here. If writing to stdout failed, report it; a command
+/// that succeeded then ends with tool_failed.
 int run_program(CLI::App& app, int argc, char** argv, const int& exit_code);
 
 /// The command `tables`.

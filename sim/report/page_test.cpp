@@ -27,10 +27,10 @@ class ReportPage : public CommandTest {
   void SetUp() override {
     CommandTest::SetUp();
     ASSERT_FALSE(HeadlessBrowser::program().empty())
-        << "no Chromium here: apt-get install chromium, or make check-report";
+        << "no Chromium here: apt-get install chromium, or make test";
     ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
     ASSERT_FALSE(find_program("pdftotext").empty())
-        << "no pdftotext here: apt-get install poppler-utils, or make check-report";
+        << "no pdftotext here: apt-get install poppler-utils, or make test";
     const auto here = folder_.path();
     ASSERT_TRUE(make_folders(here / "figures"));
     ASSERT_TRUE(write_file(

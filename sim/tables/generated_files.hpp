@@ -23,7 +23,8 @@ std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout
 
 /// golden/formats.hpp, golden/cosine_tables.hpp and golden/function_tables.hpp. `words`: lengths of preset
 /// exact, or of published, other than its own.
-std::vector<GeneratedFile> cpp_headers(const CosineSizes& sizes, bool exact = true, const WordLengths& words = {});
+std::vector<GeneratedFile> cpp_headers(const CosineSizes& sizes, bool exact = true,
+                                       const WordLengths& words = {});
 /// Write these files into the folder. Files that are already equal keep their times.
 Status write_files(const std::filesystem::path& folder, const std::vector<GeneratedFile>& files);
 

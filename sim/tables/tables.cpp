@@ -131,8 +131,7 @@ int run(const Folders& folders, const TablesOptions& options) {
 
 void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
   CLI::App* command = app.add_subcommand(
-      "tables",
-      "write the generated VHDL (formats, cosine tables) again; print the cost of the tables");
+      "tables", "write the generated VHDL (formats, cosine tables) again; print the cost of the tables");
   auto options = std::make_shared<TablesOptions>();
   CLI::Option* check = command->add_flag("--check", options->check,
                                          "write nothing; exit 1 if a file is not as it would be written");

@@ -34,16 +34,16 @@ std::string figure(double value);
 /// `all` must not be empty.
 double median(std::vector<double> all);
 
-/// Repeats measurements in random order. The speed of a shared machine's cores varies, so a fixed piece of work
-/// is timed before and after each measurement.
+/// Repeats measurements in random order. The speed of a shared machine's cores varies, so a fixed piece of
+/// work is timed before and after each measurement.
 class Measurements {
  public:
   Measurements();
   /// `go` returns processor seconds.
   void add(const std::string& name, int repetitions, std::function<double()> go);
   void run();
-  /// Median of all repetitions, each scaled to the machine's best speed during the run; std::nullopt if it was
-  /// not measured.
+  /// Median of all repetitions, each scaled to the machine's best speed during the run; std::nullopt if it
+  /// was not measured.
   std::optional<double> seconds(const std::string& name) const;
 
  private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_bench [--page FILE] [--jobs N] [--only SECTION…]: measures speed as ratios within one run. It compares
-// all ways to draw a picture with the project's own; whole frames; frames in a browser; small triangles; and
-// whole runs of `make sim` and `halfway view`. --page writes the page. Times are processor times: the median of
-// several repetitions in random order, scaled to the best speed of the run. Absolute times are valid only for
-// the machine that prints them.
+// halfway_bench [--page FILE] [--jobs N] [--only SECTION…]: measures speed as ratios within one run. It
+// compares all ways to draw a picture with the project's own; whole frames; frames in a browser; small
+// triangles; and whole runs of `make sim` and `halfway view`. --page writes the page. Times are processor
+// times: the median of several repetitions in random order, scaled to the best speed of the run. Absolute
+// times are valid only for the machine that prints them.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

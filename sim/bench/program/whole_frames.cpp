@@ -53,9 +53,8 @@ MesaRun draw_in_mesa(const Scene& scene, int repetitions) {
 // Frames per second of one Mesa per core, at the same time.
 double mesa_rate(const Scene& scene, unsigned cores) {
   std::vector<double> rates(cores);
-  must_for_each(cores, cores, [&](std::size_t i) {
-    rates[i] = 1.0 / draw_in_mesa(scene, c_rate_frames).elapsed_seconds;
-  });
+  must_for_each(cores, cores,
+                [&](std::size_t i) { rates[i] = 1.0 / draw_in_mesa(scene, c_rate_frames).elapsed_seconds; });
   double sum = 0;
   for (const double rate : rates) sum += rate;
   return sum;
