@@ -296,8 +296,9 @@ void write_shadow_counter(const Folder& folder) {
   file.write(folder / "columns.txt");
 }
 
+template <int divisor>
 void write_shading_processor(const Folder& folder) {
-  constexpr int c_tokens = 280;
+  constexpr int c_tokens = 280 / divisor;
   write_processors<Exact>(folder, c_tokens);
   write_processors<Published>(folder, c_tokens);
 }
@@ -319,8 +320,9 @@ std::vector<Entity> processors_entities() {
       {"ambient_term", write_ambient_term},
       {"light_term", write_light_term},
       {"light_state", write_light_state},
-      {"shading_processor", write_shading_processor},
-      {"unrolled_shading_processor", write_shading_processor},
+      {"shading_processor", write_shading_processor<1>},
+      {"unrolled_shading_processor", write_shading_processor<1>},
+      {"short/unrolled_shading_processor", write_shading_processor<c_short>},
       {"shading_pipeline", write_shading_pipeline<1>},
       {"short/shading_pipeline", write_shading_pipeline<c_short>},
   };

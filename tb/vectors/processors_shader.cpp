@@ -403,6 +403,7 @@ std::vector<Entity> processors_shader_entities() {
       {"processors_shader", write_processors_shader<1>},
       {"short/processors_shader", write_processors_shader<c_short>},
       {"processors_axi", write_processors_shader<1>},
+      {"short/processors_axi", write_processors_shader<c_short>},
   };
 }
 
