@@ -39,12 +39,12 @@ struct Range {
 
 // Error of the golden model's -log2 for every base from 1/2 to 1, by equal parts. Bases with more leading
 // zeros have the same mantissas, or fewer.
-constexpr int c_part_bits = 15;
+constexpr int c_group_bits = 15;
 std::vector<Range> logarithm_errors() {
   constexpr std::uint32_t c_half = Power<Exact>::c_one / 2;
-  std::vector<Range> errors(std::size_t{1} << c_part_bits);
+  std::vector<Range> errors(std::size_t{1} << c_group_bits);
   for (std::uint32_t i = 0; i < c_half; ++i)
-    errors[i >> (Power<Exact>::c_base_fraction - 1 - c_part_bits)].add(
+    errors[i >> (Power<Exact>::c_base_fraction - 1 - c_group_bits)].add(
         std::ldexp(Power<Exact>::loss(c_half + i), -Power<Exact>::c_loss_fraction) +
         std::log2(std::ldexp(c_half + i, -Power<Exact>::c_base_fraction)));
   return errors;

@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# wasm32.sh CHECKOUT SCRATCH: checks that the sources of sim/live/core_sources.txt compile for a browser: by clang for
-# WebAssembly, without exceptions, with a standard library that has no threads, no file system and no from_chars of
+# wasm32.sh CHECKOUT HEADERS SCRATCH: checks that the sources of sim/live/core_sources.txt compile for a browser, with the
+# generated HEADERS: by clang for WebAssembly, without exceptions, with a standard library that has no threads, no file system and no from_chars of
 # double. Only syntax and types are checked. Then it checks that a file with each of these is refused.
 set -eu
-checkout=$1 scratch=$2
+checkout=$1 headers=$2 scratch=$3
 sources=$(grep -v '^#' "$checkout/sim/live/core_sources.txt")
 compiler=clang++
 
@@ -22,7 +22,7 @@ mkdir -p "$scratch/include"
 ln -s /usr/include/glm /usr/include/fmt /usr/include/toml++ "$scratch/include"
 
 check() { # FILE: its errors on stdout
-  $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" -I "$checkout" \
+  $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" -I "$headers" -I "$checkout" \
     -isystem "$scratch/include" "$1" 2>&1
 }
 
