@@ -25,7 +25,7 @@ struct VectorFile {
   std::vector<std::vector<Word>> rows;
 };
 
-/// Reads a file in the format of tb/vectors/vector_file.hpp. A column "name/3" joins three words.
+/// Reads a file in the format of sim/stream_files/vector_file.hpp. A column "name/3" joins three words.
 Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip);
 
 /// The vector files of a design. They are read once for all faults.
