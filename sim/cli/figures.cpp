@@ -9,9 +9,7 @@
 #include <thread>
 
 #include "sim/cli/options.hpp"
-#include "sim/figures/check.hpp"
 #include "sim/figures/figure.hpp"
-#include "sim/figures/plot.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::cli {
@@ -20,7 +18,7 @@ namespace {
 struct FiguresCommand {
   std::vector<std::string> only;
   std::string out = "build/figures", page;
-  bool check = false;
+  bool quick = false;
   unsigned threads = 0;
 };
 
@@ -38,19 +36,10 @@ std::vector<figures::Figure> chosen(std::vector<figures::Figure> all, const std:
   return all;
 }
 
-int report_all(const std::vector<std::string>& wrong, const char* what_to_do) {
-  for (const std::string& line : wrong) say(line);
-  if (wrong.empty()) return static_cast<int>(ExitCode::equal);
-  say(what_to_do);
-  return static_cast<int>(ExitCode::differs);
-}
-
-constexpr const char* c_data = "figures.json";
-
 void write_texts(const Folders& folders, const std::filesystem::path& folder,
                  const std::vector<figures::Entry>& entries) {
-  must(write_file(folder / c_data, figures::to_json(entries)));
-  must(write_file(folder / "README.md", must(figures::to_page(entries, folders.source))));
+  must(write_file(folder / "figures.json", figures::to_json(entries)));
+  must(write_file(folder / "README.md", figures::to_page(entries, folders.source)));
 }
 
 void copy_into(const Folders& folders, const std::filesystem::path& folder, const std::filesystem::path& from,
@@ -59,10 +48,7 @@ void copy_into(const Folders& folders, const std::filesystem::path& folder, cons
   for (const figures::Entry& e : entries)
     for (const figures::Picture& p : e.pictures)
       must(write_file(folder / p.file, must(read_file(from / p.file))));
-  std::map<std::string, figures::Measurements> page;
-  if (const auto before = read_file(folder / c_data))
-    if (const auto read = figures::measurements_of(*before, (folder / c_data).string())) page = *read;
-  write_texts(folders, folder, figures::completed(entries, page));
+  write_texts(folders, folder, entries);
 }
 
 std::vector<figures::Entry> draw(const std::vector<figures::Figure>& some, figures::Context& context) {
@@ -70,28 +56,18 @@ std::vector<figures::Entry> draw(const std::vector<figures::Figure>& some, figur
   std::vector<figures::Entry> entries;
   Progress progress("figures");
   context.on_progress = [&](const std::string& what) { progress.show(what); };
-  for (const figures::Figure& figure : some) entries.push_back(must(figures::drawn(figure, context)));
+  for (const figures::Figure& figure : some) entries.push_back(figures::drawn(figure, context));
   return entries;
 }
 
 int run(const Folders& folders, const FiguresCommand& command) try {
-  if (command.check && !command.only.empty())
-    return report(bad_input("--check: looks at all figures; leave their names out"));
-  const auto some = chosen(must(figures::all_figures(folders.source)), command.only);
+  const auto some = chosen(figures::all_figures(folders.source), command.only);
   figures::Context context{
       .folders = {folders.source, folders.cache()},
       .out = command.out,
-      .quick = command.check,
+      .quick = command.quick,
       .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency())};
   const std::vector<figures::Entry> entries = draw(some, context);
-  if (command.check) {
-    std::vector<std::string> notes;
-    const auto wrong = must(
-        figures::stale(entries, folders.source / "docs/results/figures", context.out, folders.source, notes));
-    for (const std::string& note : notes) say(note);
-    return report_all(wrong, "docs/results/figures: run make figures");
-  }
-  const std::vector<std::string> wrong = figures::faults(entries);
   std::map<figures::Verdict, int> count;
   int rows = 0;
   for (const figures::Entry& e : entries)
@@ -108,7 +84,12 @@ int run(const Folders& folders, const FiguresCommand& command) try {
   fmt::print("{}: {} figures, {} rows, {} agree, {} differ, {} hold by construction\n", context.out.string(),
              entries.size(), rows, count[figures::Verdict::agrees], count[figures::Verdict::differs],
              count[figures::Verdict::by_construction]);
-  if (!wrong.empty()) return report_all(wrong, "sim/figures/claims.toml does not match the measurements");
+  const std::vector<std::string> wrong = figures::faults(entries);
+  for (const std::string& line : wrong) say(line);
+  if (!wrong.empty()) {
+    say("sim/figures/claims.toml does not match the measurements");
+    return static_cast<int>(ExitCode::differs);
+  }
   if (!command.page.empty()) copy_into(folders, command.page, context.out, entries);
   return static_cast<int>(ExitCode::equal);
 } catch (const Failure& failure) {
@@ -124,12 +105,9 @@ void add_figures(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("figure", command->only, "such as spherical-05, or spherical (default: all)");
   sub->add_option("--out", command->out, "folder for pictures, README.md and figures.json")
       ->capture_default_str();
-  auto* page = sub->add_option(
-      "--page", command->page,
-      "second folder, written if all figures agree; its times change only if a verdict changes");
-  sub->add_flag("--check", command->check,
-                "draw by the golden model, measure only quick figures, and fail if docs/results/figures "
-                "differs")
+  auto* page =
+      sub->add_option("--page", command->page, "second folder, written if the claims match the measurements");
+  sub->add_flag("--quick", command->quick, "draw by the golden model, and measure only what is not slow")
       ->excludes(page);
   sub->add_option("--threads", command->threads, "threads (0: all cores)")->capture_default_str();
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });

@@ -31,8 +31,7 @@ TEST_F(FiguresCommand, WritesThePageAndItsDataOfWhatIsAskedFor) {
 TEST_F(FiguresCommand, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(run({"figures", "spherical-8"}),
               Ends(2, AllOf(HasSubstr("'spherical-8' is not a figure"), HasSubstr("spherical-16"))));
-  EXPECT_EQ(run({"figures", "--check", "--page", "there"}).exit_code, 2);
-  EXPECT_EQ(run({"figures", "--check", "spherical"}).exit_code, 2);
+  EXPECT_EQ(run({"figures", "--quick", "--page", "there"}).exit_code, 2);
 }
 
 TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
@@ -40,27 +39,20 @@ TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
               Ends(3, HasSubstr("gnuplot: not found; install it with: apt-get install gnuplot-nox")));
 }
 
-// A checkout with a changed number in the committed table.
-TEST_F(FiguresCommand, ACheckFindsANumberThatIsNotMeasured) {
+// A checkout whose table 1 has another number.
+TEST_F(FiguresCommand, FindsAClaimThatIsNotMeasured) {
   namespace fs = std::filesystem;
   const fs::path real = HALFWAY_SOURCE_DIR, source = folder_.path() / "source";
-  fs::create_directories(source / "sim");
-  fs::create_directories(source / "build");
-  for (const char* name : {"rtl", "tb", "sim/scenes", "sim/figures", "build/cache"})
-    fs::create_directory_symlink(real / name, source / name);
-  fs::create_directories(source / "docs/results");
-  fs::copy(real / "docs/results/figures", source / "docs/results/figures");
-  const fs::path json = source / "docs/results/figures/figures.json";
-  auto text = must(read_file(json));
-  const std::string measured = "\"measured\": \"2.7582\"";
-  const std::size_t at = text.find(measured);
-  ASSERT_NE(at, std::string::npos);
-  text.replace(at, measured.size(), "\"measured\": \"2.7583\"");
-  ASSERT_TRUE(write_file(json, text));
-  EXPECT_THAT(run({"--source", source.string(), "figures", "--check", "--threads", "2"}),
-              Ends(1, AllOf(HasSubstr("is 2.7583 there, measured 2.7582"),
-                            HasSubstr("figures.json differs from the text that make figures writes"),
-                            HasSubstr("run make figures"))));
+  auto claims = must(read_file(real / "sim/figures/claims.toml"));
+  const std::string value = "value = 2.7582";
+  claims.replace(claims.find(value), value.size(), "value = 2.7583");
+  ASSERT_TRUE(write_file(source / "sim/figures/claims.toml", claims));
+  fs::copy(real / "sim/figures/page.md.mustache", source / "sim/figures/page.md.mustache");
+  EXPECT_THAT(run({"--source", source.string(), "figures", "spherical-table", "--page", "there"}),
+              Ends(1, AllOf(HasSubstr("'a for n = 20' differs, and no reason is known: published 2.7582, "
+                                      "measured 2.7582 (± 0.00005)"),
+                            HasSubstr("claims.toml does not match"))));
+  EXPECT_FALSE(fs::exists(folder_.path() / "there"));
 }
 
 }  // namespace

@@ -78,41 +78,35 @@ Claim claim_of(toml::node& node, const std::string& file) {
 
 }  // namespace
 
-Result<std::vector<Figure>> read_figures(const std::string& text, const std::string& file,
-                                         std::map<std::string, Draw> drawings) {
-  try {
-    toml::table root = toml::parse(text, file);
-    std::vector<Figure> figures;
-    Fields all(root, file);
-    for (toml::node& node : all.list("figure")) {
-      Fields fields(node, file);
-      Figure figure{
-          fields.text("id"), fields.text("number"), fields.text("caption"), fields.text("shows"), {}, {}};
-      for (toml::node& claim : fields.list("claims")) figure.claims.push_back(claim_of(claim, file));
-      fields.close();
-      const auto draw = drawings.extract(figure.id);
-      if (draw.empty()) fields.fail(fmt::format("nothing draws '{}'", figure.id));
-      figure.draw = draw.mapped();
-      figures.push_back(std::move(figure));
-    }
-    all.close();
-    if (!drawings.empty()) all.fail(fmt::format("has no figure '{}'", drawings.begin()->first));
-    return figures;
-  } catch (const toml::parse_error& bad) {
-    return bad_input(fmt::format("{}:{}: {}", file, bad.source().begin.line, bad.description()));
-  } catch (const Failure& failure) {
-    return failure.error;
+std::vector<Figure> read_figures(const std::string& text, const std::string& file,
+                                 std::map<std::string, Draw> drawings) try {
+  toml::table root = toml::parse(text, file);
+  std::vector<Figure> figures;
+  Fields all(root, file);
+  for (toml::node& node : all.list("figure")) {
+    Fields fields(node, file);
+    Figure figure{
+        fields.text("id"), fields.text("number"), fields.text("caption"), fields.text("shows"), {}, {}};
+    for (toml::node& claim : fields.list("claims")) figure.claims.push_back(claim_of(claim, file));
+    fields.close();
+    const auto draw = drawings.extract(figure.id);
+    if (draw.empty()) fields.fail(fmt::format("nothing draws '{}'", figure.id));
+    figure.draw = draw.mapped();
+    figures.push_back(std::move(figure));
   }
+  all.close();
+  if (!drawings.empty()) all.fail(fmt::format("has no figure '{}'", drawings.begin()->first));
+  return figures;
+} catch (const toml::parse_error& bad) {
+  throw Failure{bad_input(fmt::format("{}:{}: {}", file, bad.source().begin.line, bad.description()))};
 }
 
-Result<std::vector<Figure>> all_figures(const std::filesystem::path& source) {
+std::vector<Figure> all_figures(const std::filesystem::path& source) {
   const std::filesystem::path file = source / "sim/figures/claims.toml";
-  const auto text = read_file(file);
-  if (!text) return text.error();
   auto drawings = spherical_drawings();
   drawings.merge(quadratic_drawings());
   drawings.merge(processors_drawings());
-  return read_figures(*text, file.string(), std::move(drawings));
+  return read_figures(must(read_file(file)), file.string(), std::move(drawings));
 }
 
 }  // namespace halfway::figures

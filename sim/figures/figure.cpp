@@ -92,31 +92,29 @@ const std::string& Row::reason() const {
   return holds() ? claim.by_construction : claim.why_not;
 }
 
-Result<Entry> drawn(const Figure& figure, const Context& context) {
+Entry drawn(const Figure& figure, const Context& context) {
+  const auto fail = [&](const std::string& what) {
+    throw Failure{tool_failed(fmt::format("{}: {}", figure.id, what))};
+  };
   context.on_progress(fmt::format("{}, {}", figure.paper(), figure.number));
   Drawing drawing;
-  try {
-    figure.draw(context, drawing);
-  } catch (const Failure& failure) {
-    return failure.error;
-  }
+  figure.draw(context, drawing);
   Entry entry{figure, drawing.pictures, {}};
   for (const Claim& claim : figure.claims) {
     if (context.quick && claim.slow) continue;
     const auto found = drawing.measured.extract(claim.what);
-    if (found.empty())
-      return tool_failed(fmt::format("{}: nothing was measured for '{}'", figure.id, claim.what));
+    if (found.empty()) fail(fmt::format("nothing was measured for '{}'", claim.what));
     entry.rows.push_back({claim, found.mapped()});
     const Row& row = entry.rows.back();
     if (row.holds() && row.measured.by_construction == claim.by_construction.empty())
-      return tool_failed(fmt::format("{}: '{}' {}", figure.id, claim.what,
-                                     claim.by_construction.empty()
-                                         ? "holds by construction: the claim needs the reason by_construction"
-                                         : "was measured: remove by_construction from the claim"));
+      fail(fmt::format("'{}' {}", claim.what,
+                       claim.by_construction.empty()
+                           ? "holds by construction: the claim needs the reason by_construction"
+                           : "was measured: remove by_construction from the claim"));
   }
   for (const auto& [what, measured] : drawing.measured)
     if (std::ranges::find(figure.claims, what, &Claim::what) == figure.claims.end())
-      return tool_failed(fmt::format("{}: '{}' was measured, which no claim names", figure.id, what));
+      fail(fmt::format("'{}' was measured, which no claim names", what));
   return entry;
 }
 
@@ -126,48 +124,23 @@ std::vector<std::string> faults(std::span<const Entry> entries) {
     for (const std::string* text : {&figure.number, &figure.caption, &figure.shows})
       if (text->empty())
         found.push_back(fmt::format("{}: it lacks its number, its caption or what it shows", figure.id));
-    for (const Claim& claim : figure.claims) {
-      const auto say = [&, &figure = figure](const std::string& what) {
-        found.push_back(fmt::format("{}: '{}'{}", figure.id, claim.what, what));
+    for (const Row& row : rows) {
+      const auto& [claim, measured] = row;
+      const auto say = [&, &id = figure.id, &what = claim.what](const std::string& fault) {
+        found.push_back(fmt::format("{}: '{}'{}", id, what, fault));
       };
-      const auto row = std::ranges::find(rows, claim.what, [](const Row& r) { return r.claim.what; });
-      if (row == rows.end()) {
-        say(" has no row");
-        continue;
-      }
-      if (claim.what.empty() || claim.published.empty() || row->measured.text.empty())
-        say(": a cell is empty");
-      const std::string sides = fmt::format("published {}, measured {} ({})", claim.published,
-                                            row->measured.text, claim.criterion.text());
-      if (!row->holds() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
+      if (claim.what.empty() || claim.published.empty() || measured.text.empty()) say(": a cell is empty");
+      const std::string sides = fmt::format("published {}, measured {} ({})", claim.published, measured.text,
+                                            claim.criterion.text());
+      if (!row.holds() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
       if (!claim.by_construction.empty() && !claim.why_not.empty())
         say(" has a reason why not and one of construction");
       // A processor's time may agree on one machine and differ on another.
-      else if (row->holds() && !claim.why_not.empty() && !claim.timed)
+      else if (row.holds() && !claim.why_not.empty() && !claim.timed)
         say(" agrees, though a reason why not is given: " + sides);
     }
   }
   return found;
-}
-
-std::vector<Entry> completed(std::vector<Entry> drawn, const std::map<std::string, Measurements>& page) {
-  for (Entry& entry : drawn) {
-    const auto before = page.find(entry.figure.id);
-    if (before == page.end()) continue;
-    std::vector<Row> rows;
-    for (const Claim& claim : entry.figure.claims) {
-      const auto now = std::ranges::find(entry.rows, claim.what, [](const Row& r) { return r.claim.what; });
-      const auto there = before->second.find(claim.what);
-      const bool known = there != before->second.end();
-      const bool measured = now != entry.rows.end();
-      if (known && (!measured || (claim.timed && Row{claim, there->second}.holds() == now->holds())))
-        rows.push_back({claim, there->second});
-      else if (measured)
-        rows.push_back(*now);
-    }
-    entry.rows = std::move(rows);
-  }
-  return drawn;
 }
 
 std::string to_json(std::span<const Entry> entries) {
@@ -176,23 +149,7 @@ std::string to_json(std::span<const Entry> entries) {
   return all.dump(1) + '\n';
 }
 
-Result<std::map<std::string, Measurements>> measurements_of(const std::string& json,
-                                                            const std::string& file) {
-  try {
-    std::map<std::string, Measurements> all;
-    for (const auto& e : Json::parse(json))
-      for (const auto& r : e.at("rows")) {
-        Measured measured{.text = r.at("measured")};
-        if (!r.at("value").is_null()) measured.value = r.at("value");
-        all[e.at("id")][r.at("what")] = measured;
-      }
-    return all;
-  } catch (const Json::exception& bad) {
-    return bad_input(fmt::format("{}: {}; run make figures", file, bad.what()));
-  }
-}
-
-Result<std::string> to_page(std::span<const Entry> entries, const std::filesystem::path& source) {
+std::string to_page(std::span<const Entry> entries, const std::filesystem::path& source) {
   Json figures = Json::array(), papers = Json::array();
   std::map<std::string, std::int64_t> counts;
   for (const Entry& entry : entries) {
@@ -222,13 +179,13 @@ Result<std::string> to_page(std::span<const Entry> entries, const std::filesyste
   const auto count = [&](Verdict verdict) { return counts[to_string(verdict)]; };
   const std::int64_t agreeing = count(Verdict::agrees), differing = count(Verdict::differs),
                      constructed = count(Verdict::by_construction);
-  return filled_template(source / "sim/figures/page.md.mustache",
-                         {{"rows_in_all", agreeing + differing + constructed},
-                          {"agreeing", agreeing},
-                          {"differing", differing},
-                          {"constructed", constructed},
-                          {"papers", papers},
-                          {"figures", figures}});
+  return must(filled_template(source / "sim/figures/page.md.mustache",
+                              {{"rows_in_all", agreeing + differing + constructed},
+                               {"agreeing", agreeing},
+                               {"differing", differing},
+                               {"constructed", constructed},
+                               {"papers", papers},
+                               {"figures", figures}}));
 }
 
 }  // namespace halfway::figures

@@ -105,11 +105,13 @@ std::map<std::string, Draw> spherical_drawings();
 std::map<std::string, Draw> quadratic_drawings();
 std::map<std::string, Draw> processors_drawings();
 
+// The functions below throw Failure.
+
 /// Read all figures, in the order of claims.toml.
-Result<std::vector<Figure>> all_figures(const std::filesystem::path& source);
+std::vector<Figure> all_figures(const std::filesystem::path& source);
 /// Read the figures from the text of a claims.toml.
-Result<std::vector<Figure>> read_figures(const std::string& toml, const std::string& file,
-                                         std::map<std::string, Draw> drawings);
+std::vector<Figure> read_figures(const std::string& toml, const std::string& file,
+                                 std::map<std::string, Draw> drawings);
 
 enum class Verdict { agrees, by_construction, differs };
 const char* to_string(Verdict verdict);  ///< "agrees", "by construction", "differs"
@@ -132,25 +134,20 @@ struct Entry {
   std::vector<Row> rows;
 };
 
-/// Draw and measure a figure. With Context::quick, rows of slow claims are omitted. Fails if the drawing
-/// measures what no claim names, and if drawing and claim do not agree on what holds by construction.
-Result<Entry> drawn(const Figure& figure, const Context& context);
+/// Draw and measure a figure. With Context::quick, rows of slow claims are omitted. Fails if a claim is not
+/// measured, if the drawing measures what no claim names, and if drawing and claim do not agree on what holds
+/// by construction.
+Entry drawn(const Figure& figure, const Context& context);
 
-/// Faults of the rows, one sentence each: a claim without a row, an empty cell, a difference without a
-/// reason, a reason without a difference, two reasons.
+/// Faults of the rows, one sentence each: an empty cell, a difference without a reason, a reason without a
+/// difference, two reasons.
 std::vector<std::string> faults(std::span<const Entry> entries);
 
 /// figures.json: a list of figures. Each has id, paper, number, caption, shows, pictures (file, alt) and rows
 /// (what, published, measured, value or null, criterion, verdict, reason, slow).
 std::string to_json(std::span<const Entry> entries);
-/// The measured values in a figures.json, by figure.
-Result<std::map<std::string, Measurements>> measurements_of(const std::string& json, const std::string& file);
-
-/// The drawn figures, completed by the page's earlier measurements. Rows that were not measured now are taken
-/// from `past`; so are rows of timed claims while their verdict is unchanged.
-std::vector<Entry> completed(std::vector<Entry> drawn, const std::map<std::string, Measurements>& page);
 
 /// The page: the table of published and measured values, then the pictures.
-Result<std::string> to_page(std::span<const Entry> entries, const std::filesystem::path& source);
+std::string to_page(std::span<const Entry> entries, const std::filesystem::path& source);
 
 }  // namespace halfway::figures

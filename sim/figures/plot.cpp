@@ -25,8 +25,6 @@ set tics nomirror out scale 0.6 textcolor rgb '#1f2328'
 set key noautotitle textcolor rgb '#1f2328'
 )";
 
-constexpr std::string_view c_produced = "Produced by ";
-
 // Remove gnuplot's many empty groups, and its titles of curves.
 void prune(pugi::xml_node node) {
   for (pugi::xml_node child = node.first_child(), next; child; child = next) {
@@ -78,12 +76,6 @@ void draw_plot(const Context& context, const std::string& name, const Plot& plot
   const std::string svg = must(run_gnuplot(script, context.out, name));
   must(write_file(context.out / (name + ".svg"), described(svg, plot)));
   drawing.pictures.push_back({name + ".svg", plot.title});
-}
-
-std::string drawn_by(std::string_view svg) {
-  const std::size_t at = svg.find(c_produced);
-  if (at == std::string_view::npos) return {};
-  return std::string(svg.substr(at, svg.find(" -->", at) - at));
 }
 
 }  // namespace halfway::figures

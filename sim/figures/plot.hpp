@@ -26,7 +26,4 @@ std::string data_block(const std::string& name, std::span<const std::vector<doub
 /// Failure without gnuplot.
 void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing);
 
-/// The version of gnuplot that drew an SVG. Different versions write different bytes.
-std::string drawn_by(std::string_view svg);
-
 }  // namespace halfway::figures
