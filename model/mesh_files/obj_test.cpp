@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -35,10 +34,9 @@ TEST_P(ObjSpelling, IsReadExactlyOrRefusedWithItsLine) {
 }
 
 const std::string c_three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
 const std::string c_square = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n";
 
-const std::vector<Spelling> c_spellings = {
+const std::vector<Spelling> c_obj_text = {
     {"plain", c_three + "f 1 2 3\n", c_triangle},
 
     // numbers
@@ -127,8 +125,7 @@ const std::vector<Spelling> c_spellings = {
      "! a.obj:5: no face from here on has any area; correct the vertices"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, ObjSpelling, ::testing::ValuesIn(c_spellings),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(All, ObjSpelling, ::testing::ValuesIn(c_obj_text), name_of);
 
 // ---- Normals, positions, notes
 
@@ -249,34 +246,25 @@ TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
   }
 }
 
-struct MtlFault {
-  const char* name;
-  const char* text;
-  const char* wanted;
-};
-void PrintTo(const MtlFault& fault, std::ostream* out) {
-  *out << fault.name;
-}
-
-class MtlFaults : public ::testing::TestWithParam<MtlFault> {};
+class MtlFaults : public ::testing::TestWithParam<Spelling> {};
 
 TEST_P(MtlFaults, NameTheLine) {
   EXPECT_EQ(triangles_of(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", GetParam().text}})),
-            std::string("! dir/m.mtl:") + GetParam().wanted);
+            "! dir/m.mtl:" + GetParam().wanted);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     All, MtlFaults,
     ::testing::Values(
-        MtlFault{"word", "newmtl a\nKd red\n", "2: Kd: 'red' is not a number; correct the number"},
-        MtlFault{"nan", "newmtl a\nKd nan 0 0\n", "2: Kd: 'nan' is not finite; correct the number"},
-        MtlFault{"two", "newmtl a\nKs 1 1\n", "2: Ks has 2 numbers; it must have 3, or 1 for grey"},
-        MtlFault{"four", "newmtl a\nKd 1 1 1 1\n", "2: Kd has more than 3 numbers"},
-        MtlFault{"none", "newmtl a\n\nNs # 3\n", "3: Ns has no number"},
-        MtlFault{"negative", "newmtl a\nKd 1 -.5 1\n", "2: Kd is negative; correct the colour"},
-        MtlFault{"no_name", "newmtl \n", "1: newmtl has no name"},
-        MtlFault{"too_early", "Kd 1 1 1\n", "1: Kd before the first newmtl"}),
-    [](const auto& test) { return std::string(test.param.name); });
+        Spelling{"word", "newmtl a\nKd red\n", "2: Kd: 'red' is not a number; correct the number"},
+        Spelling{"nan", "newmtl a\nKd nan 0 0\n", "2: Kd: 'nan' is not finite; correct the number"},
+        Spelling{"two", "newmtl a\nKs 1 1\n", "2: Ks has 2 numbers; it must have 3, or 1 for grey"},
+        Spelling{"four", "newmtl a\nKd 1 1 1 1\n", "2: Kd has more than 3 numbers"},
+        Spelling{"none", "newmtl a\n\nNs # 3\n", "3: Ns has no number"},
+        Spelling{"negative", "newmtl a\nKd 1 -.5 1\n", "2: Kd is negative; correct the colour"},
+        Spelling{"no_name", "newmtl \n", "1: newmtl has no name"},
+        Spelling{"too_early", "Kd 1 1 1\n", "1: Kd before the first newmtl"}),
+    name_of);
 
 }  // namespace
 }  // namespace halfway

@@ -25,7 +25,6 @@ TEST_P(PlySpelling, IsReadExactlyOrRefusedWithItsPlace) {
 const std::string c_xyz = "property float x\nproperty float y\nproperty float z\n";
 const std::string c_corners = "property list uchar int vertex_indices\n";
 const std::string c_format = "ply\nformat ascii 1.0\n";
-const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
 const std::string c_vertices = "0 0 0\n1 0 0\n0 1 0\n";
 const std::string c_header3 = c_format + "element vertex 3\n" + c_xyz;
 const std::string c_face1 = "element face 1\n" + c_corners + "end_header\n";
@@ -53,17 +52,13 @@ std::string strips(const std::string& line, const std::string& type = "int") {
   return c_format + "element vertex 5\n" + c_xyz + "element tristrips 1\nproperty list int " + type +
          " vertex_indices\nend_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n" + line + "\n";
 }
-/// The text with the first `what` replaced.
-std::string changed(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 std::string with_line_end(const std::string& text, const std::string& end) {
   std::string result;
   for (const char c : text) result += c == '\n' ? end : std::string(1, c);
   return result;
 }
 
-const std::vector<Spelling> c_text = {
+const std::vector<Spelling> c_ply_text = {
     {"plain", c_plain, c_triangle},
     {"crlf", with_line_end(c_plain, "\r\n"), c_triangle},
     {"cr", with_line_end(c_plain, "\r"), c_triangle},
@@ -218,18 +213,12 @@ const std::vector<Spelling> c_text = {
      "! a.ply:3: the 50 items of 'nothing' have no property; remove the element"},
 };
 
-std::string name_of(const ::testing::TestParamInfo<Spelling>& test) {
-  std::string name = test.param.name;
-  for (char& c : name) c = c == '.' ? '_' : c;
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Text, PlySpelling, ::testing::ValuesIn(c_text), name_of);
+INSTANTIATE_TEST_SUITE_P(Text, PlySpelling, ::testing::ValuesIn(c_ply_text), name_of);
 
 // ---- Binary
 
 /// Header and data of a triangle; `order` is "little" or "big".
-std::string binary(bool big, const std::string& line_end = "\n", float x = 1.0f, std::int32_t index = 2) {
+std::string binary_ply(bool big, const std::string& line_end = "\n", float x = 1.0f, std::int32_t index = 2) {
   const auto bytes = [big](auto value) { return big ? big_endian(value) : little_endian(value); };
   std::string text = with_line_end(
       changed(c_header3 + c_face1, "ascii", big ? "binary_big_endian" : "binary_little_endian"), line_end);
@@ -271,44 +260,44 @@ std::string all_types(bool big) {
 const float c_nan = std::numeric_limits<float>::quiet_NaN(),
             c_infinity = std::numeric_limits<float>::infinity();
 
-const std::vector<Spelling> c_binary = {
-    {"little", binary(false), c_triangle},
-    {"big", binary(true), c_triangle},
-    {"crlf", binary(false, "\r\n"), c_triangle},
-    {"cr", binary(true, "\r"), c_triangle},
+const std::vector<Spelling> c_ply_binary = {
+    {"little", binary_ply(false), c_triangle},
+    {"big", binary_ply(true), c_triangle},
+    {"crlf", binary_ply(false, "\r\n"), c_triangle},
+    {"cr", binary_ply(true, "\r"), c_triangle},
     // After a header of CR lines the data may start with the byte of LF.
     {"cr_then_lf",
-     changed(binary(false, "\r"), "end_header\r" + std::string(4, '\0'),
+     changed(binary_ply(false, "\r"), "end_header\r" + std::string(4, '\0'),
              "end_header\r" + little_endian(0x0a)),
      fmt::format("{},0,0 1,0,0 0,1,0", static_cast<double>(std::bit_cast<float>(0x0a)))},
     {"all_types_little", all_types(false), "0,0,0 -300,0.5,-70000 -600,1,70000"},
     {"all_types_big", all_types(true), "0,0,0 -300,0.5,-70000 -600,1,70000"},
-    {"nan", binary(false, "\n", c_nan),
-     at_byte(binary(false), 12, "vertex 1: x is not finite, or too large; correct it")},
-    {"index_beyond", binary(false, "\n", 1, 3),
-     at_byte(binary(false), 49,
+    {"nan", binary_ply(false, "\n", c_nan),
+     at_byte(binary_ply(false), 12, "vertex 1: x is not finite, or too large; correct it")},
+    {"index_beyond", binary_ply(false, "\n", 1, 3),
+     at_byte(binary_ply(false), 49,
              "face 0: its corner is vertex 3, but the file has 3, counted from 0; correct the index")},
-    {"wrong_byte_order", changed(binary(true), "big", "little"),
-     at_byte(binary(false), 45,
+    {"wrong_byte_order", changed(binary_ply(true), "big", "little"),
+     at_byte(binary_ply(false), 45,
              "face 0: its corner is vertex 16777216, but the file has 3, counted from 0; correct the index")},
-    {"trailing_byte", binary(false) + "\n",
-     at_byte(binary(false), 49,
+    {"trailing_byte", binary_ply(false) + "\n",
+     at_byte(binary_ply(false), 49,
              "1 bytes follow the last element; correct the counts in the header, or remove them")},
-    {"truncated", binary(false).substr(0, binary(false).size() - 1),
-     at_byte(binary(false), 45,
+    {"truncated", binary_ply(false).substr(0, binary_ply(false).size() - 1),
+     at_byte(binary_ply(false), 45,
              "the file ends at item 0 of 1 of 'face'; it is truncated, or the count in its "
              "header is wrong; export it again")},
-    {"ends_in_end_header", binary(false).substr(0, start(binary(false)) - 1),
-     at_byte(binary(false), -1,
+    {"ends_in_end_header", binary_ply(false).substr(0, start(binary_ply(false)) - 1),
+     at_byte(binary_ply(false), -1,
              "the file ends at item 0 of 3 of 'vertex'; it is truncated, or the count in its "
              "header is wrong; export it again")},
-    {"items_missing", changed(binary(false), "face 1", "face 2"),
-     at_byte(binary(false), 49,
+    {"items_missing", changed(binary_ply(false), "face 1", "face 2"),
+     at_byte(binary_ply(false), 49,
              "the file ends at item 1 of 2 of 'face'; it is truncated, or the count in its "
              "header is wrong; export it again")},
 };
 
-INSTANTIATE_TEST_SUITE_P(Binary, PlySpelling, ::testing::ValuesIn(c_binary), name_of);
+INSTANTIATE_TEST_SUITE_P(Binary, PlySpelling, ::testing::ValuesIn(c_ply_binary), name_of);
 
 // ---- Normals, positions, notes
 

@@ -23,18 +23,12 @@ const std::string c_normal = "facet normal 0 0 1\nouter loop\n";
 const std::string c_two = c_normal + "vertex 0 0 0\nvertex 1 0 0\n";
 const std::string c_end = "endloop\nendfacet\n";
 const std::string c_facet = c_two + "vertex 0 1 0\n" + c_end;
-const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
 
 std::string solid(const std::string& facets) {
   return "solid a\n" + facets + "endsolid a\n";
 }
 
-/// The text with the first `what` replaced.
-std::string changed(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
-
-const std::vector<Spelling> c_text = {
+const std::vector<Spelling> c_stl_text = {
     {"plain", solid(c_facet), c_triangle},
     {"blanks_first", " \n\t" + solid(c_facet), c_triangle},
     {"byte_order_mark", "\xef\xbb\xbf" + solid(c_facet), c_triangle},
@@ -81,12 +75,11 @@ const std::vector<Spelling> c_text = {
      "binary header; export it again"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Text, StlSpelling, ::testing::ValuesIn(c_text),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Text, StlSpelling, ::testing::ValuesIn(c_stl_text), name_of);
 
 /// A binary file of triangles (0, 0, 0) (x, 0, 0) (0, 1, 0).
-std::string binary(std::uint32_t count, const std::vector<float>& xs, const std::string& header = "",
-                   std::uint16_t attribute = 0) {
+std::string binary_stl(std::uint32_t count, const std::vector<float>& xs, const std::string& header = "",
+                       std::uint16_t attribute = 0) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::string bytes = header + std::string(80 - header.size(), ' ') + little_endian(count);
   for (const float x : xs) {
@@ -98,24 +91,23 @@ std::string binary(std::uint32_t count, const std::vector<float>& xs, const std:
   return bytes;
 }
 
-const std::vector<Spelling> c_binary = {
-    {"plain", binary(1, {1}), c_triangle},
-    {"two", binary(2, {1, 2}), c_triangle + "; 0,0,0 2,0,0 0,1,0"},
-    {"header_of_solid", binary(1, {1}, "solid facet normal"), c_triangle},
-    {"header_of_zeros", binary(1, {1}, std::string(80, '\0')), c_triangle},
-    {"count_too_large", binary(2, {1}),
+const std::vector<Spelling> c_stl_binary = {
+    {"plain", binary_stl(1, {1}), c_triangle},
+    {"two", binary_stl(2, {1, 2}), c_triangle + "; 0,0,0 2,0,0 0,1,0"},
+    {"header_of_solid", binary_stl(1, {1}, "solid facet normal"), c_triangle},
+    {"header_of_zeros", binary_stl(1, {1}, std::string(80, '\0')), c_triangle},
+    {"count_too_large", binary_stl(2, {1}),
      "! a.stl: not an STL file, or damaged: its header (byte 80) requires 2 facets and so 184 bytes, it has "
      "134; export it again"},
-    {"largest_count", binary(UINT32_MAX, {1}),
+    {"largest_count", binary_stl(UINT32_MAX, {1}),
      "! a.stl: not an STL file, or damaged: its header (byte 80) requires 4294967295 facets and so "
      "214748364834 bytes, it has 134; export it again"},
-    {"nan", binary(2, {1, std::numeric_limits<float>::quiet_NaN()}),
+    {"nan", binary_stl(2, {1, std::numeric_limits<float>::quiet_NaN()}),
      "! a.stl: facet 2 (byte 158): vertex 2 has a coordinate that is not finite; correct it"},
-    {"no_facets", binary(0, {}), "! a.stl: the mesh has no faces; export it with faces"},
+    {"no_facets", binary_stl(0, {}), "! a.stl: the mesh has no faces; export it with faces"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Binary, StlSpelling, ::testing::ValuesIn(c_binary),
-                         [](const auto& test) { return std::string(test.param.name); });
+INSTANTIATE_TEST_SUITE_P(Binary, StlSpelling, ::testing::ValuesIn(c_stl_binary), name_of);
 
 TEST(Stl, HasTheDefaultMaterialAndCrease) {
   const auto loaded = must(read_stl(solid(c_facet), "a.stl"));
@@ -127,12 +119,12 @@ TEST(Stl, HasTheDefaultMaterialAndCrease) {
 }
 
 TEST(Stl, PositionsAreJoined) {
-  const auto loaded = must(read_stl(binary(2, {1, 2}), "a.stl"));
+  const auto loaded = must(read_stl(binary_stl(2, {1, 2}), "a.stl"));
   EXPECT_EQ(loaded.mesh.positions.size(), 4u);
 }
 
 TEST(Stl, ColoursOfFacetsAreNoted) {
-  const auto loaded = must(read_stl(binary(1, {1}, "", 0x801f), "a.stl"));
+  const auto loaded = must(read_stl(binary_stl(1, {1}, "", 0x801f), "a.stl"));
   EXPECT_EQ(loaded.notes, std::vector<std::string>{"a.stl: colours of facets are left out"});
 }
 

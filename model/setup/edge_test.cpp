@@ -9,12 +9,11 @@
 #include <random>
 #include <vector>
 
+#include "setup/exact_division.hpp"
 #include "setup/test/random_triangles.hpp"
 
 namespace halfway {
 namespace {
-
-using Int128 = __int128;
 
 /// How often each pixel of a frame is covered.
 struct Counts {

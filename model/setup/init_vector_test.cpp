@@ -16,16 +16,17 @@
 namespace halfway {
 namespace {
 
-constexpr int c_fraction = 22, c_bits = 33;
+constexpr int c_word_fraction = 22, c_word_bits = 33;
 
 // The largest error of the rounded start plus k rounded slopes, in units of the word.
 double drift(double start, double slope, std::int64_t steps, double centred) {
-  const std::int64_t word = wrapped_word(centred, c_fraction, c_bits),
-                     step = wrapped_word(slope, c_fraction, c_bits);
+  const std::int64_t word = wrapped_word(centred, c_word_fraction, c_word_bits),
+                     step = wrapped_word(slope, c_word_fraction, c_word_bits);
   double largest = 0.0;
   for (std::int64_t k = 0; k <= steps; ++k)
-    largest = std::max(largest, std::abs(static_cast<double>(word + k * step) -
-                                         std::ldexp(start + static_cast<double>(k) * slope, c_fraction)));
+    largest =
+        std::max(largest, std::abs(static_cast<double>(word + k * step) -
+                                   std::ldexp(start + static_cast<double>(k) * slope, c_word_fraction)));
   return largest;
 }
 
@@ -37,7 +38,7 @@ TEST(CentredStart, HalvesTheDrift) {
     const std::int64_t steps = i % 3 == 0 ? 4095 : i;
     const double start = real(random), slope = real(random) * 1e-3;
     const double bound = (1 + static_cast<double>(steps) / 2) / 2;
-    const double found = drift(start, slope, steps, centred_start(start, slope, steps, c_fraction));
+    const double found = drift(start, slope, steps, centred_start(start, slope, steps, c_word_fraction));
     EXPECT_LE(found, bound * (1 + 1e-6)) << start << ' ' << slope << ' ' << steps;
     centred = std::max(centred, found / bound);
     plain = std::max(plain, drift(start, slope, steps, start) / bound);
@@ -47,7 +48,7 @@ TEST(CentredStart, HalvesTheDrift) {
 }
 
 TEST(CentredStart, IsTheStartOfASinglePixel) {
-  EXPECT_EQ(centred_start(0.3, 0.1, 0, c_fraction), 0.3);
+  EXPECT_EQ(centred_start(0.3, 0.1, 0, c_word_fraction), 0.3);
 }
 
 TEST(InitVector, NearestRoundsAsTheLibraryDoes) {

@@ -17,11 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "frame/assemble.hpp"
 #include "frame/metrics.hpp"
 #include "golden/processors_layout.hpp"
 #include "golden/word.hpp"
-#include "golden_run/golden_run.hpp"
+#include "golden_run/test/drawing.hpp"
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
 #include "scene/builtin_meshes.hpp"
@@ -35,7 +34,7 @@ namespace {
 
 using ::testing::Contains, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::UnorderedElementsAre;
 
-constexpr FrameSize c_frame{96, 72};
+constexpr FrameSize c_small_frame{96, 72};
 
 HardwareKey key_of(const Scene& scene, Preset preset = Preset::exact) {
   return must(plan_scene(scene, {.shader = Shader::processors, .preset = preset})).key;
@@ -45,37 +44,18 @@ HardwareKey with_shadows(HardwareKey key) {
   return key;
 }
 
-struct Drawn {
-  std::vector<std::uint32_t> words;
-  std::vector<Fragment> fragments;
-  SetupCounts counts;
-  Frame frame;
-  bool fault = false;
-};
-
-Drawn draw(const Scene& scene, const HardwareKey& key, FrameSize size = c_frame) {
-  const auto setup = make_setup(scene, size, key, {});
-  Drawn out;
-  setup->append_prologue(out.words, out.counts);
-  setup->append_all(out.words, out.counts);
-  const auto golden = make_golden_model(key);
-  EXPECT_EQ(golden->init_bits(), setup->init_bits());
-  golden->draw(out.words, out.fragments);
-  out.fault = golden->fault();
-  FrameAssembler assembler(size, scene.background);
-  const Status status = assembler.add(out.fragments);
-  EXPECT_TRUE(status) << status.error().message;
-  out.frame = assembler.frame();
-  return out;
-}
-
-ReferenceImage reference_of(const Scene& scene, FrameSize size = c_frame) {
+ReferenceImage reference_of(const Scene& scene, FrameSize size) {
   return render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size});
 }
 
-FrameDistance distance(const Scene& scene, const Frame& frame, FrameSize size = c_frame) {
-  const ReferenceImage reference = reference_of(scene, size);
-  return *frame_distance(frame, reference.frame, reference.mask);
+Drawn draw_processors(const Scene& scene, const HardwareKey& key) {
+  return draw(scene, c_small_frame, key);
+}
+
+FrameDistance distance_of_exact(const Scene& scene) {
+  const ReferenceImage reference = reference_of(scene, c_small_frame);
+  const Drawn drawn = draw_processors(scene, key_of(scene));
+  return *frame_distance(frame_of(scene, c_small_frame, drawn.fragments), reference.frame, reference.mask);
 }
 
 Scene builtin(const std::string& name) {
@@ -83,14 +63,14 @@ Scene builtin(const std::string& name) {
 }
 
 // Lights of the given kind over triangles or a mesh.
-Scene random_scene(RandomScenes& random, RandomScenes::Lights kind) {
+Scene meshes_or_triangles(RandomScenes& random, RandomScenes::Lights kind) {
   Scene scene;
   scene.name = "random";
   scene.ambient = random.colour(false);
   scene.materials = {random.material(false, false)};
   scene.materials[0].brdf = Brdf::blinn;
   if (random.one_in(2)) {
-    RandomScenes::set_mesh(scene, make_uv_sphere(9, 7, 1.0));
+    add_mesh(scene, make_uv_sphere(9, 7, 1.0));
     scene.camera.eye_world = {0.0, 0.3, 3.4};
   } else {
     random.add_triangles(scene, 12, 0.8, 0.6);
@@ -105,8 +85,8 @@ TEST(ProcessorsSetup, ExactDrawsTheReference) {
   for (const auto kind : {RandomScenes::directional, RandomScenes::positional, RandomScenes::spots})
     for (int i = 0; i < 40; ++i) {
       SCOPED_TRACE(fmt::format("kind {}, scene {}", static_cast<int>(kind), i));
-      const Scene scene = random_scene(random, kind);
-      const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+      const Scene scene = meshes_or_triangles(random, kind);
+      const FrameDistance d = distance_of_exact(scene);
       EXPECT_LE(d.max_lsb, 1U);
       least = std::min(least, d.psnr_db);
     }
@@ -118,7 +98,7 @@ Scene ball() {
   Scene scene;
   scene.name = "ball";
   scene.materials = {{.name = "clay", .colour = {0.9, 0.5, 0.4}, .specular = 0.5, .exponent = 30.0}};
-  RandomScenes::set_mesh(scene, make_uv_sphere(16, 12, 1.0));
+  add_mesh(scene, make_uv_sphere(16, 12, 1.0));
   scene.camera.eye_world = {0.0, 0.0, 3.4};
   return scene;
 }
@@ -146,11 +126,11 @@ Scene narrow_spot(double inner, double outer) {
 TEST(ProcessorsSetup, NarrowSpotsAreNoted) {
   for (const auto& [preset, angle] : {std::pair{Preset::exact, 0.4}, {Preset::published, 40.0}}) {
     const Scene scene = narrow_spot(0.0, angle);
-    EXPECT_THAT(make_setup(scene, c_frame, key_of(scene, preset), {})->notes(),
+    EXPECT_THAT(make_setup(scene, c_small_frame, key_of(scene, preset), {})->notes(),
                 Contains(HasSubstr("spot light 1: its cone of")));
   }
   const Scene scene = narrow_spot(0.0, 0.7);
-  EXPECT_THAT(make_setup(scene, c_frame, key_of(scene), {})->notes(), IsEmpty());
+  EXPECT_THAT(make_setup(scene, c_small_frame, key_of(scene), {})->notes(), IsEmpty());
 }
 
 // A flat triangle with zero normals uses its own normal.
@@ -160,12 +140,12 @@ TEST(ProcessorsSetup, ZeroNormalsUseTheTrianglesOwn) {
   scene.normals_world = {glm::dvec3(0.0)};
   for (SceneTriangle& t : scene.triangles) t.normal = {0, 0, 0};
   EXPECT_FALSE(key_of(scene).processors.normalize);
-  const FrameDistance d = distance(scene, draw(scene, key_of(scene)).frame);
+  const FrameDistance d = distance_of_exact(scene);
   EXPECT_LE(d.max_lsb, 1U);
 }
 
-std::vector<std::string> notes(const Scene& scene, Preset preset) {
-  return make_setup(scene, c_frame, key_of(scene, preset), {})->notes();
+std::vector<std::string> setup_notes(const Scene& scene, Preset preset) {
+  return make_setup(scene, c_small_frame, key_of(scene, preset), {})->notes();
 }
 
 TEST(ProcessorsSetup, ClampedValuesAreNoted) {
@@ -175,9 +155,9 @@ TEST(ProcessorsSetup, ClampedValuesAreNoted) {
   scene.materials[0].ambient = scene.materials[0].diffuse = 1.0;
   scene.materials[0].exponent = 8000.0;
   scene.materials.push_back({.name = "unworn", .diffuse = 1e6});
-  EXPECT_THAT(notes(scene, Preset::exact), IsEmpty());
+  EXPECT_THAT(setup_notes(scene, Preset::exact), IsEmpty());
   // Colour steps, k and exponents as published.
-  EXPECT_THAT(notes(scene, Preset::published),
+  EXPECT_THAT(setup_notes(scene, Preset::published),
               UnorderedElementsAre(HasSubstr("ambient light is 64 times white and was clamped to 1"),
                                    HasSubstr("directional light 1 is 64 times white and was clamped to 1"),
                                    HasSubstr("'clay': its exponent 8000 was clamped to 1023"),
@@ -189,7 +169,7 @@ TEST(ProcessorsSetup, ClampedValuesAreNoted) {
   scene.positional = {{{0.0, 0.0, 1e30}, glm::dvec3(100.0)}};
   scene.materials[0].exponent = 1e5;
   EXPECT_THAT(
-      notes(scene, Preset::exact),
+      setup_notes(scene, Preset::exact),
       UnorderedElementsAre(HasSubstr("positional light 1 is 100 times white and was clamped to 64.25"),
                            HasSubstr("'clay': its k_d of 18 was clamped to 16"),
                            HasSubstr("its exponent 100000 was clamped to 8192"),
@@ -197,8 +177,8 @@ TEST(ProcessorsSetup, ClampedValuesAreNoted) {
                            HasSubstr("so far away that it was drawn as a directional light")));
   // The resulting colours are the largest.
   for (const Preset preset : {Preset::exact, Preset::published})
-    for (const Fragment& f : draw(scene, key_of(scene, preset)).fragments)
-      if (f.x == c_frame.width / 2 && f.y == c_frame.height / 2) {
+    for (const Fragment& f : draw_processors(scene, key_of(scene, preset)).fragments)
+      if (f.x == c_small_frame.width / 2 && f.y == c_small_frame.height / 2) {
         EXPECT_EQ(f.red, 255);
       }
 }
@@ -208,10 +188,13 @@ TEST(ProcessorsSetup, LineOrderDrawsTheSameAsTriangleOrder) {
   RandomScenes random(3);
   for (const Preset preset : {Preset::exact, Preset::published})
     for (int i = 0; i < 30; ++i) {
-      const Scene scene = random_scene(random, RandomScenes::any);
+      const Scene scene = meshes_or_triangles(random, RandomScenes::any);
       const HardwareKey key = key_of(scene, preset);
-      const Drawn triangles = draw(scene, key), lines = draw(scene, with_shadows(key));
-      ASSERT_EQ(triangles.frame.rgb, lines.frame.rgb) << to_string(preset) << ", scene " << i;
+      const Drawn triangles = draw_processors(scene, key), lines = draw_processors(scene, with_shadows(key));
+      const auto rgb_of = [&](const Drawn& drawn) {
+        return frame_of(scene, c_small_frame, drawn.fragments).rgb;
+      };
+      ASSERT_EQ(rgb_of(triangles), rgb_of(lines)) << to_string(preset) << ", scene " << i;
       EXPECT_FALSE(lines.fault);
       // Each pixel is drawn once.
       EXPECT_LE(lines.fragments.size(), triangles.fragments.size());
@@ -226,8 +209,9 @@ TEST(ProcessorsSetup, ShadowsAreThoseOfRays) {
   constexpr FrameSize c_size{640, 480};
   Scene scene = builtin("shadows");
   for (Material& m : scene.materials) m.specular = 0.0;
-  const Drawn drawn = draw(scene, key_of(scene), c_size);
+  const Drawn drawn = draw(scene, c_size, key_of(scene));
   EXPECT_FALSE(drawn.fault);
+  const Frame frame = frame_of(scene, c_size, drawn.fragments);
   const ReferenceImage reference = reference_of(scene, c_size);
   std::uint64_t pixels = 0, differ = 0;
   for (std::size_t i = 0; i < reference.mask.size(); ++i) {
@@ -235,7 +219,7 @@ TEST(ProcessorsSetup, ShadowsAreThoseOfRays) {
     ++pixels;
     int most = 0;
     for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      most = std::max(most, std::abs(int{reference.frame.rgb[c]} - int{drawn.frame.rgb[c]}));
+      most = std::max(most, std::abs(int{reference.frame.rgb[c]} - int{frame.rgb[c]}));
     differ += most > 1;
   }
   EXPECT_GT(pixels, 120'000U);
@@ -261,7 +245,7 @@ TEST(ProcessorsSetup, ALineHasDepthsThenShadowsThenSurfaces) {
     Scene scene = random.on_a_floor(4);
     scene.camera.near = 2.0;  // cuts the shadow volumes
     const HardwareKey key = key_of(scene);
-    const auto setup = make_setup(scene, c_frame, key, {});
+    const auto setup = make_setup(scene, c_small_frame, key, {});
     const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
     for (std::uint32_t y = 0; y < setup->units(); ++y) {
       std::vector<std::uint32_t> words;
@@ -312,7 +296,7 @@ TEST(ProcessorsSetup, AConstantNormalIsRoundedOnce) {
   using Plane = golden::Exact::plane_header_at;
   constexpr int c_drop = golden::Exact::c_plane_sum_fraction_bits - golden::Exact::c_vector_fraction_bits;
   int seen = 0;
-  for_each_vector(draw(scene, key).words, static_cast<unsigned>(layout.init_bits()), [&](auto v) {
+  for_each_vector(draw_processors(scene, key).words, static_cast<unsigned>(layout.init_bits()), [&](auto v) {
     if (golden::get_bits(v, Request::command) != static_cast<std::uint32_t>(golden::Command::draw)) return;
     EXPECT_EQ(golden::get_bits(v, Request::normalize), 0U);
     const auto triangle = golden::get_bits(v, Walked::triangle, layout.walk_low());
@@ -337,9 +321,9 @@ TEST(ProcessorsSetup, PlacesFillTheirFormat) {
       Scene scene = ball();
       scene.positional = {{{0.0, 0.0, -distance}, glm::dvec3(1.0)}};
       const HardwareKey key = key_of(scene, preset);
-      const auto setup = make_setup(scene, c_frame, key, {});
+      const auto setup = make_setup(scene, c_small_frame, key, {});
       std::int64_t place = 0;
-      for_each_vector(draw(scene, key).words, setup->init_bits(), [&](auto v) {
+      for_each_vector(draw_processors(scene, key).words, setup->init_bits(), [&](auto v) {
         if (golden::get_bits(v, Request::light) != 1) return;
         const auto z = [&]<class P>(P) {
           return static_cast<std::int64_t>(golden::get_bits(v, P::light_axes_channel_at::place,
@@ -386,10 +370,10 @@ TEST(ProcessorsSetup, PublishedMatchesThePublishedModel) {
     std::uint64_t fragments = 0, far = 0;
     double sum = 0.0;
     for (int i = 0; i < 20; ++i) {
-      Scene scene = random_scene(random, kind);
+      Scene scene = meshes_or_triangles(random, kind);
       scene.materials[0].exponent = random.within(2.0, 12.0);
-      std::vector<ScreenTriangle> pieces = Projector(scene, c_frame, {}).project_all();
-      for (const Fragment& f : draw(scene, key_of(scene, Preset::published)).fragments)
+      std::vector<ScreenTriangle> pieces = Projector(scene, c_small_frame, {}).project_all();
+      for (const Fragment& f : draw_processors(scene, key_of(scene, Preset::published)).fragments)
         for (const ScreenTriangle& t : pieces) {
           if (t.source != f.triangle) continue;
           const glm::dvec3 weight =
@@ -425,7 +409,7 @@ TEST(ProcessorsSetup, DeepShadowsAreCounted) {
     scene.positions_world[i].z -= 8.0;
   scene.directional = {{.to_light_world = glm::normalize(glm::dvec3(1.0, 0.1, 0.1))}};
   scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
-  const Drawn drawn = draw(scene, key_of(scene));
+  const Drawn drawn = draw_processors(scene, key_of(scene));
   EXPECT_GT(drawn.counts.deepest_shadow, 3U);
   EXPECT_LE(drawn.counts.deepest_shadow, 13U);
   EXPECT_GT(drawn.counts.shadows, 100U);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "scene/builtin_meshes.hpp"
+#include "scene/test/add_mesh.hpp"
 #include "setup/test/pixels.hpp"
 
 namespace halfway {
@@ -53,18 +54,16 @@ void expect_sound(std::span<const ScreenTriangle> triangles, FrameSize frame, Pr
   }
 }
 
-void set_mesh(Scene& scene, const Mesh& mesh) {
-  scene.positions_world = mesh.positions;
-  scene.normals_world = mesh.normals;
-  scene.triangles = mesh.triangles;
-  for (SceneTriangle& t : scene.triangles) t.material = 0;
-}
-
-Scene one_triangle(std::array<glm::dvec3, 3> corners) {
+Scene empty_scene() {
   Scene scene;
   scene.camera.near = 0.5;
   scene.camera.far = 100.0;
   scene.materials.emplace_back();
+  return scene;
+}
+
+Scene one_triangle(std::array<glm::dvec3, 3> corners) {
+  Scene scene = empty_scene();
   scene.positions_world.assign(corners.begin(), corners.end());
   scene.normals_world = {{0, 0, 1}};
   scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
@@ -267,8 +266,8 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
 
 // Vertices that neighbours share are projected once. Frame, near plane and guard band cut some triangles.
 TEST(MeshProjector, ProjectsAsItsProjector) {
-  Scene scene = one_triangle({});
-  set_mesh(scene, make_uv_sphere(60, 30, 1.0));
+  Scene scene = empty_scene();
+  add_mesh(scene, make_uv_sphere(60, 30, 1.0));
   scene.camera.eye_world = {0.0, 0.0, 2.0};
   std::size_t whole = 0, pieces = 0;
   for (const double near : {0.1, 1.05, 1.2})
@@ -313,8 +312,8 @@ TEST(MeshProjector, ProjectsAsItsProjector) {
 TEST(Project, TwoSidedAddsTheBackFaces) {
   const FrameSize frame{160, 120};
   for (const double x : {-3.0, -1.0, 0.5, 2.5}) {
-    Scene scene = one_triangle({});
-    set_mesh(scene, make_uv_sphere(24, 16, 1.0));
+    Scene scene = empty_scene();
+    add_mesh(scene, make_uv_sphere(24, 16, 1.0));
     scene.camera.eye_world = {x, 1.5, 3.0};
     const Projector projector(scene, frame, {});
     int fronts = 0, backs = 0;

@@ -24,7 +24,7 @@ using golden::Exact;
 
 constexpr int c_fraction = Exact::c_intensity_fraction_bits;
 constexpr std::int64_t c_largest_sample_word = std::int64_t{1023} << c_fraction;
-constexpr FrameSize c_frame = {4096, 4096};
+constexpr FrameSize c_largest_frame = {4096, 4096};
 
 /// Solves A x = b by elimination. A must be regular.
 template <std::size_t N>
@@ -101,8 +101,8 @@ TEST(QuadraticFit, EachWordIsTheRationalRoundedOnce) {
     for (const TriangleKind kind : c_triangle_kinds) {
       RandomTriangles random(static_cast<unsigned>(10 * unit_bits + static_cast<int>(kind)));
       for (int round = 0, done = 0; round < 400 && done < 8; ++round) {
-        const Points p = random.next(kind, unit_bits, c_frame, unit_bits - 4);
-        const Walks walks = plan_walks(p, unit_bits, c_frame);
+        const Points p = random.next(kind, unit_bits, c_largest_frame, unit_bits - 4);
+        const Walks walks = plan_walks(p, unit_bits, c_largest_frame);
         if (walks.empty()) continue;
         ++done;
         const SixSamples samples = random_samples(random, done + 7 * unit_bits);
@@ -152,7 +152,7 @@ TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
     RandomTriangles random(static_cast<unsigned>(kind));
     for (int round = 0; round < 60; ++round) {
       const int level = round % 6, unit_bits = 4 + level;
-      const Points p = random.next(kind, unit_bits, c_frame, level);
+      const Points p = random.next(kind, unit_bits, c_largest_frame, level);
       if (twice_area(p) == 0) continue;
       const std::array<std::int64_t, 3> z = {
           random.within(1, (1 << 24) - 3) * (std::int64_t{1} << 15),
@@ -162,7 +162,7 @@ TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
       for (std::size_t i = 0; i < 3; ++i)
         rows[i] = {p[i].x - p[0].x, p[i].y - p[0].y, 1, static_cast<long>(z[i])};
       const std::array<mpq_class, 3> plane = solved<3>(rows);
-      for (const Walk& walk : plan_walks(p, unit_bits, c_frame)) {
+      for (const Walk& walk : plan_walks(p, unit_bits, c_largest_frame)) {
         const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
         const DepthWords w = DepthFit(p, unit_bits, z).words(start, 1 << 14);
         const long unit = 1L << unit_bits;
@@ -221,7 +221,7 @@ class PixelComparison {
 // its colour, bit for bit. The frame cuts some of them.
 TEST(PixelFit, EachPixelHasItsColourExactly) {
   using Shader = golden::QuadraticShader<Exact, 1>;
-  constexpr FrameSize c_small_frame{5, 5};
+  constexpr FrameSize c_tiny_frame{5, 5};
   RandomTriangles random(12);
   // Lines, pixels of the first line, pixels of the last line.
   std::set<std::array<std::size_t, 3>> shapes;
@@ -231,8 +231,8 @@ TEST(PixelFit, EachPixelHasItsColourExactly) {
     const int left = random.within(-side, 5 * side / 2), top = random.within(-side, 5 * side / 2);
     Points p;
     for (ScreenPoint& q : p) q = {left + random.within(0, side), top + random.within(0, side)};
-    const Walks walks = plan_walks(p, unit_bits, c_small_frame);
-    const std::vector<Pixel> pixels = covered_pixels(p, unit_bits, c_small_frame);
+    const Walks walks = plan_walks(p, unit_bits, c_tiny_frame);
+    const std::vector<Pixel> pixels = covered_pixels(p, unit_bits, c_tiny_frame);
     ASSERT_EQ(walks.empty(), pixels.empty());
     if (walks.empty()) continue;
     std::vector<std::int64_t> colours;
@@ -417,7 +417,7 @@ TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
         {{{units(4096), units(0)}, {units(0), units(1)}, {units(0), units(thick)}}},
     }};
     const Points& p = shapes[static_cast<std::size_t>(round) % shapes.size()];
-    drawn += draw(p, 4, c_frame, random_samples(random, round), {c_near, c_far, c_near + 12345});
+    drawn += draw(p, 4, c_largest_frame, random_samples(random, round), {c_near, c_far, c_near + 12345});
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(drawn, 1'000'000);

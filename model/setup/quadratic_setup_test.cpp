@@ -16,7 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "golden/quadratic_shader.hpp"
+#include "golden/quadratic_layout.hpp"
+#include "golden_run/test/drawing.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "setup/test/pixels.hpp"
 #include "setup/test/random_scenes.hpp"
@@ -57,38 +58,13 @@ Scene teapot_scene(std::uint32_t divisions = 3) {
   return scene;
 }
 
-struct Drawn {
-  std::vector<Fragment> fragments;
-  std::vector<std::uint32_t> words;
-  std::size_t words_per_vector = 0;
-  SetupCounts counts;
-};
-
-template <class Formats, int Channels, int Degree>
-void draw_words(Drawn& drawn) {
-  using Shader = golden::QuadraticShader<Formats, Channels, Degree>;
-  ASSERT_EQ(drawn.words_per_vector, Shader::c_init_words);
-  Shader shader;
-  for (std::size_t i = 0; i < drawn.words.size(); i += drawn.words_per_vector)
-    shader.draw(std::span(drawn.words).subspan(i, drawn.words_per_vector),
-                [&](const Fragment& f) { drawn.fragments.push_back(f); });
+HardwareKey quadratic_key(Preset preset = Preset::exact, int channels = 3, int degree = 2) {
+  return {.preset = preset, .channels = static_cast<unsigned>(channels), .degree = degree};
 }
 
-// The vectors of the set-up, and what the shader draws.
-template <class Formats, int Channels = 3, int Degree = 2>
-Drawn draw(const Scene& scene, FrameSize frame, QuadraticSetupOptions options) {
-  constexpr Preset c_preset = std::is_same_v<Formats, golden::Exact> ? Preset::exact : Preset::published;
-  const HardwareKey key{.preset = c_preset, .channels = Channels, .degree = Degree};
-  const QuadraticSetup setup(scene, frame, key, options);
-  Drawn drawn;
-  drawn.words_per_vector = (setup.init_bits() + 31) / 32;
-  setup.append_all(drawn.words, drawn.counts);
-  EXPECT_EQ(drawn.words.size(), drawn.counts.vectors * drawn.words_per_vector);
-  draw_words<Formats, Channels, Degree>(drawn);
-  return drawn;
-}
-Drawn draw(const Scene& scene, FrameSize frame, QuadraticSetupOptions options) {
-  return draw<golden::Exact>(scene, frame, options);
+Drawn draw_quadratic(const Scene& scene, FrameSize frame, const QuadraticSetupOptions& options,
+                     const HardwareKey& key = quadratic_key()) {
+  return draw(scene, frame, key, {.quadratic = options});
 }
 
 /// The triangles of the scene that are one piece on the screen, by their number.
@@ -117,16 +93,17 @@ glm::dvec3 colour_of(const Fragment& f) {
 }
 
 // The vectors of degree 1 as vectors of degree 2 whose second differences are zero, and what they draw.
-template <class Formats, int Channels>
-Drawn draw_as_quadratics(const Drawn& planes) {
-  using Plane = golden::QuadraticLayout<Formats, 1>;
-  using Quadratic = golden::QuadraticLayout<Formats, 2>;
+template <class Formats>
+Drawn draw_as_quadratics(const Drawn& planes, HardwareKey key) {
+  using OfPlane = golden::QuadraticLayout<Formats, 1>;
+  using OfQuadratic = golden::QuadraticLayout<Formats, 2>;
+  key.degree = 2;
+  const std::size_t to_words = (make_golden_model(key)->init_bits() + 31) / 32;
   Drawn drawn;
-  drawn.words_per_vector = golden::QuadraticShader<Formats, Channels>::c_init_words;
-  for (std::size_t i = 0; i < planes.words.size(); i += planes.words_per_vector) {
-    const auto from = std::span(planes.words).subspan(i, planes.words_per_vector);
-    drawn.words.resize(drawn.words.size() + drawn.words_per_vector);
-    const auto to = std::span(drawn.words).last(drawn.words_per_vector);
+  for (std::size_t i = 0; i < planes.words.size(); i += planes.vector_words) {
+    const auto from = std::span(planes.words).subspan(i, planes.vector_words);
+    drawn.words.resize(drawn.words.size() + to_words);
+    const auto to = std::span(drawn.words).last(to_words);
     const auto copy = [&](int bits, int from_low, int to_low) {
       for (int bit = 0; bit < bits; ++bit) {
         const golden::Field field{"", bit, 1, false, 0};
@@ -134,10 +111,10 @@ Drawn draw_as_quadratics(const Drawn& planes) {
       }
     };
     copy(Formats::c_init_header_bits, 0, 0);
-    for (int c = 0; c < Channels; ++c)
-      copy(Plane::c_channel_bits, Plane::channel_low(c), Quadratic::channel_low(c));
+    for (int c = 0; c < static_cast<int>(key.channels); ++c)
+      copy(OfPlane::c_channel_bits, OfPlane::channel_low(c), OfQuadratic::channel_low(c));
   }
-  draw_words<Formats, Channels, 2>(drawn);
+  draw_words(key, drawn);
   return drawn;
 }
 
@@ -161,7 +138,7 @@ TEST(QuadraticSetup, EachTriangleDrawsItsPixelsOnceForEverySplit) {
       const Pixels expected = covered(projected(scene, frame), frame);
       for (const QuadraticSetupOptions& options : {c_whole, c_split, c_split_some}) {
         if (options.threshold < 0.1 && frame.width > 400) continue;  // limits the run time
-        const Drawn drawn = draw(scene, frame, options);
+        const Drawn drawn = draw_quadratic(scene, frame, options);
         ASSERT_TRUE(drawn_pixels(drawn.fragments) == expected)
             << frame.width << 'x' << frame.height << ", " << drawn.counts.leaves << " leaves";
         split += drawn.counts.subdivided;
@@ -184,8 +161,8 @@ TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroug
       const double z = surface_point(t, barycentric_at_centre(t, c_subpixel_bits, f.x, f.y)).z;
       ASSERT_NEAR(f.z, z * double((1 << 24) - 1), 0.5 + 0.01);
     };
-    for (const Fragment& f : draw(scene, frame, c_split_some).fragments) expect_depth(f);
-    const Drawn drawn = draw(scene, frame, c_whole);
+    for (const Fragment& f : draw_quadratic(scene, frame, c_split_some).fragments) expect_depth(f);
+    const Drawn drawn = draw_quadratic(scene, frame, c_whole);
     EXPECT_EQ(drawn.counts.subdivided, 0u);
     ASSERT_GT(drawn.fragments.size(), 10000u);
     int white = 0;
@@ -207,33 +184,29 @@ TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroug
   }
 }
 
-template <class Formats>
-void expect_one_channel_equals_three() {
+TEST(QuadraticSetup, OneChannelEqualsEachOfThreeInAGreyScene) {
   Scene scene = sphere_scene(3, 0.1, 0.0);
   scene.materials[0].colour = glm::dvec3(0.7);
   scene.directional[0].intensity = glm::dvec3(0.9);
   scene.positional[0].intensity = glm::dvec3(0.3);
-  const Drawn one = draw<Formats, 1>(scene, {160, 120}, c_split_some),
-              three = draw<Formats, 3>(scene, {160, 120}, c_split_some);
-  ASSERT_GT(one.fragments.size(), 1000u);
-  EXPECT_TRUE(one.fragments == three.fragments);
-  EXPECT_EQ(one.counts.leaves, three.counts.leaves);
-  for (const Fragment& f : three.fragments) ASSERT_EQ(colour_of(f), glm::dvec3(f.red));
-}
-
-TEST(QuadraticSetup, OneChannelEqualsEachOfThreeInAGreyScene) {
-  expect_one_channel_equals_three<golden::Exact>();
-  expect_one_channel_equals_three<golden::Published>();
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const Drawn one = draw_quadratic(scene, {160, 120}, c_split_some, quadratic_key(preset, 1)),
+                three = draw_quadratic(scene, {160, 120}, c_split_some, quadratic_key(preset, 3));
+    ASSERT_GT(one.fragments.size(), 1000u);
+    EXPECT_TRUE(one.fragments == three.fragments);
+    EXPECT_EQ(one.counts.leaves, three.counts.leaves);
+    for (const Fragment& f : three.fragments) ASSERT_EQ(colour_of(f), glm::dvec3(f.red));
+  }
 }
 
 // Unlimited light: samples are clamped, so that no control point leaves the format.
 TEST(QuadraticSetup, OverexposureIsClampedAndCounted) {
   Scene scene = sphere_scene(1, 0.0, 0.0);
   const FrameSize frame{160, 120};
-  EXPECT_EQ(draw(scene, frame, c_whole).counts.overexposed, 0u);
+  EXPECT_EQ(draw_quadratic(scene, frame, c_whole).counts.overexposed, 0u);
   scene.directional[0].intensity = glm::dvec3(1e9);
   scene.ambient = glm::dvec3(100.0);
-  const Drawn drawn = draw(scene, frame, c_whole);
+  const Drawn drawn = draw_quadratic(scene, frame, c_whole);
   EXPECT_GT(drawn.counts.overexposed, 100u);
   ASSERT_GT(drawn.fragments.size(), 1000u);
   for (const Fragment& f : drawn.fragments) ASSERT_EQ(colour_of(f), glm::dvec3(255.0));
@@ -242,7 +215,8 @@ TEST(QuadraticSetup, OverexposureIsClampedAndCounted) {
 TEST(QuadraticSetup, CountsAreCorrect) {
   const Scene scene = sphere_scene(5, 0.0, 0.0);
   const FrameSize frame{160, 120};
-  const SetupCounts whole = draw(scene, frame, c_whole).counts, split = draw(scene, frame, c_split).counts;
+  const SetupCounts whole = draw_quadratic(scene, frame, c_whole).counts,
+                    split = draw_quadratic(scene, frame, c_split).counts;
   EXPECT_EQ(whole.subdivided, 0u);
   EXPECT_EQ(whole.unresolved, 0u);
   EXPECT_EQ(whole.leaves, whole.shaded / 6);
@@ -256,7 +230,7 @@ TEST(QuadraticSetup, CountsAreCorrect) {
   // The level limit is respected, and the counts report what stays unresolved.
   QuadraticSetupOptions shallow = c_split;
   shallow.max_level = 1;
-  const SetupCounts once = draw(scene, frame, shallow).counts;
+  const SetupCounts once = draw_quadratic(scene, frame, shallow).counts;
   EXPECT_GT(once.unresolved, 0u);
   EXPECT_LE(once.leaves, 4 * once.triangles);
 }
@@ -307,13 +281,14 @@ TEST(QuadraticSetup, SmallTrianglesHaveTheReferencesColours) {
       return !is_rounded(scene, by_source.at(f.triangle), f);
     };
     for (const int max_level : {0, 5}) {
-      const Drawn drawn = draw(scene, frame, {.threshold = 50.0, .max_level = max_level});
+      const Drawn drawn = draw_quadratic(scene, frame, {.threshold = 50.0, .max_level = max_level});
       EXPECT_EQ(std::ranges::count_if(drawn.fragments, wrong), 0) << frame.width;
       EXPECT_EQ(drawn.counts.shaded, drawn.fragments.size());
       EXPECT_EQ(drawn.counts.unresolved, 0u);
       fragments += drawn.fragments.size();
     }
-    missed += static_cast<std::uint64_t>(std::ranges::count_if(draw(scene, frame, c_whole).fragments, wrong));
+    missed += static_cast<std::uint64_t>(
+        std::ranges::count_if(draw_quadratic(scene, frame, c_whole).fragments, wrong));
   }
   EXPECT_GT(fragments, 5000u);
   // Six samples get many of them wrong.
@@ -326,7 +301,7 @@ TEST(QuadraticSetup, SmallPiecesHaveTheReferencesColours) {
   const Scene scene = sphere_scene(8, 0.1, 0.1);
   const FrameSize frame{96, 72};
   const auto by_source = whole_triangles(scene, frame);
-  const Drawn drawn = draw(scene, frame, {.threshold = 1e-9});
+  const Drawn drawn = draw_quadratic(scene, frame, {.threshold = 1e-9});
   EXPECT_GT(drawn.counts.subdivided, 50u);
   EXPECT_EQ(drawn.counts.unresolved, 0u);
   ASSERT_GT(drawn.fragments.size(), 1000u);
@@ -343,9 +318,7 @@ TEST(QuadraticSetup, SmallLeavesOfSixSamplesAreTestedAndCounted) {
   const Scene scene = dust_scene(3, frame);
   ASSERT_TRUE(all_are_small(projected(scene, frame)));
   const auto unresolved = [&](HighlightTest test, Preset preset) {
-    const SetupCounts counts = preset == Preset::exact
-                                   ? draw(scene, frame, {.test = test}).counts
-                                   : draw<golden::Published>(scene, frame, {.test = test}).counts;
+    const SetupCounts counts = draw_quadratic(scene, frame, {.test = test}, quadratic_key(preset)).counts;
     EXPECT_EQ(counts.subdivided, 0u);
     EXPECT_LE(counts.unresolved, counts.leaves);
     return counts.unresolved;
@@ -365,7 +338,7 @@ TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysCloseToTheEdges) {
   scenes[2].camera.eye_world = {0.3, 0.2, 1.3};
   for (const Scene& scene : scenes)
     for (const FrameSize frame : {FrameSize{160, 120}, FrameSize{37, 91}, FrameSize{500, 400}}) {
-      const Drawn drawn = draw<golden::Published>(scene, frame, c_whole);
+      const Drawn drawn = draw_quadratic(scene, frame, c_whole, quadratic_key(Preset::published));
       std::map<std::uint32_t, std::vector<ScreenTriangle>> by_source;
       const Projector projector(scene, frame, {.subpixel_bits = 0, .clip_to_frame = true});
       for (const ScreenTriangle& t : projector.project_all()) by_source[t.source].push_back(t);
@@ -405,20 +378,21 @@ TEST(QuadraticSetup, PublishedWalkCoversTheInsideAndStaysCloseToTheEdges) {
     }
 }
 
-template <class Formats, int Channels>
-void expect_planes_are_quadratics(const Scene& scene, FrameSize frame, QuadraticSetupOptions options) {
-  const Drawn planes = draw<Formats, Channels, 1>(scene, frame, options);
-  EXPECT_GT(planes.fragments.size(), 1000U);
-  const Drawn quadratics = draw_as_quadratics<Formats, Channels>(planes);
-  EXPECT_EQ(quadratics.fragments, planes.fragments);
-}
-
 TEST(QuadraticSetup, PlanesAreQuadraticsWithoutSecondDifferences) {
+  const auto expect_same = [](const Scene& scene, const QuadraticSetupOptions& options, Preset preset,
+                              int channels) {
+    const HardwareKey key = quadratic_key(preset, channels, 1);
+    const Drawn planes = draw_quadratic(scene, {160, 120}, options, key);
+    EXPECT_GT(planes.fragments.size(), 1000U);
+    const Drawn quadratics = preset == Preset::exact ? draw_as_quadratics<golden::Exact>(planes, key)
+                                                     : draw_as_quadratics<golden::Published>(planes, key);
+    EXPECT_EQ(quadratics.fragments, planes.fragments);
+  };
   for (const Scene& scene : {teapot_scene(), sphere_scene(9, 0.1, 0.15)})
     for (const QuadraticSetupOptions options : {c_whole, c_split_some}) {
-      expect_planes_are_quadratics<golden::Exact, 3>(scene, {160, 120}, options);
-      expect_planes_are_quadratics<golden::Exact, 1>(scene, {160, 120}, options);
-      expect_planes_are_quadratics<golden::Published, 3>(scene, {160, 120}, options);
+      expect_same(scene, options, Preset::exact, 3);
+      expect_same(scene, options, Preset::exact, 1);
+      expect_same(scene, options, Preset::published, 3);
     }
 }
 
@@ -426,7 +400,7 @@ TEST(QuadraticSetup, PlanesAreQuadraticsWithoutSecondDifferences) {
 TEST(QuadraticSetup, PlanesPassThroughTheVertices) {
   const FrameSize frame{160, 120};
   const Scene scene = teapot_scene();
-  const Drawn planes = draw<golden::Exact, 3, 1>(scene, frame, c_whole);
+  const Drawn planes = draw_quadratic(scene, frame, c_whole, quadratic_key(Preset::exact, 3, 1));
   EXPECT_EQ(planes.counts.shaded, 3 * planes.counts.leaves);
   ASSERT_GT(planes.fragments.size(), 1000U);
   const auto by_source = whole_triangles(scene, frame);
@@ -445,9 +419,10 @@ TEST(QuadraticSetup, PlanesPassThroughTheVertices) {
 TEST(QuadraticSetup, PlanesAreSplitUntilTheyAreWithinTheThreshold) {
   const FrameSize frame{160, 120};
   const Scene scene = teapot_scene();
-  constexpr double c_threshold = 1.0;
-  const Drawn planes = draw<golden::Exact, 3, 1>(
-      scene, frame, {.test = HighlightTest::conservative, .threshold = c_threshold});
+  constexpr double c_one_step = 1.0;
+  const Drawn planes =
+      draw_quadratic(scene, frame, {.test = HighlightTest::conservative, .threshold = c_one_step},
+                     quadratic_key(Preset::exact, 3, 1));
   EXPECT_GT(planes.counts.subdivided, 100U);
   EXPECT_EQ(planes.counts.unresolved, 0U);
   const auto by_source = whole_triangles(scene, frame);
@@ -458,7 +433,7 @@ TEST(QuadraticSetup, PlanesAreSplitUntilTheyAreWithinTheThreshold) {
     largest = std::max({largest, off.x, off.y, off.z});
   }
   // The test is calibrated to twice the threshold (highlight_bound.hpp); 0.5 for rounding.
-  EXPECT_LE(largest, 2 * c_threshold + 0.5);
+  EXPECT_LE(largest, 2 * c_one_step + 0.5);
   EXPECT_GT(largest, 0.5);
 }
 

@@ -9,6 +9,7 @@
 
 #include "plan/plan.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/test/add_mesh.hpp"
 #include "sim/system/must.hpp"
 
 namespace halfway {
@@ -17,7 +18,7 @@ namespace {
 // A sphere that the frame and the near plane cut. Neighbours have different materials, and one vertex has no
 // normal, so that each triangle there uses its own.
 Scene cut_sphere() {
-  Mesh mesh = make_uv_sphere(48, 32, 1.0);
+  const Mesh mesh = make_uv_sphere(48, 32, 1.0);
   Scene scene;
   scene.ambient = glm::dvec3(0.3);
   scene.directional.push_back({glm::normalize(glm::dvec3(0.4, 0.5, 1.0)), {0.7, 0.6, 0.5}});
@@ -27,9 +28,7 @@ Scene cut_sphere() {
   shiny.colour = {0.2, 0.4, 0.9};
   shiny.exponent = 60.0;
   scene.materials = {smooth, shiny};
-  scene.positions_world = mesh.positions;
-  scene.normals_world = mesh.normals;
-  scene.triangles = mesh.triangles;
+  add_mesh(scene, mesh);
   for (std::size_t i = 0; i < scene.triangles.size(); ++i)
     scene.triangles[i].material = static_cast<std::uint32_t>(i % 2);
   std::size_t front = 0;  // the vertex that is nearest to the eye and right of it

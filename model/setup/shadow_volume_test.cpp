@@ -217,7 +217,7 @@ TEST(ShadowVolume, CoordinatesStayInRange) {
 
 // ---- The counting rule, pixel by pixel, compared with shadow rays
 
-struct Figures {
+struct CountFigures {
   int pixels = 0, lit = 0, shadowed = 0;
   int differ = 0;       ///< pixels where count and ray differ
   int unexplained = 0;  ///< of these, neither at a shadow's edge nor at grazing incidence of the light
@@ -242,7 +242,7 @@ void for_each_depth(const ScreenTriangle& t, FrameSize frame, Found&& found) {
   });
 }
 
-void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
+void count_and_compare(const Scene& scene, FrameSize frame, CountFigures& sum) {
   const Projector projector(scene, frame, {});
   const std::vector<ScreenTriangle> triangles = projector.project_all();
   const std::size_t pixels = std::size_t{frame.width} * frame.height;
@@ -314,7 +314,7 @@ void count_and_compare(const Scene& scene, FrameSize frame, Figures& sum) {
 // pixel, and a ray may start at a point close to a side of the volume.
 TEST(ShadowCount, AgreesWithRaysInTheBuiltInScene) {
   const Scene scene = must(load_scene("shadows", c_scenes));
-  Figures figures;
+  CountFigures figures;
   count_and_compare(scene, {640, 480}, figures);
   figures.expect_agreement(100'000, 30'000, 10'000);
   // Only sides, and almost never cut: the caps would be ten times as many.
@@ -323,7 +323,7 @@ TEST(ShadowCount, AgreesWithRaysInTheBuiltInScene) {
 
 TEST(ShadowCount, AgreesWithRaysAmongSolids) {
   RandomSolids random(7);
-  Figures figures;
+  CountFigures figures;
   for (int round = 0; round < 60; ++round)
     count_and_compare(random.scene(1 + round % 5), {160, 120}, figures);
   figures.expect_agreement(100'000, 100'000, 1'000);
@@ -331,7 +331,7 @@ TEST(ShadowCount, AgreesWithRaysAmongSolids) {
 
 TEST(ShadowCount, IncludesVolumesAroundTheEye) {
   RandomSolids random(8);
-  Figures figures;
+  CountFigures figures;
   int within = 0;
   for (int round = 0; round < 40; ++round) {
     Scene scene = random.on_a_floor(4);
@@ -358,7 +358,7 @@ TEST(ShadowCount, IncludesVolumesAroundTheEye) {
 // The near plane cuts volumes and cuts solids open; the eye is in a solid; meshes are open.
 TEST(ShadowCount, AgreesWhereInsidesAreVisible) {
   RandomSolids random(9);
-  Figures figures;
+  CountFigures figures;
   for (int round = 0; round < 60; ++round) {
     Scene scene = random.on_a_floor(4);
     if (round % 3 == 0) {

@@ -35,16 +35,16 @@ SurfacePoint point_of(glm::dvec3 position_world, glm::dvec3 interpolated_normal_
           .normal_length = length};
 }
 
-struct Span {
+struct SurfaceSpan {
   SurfacePoint begin, end;
   glm::dvec3 eye_world;
   Light light;
 };
 
 // Ends that differ by 1e-6 to about 1, seen and lit from near and far, with perspective.
-Span random_span(Random& random) {
+SurfaceSpan random_span(Random& random) {
   const double size = random.decades(1e-6, 1.0);
-  Span span;
+  SurfaceSpan span;
   const glm::dvec3 normal = random.decades(0.3, 1.0) * random.unit();
   span.begin = point_of(random.vector(), normal, random.decades(0.1, 10.0));
   span.end = point_of(span.begin.position_world + size * random.vector(),
@@ -65,7 +65,7 @@ double angle_between(glm::dvec3 a, glm::dvec3 b) {
 struct Vectors {
   glm::dvec3 normal, to_light, halfway;
 };
-Vectors vectors_at(const Span& span, double t) {
+Vectors vectors_at(const SurfaceSpan& span, double t) {
   const double begin = (1.0 - t) * span.begin.inverse_w, end = t * span.end.inverse_w,
                s = end / (begin + end);
   const glm::dvec3 position = (1.0 - s) * span.begin.position_world + s * span.end.position_world;
@@ -83,7 +83,7 @@ TEST(SpanBound, HoldsForRandomSpans) {
   double closest_diffuse = 0.0, closest_specular = 0.0;
   int bounded = 0;
   for (int i = 0; i < 400'000; ++i) {
-    const Span span = random_span(random);
+    const SurfaceSpan span = random_span(random);
     const auto bounds = arc_bounds(span.begin, span.end, span.light, span.eye_world);
     if (!bounds) continue;
     ++bounded;
@@ -113,7 +113,7 @@ TEST(SpanBound, HoldsForRandomSpans) {
 
 TEST(SpanBound, IsNotGivenForLargeTurns) {
   const auto end_of = [](glm::dvec3 normal) { return point_of({0.1, 0, 0}, normal, 1); };
-  Span span = {point_of({0, 0, 0}, {0, 0, 1}, 1), end_of({0.1, 0, 1}), {0, 0, 5}, {}};
+  SurfaceSpan span = {point_of({0, 0, 0}, {0, 0, 1}, 1), end_of({0.1, 0, 1}), {0, 0, 5}, {}};
   span.light.point = {{0, 0, 1}, 0.0};
   const auto bounds = [&] { return arc_bounds(span.begin, span.end, span.light, span.eye_world); };
   EXPECT_TRUE(bounds());

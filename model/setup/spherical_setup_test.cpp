@@ -15,12 +15,12 @@
 #include <numbers>
 #include <vector>
 
-#include "frame/assemble.hpp"
 #include "golden/diffuse_slice.hpp"
 #include "golden/multiplier.hpp"
 #include "golden/saturating_sum.hpp"
 #include "golden/specular_slice.hpp"
 #include "golden/triangle_walker.hpp"
+#include "golden_run/test/drawing.hpp"
 #include "golden_run/test/spherical_drawing.hpp"
 #include "reference/renderer.hpp"
 #include "scene/builtin_meshes.hpp"
@@ -39,7 +39,6 @@ namespace {
 
 using golden::Exact, golden::Published;
 using paper::Ends, paper::LightThere, paper::Real, paper::Span, paper::SpanThere, paper::Vector;
-constexpr Real c_pi = std::numbers::pi_v<Real>;
 
 // ---- The papers' formulas
 
@@ -57,11 +56,11 @@ Arc arc_between(Vector u1, Vector u2, Vector v1, Vector v2) {
   const Vector back = u2 * cos_v - glm::cross(c, u2) + c * (glm::dot(c, u2) / (1 + cos_v));
   const Real sweep = 2 * std::atan2(glm::length(back - u1), glm::length(back + u1));
   const Real begin = glm::dot(u1, v1), end = glm::dot(u2, v2);
-  if (sweep < c_no_turn) return {std::fabs(begin), 0, begin < 0 ? c_pi : 0};
+  if (sweep < c_no_turn) return {std::fabs(begin), 0, begin < 0 ? paper::c_pi : 0};
   const Real b = (end - begin * std::cos(sweep)) / std::sin(sweep);
   Real phase = std::atan2(b, begin);
   // Choose the multiple of 2 pi for which the middle is within pi of the peak.
-  phase += 2 * c_pi * std::round((sweep / 2 - phase) / (2 * c_pi));
+  phase += 2 * paper::c_pi * std::round((sweep / 2 - phase) / (2 * paper::c_pi));
   return {std::hypot(begin, b), sweep, phase};
 }
 
@@ -117,7 +116,7 @@ class Specification {
         bell_error_(error_of(bell_.power)),
         fit_error_(fit_error(material_.exponent, bell_)) {
     const Real m = bell_.power;
-    bell_slope_ = c_pi / 2 * std::sqrt(m) * std::pow(1 - 1 / m, (m - 1) / 2);
+    bell_slope_ = paper::c_pi / 2 * std::sqrt(m) * std::pow(1 - 1 / m, (m - 1) / 2);
   }
 
   Term ambient(int c) const {
@@ -139,7 +138,8 @@ class Specification {
     const Real factor =
         clamped(brightest * bell_.gain * std::pow(std::min<Real>(1, on.specular.amplitude), exponent_));
     const Real y = bell_.scale * x(on.specular, span, steps);
-    const Real bell = c_exact && std::fabs(y) >= c_pi / 2 ? 0 : std::pow(std::fabs(std::cos(y)), bell_.power);
+    const Real bell =
+        c_exact && std::fabs(y) >= paper::c_pi / 2 ? 0 : std::pow(std::fabs(std::cos(y)), bell_.power);
     Term term{factor * bell, c_factor_rounding + factor * (bell_error_ + drift(steps) * bell_slope_)};
     // If an arc is unknown, only the product of its amplitude and its bell is known: cos^n, within the fit's
     // error.
@@ -167,7 +167,7 @@ class Specification {
 
  private:
   static constexpr Real c_factor_rounding = 0x1p-9L;
-  static constexpr Real c_diffuse_unit = c_exact ? c_pi / 2 : c_pi;
+  static constexpr Real c_diffuse_unit = c_exact ? paper::c_pi / 2 : paper::c_pi;
 
   double error_of(int power) const {
     return tables::table_error(tables::cosine_table(c_exact, power, tables_.address_bits, tables_.data_bits));
@@ -202,7 +202,7 @@ class Specification {
 // ---- The comparison
 
 // Largest error relative to its bound.
-struct Figures {
+struct FormulaFigures {
   std::uint64_t fragments = 0, terms = 0, behind_horizon = 0, either = 0, outside_bell = 0;
   Real diffuse = 0, specular = 0, fragment = 0;
   std::uint64_t cut = 0, overexposed = 0;
@@ -210,7 +210,7 @@ struct Figures {
 // Checks every fragment of the triangles that are one piece on the screen.
 template <class P>
 void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey& key,
-                          const SphericalSetupOptions& options, Figures& figures) {
+                          const SphericalSetupOptions& options, FormulaFigures& figures) {
   constexpr bool c_exact = std::is_same_v<P, Exact>;
   const SphericalSetup setup(scene, frame, key, options);
   const Specification<P> specification(scene, key);
@@ -354,11 +354,11 @@ const SphericalSetupOptions c_never_cut = {.threshold = 1e9}, c_cut = {};
 
 /// Compares random scenes. Each is drawn with one of the widths and one of the options.
 template <class P>
-Figures compare(unsigned seed, int scenes, const std::array<unsigned, 2>& widths,
-                const std::array<SphericalSetupOptions, 2>& options) {
+FormulaFigures compare(unsigned seed, int scenes, const std::array<unsigned, 2>& widths,
+                       const std::array<SphericalSetupOptions, 2>& options) {
   constexpr Preset c_preset = std::is_same_v<P, Exact> ? Preset::exact : Preset::published;
   RandomScenes random(seed);
-  Figures figures;
+  FormulaFigures figures;
   for (int i = 0; i < scenes && !testing::Test::HasFailure(); ++i) {
     const Scene scene = random_scene(random);
     SCOPED_TRACE(testing::Message() << "scene " << i << ", exponent " << scene.materials[0].exponent);
@@ -370,7 +370,7 @@ Figures compare(unsigned seed, int scenes, const std::array<unsigned, 2>& widths
 }
 
 TEST(SphericalSetup, ExactMatchesThePapersFormulasWithinTheRounding) {
-  const Figures figures = compare<Exact>(1, 160, {240, 70}, {{c_never_cut, {.threshold = 0.5}}});
+  const FormulaFigures figures = compare<Exact>(1, 160, {240, 70}, {{c_never_cut, {.threshold = 0.5}}});
   EXPECT_GT(figures.fragments, 200'000u);
   EXPECT_GT(figures.cut, 50u);
   EXPECT_GT(figures.overexposed, 50u);
@@ -385,13 +385,13 @@ TEST(SphericalSetup, ExactMatchesThePapersFormulasWithinTheRounding) {
 
 TEST(SphericalSetup, VectorsSlerpedAlongTheEdgesMatchTheFormulas) {
   const SphericalSetupOptions along{.ends = SpanEnds::slerped_along_edges};
-  const Figures figures = compare<Exact>(2, 80, {200, 200}, {along, along});
+  const FormulaFigures figures = compare<Exact>(2, 80, {200, 200}, {along, along});
   EXPECT_GT(figures.fragments, 50'000u);
   EXPECT_EQ(figures.cut, 0u) << "cutting does not change what lies along the edges";
 }
 
 TEST(SphericalSetup, PublishedMatchesThePapersFormulasModuloItsRegisters) {
-  const Figures figures = compare<Published>(3, 120, {120, 300}, {});
+  const FormulaFigures figures = compare<Published>(3, 120, {120, 300}, {});
   EXPECT_GT(figures.fragments, 100'000u);
   EXPECT_GT(figures.diffuse, 0.9);
   EXPECT_GT(figures.specular, 0.9);
@@ -408,10 +408,8 @@ struct Accuracy {
 
 void measure(const Scene& scene, FrameSize size, const SphericalSetupOptions& options, Accuracy& out) {
   const HardwareKey key = spherical_key(scene);
-  const Drawn drawn = draw(scene, size, key, options);
-  FrameAssembler assembler(size, scene.background);
-  ASSERT_TRUE(assembler.add(drawn.fragments));
-  const Frame& frame = assembler.frame();
+  const Drawn drawn = draw(scene, size, key, {.spherical = options});
+  const Frame frame = frame_of(scene, size, drawn.fragments);
   const auto triangles = projected(scene, size);
   const ReferenceImage truth = render_reference(
       scene, triangles, {.frame = size, .subpixel_bits = c_exact_subpixel_bits, .workers = on_threads(2)});
@@ -437,9 +435,9 @@ Scene lit_mesh(RandomScenes& random, int kind, RandomScenes::Lights lights) {
   if (kind == 0) {
     random.add_triangles(scene, 4, 1.5, 0.6);
   } else if (kind == 1) {
-    RandomScenes::set_mesh(scene, make_uv_sphere(12, 8, 1.0));
+    add_mesh(scene, make_uv_sphere(12, 8, 1.0));
   } else {
-    RandomScenes::set_mesh(scene, make_teapot(2));
+    add_mesh(scene, make_teapot(2));
     scene.camera.eye_world = {1.6, 5.0, 9.4};
     scene.camera.target_world = {0.2, 1.4, 0.0};
     radius = 3.0;
@@ -488,17 +486,17 @@ void add_on_screen(Scene& scene, Points p, FrameSize frame, RandomScenes& random
 // For any brightness the flanks of the bells stay correct below white. The remaining error is the resolution
 // of the tables, which increases with the light.
 TEST(SphericalSetup, OverExposureKeepsTheFlanks) {
-  struct Case {
+  struct Exposure {
     double intensity, least_psnr, largest_error;
   };
   for (const double specular : {0.0, 0.4})
-    for (const Case& expected :
-         {Case{1.0, 53.0, 3.0}, {10.0, 53.0, 9.0}, {100.0, 46.0, 50.0}, {1000.0, 34.0, 255.0}}) {
+    for (const Exposure& expected :
+         {Exposure{1.0, 53.0, 3.0}, {10.0, 53.0, 9.0}, {100.0, 46.0, 50.0}, {1000.0, 34.0, 255.0}}) {
       Scene scene;
       scene.camera.eye_world = {0.0, 0.0, 4.0};
       scene.materials = {
           {.name = "m", .ambient = 0.0, .diffuse = 0.6, .specular = specular, .exponent = 50.0}};
-      RandomScenes::set_mesh(scene, make_uv_sphere(24, 16, 1.0));
+      add_mesh(scene, make_uv_sphere(24, 16, 1.0));
       scene.directional.push_back(
           {glm::normalize(glm::dvec3(0.5, 0.4, 1.0)), glm::dvec3(expected.intensity)});
       Accuracy a;
@@ -569,7 +567,7 @@ TEST(SphericalSetup, AnyTriangleDrawsItsPixelsOnce) {
       for (const SphericalSetupOptions& options :
            {c_never_cut, c_cut, SphericalSetupOptions{.threshold = 0.01},
             SphericalSetupOptions{.ends = SpanEnds::slerped_along_edges}}) {
-        const Drawn drawn = draw(scene, frame, key, options);
+        const Drawn drawn = draw(scene, frame, key, {.spherical = options});
         ASSERT_TRUE(drawn_pixels(drawn.fragments) == covered(projected(scene, frame), frame))
             << "kind " << static_cast<int>(kind);
         pixels += drawn.fragments.size();
@@ -591,7 +589,7 @@ TEST(SphericalSetup, DepthIsThatOfThePlaneForEverySplit) {
       const Scene scene = lit_mesh(random, 1, RandomScenes::positional);
       std::map<std::uint32_t, ScreenTriangle> by_source;
       for (const ScreenTriangle& t : projected(scene, frame)) by_source.emplace(t.source, t);
-      const Drawn drawn = draw(scene, frame, spherical_key(scene), {.threshold = threshold});
+      const Drawn drawn = draw(scene, frame, spherical_key(scene), {.spherical = {.threshold = threshold}});
       cut += drawn.counts.subdivided;
       for (const Fragment& f : drawn.fragments)
         ASSERT_NEAR(f.z, paper::pixel_point(by_source.at(f.triangle), f.x, f.y).z * double((1 << 24) - 1),
@@ -661,8 +659,8 @@ TEST(SphericalSetup, CountsAreCorrect) {
   const Scene scene = lit_mesh(random, 1, RandomScenes::positional);
   const FrameSize frame{160, 120};
   const HardwareKey key = spherical_key(scene);
-  const SetupCounts whole = draw(scene, frame, key, c_never_cut).counts,
-                    cut = draw(scene, frame, key, c_cut).counts;
+  const SetupCounts whole = draw(scene, frame, key, {.spherical = c_never_cut}).counts,
+                    cut = draw(scene, frame, key).counts;
   EXPECT_EQ(whole.subdivided, 0u);
   EXPECT_EQ(whole.leaves, whole.vectors) << "no walk of this scene crosses the frame's side";
   EXPECT_GT(whole.records, 5 * whole.vectors);
@@ -677,7 +675,7 @@ TEST(SphericalSetup, CountsAreCorrect) {
   bright.ambient = {1e4, 0.0, 0.0};
   bright.materials[0].ambient = 1.0;
   bright.materials[0].colour = {0.5, 0.5, 0.5};
-  const SetupCounts counts = draw(bright, frame, spherical_key(bright), c_cut).counts;
+  const SetupCounts counts = draw(bright, frame, spherical_key(bright)).counts;
   EXPECT_EQ(counts.overexposed, counts.vectors);
 }
 
@@ -716,7 +714,7 @@ TEST(SphericalSetup, AtTheEyeTheNormalIsUsedAsItsDirection) {
 }
 
 // The notes of `halfway sim` on a scene, with the golden model only.
-std::string notes(const Scene& scene, Preset preset = Preset::exact) {
+std::string run_notes(const Scene& scene, Preset preset = Preset::exact) {
   SimulateSettings settings;
   settings.plan.shader = Shader::spherical;
   settings.plan.preset = preset;
@@ -737,12 +735,13 @@ TEST(SphericalSetup, TooLargeExponentsAreClampedAndNoted) {
   steep.materials[0].exponent = 1e9;
   clamped.materials[0].exponent = c_largest_exponent;
   for (const Preset preset : {Preset::exact, Preset::published}) {
-    const SphericalSetupOptions whole{.threshold = 1e9};
+    const SetupOptions whole{.spherical = c_never_cut};
     EXPECT_EQ(draw(steep, c_stage_frame, spherical_key(steep, preset), whole).words,
               draw(clamped, c_stage_frame, spherical_key(clamped, preset), whole).words);
   }
-  EXPECT_NE(notes(steep).find("exponent 1e+09 was clamped to 1e+06"), std::string::npos) << notes(steep);
-  EXPECT_EQ(notes(clamped).find("exponent"), std::string::npos);
+  EXPECT_NE(run_notes(steep).find("exponent 1e+09 was clamped to 1e+06"), std::string::npos)
+      << run_notes(steep);
+  EXPECT_EQ(run_notes(clamped).find("exponent"), std::string::npos);
 }
 
 TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
@@ -750,26 +749,26 @@ TEST(SphericalSetup, NotesSayWhereThePictureIsWorse) {
   scene.directional.push_back({{0, 0, 1}, glm::dvec3(1.0)});
   for (const double exponent : {1.0, 2.0, 20.0}) {
     scene.materials[0].exponent = exponent;
-    EXPECT_EQ(notes(scene), "");
+    EXPECT_EQ(run_notes(scene), "");
   }
   scene.materials[0].exponent = 1.3;
-  EXPECT_NE(notes(scene).find("that of 1.3 is off by up to 8.6 colour steps"), std::string::npos)
-      << notes(scene);
-  EXPECT_EQ(notes(scene, Preset::published).find("fits"), std::string::npos);
+  EXPECT_NE(run_notes(scene).find("that of 1.3 is off by up to 8.6 colour steps"), std::string::npos)
+      << run_notes(scene);
+  EXPECT_EQ(run_notes(scene, Preset::published).find("fits"), std::string::npos);
   // A material not in use, or without a highlight.
   scene.materials.push_back({.name = "not used", .exponent = 1.3});
   scene.materials[0].specular = 0.0;
-  EXPECT_EQ(notes(scene), "");
+  EXPECT_EQ(run_notes(scene), "");
 
   scene.directional[0].intensity = glm::dvec3(10.0);
-  EXPECT_NE(notes(scene).find("a light is reflected 5 times as bright as white"), std::string::npos)
-      << notes(scene);
-  EXPECT_EQ(notes(scene).find("clamped"), std::string::npos) << "there is room for this";
-  EXPECT_NE(notes(scene, Preset::published).find("exceed 4 times white and were clamped to it"),
+  EXPECT_NE(run_notes(scene).find("a light is reflected 5 times as bright as white"), std::string::npos)
+      << run_notes(scene);
+  EXPECT_EQ(run_notes(scene).find("clamped"), std::string::npos) << "there is room for this";
+  EXPECT_NE(run_notes(scene, Preset::published).find("exceed 4 times white and were clamped to it"),
             std::string::npos)
-      << notes(scene, Preset::published);
+      << run_notes(scene, Preset::published);
   scene.directional[0].intensity = glm::dvec3(1e6);
-  EXPECT_EQ(notes(scene).find("clamped"), std::string::npos) << "the pixels are white in both cases";
+  EXPECT_EQ(run_notes(scene).find("clamped"), std::string::npos) << "the pixels are white in both cases";
 }
 
 // A value that is clamped in preset exact would be white without the clamp, too.

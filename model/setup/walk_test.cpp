@@ -18,16 +18,16 @@ namespace {
 
 using golden::Exact;
 
-struct Span {
+struct LineSpan {
   std::int64_t y, begin, end;
-  friend bool operator==(const Span&, const Span&) = default;
-  friend std::ostream& operator<<(std::ostream& out, const Span& s) {
+  friend bool operator==(const LineSpan&, const LineSpan&) = default;
+  friend std::ostream& operator<<(std::ostream& out, const LineSpan& s) {
     return out << "line " << s.y << " [" << s.begin << ", " << s.end << ')';
   }
 };
 
-std::vector<Span> expected_spans(const Points& points, int unit_bits, FrameSize frame) {
-  std::vector<Span> spans;
+std::vector<LineSpan> expected_spans(const Points& points, int unit_bits, FrameSize frame) {
+  std::vector<LineSpan> spans;
   for_each_span(points, unit_bits, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
     spans.push_back({y, begin, end});
   });
@@ -35,7 +35,7 @@ std::vector<Span> expected_spans(const Points& points, int unit_bits, FrameSize 
 }
 
 // The spans of one walk as the hardware draws them. Its first and last line cover a pixel.
-void append_walk(const Walk& walk, std::vector<Span>& spans) {
+void append_walk(const Walk& walk, std::vector<LineSpan>& spans) {
   std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
   put_walk(words, walk);
   golden::TriangleWalker<Exact> walker;
@@ -44,8 +44,8 @@ void append_walk(const Walk& walk, std::vector<Span>& spans) {
   for (;;) {
     const std::int64_t start = walker.start().value(), stop = walker.stop().value();
     if (!walker.line_empty())
-      spans.push_back(walker.backward() ? Span{walker.y(), stop + 1, start + 1}
-                                        : Span{walker.y(), start, stop});
+      spans.push_back(walker.backward() ? LineSpan{walker.y(), stop + 1, start + 1}
+                                        : LineSpan{walker.y(), start, stop});
     if (walker.line_last()) break;
     walker.line_step();
   }
@@ -62,7 +62,7 @@ void expect_walks(const Points& p, int unit_bits, FrameSize frame, Seen& seen) {
                                     << ") (" << p[2].x << ',' << p[2].y << ") unit_bits " << unit_bits
                                     << " frame " << frame.width << 'x' << frame.height);
   const Walks walks = plan_walks(p, unit_bits, frame);
-  std::vector<Span> drawn;
+  std::vector<LineSpan> drawn;
   for (const Walk& walk : walks) {
     EXPECT_GE(walk.upper_lines, 1);
     EXPECT_GE(walk.lower_lines, 0);
@@ -75,13 +75,13 @@ void expect_walks(const Points& p, int unit_bits, FrameSize frame, Seen& seen) {
   ++seen.walks[walks.size()];
 }
 
-constexpr std::array<FrameSize, 9> c_frames = {
+constexpr std::array<FrameSize, 9> c_walk_frames = {
     {{1, 1}, {1, 4096}, {4096, 1}, {7, 5}, {64, 48}, {333, 200}, {640, 480}, {1000, 700}, {4096, 4096}}};
 
 TEST(Walk, TheHardwareDrawsExactlyTheSpansOfEveryKindOfTriangle) {
   Seen seen;
   for (int unit_bits = 4; unit_bits <= 9; ++unit_bits)
-    for (const FrameSize frame : c_frames)
+    for (const FrameSize frame : c_walk_frames)
       for (const TriangleKind kind : c_triangle_kinds) {
         RandomTriangles random(static_cast<unsigned>(unit_bits * 1000 + static_cast<int>(kind)));
         const int rounds = frame.height > 1000 ? 12 : 40;
@@ -117,7 +117,7 @@ TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
 // Adjacent columns draw the same pixels as the whole frame: each covered pixel is in exactly one column.
 TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
   std::uint64_t pieces_drawn = 0, pieces_empty = 0;
-  for (const FrameSize frame : c_frames)
+  for (const FrameSize frame : c_walk_frames)
     for (const TriangleKind kind : c_triangle_kinds) {
       RandomTriangles random(100 + static_cast<unsigned>(kind));
       const int width = static_cast<int>(frame.width);
@@ -131,12 +131,12 @@ TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
         for (int n = random.within(1, 8); n > 0; --n) cuts.push_back(random.within(0, width));
         cuts.push_back(std::min<std::int64_t>(width, cuts.back() + 1));
         std::ranges::sort(cuts);
-        const std::vector<Span> whole = expected_spans(p, 4, frame);
+        const std::vector<LineSpan> whole = expected_spans(p, 4, frame);
         for (std::size_t cut = 0; cut + 1 < cuts.size(); ++cut) {
           const Columns columns{cuts[cut], cuts[cut + 1]};
           if (columns.width() == 0) continue;
-          std::vector<Span> expected, drawn;
-          for (Span span : whole) {
+          std::vector<LineSpan> expected, drawn;
+          for (LineSpan span : whole) {
             span.begin = std::max(span.begin, columns.begin);
             span.end = std::min(span.end, columns.end);
             if (span.begin < span.end) expected.push_back(span);
@@ -159,7 +159,7 @@ TEST(Walk, ASingleLineEqualsTheLineOfTheWalk) {
   std::uint64_t lines = 0, carries = 0;
   for (const TriangleKind kind : c_triangle_kinds)
     for (int i = 0; i < 300; ++i) {
-      const FrameSize frame = c_frames[static_cast<std::size_t>(i) % c_frames.size()];
+      const FrameSize frame = c_walk_frames[static_cast<std::size_t>(i) % c_walk_frames.size()];
       for (const Walk& walk : plan_walks(random.next(kind, 4, frame), 4, frame)) {
         std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
         put_walk(words, walk);

@@ -301,7 +301,7 @@ void scales(Trial& trial) {
   for (int i = 0; i < trial.rounds(1, 10); ++i)
     for (const double scale : {1e-30, 1e-9, 1e-3, 1e3, 1e9, 1e30}) {
       Scene scene = lit(c_shiny);
-      RandomScenes::set_mesh(scene, make_uv_sphere(9, 7, 1.0));
+      add_mesh(scene, make_uv_sphere(9, 7, 1.0));
       scene.camera.eye_world = {0.0, 0.3, 3.4};
       random.add_lights(scene, 2, RandomScenes::any, 1.0, false);
       for (glm::dvec3& p : scene.positions_world) p *= scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For tests: a simple scene, its fragments by the golden model, and the error bound of preset exact for it.
+// For tests: a simple scene for the spherical shader, and the error bound of preset exact for it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
@@ -54,26 +53,6 @@ inline void move_eye_away(Scene& scene) {
 
 inline HardwareKey spherical_key(const Scene& scene, Preset preset = Preset::exact) {
   return must(plan_scene(scene, {.shader = Shader::spherical, .preset = preset})).key;
-}
-
-struct Drawn {
-  std::vector<Fragment> fragments;
-  std::vector<std::uint32_t> words;
-  std::size_t vector_words = 0;
-  SetupCounts counts;
-};
-
-inline Drawn draw(const Scene& scene, FrameSize frame, const HardwareKey& key,
-                  const SphericalSetupOptions& options = {}) {
-  const SphericalSetup setup(scene, frame, key, options);
-  const auto model = make_golden_model(key);
-  EXPECT_EQ(setup.init_bits(), model->init_bits());
-  Drawn drawn;
-  drawn.vector_words = (setup.init_bits() + 31) / 32;
-  setup.append_all(drawn.words, drawn.counts);
-  EXPECT_EQ(drawn.words.size(), (drawn.counts.vectors + drawn.counts.records) * drawn.vector_words);
-  model->draw(drawn.words, drawn.fragments);
-  return drawn;
 }
 
 /// Greatest difference, in colour steps, between a fragment and the illumination model if the interpolation

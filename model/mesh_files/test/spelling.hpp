@@ -3,7 +3,9 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <ostream>
@@ -22,6 +24,21 @@ struct Spelling {
 
 inline void PrintTo(const Spelling& spelling, std::ostream* out) {
   *out << spelling.name;
+}
+
+/// The name of a case of a suite of spellings.
+inline std::string name_of(const ::testing::TestParamInfo<Spelling>& test) {
+  std::string name = test.param.name;
+  std::ranges::replace(name, '.', '_');
+  return name;
+}
+
+/// The triangle that most spellings describe.
+inline const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
+
+/// The text with the first `what` replaced.
+inline std::string changed(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
 }
 
 /// The triangles by their corners: "x,y,z x,y,z x,y,z; ...". A refusal as its message, with '!' in front.

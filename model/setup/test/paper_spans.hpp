@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,7 @@
 namespace halfway::paper {
 
 using Real = long double;
+inline constexpr Real c_pi = std::numbers::pi_v<Real>;
 using Vector = glm::vec<3, Real>;
 
 inline Vector slerp_of(Vector a, Vector b, Real t) {

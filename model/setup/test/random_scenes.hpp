@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "scene/mesh.hpp"
 #include "scene/scene.hpp"
+#include "scene/test/add_mesh.hpp"
 
 namespace halfway {
 
@@ -88,13 +88,6 @@ class RandomScenes {
       const std::array<std::uint32_t, 3> corner = {p, front ? p + 1 : p + 2, front ? p + 2 : p + 1};
       scene.triangles.push_back({corner, corner, 0});
     }
-  }
-
-  static void set_mesh(Scene& scene, const Mesh& mesh) {
-    scene.positions_world = mesh.positions;
-    scene.normals_world = mesh.normals;
-    scene.triangles = mesh.triangles;
-    for (SceneTriangle& t : scene.triangles) t.material = 0;
   }
 
  private:

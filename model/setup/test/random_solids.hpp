@@ -15,26 +15,12 @@
 
 #include "scene/builtin_meshes.hpp"
 #include "scene/mesh.hpp"
+#include "scene/test/add_mesh.hpp"
 #include "shading/light_ray.hpp"
 
 namespace halfway {
 
 using LongVec = glm::vec<3, long double>;
-
-inline void add_mesh(Scene& scene, const Mesh& mesh) {
-  const auto first_position = static_cast<std::uint32_t>(scene.positions_world.size());
-  const auto first_normal = static_cast<std::uint32_t>(scene.normals_world.size());
-  scene.positions_world.insert(scene.positions_world.end(), mesh.positions.begin(), mesh.positions.end());
-  scene.normals_world.insert(scene.normals_world.end(), mesh.normals.begin(), mesh.normals.end());
-  for (SceneTriangle triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      triangle.position[i] += first_position;
-      triangle.normal[i] += first_normal;
-    }
-    triangle.material = 0;
-    scene.triangles.push_back(triangle);
-  }
-}
 
 class RandomSolids {
  public:
