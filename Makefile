@@ -185,12 +185,12 @@ test-all: build mcode ## run every test that has not passed on these files: cont
 
 testbench: configure ## run one VHDL testbench in GHDL, with vectors from the golden model (ENTITY)
 	@[ -n "$$ENTITY" ] || { echo 'testbench: give ENTITY=name, such as make testbench ENTITY=triangle_walker' >&2; exit 2; }
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_row_testbenches halfway_vectors
 	@ctest --test-dir build --output-on-failure --no-tests=error -R "^(tb|board)\.$$ENTITY\$$"
 
 # Warnings of clang-tidy and of GHDL are errors.
 lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_vectors rtl_lint_test
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_row_testbenches halfway_vectors rtl_lint_test
 	@$(lock) cmake --log-level=NOTICE --preset lint
 	@scripts/lint.sh build/lint "$(jobs)" "$$FILES"
 	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^rtl_lint_test$$'

@@ -59,8 +59,12 @@ package tb_pkg is
     procedure check_if (condition : in std_logic; name : in string; got : in std_logic);
     -- As check_if, with the condition as a word before the expected one.
     procedure check_known (name : in string; got : in std_logic_vector);
-    -- As check for each word of `bits` bits of `got`, the lowest first. A failure names it "NAME INDEX".
-    procedure check_words (name : in string; bits : in positive; got : in std_logic_vector);
+    -- As check for each of the `number` words of `got`, the lowest first. A failure names it "NAME INDEX". Without words
+    -- `got` must be 0.
+    procedure check_words (name : in string; number : in natural; got : in std_logic_vector);
+    -- Goes on with the rest of the row of `clocks` clocks before, which is not checked if there was none. Call it once
+    -- per row.
+    procedure look_back (clocks : in natural);
     -- Stops the run. The message gives the file and the number of the vector.
     procedure fail (message : in string);
   end protected;
@@ -134,6 +138,11 @@ package body tb_pkg is
     variable position  : positive;
     variable count     : natural;
     variable checked   : std_logic;
+
+    -- For look_back: the rests of this row and of those before.
+    type lines_t is array (0 to 3) of line;
+    variable rests         : lines_t;
+    variable rests_checked : std_logic_vector(lines_t'range) := (others => '0');
 
     procedure fail (message : in string) is
     begin
@@ -334,12 +343,32 @@ package body tb_pkg is
       check_if(known, name, got);
     end procedure;
 
-    procedure check_words (name : in string; bits : in positive; got : in std_logic_vector) is
+    procedure check_words (name : in string; number : in natural; got : in std_logic_vector) is
+      constant c_bits : positive := got'length / maximum(number, 1);
+
       alias words : std_logic_vector(got'length - 1 downto 0) is got;
     begin
-      for index in 0 to got'length / bits - 1 loop
-        check(name & " " & to_string(index), words((index + 1) * bits - 1 downto index * bits));
+      for index in 0 to number - 1 loop
+        check(name & " " & to_string(index), words((index + 1) * c_bits - 1 downto index * c_bits));
       end loop;
+      if number = 0 and words /= (words'range => '0') then
+        fail(name & " is " & to_text(got) & ", though it has no words");
+      end if;
+    end procedure;
+
+    procedure look_back (clocks : in natural) is
+    begin
+      deallocate(rests(rests'high));
+      rests(1 to rests'high)         := rests(0 to rests'high - 1);
+      rests_checked(1 to rests'high) := rests_checked(0 to rests'high - 1);
+      rests(0)                       := new string'(text_in(position to text_in'high));
+      rests_checked(0)               := checked;
+      checked                        := rests_checked(clocks);
+      if checked = '1' then
+        deallocate(text_in);
+        text_in  := new string'(rests(clocks).all);
+        position := text_in'low;
+      end if;
     end procedure;
   end protected body;
 

@@ -4,19 +4,27 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "rows/rows.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::mutants {
 namespace {
 
-/// The testbench of the entity, from the project's root.
-Result<std::string> testbench_of(const std::string& entity, const std::filesystem::path& source) {
+/// The testbench of the entity: a file of tb, or written from tb/rows.toml.
+Result<VhdlSource> testbench_of(const std::string& entity, const std::filesystem::path& source) {
+  const std::string name = entity + "_tb.vhd";
   const auto files = files_below(source / "tb", ".vhd");
   if (!files) return files.error();
   for (const auto& file : *files)
-    if (file.filename() == entity + "_tb.vhd") return (std::filesystem::path("tb") / file).string();
+    if (file.filename() == name)
+      return read_vhdl_source(source, (std::filesystem::path("tb") / file).string());
+  const auto written = caught([&] { return rows::testbenches(source); });
+  if (!written) return written.error();
+  if (const auto found = written->find(entity); found != written->end())
+    return VhdlSource{"tb/rows/" + name, found->second};
   return bad_input(fmt::format("source_faults.toml: {}: there is no testbench of this name", entity));
 }
 
@@ -73,12 +81,12 @@ Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::p
   if (!sources) return sources.error();
   const auto testbench = testbench_of(fault.test, source);
   if (!testbench) return testbench.error();
+  sources->push_back(*testbench);
   for (const std::string& name :
        {std::string("tb/tb_pkg.vhd"), std::string("tb/tb_processors_pkg.vhd"),
         std::string("tb/tb_shaders_pkg.vhd"), std::string("tb/stream/stream_source.vhd"),
-        std::string("tb/stream/stream_sink.vhd"), std::string("tb/interpolation/interpolator_checker.vhd"),
-        std::string("tb/shaders/shader_checker.vhd"), std::string("tb/illumination/processor_checker.vhd"),
-        *testbench}) {
+        std::string("tb/stream/stream_sink.vhd"), std::string("tb/shaders/shader_checker.vhd"),
+        std::string("tb/illumination/processor_checker.vhd")}) {
     const auto one = read_vhdl_source(source, name);
     if (!one) return one.error();
     sources->push_back(*one);
