@@ -51,7 +51,7 @@ void write_saturate(const Folder& folder) {
 // A line: checked, enable, a, b; product, before the edge. At full speed all products, or random ones; then
 // random ones with pauses.
 void write_multiplier_of(const Folder& folder, int a_bits, int b_bits) {
-  Random random(static_cast<std::uint64_t>(a_bits + b_bits));
+  Random random(a_bits + b_bits);
   VectorFile file;
   std::uint64_t quarters = 0, halves = 0, product = 0;
   int filled = 0;
@@ -91,7 +91,7 @@ void write_angle_address(const Folder& folder, int address_bits) {
   if constexpr (c_bits <= 16) {
     for (std::uint64_t bits = 0; bits < std::uint64_t{1} << c_bits; ++bits) add(bits);
   } else {
-    Random random(static_cast<std::uint64_t>(address_bits));
+    Random random(address_bits);
     // Both ends of every cell within three half bells of the top, and an angle between; every power of two
     // with its neighbours.
     const std::uint64_t cell = std::uint64_t{1} << (c_fraction - address_bits);
@@ -114,15 +114,15 @@ void write_angle_address(const Folder& folder, int address_bits) {
 
 // A line: the terms as one flat word, the last term first; result.
 void write_sum_of(const Folder& folder, int terms, int term_bits, int fraction_bits, int result_bits) {
-  Random random(static_cast<std::uint64_t>(terms * term_bits));
-  Random enables(static_cast<std::uint64_t>(terms));
+  Random random(terms * term_bits);
+  Random enables(terms);
   Pipeline pipeline(1);
   std::vector<std::uint64_t> values(static_cast<std::size_t>(terms));
   const auto add = [&] {
     golden::SaturatingSum sum;
     std::vector<std::uint32_t> flat(static_cast<std::size_t>(terms * term_bits + 31) / 32);
     for (int i = 0; i < terms; ++i) {
-      const std::uint64_t value = values[static_cast<std::size_t>(i)];
+      const std::uint64_t value = values[i];
       sum.add(value);
       golden::set_bits(flat, {"term", i * term_bits, term_bits, false, 0}, value);
     }
@@ -133,8 +133,7 @@ void write_sum_of(const Folder& folder, int terms, int term_bits, int fraction_b
   };
   if (terms * term_bits <= 16) {
     for (std::uint64_t all = 0; all < std::uint64_t{1} << terms * term_bits; ++all) {
-      for (int i = 0; i < terms; ++i)
-        values[static_cast<std::size_t>(i)] = golden::low_bits(all >> i * term_bits, term_bits);
+      for (int i = 0; i < terms; ++i) values[i] = golden::low_bits(all >> i * term_bits, term_bits);
       add();
     }
   } else {
@@ -178,44 +177,35 @@ void write_sum_of(const Folder& folder, int terms, int term_bits, int fraction_b
   pipeline.write(folder / fmt::format("{}_{}_{}_{}.txt", terms, term_bits, fraction_bits, result_bits));
 }
 
-void write_saturate(const Folder& folder) {
-  write_saturate<16, 4, 8>(folder);
-  write_saturate<12, 2, 8>(folder);  // the fewest bits: no spare bit
-  write_saturate<11, 0, 8>(folder);
-  write_saturate<Exact::c_intensity_bits, Exact::c_intensity_fraction_bits, Exact::c_colour_bits>(folder);
-  write_saturate<Published::c_intensity_bits, Published::c_intensity_fraction_bits, Published::c_colour_bits>(
-      folder);
-}
-
-void write_multiplier(const Folder& folder) {
-  for (const auto& [a, b] : {std::pair{1, 1}, std::pair{8, 8}, std::pair{4, 9}, std::pair{8, 18},
-                             std::pair{18, 12}, std::pair{8, 24}, std::pair{12, 24}, std::pair{32, 32}})
-    write_multiplier_of(folder, a, b);
-}
-
-void write_angle_address(const Folder& folder) {
-  for (const int address_bits : {3, 9, 12}) write_angle_address<Exact>(folder, address_bits);
-  for (const int address_bits : {4, 6, 12}) write_angle_address<Published>(folder, address_bits);
-}
-
-void write_saturating_sum(const Folder& folder) {
-  struct Sizes {
-    int terms, term_bits, fraction_bits, result_bits;
-  };
-  for (const Sizes& s :
-       {Sizes{1, 16, 4, 8}, Sizes{2, 8, 2, 6}, Sizes{2, 6, 0, 6}, Sizes{3, 5, 1, 4}, Sizes{5, 3, 0, 4},
-        Sizes{3, 24, 14, 8}, Sizes{33, 26, 16, 8}, Sizes{33, 32, 16, 8}, Sizes{3, 36, 20, 8}})
-    write_sum_of(folder, s.terms, s.term_bits, s.fraction_bits, s.result_bits);
-}
-
 }  // namespace
 
 std::vector<Entity> arithmetic_entities() {
   return {
-      {"saturate", write_saturate},
-      {"multiplier", write_multiplier},
-      {"angle_address", write_angle_address},
-      {"saturating_sum", write_saturating_sum},
+      {"saturate",
+       [](const Folder& folder) {
+         write_saturate<16, 4, 8>(folder);
+         write_saturate<12, 2, 8>(folder);  // the fewest bits: no spare bit
+         write_saturate<11, 0, 8>(folder);
+         in_both_presets([]<class P>(const Folder& f) {
+           write_saturate<P::c_intensity_bits, P::c_intensity_fraction_bits, P::c_colour_bits>(f);
+         })(folder);
+       }},
+      {"multiplier", of_sizes(write_multiplier_of,
+                              {{1, 1}, {8, 8}, {4, 9}, {8, 18}, {18, 12}, {8, 24}, {12, 24}, {32, 32}})},
+      {"angle_address",
+       [](const Folder& folder) {
+         for (const int address_bits : {3, 9, 12}) write_angle_address<Exact>(folder, address_bits);
+         for (const int address_bits : {4, 6, 12}) write_angle_address<Published>(folder, address_bits);
+       }},
+      {"saturating_sum", of_sizes(write_sum_of, {{1, 16, 4, 8},
+                                                 {2, 8, 2, 6},
+                                                 {2, 6, 0, 6},
+                                                 {3, 5, 1, 4},
+                                                 {5, 3, 0, 4},
+                                                 {3, 24, 14, 8},
+                                                 {33, 26, 16, 8},
+                                                 {33, 32, 16, 8},
+                                                 {3, 36, 20, 8}})},
   };
 }
 

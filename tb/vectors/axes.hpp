@@ -24,7 +24,7 @@ inline golden::Axes random_axes(Random& random, int bits) {
   const auto smaller = random.between(0, bits - 1);
   const bool alike = random.one_in(2);
   for (std::int64_t& component : v) component = signed_word(random, bits) >> (alike ? smaller : 0);
-  if (random.one_in(8)) v[static_cast<std::size_t>(random.between(0, 2))] = 0;
+  if (random.one_in(8)) v[random.between(0, 2)] = 0;
   if (random.one_in(50)) v = {};
   if (random.one_in(50)) v = {-1, 0, -1};
   return v;

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <tuple>
 #include <vector>
 
+#include "golden/formats.hpp"
 #include "sim/system/must.hpp"
 
 namespace halfway::vectors {
@@ -14,8 +17,25 @@ using Folder = std::filesystem::path;
 
 struct Entity {
   const char* name;
-  void (*write)(const Folder& folder);  ///< `folder` belongs to the entity
+  std::function<void(const Folder& folder)> write;  ///< `folder` belongs to the entity
 };
+
+/// Calls write.operator()<Preset>(folder) for both presets.
+template <class Write>
+auto in_both_presets(const Write& write) {
+  return [write](const Folder& folder) {
+    write.template operator()<golden::Exact>(folder);
+    write.template operator()<golden::Published>(folder);
+  };
+}
+
+/// Calls write(folder, sizes...) for each of the sizes.
+template <class... Size>
+auto of_sizes(void (*write)(const Folder&, Size...), const std::vector<std::tuple<Size...>>& all) {
+  return [write, all](const Folder& folder) {
+    for (const auto& sizes : all) std::apply([&](const Size... size) { write(folder, size...); }, sizes);
+  };
+}
 
 /// Folders short/ENTITY have the stimulus of `make test`: as many pixels or tokens, divided by this.
 inline constexpr int c_short = 4;

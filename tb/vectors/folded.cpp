@@ -63,9 +63,8 @@ void write_preset(const Folder& folder, const Has& has, const Write& write) {
   for (const Processor& processor : processors()) {
     const Abilities<Preset> can(processor);
     if (!has(can)) continue;
-    Random random(
-        static_cast<std::uint64_t>(golden::ProcessorsLayout<Preset>(processor.config).token_bits() * 100 +
-                                   static_cast<int>(processor.term) * 10 + processor.light));
+    Random random(golden::ProcessorsLayout<Preset>(processor.config).token_bits() * 100 +
+                  static_cast<int>(processor.term) * 10 + processor.light);
     VectorFile file;
     write.template operator()<Preset>(processor, can, random, file);
     file.write(folder / (name_of<Preset>(processor) + ".txt"));
@@ -207,9 +206,7 @@ Axes shifted_of(const Axes& v, int bits) {
 template <class Preset>
 std::uint32_t square_of(std::int64_t dot) {
   return static_cast<std::uint32_t>(golden::low_bits(
-      static_cast<std::uint64_t>(dot >>
-                                 (2 * (Preset::c_direction_bits - 1) - Preset::c_square_fraction_bits)),
-      Preset::c_square_bits));
+      dot >> (2 * (Preset::c_direction_bits - 1) - Preset::c_square_fraction_bits), Preset::c_square_bits));
 }
 
 Axes wrapped(const Axes& v, int bits) {
@@ -358,12 +355,11 @@ void write_shared_dot_product(const Folder& folder) {
           const bool can_do[] = {can.of_light(), can.first, can.second, can.spots,
                                  can.term == Term::specular && Abilities<Preset>::c_exact};
           while (!can_do[operands]) operands = random.between(0, 4);
-          file.word(static_cast<std::uint64_t>(operands), 32);
+          file.word(operands, 32);
           for (const Axes& v : {shifted, normal, to_light, half, axis})
             add(file, v, Preset::c_direction_bits);
           file.flag(last.has_value());
-          file.word(static_cast<std::uint64_t>(last.value_or(0)), 2 * Preset::c_direction_bits + 1)
-              .end_vector();
+          file.word(last.value_or(0), 2 * Preset::c_direction_bits + 1).end_vector();
           const bool highlight = can.term == Term::specular;
           const Axes& a = operands == 1 || operands == 2 ? shifted : operands == 3 ? to_light : normal;
           const Axes& b = operands == 1 || operands == 2 ? shifted
@@ -398,14 +394,14 @@ void write_shared_multiplier(const Folder& folder) {
                                  can.spots,  can.of_light() && last_step == 0};
           auto step = random.between(0, 5);
           while (!can_do[step]) step = random.between(0, 5);
-          file.word(static_cast<std::uint64_t>(step), 32);
+          file.word(step, 32);
           add(file, w.token_words);
           add(file, w.light_words);
           add(file, shifted, Preset::c_direction_bits);
-          file.word(static_cast<std::uint64_t>(root), Preset::c_root_bits + 1);
+          file.word(root, Preset::c_root_bits + 1);
           file.word(weight, Preset::c_weight_bits).word(factor, Preset::c_weight_bits);
-          file.word(static_cast<std::uint64_t>(known), 32);
-          for (const std::int64_t product : last) file.word(static_cast<std::uint64_t>(product), 64);
+          file.word(known, 32);
+          for (const std::int64_t product : last) file.word(product, 64);
           file.end_vector();
           known = step >= 1 && step <= 3 ? 3 : step == 4 ? 1 : p.config.channels;
           switch (step) {
@@ -459,9 +455,9 @@ void write_shared_normalizer(const Folder& folder) {
             component =
                 golden::round_half_up(component, Preset::c_direction_bits - 1 + Preset::c_root_fraction_bits -
                                                      Preset::c_direction_fraction_bits);
-          file.word(static_cast<std::uint64_t>(step), 32);
+          file.word(step, 32);
           add(file, vector, bits);
-          file.word(static_cast<std::uint64_t>(dot), 2 * Preset::c_direction_bits + 1);
+          file.word(dot, 2 * Preset::c_direction_bits + 1);
           add(file, products, c_scaled_bits);
           file.flag(shifted.has_value());
           add(file, shifted.value_or(Axes{}), Preset::c_direction_bits);
@@ -499,10 +495,10 @@ void write_shared_weight(const Folder& folder) {
                                            : golden::cosine_power<Preset>(normal, a, exponent);
           const std::int64_t axis_sum = golden::dot_product(to_light, axis);
           const std::uint32_t factor = golden::SpotCone<Preset>::factor(axis_sum, outer, slope);
-          file.flag(spot).word(static_cast<std::uint64_t>(outer), Preset::c_direction_bits);
+          file.flag(spot).word(outer, Preset::c_direction_bits);
           file.word(slope, Preset::c_spot_slope_bits).word(exponent, Preset::c_exponent_bits);
-          file.word(static_cast<std::uint64_t>(golden::dot_product(normal, a)), c_dot_bits);
-          file.word(static_cast<std::uint64_t>(axis_sum), c_dot_bits);
+          file.word(golden::dot_product(normal, a), c_dot_bits);
+          file.word(axis_sum, c_dot_bits);
           file.word(std::uint64_t{raised} * factor, 2 * Preset::c_weight_bits);
           file.word(raised, Preset::c_weight_bits).word(factor, Preset::c_weight_bits);
           file.word(spot ? golden::light_weight<Preset>(raised, to_light, axis, outer, slope) : raised,

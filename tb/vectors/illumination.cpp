@@ -43,7 +43,7 @@ using Products = std::array<std::uint64_t, 3>;
 template <class Product>
 Products products_of(int channels, const Product& product) {
   Products products{};
-  for (int c = 0; c < channels; ++c) products[static_cast<std::size_t>(c)] = product(c);
+  for (int c = 0; c < channels; ++c) products[c] = product(c);
   return products;
 }
 
@@ -54,7 +54,7 @@ struct SliceSize {
 };
 
 void add_products(VectorFile& file, const Products& products, int channels, int bits) {
-  for (int c = 0; c < channels; ++c) file.word(products[static_cast<std::size_t>(c)], bits);
+  for (int c = 0; c < channels; ++c) file.word(products[c], bits);
 }
 
 /// Columns part, span_load, span_step, sample_step of one clock, after `checked`.
@@ -129,7 +129,7 @@ void write_specular(const Folder& folder, const SliceSize& size) {
                                   size.address_bits, size.data_bits));
 }
 
-// A light. tb/shaders/spherical_light_tb.vhd has the same list.
+// A light. tb/rows.toml has the same list.
 struct LightWords {
   const char* name;
   golden::SphericalConfig config;
@@ -154,7 +154,7 @@ void write_light(const Folder& folder, const LightWords& light) {
   const golden::SphericalConfig& config = light.config;
   const golden::SphericalLayout<Preset> layout(config);
   const int bits = layout.record_bits();
-  Random random(static_cast<std::uint64_t>(bits));
+  Random random(bits);
   VectorFile file;
   golden::SphericalLight<Preset> twin(config);
   const auto terms = [&] {
@@ -183,7 +183,7 @@ void write_light(const Folder& folder, const LightWords& light) {
 template <class Preset>
 void write_ambient(const Folder& folder, int channels, int data_bits, int depth) {
   const int bits = channels * Preset::c_ambient_channel_bits;
-  Random random(static_cast<std::uint64_t>(bits + depth));
+  Random random(bits + depth);
   VectorFile file;
   golden::AmbientLight<Preset> twin(channels, data_bits);
   golden::DelayLine<ColourTerms> delay(depth);
@@ -205,7 +205,7 @@ template <class Preset>
 void write_colour_sum_of(const Folder& folder, int channels, int terms, int data_bits) {
   const int bits = Preset::c_factor_bits + data_bits;
   const std::int64_t white = std::int64_t{300} << (Preset::c_factor_fraction_bits + data_bits);
-  Random random(static_cast<std::uint64_t>(channels * terms + bits));
+  Random random(channels * terms + bits);
   Pipeline pipeline(1);
   for (int i = 0; i < 3000; ++i) {
     golden::ColourSum<Preset> sum(channels, data_bits);
@@ -214,11 +214,9 @@ void write_colour_sum_of(const Folder& folder, int channels, int terms, int data
       ColourTerms group{};
       for (int c = 0; c < channels; ++c) {
         // Sums around white, few of them far above.
-        group[static_cast<std::size_t>(c)] =
-            random.one_in(16)
-                ? random.word(bits)
-                : golden::low_bits(static_cast<std::uint64_t>(random.between(0, 2 * white / terms)), bits);
-        words.add(group[static_cast<std::size_t>(c)], bits);
+        group[c] = random.one_in(16) ? random.word(bits)
+                                     : golden::low_bits(random.between(0, 2 * white / terms), bits);
+        words.add(group[c], bits);
       }
       sum.add(group);
     }
@@ -252,43 +250,42 @@ void write_cosine_rom(const Folder& folder) {
   }
 }
 
-void write_diffuse_slice(const Folder& folder) {
-  for (const int channels : {0, 1, 3}) write_diffuse<Exact>(folder, {channels, 0, 9, 8});
-  write_diffuse<Published>(folder, {3, 0, 6, 6});
-  write_diffuse<Published>(folder, {1, 0, 4, 4});
-}
-
-void write_specular_slice(const Folder& folder) {
-  for (const auto& [channels, powers] : {std::pair{3, 31u}, std::pair{3, 18u}, std::pair{1, 8u}})
-    write_specular<Exact>(folder, {channels, powers, 9, 8});
-  write_specular<Published>(folder, {3, 2, 6, 6});
-  write_specular<Published>(folder, {1, 2, 4, 4});
-}
-
-void write_spherical_light(const Folder& folder) {
-  for (const LightWords& light : c_exact_lights) write_light<Exact>(folder, light);
-  for (const LightWords& light : c_published_lights) write_light<Published>(folder, light);
-}
-
-void write_ambient_light(const Folder& folder) {
-  write_ambient<Exact>(folder, 3, 8, 4);
-  write_ambient<Exact>(folder, 1, 8, 4);
-  write_ambient<Published>(folder, 3, 6, 2);
-}
-
-void write_colour_sum(const Folder& folder) {
-  for (const int terms : {1, 3, 5}) write_colour_sum_of<Exact>(folder, 3, terms, 8);
-  write_colour_sum_of<Exact>(folder, 1, 3, 8);
-  write_colour_sum_of<Published>(folder, 3, 3, 6);
-}
-
 }  // namespace
 
 std::vector<Entity> illumination_entities() {
   return {
-      {"cosine_rom", write_cosine_rom},         {"diffuse_slice", write_diffuse_slice},
-      {"specular_slice", write_specular_slice}, {"spherical_light", write_spherical_light},
-      {"ambient_light", write_ambient_light},   {"colour_sum", write_colour_sum},
+      {"cosine_rom", write_cosine_rom},
+      {"diffuse_slice",
+       [](const Folder& folder) {
+         for (const int channels : {0, 1, 3}) write_diffuse<Exact>(folder, {channels, 0, 9, 8});
+         write_diffuse<Published>(folder, {3, 0, 6, 6});
+         write_diffuse<Published>(folder, {1, 0, 4, 4});
+       }},
+      {"specular_slice",
+       [](const Folder& folder) {
+         write_specular<Exact>(folder, {3, 31, 9, 8});
+         write_specular<Exact>(folder, {3, 18, 9, 8});
+         write_specular<Exact>(folder, {1, 8, 9, 8});
+         write_specular<Published>(folder, {3, 2, 6, 6});
+         write_specular<Published>(folder, {1, 2, 4, 4});
+       }},
+      {"spherical_light",
+       [](const Folder& folder) {
+         for (const LightWords& light : c_exact_lights) write_light<Exact>(folder, light);
+         for (const LightWords& light : c_published_lights) write_light<Published>(folder, light);
+       }},
+      {"ambient_light",
+       [](const Folder& folder) {
+         write_ambient<Exact>(folder, 3, 8, 4);
+         write_ambient<Exact>(folder, 1, 8, 4);
+         write_ambient<Published>(folder, 3, 6, 2);
+       }},
+      {"colour_sum",
+       [](const Folder& folder) {
+         for (const int terms : {1, 3, 5}) write_colour_sum_of<Exact>(folder, 3, terms, 8);
+         write_colour_sum_of<Exact>(folder, 1, 3, 8);
+         write_colour_sum_of<Published>(folder, 3, 3, 6);
+       }},
   };
 }
 

@@ -90,7 +90,7 @@ void write_skewed_interpolator(const Folder& folder, int parts) {
 
 // A line: checked, load, start, value, before the edge that may load. Contains two words next to each other.
 void write_skewed_register(const Folder& folder, int bits, int parts) {
-  Random random(static_cast<std::uint64_t>(bits));
+  Random random(bits);
   VectorFile file;
   golden::ParameterRegister<std::array<std::uint64_t, 2>> twin;
   std::array<Skew, 2> skew_start{Skew(bits, parts), Skew(bits, parts)}, skew_value = skew_start;
@@ -109,7 +109,7 @@ void write_skewed_register(const Folder& folder, int bits, int parts) {
 
 // A line: checked, select_b, a, b; value, before the edge.
 void write_skewed_multiplexer(const Folder& folder, int bits, int parts) {
-  Random random(static_cast<std::uint64_t>(bits));
+  Random random(bits);
   VectorFile file;
   Skew skew_a(bits, parts), skew_b(bits, parts), skew_value(bits, parts);
   write_skewed(folder, file, bits, parts, [&](int) {
@@ -121,7 +121,7 @@ void write_skewed_multiplexer(const Folder& folder, int bits, int parts) {
 
 // A line: checked, strobe; strobes, before the edge. The strobes are a word with one bit per part.
 void write_skewed_strobe(const Folder& folder, int parts) {
-  Random random(static_cast<std::uint64_t>(parts));
+  Random random(parts);
   VectorFile file;
   Skew skew(parts, parts);
   write_skewed(folder, file, 1, parts, [&](int) {
@@ -132,7 +132,7 @@ void write_skewed_strobe(const Folder& folder, int parts) {
 
 // A line: checked, skewed; word, before the edge.
 void write_deskew(const Folder& folder, int bits, int parts) {
-  Random random(static_cast<std::uint64_t>(bits));
+  Random random(bits);
   VectorFile file;
   Skew skew(bits, parts);
   std::vector<std::uint64_t> words(static_cast<std::size_t>(parts));
@@ -198,9 +198,8 @@ void write_plane(const std::filesystem::path& path) {
   std::array<golden::Word<W>, 4> words;
   const auto draw = [&](auto& plane) {
     for (int w = 0; w < 4; ++w) {
-      words[static_cast<std::size_t>(w)] = random.word<W>();
-      if (w * W < c_bits)
-        golden::set_bits(plane, {"", w * W, W, true, 0}, words[static_cast<std::size_t>(w)].bits());
+      words[w] = random.word<W>();
+      if (w * W < c_bits) golden::set_bits(plane, {"", w * W, W, true, 0}, words[w].bits());
     }
   };
   write_strobed<c_bits>(path, random, 2500, twin, draw, [&](const auto&) {
@@ -234,78 +233,41 @@ void write_quadratic(const Folder& folder) {
                                              twin, draw, [&](const auto& init) { twin.line_load(init, 0); });
 }
 
-void write_line_interpolator(const Folder& folder) {
-  write_line<3>(folder);
-  write_line<Published::c_intensity_bits>(folder);
-  write_line<Exact::c_intensity_bits>(folder);
-}
-
-void write_part_interpolator(const Folder& folder) {
-  write_part<3>(folder);
-  write_part<Published::c_intensity_bits / 2>(folder);
-  write_part<Exact::c_intensity_bits / 2>(folder);
-}
-
-void write_skewed_interpolator(const Folder& folder) {
-  write_skewed_interpolator<7>(folder, 3);
-  write_skewed_interpolator<Published::c_intensity_bits>(folder, 1);
-  write_skewed_interpolator<Exact::c_intensity_bits>(folder, 2);
-}
-
-void write_skewed_register(const Folder& folder) {
-  write_skewed_register(folder, 7, 3);
-  write_skewed_register(folder, 32, 1);
-  write_skewed_register(folder, 20, 2);
-}
-
-void write_skewed_multiplexer(const Folder& folder) {
-  write_skewed_multiplexer(folder, 7, 3);
-  write_skewed_multiplexer(folder, 32, 1);
-  write_skewed_multiplexer(folder, 40, 2);
-}
-
-void write_skewed_strobe(const Folder& folder) {
-  write_skewed_strobe(folder, 1);
-  write_skewed_strobe(folder, 2);
-  write_skewed_strobe(folder, 3);
-}
-
-void write_deskew(const Folder& folder) {
-  write_deskew(folder, 7, 3);
-  write_deskew(folder, 32, 1);
-  write_deskew(folder, 40, 2);
-}
-
-void write_plane_interpolator(const Folder& folder) {
-  write_plane<Exact::c_plane_sum_bits, true>(folder / "exact.txt");
-  write_plane<Published::c_plane_sum_bits, true>(folder / "published.txt");
-  write_plane<7, false>(folder / "without_carry.txt");
-}
-
-void write_z_interpolator(const Folder& folder) {
-  write_z<Exact>(folder);
-  write_z<Published>(folder);
-}
-
-void write_quadratic_interpolator(const Folder& folder) {
-  write_quadratic<Exact>(folder);
-  write_quadratic<Published>(folder);
-}
-
 }  // namespace
 
 std::vector<Entity> interpolation_entities() {
+  const std::vector<std::tuple<int, int>> sizes{{7, 3}, {32, 1}, {40, 2}};  // bits, parts
   return {
-      {"line_interpolator", write_line_interpolator},
-      {"part_interpolator", write_part_interpolator},
-      {"skewed_strobe", write_skewed_strobe},
-      {"skewed_register", write_skewed_register},
-      {"skewed_multiplexer", write_skewed_multiplexer},
-      {"deskew", write_deskew},
-      {"skewed_interpolator", write_skewed_interpolator},
-      {"plane_interpolator", write_plane_interpolator},
-      {"z_interpolator", write_z_interpolator},
-      {"quadratic_interpolator", write_quadratic_interpolator},
+      {"line_interpolator",
+       [](const Folder& folder) {
+         write_line<3>(folder);
+         write_line<Published::c_intensity_bits>(folder);
+         write_line<Exact::c_intensity_bits>(folder);
+       }},
+      {"part_interpolator",
+       [](const Folder& folder) {
+         write_part<3>(folder);
+         write_part<Published::c_intensity_bits / 2>(folder);
+         write_part<Exact::c_intensity_bits / 2>(folder);
+       }},
+      {"skewed_strobe", of_sizes(write_skewed_strobe, {1, 2, 3})},
+      {"skewed_register", of_sizes(write_skewed_register, {{7, 3}, {32, 1}, {20, 2}})},
+      {"skewed_multiplexer", of_sizes(write_skewed_multiplexer, sizes)},
+      {"deskew", of_sizes(write_deskew, sizes)},
+      {"skewed_interpolator",
+       [](const Folder& folder) {
+         write_skewed_interpolator<7>(folder, 3);
+         write_skewed_interpolator<Published::c_intensity_bits>(folder, 1);
+         write_skewed_interpolator<Exact::c_intensity_bits>(folder, 2);
+       }},
+      {"plane_interpolator",
+       [](const Folder& folder) {
+         write_plane<Exact::c_plane_sum_bits, true>(folder / "exact.txt");
+         write_plane<Published::c_plane_sum_bits, true>(folder / "published.txt");
+         write_plane<7, false>(folder / "without_carry.txt");
+       }},
+      {"z_interpolator", in_both_presets([]<class P>(const Folder& f) { write_z<P>(f); })},
+      {"quadratic_interpolator", in_both_presets([]<class P>(const Folder& f) { write_quadratic<P>(f); })},
   };
 }
 

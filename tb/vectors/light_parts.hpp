@@ -30,8 +30,8 @@ void put_angle(InitVector& vector, Random& random, int low) {
   }
   const std::int64_t one = std::int64_t{1} << At::angle.fraction_bits;
   const auto angle = random.between(-one * 5 / 4, one * 5 / 4), slope = random.between(-one / 12, one / 12);
-  set_bits(vector, At::angle, static_cast<std::uint64_t>(angle), low);
-  set_bits(vector, At::slope, static_cast<std::uint64_t>(slope), low);
+  set_bits(vector, At::angle, angle, low);
+  set_bits(vector, At::slope, slope, low);
 }
 
 /// The diffuse part of a light at bit `low`. `terms` as in put_colour.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_vectors ENTITY|all FOLDER: writes FOLDER/ENTITY/*.txt for tb/**/ENTITY_tb.vhd.
+// halfway_vectors ENTITY|all FOLDER: writes FOLDER/ENTITY/*.txt for the testbench of ENTITY.
 #include <fmt/format.h>
 
 #include <cstdio>

@@ -29,7 +29,7 @@ struct Flat {
 
 inline Flat flat(const golden::Axes& v, int bits) {
   Flat all;
-  for (const std::int64_t component : v) all.add(static_cast<std::uint64_t>(component), bits);
+  for (const std::int64_t component : v) all.add(component, bits);
   return all;
 }
 
@@ -43,9 +43,7 @@ inline Flat flat(const std::vector<std::uint32_t>& words, int bits) {
 /// First line: latency. Then one line per clock: checked, enable, inputs; the result, before the edge.
 class Pipeline {
  public:
-  explicit Pipeline(int latency) : latency_(latency), due_(latency) {
-    file_.word(static_cast<std::uint64_t>(latency), 32).end_vector();
-  }
+  explicit Pipeline(int latency) : latency_(latency), due_(latency) { file_.word(latency, 32).end_vector(); }
   void clock(bool enable, std::initializer_list<Flat> inputs, const Flat& result) {
     file_.flag(due_.full()).flag(enable);
     for (const Flat& input : inputs) file_.words_of(input.words, input.bits);

@@ -27,7 +27,7 @@ template <class Preset>
 void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults) {
   const auto& [config, term, light] = processor;
   const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
-  TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits * 8 + static_cast<int>(term) * 3 + light));
+  TokenMaker<Preset> maker(config, bits * 8 + static_cast<int>(term) * 3 + light);
   golden::ShadingProcessor<Preset> twin(config, term, light);
   VectorFile file;
   // At the end, with faults: more volumes than the counter can count.
@@ -90,8 +90,7 @@ void write_ambient_term_of(const Folder& folder) {
     Flat result = flat_terms<Preset>(twin.terms(token, light));
     twin.ready_vectors(token);
     for (const Axes& v : {token.normal, c_exact ? token.view : Axes{}})
-      for (const std::int64_t component : v)
-        result.add(static_cast<std::uint64_t>(component), Preset::c_direction_bits);
+      for (const std::int64_t component : v) result.add(component, Preset::c_direction_bits);
     pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
   }
   pipeline.write(folder / fmt::format("{}.txt", Preset::c_name));
@@ -101,7 +100,7 @@ void write_ambient_term_of(const Folder& folder) {
 template <class Preset>
 void write_light_term_of(const Folder& folder, Term term, int light_number, int latency) {
   const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
-  TokenMaker<Preset> maker(part_config(), static_cast<std::uint64_t>(latency));
+  TokenMaker<Preset> maker(part_config(), latency);
   const golden::LightTerm<Preset> twin(part_config(), term, light_number);
   Pipeline pipeline(latency);
   golden::ShadingLight light;
@@ -154,7 +153,7 @@ void write_light_state_of(const Folder& folder) {
 template <class Preset>
 void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool faults, int tokens) {
   const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
-  TokenMaker<Preset> maker(config, static_cast<std::uint64_t>(bits));
+  TokenMaker<Preset> maker(config, bits);
   golden::ShadingPipeline<Preset> twin(config);
   VectorFile file;
   const int last = tokens + (faults ? c_too_many : 0);
@@ -185,17 +184,12 @@ void write_pipelines(const Folder& folder, int tokens, bool faults) {
     write_pipeline<Preset>(folder, config, faults && config.shadows, tokens);
 }
 
-void write_ambient_term(const Folder& folder) {
-  write_ambient_term_of<Exact>(folder);
-  write_ambient_term_of<Published>(folder);
-}
-
 void write_light_term(const Folder& folder) {
   struct Case {
     Term term;
     int light, exact, published;  // clocks
   };
-  // A directional light, a positional light, a spot. The list of tb/illumination/light_term_tb.vhd.
+  // A directional light, a positional light, a spot. The list of tb/rows.toml.
   constexpr Case c_cases[] = {{Term::diffuse, 1, 3, 3},   {Term::specular, 1, 17, 4},
                               {Term::diffuse, 2, 13, 9},  {Term::specular, 2, 27, 10},
                               {Term::diffuse, 3, 17, 13}, {Term::specular, 3, 28, 13}};
@@ -203,11 +197,6 @@ void write_light_term(const Folder& folder) {
     write_light_term_of<Exact>(folder, c.term, c.light, c.exact);
     write_light_term_of<Published>(folder, c.term, c.light, c.published);
   }
-}
-
-void write_light_state(const Folder& folder) {
-  write_light_state_of<Exact>(folder);
-  write_light_state_of<Published>(folder);
 }
 
 // A line: reset, step, clear, counts, opens, takes, x, around_eye for the previous column, clocks until
@@ -238,7 +227,7 @@ void write_shadow_counter(const Folder& folder) {
     const bool stepped = step && !reset;
     file.flag(reset).flag(step).flag(clear).flag(counts).flag(opens).flag(takes);
     file.word(x, Exact::c_pixel_x_bits);
-    file.word(static_cast<std::uint64_t>(around_eye), Exact::c_shadow_count_bits).word(reset ? 0 : waits, 32);
+    file.word(around_eye, Exact::c_shadow_count_bits).word(reset ? 0 : waits, 32);
     if (waits > 0 && !reset) fault = twin.fault();
     file.flag(counted).flag(lit).flag(fault).end_vector();
     if (!reset) waits = 0;
@@ -317,9 +306,9 @@ void write_shading_pipeline(const Folder& folder) {
 std::vector<Entity> processors_entities() {
   return {
       {"shadow_counter", write_shadow_counter},
-      {"ambient_term", write_ambient_term},
+      {"ambient_term", in_both_presets([]<class P>(const Folder& f) { write_ambient_term_of<P>(f); })},
       {"light_term", write_light_term},
-      {"light_state", write_light_state},
+      {"light_state", in_both_presets([]<class P>(const Folder& f) { write_light_state_of<P>(f); })},
       {"shading_processor", write_shading_processor<1>},
       {"unrolled_shading_processor", write_shading_processor<1>},
       {"short/unrolled_shading_processor", write_shading_processor<c_short>},

@@ -50,7 +50,7 @@ class Host {
         layout_(processors.config),
         twin_(processors.config),
         rasterizer_(processors.config),
-        random_(static_cast<std::uint64_t>(layout_.init_bits())) {}
+        random_(layout_.init_bits()) {}
 
   // The elements of a set.
   void define_all() {
@@ -266,8 +266,7 @@ class Host {
       const double value = plane < 3 ? normal[axis] : plane < 6 ? place[axis] : uniform(0.1, 1);
       for (const Field* field : {&At::value, &At::dx, &At::de0, &At::de1})
         set_bits(vector, *field,
-                 static_cast<std::uint64_t>(fixed(field == &At::value ? value : uniform(-0.03, 0.03),
-                                                  Preset::c_plane_sum_fraction_bits)),
+                 fixed(field == &At::value ? value : uniform(-0.03, 0.03), Preset::c_plane_sum_fraction_bits),
                  layout_.plane_low(plane));
     }
   }
@@ -275,7 +274,7 @@ class Host {
     const int low = layout_.init_material_low();
     if (p_.config.specular)
       set_bits(vector, {"", low + layout_.exponent_low(), Preset::c_exponent_bits, false, 0},
-               static_cast<std::uint64_t>(random_.between(1, 80) << Preset::c_exponent_fraction_bits));
+               random_.between(1, 80) << Preset::c_exponent_fraction_bits);
     const int first = low + layout_.ambient_low(0);
     for (int at = first; at < low + layout_.material_bits(); at += Preset::c_coefficient_bits)
       set_bits(vector, {"", at, Preset::c_coefficient_bits, false, 0},
@@ -291,8 +290,8 @@ class Host {
     set_bits(walk, At::upper_lines, 1);
     const bool backward = random_.one_in(2);
     set_bits(walk, At::backward, backward);
-    set_bits(walk, At::start_x, static_cast<std::uint64_t>(backward ? to - 1 : from));
-    set_bits(walk, At::upper_x, static_cast<std::uint64_t>(backward ? from - 1 : to));
+    set_bits(walk, At::start_x, backward ? to - 1 : from);
+    set_bits(walk, At::upper_x, backward ? from - 1 : to);
     put_depth(walk, z);
     return walk;
   }
@@ -375,18 +374,6 @@ void write_all(const Folder& folder, std::span<const Processors> shaders, std::i
   }
 }
 
-void write_token_rasterizer(const Folder& folder) {
-  write_parts([&](const auto& host) { return host.write_rasterizer(folder); });
-}
-
-void write_token_order(const Folder& folder) {
-  write_parts([&](const auto& host) { return host.write_order(folder); });
-}
-
-void write_fragment_output(const Folder& folder) {
-  write_parts([&](const auto& host) { return host.write_output(folder); });
-}
-
 template <int divisor>
 void write_processors_shader(const Folder& folder) {
   write_all<Exact>(folder, c_exact_processors, divisor);
@@ -397,9 +384,11 @@ void write_processors_shader(const Folder& folder) {
 
 std::vector<Entity> processors_shader_entities() {
   return {
-      {"token_rasterizer", write_token_rasterizer},
-      {"token_order", write_token_order},
-      {"fragment_output", write_fragment_output},
+      {"token_rasterizer",
+       [](const Folder& f) { write_parts([&](const auto& host) { host.write_rasterizer(f); }); }},
+      {"token_order", [](const Folder& f) { write_parts([&](const auto& host) { host.write_order(f); }); }},
+      {"fragment_output",
+       [](const Folder& f) { write_parts([&](const auto& host) { host.write_output(f); }); }},
       {"processors_shader", write_processors_shader<1>},
       {"short/processors_shader", write_processors_shader<c_short>},
       {"processors_axi", write_processors_shader<1>},

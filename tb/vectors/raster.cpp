@@ -20,12 +20,9 @@ namespace {
 using golden::EdgeStart, golden::Exact, golden::Published, golden::SpanXWord;
 
 EdgeStart edge_start(const EdgeSection& s) {
-  return {SpanXWord::from_bits(static_cast<std::uint64_t>(s.pixel)),
-          SpanXWord::from_bits(static_cast<std::uint64_t>(s.quotient)),
-          static_cast<std::uint32_t>(s.remainder),
-          static_cast<std::uint32_t>(s.divisor),
-          static_cast<std::uint32_t>(s.error),
-          s.carry};
+  return {SpanXWord::from_bits(s.pixel),           SpanXWord::from_bits(s.quotient),
+          static_cast<std::uint32_t>(s.remainder), static_cast<std::uint32_t>(s.divisor),
+          static_cast<std::uint32_t>(s.error),     s.carry};
 }
 
 EdgeStart garbage_edge(Random& random) {
@@ -52,8 +49,8 @@ struct WalkFiles {
     for (std::int64_t i = 0; i < line.pixels(); ++i) {
       const std::int64_t x = line.start.value() + (line.backward ? -i : i);
       fragments.word(line.triangle, Preset::c_triangle_bits).word(line.y, Preset::c_pixel_y_bits);
-      fragments.word(static_cast<std::uint64_t>(x), Preset::c_span_x_bits);
-      fragments.word(static_cast<std::uint64_t>(first + i), 32).end_vector();
+      fragments.word(x, Preset::c_span_x_bits);
+      fragments.word(first + i, 32).end_vector();
     }
   }
   void write(const Folder& folder, const std::string& stem) const {
@@ -98,7 +95,7 @@ void write_walker(const Folder& folder) {
     for (const InitVector& init : walker_triangles<Preset>(random, mix)) {
       clock.take_init();
       files.inits.words_of(init, Preset::c_init_header_bits);
-      files.inits.word(static_cast<std::uint64_t>(clock.read() + 1), 32).end_vector();
+      files.inits.word(clock.read() + 1, 32).end_vector();
       std::int64_t first_clock = -1, pixels = 0;
       for (const WalkedLine& line : walk_lines<Preset>(init)) {
         files.add_line(line);
@@ -262,7 +259,7 @@ void write_objects(const Folder& folder) {
       if (at_once) put(Command::draw, s.x, s.z, s.triangle);
     }
     for (std::int64_t i = random.between(0, 20); i > 0; --i) {
-      const Span& s = drawn[static_cast<std::size_t>(random.between(0, objects - 1))];
+      const Span& s = drawn[random.between(0, objects - 1)];
       put(Command::shadow, s.x, (s.z + static_cast<std::uint32_t>(random.between(-1, 1))) & 0xffffff,
           static_cast<std::uint32_t>(random.bits(32)));
     }
@@ -340,16 +337,6 @@ void write_slope_walker(const Folder& folder) {
   file.write(folder / "edges.txt");
 }
 
-void write_line_counter(const Folder& folder) {
-  write_counter<Exact>(folder);
-  write_counter<Published>(folder);
-}
-
-void write_edge_pair(const Folder& folder) {
-  write_pair<Exact>(folder);
-  write_pair<Published>(folder);
-}
-
 // A line: reset, enable, in_valid, in_line, line_ready, span_last_next; advance, step, span_load, valid,
 // line, before the clock's edge.
 void write_line_stage(const Folder& folder) {
@@ -420,24 +407,18 @@ void write_span_stage(const Folder& folder) {
   file.write(folder / "spans.txt");
 }
 
-void write_object_stage(const Folder& folder) {
-  write_objects<Exact>(folder);
-  write_objects<Published>(folder);
-}
-
-void write_triangle_walker(const Folder& folder) {
-  write_walker<Exact>(folder);
-  write_walker<Published>(folder);
-}
-
 }  // namespace
 
 std::vector<Entity> raster_entities() {
   return {
-      {"edge_walker", write_edge_walker},   {"slope_walker", write_slope_walker},
-      {"object_stage", write_object_stage}, {"line_counter", write_line_counter},
-      {"edge_pair", write_edge_pair},       {"line_stage", write_line_stage},
-      {"span_stage", write_span_stage},     {"triangle_walker", write_triangle_walker},
+      {"edge_walker", write_edge_walker},
+      {"slope_walker", write_slope_walker},
+      {"object_stage", in_both_presets([]<class P>(const Folder& f) { write_objects<P>(f); })},
+      {"line_counter", in_both_presets([]<class P>(const Folder& f) { write_counter<P>(f); })},
+      {"edge_pair", in_both_presets([]<class P>(const Folder& f) { write_pair<P>(f); })},
+      {"line_stage", write_line_stage},
+      {"span_stage", write_span_stage},
+      {"triangle_walker", in_both_presets([]<class P>(const Folder& f) { write_walker<P>(f); })},
   };
 }
 

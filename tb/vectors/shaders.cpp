@@ -22,7 +22,7 @@ using golden::Exact, golden::Published;
 constexpr std::pair<Mix, const char*> c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
 
 void add_clock(VectorFile& file, std::int64_t clock) {
-  file.word(static_cast<std::uint64_t>(clock), 32).end_vector();
+  file.word(clock, 32).end_vector();
 }
 
 template <class Preset>
@@ -45,7 +45,7 @@ void put_colours(InitVector& init, Random& random, int channels) {
       const bool value = field.name == "value", second = field.name.size() > 3 || field.name == "dxx";
       const std::int64_t most = std::int64_t{1} << (field.fraction_bits + (value ? 9 : second ? 0 : 4));
       const std::int64_t word = random.between(value ? -most / 8 : -most, most);
-      set_bits(init, field, static_cast<std::uint64_t>(word), Layout::channel_low(c));
+      set_bits(init, field, word, Layout::channel_low(c));
     }
   }
 }
@@ -158,7 +158,7 @@ void write_spherical(const Folder& folder, const Spherical& spherical) {
   const golden::SphericalLayout<Preset> layout(spherical.config);
   // Choose the seed so that the first triangle of each set covers a pixel on its first line: the checker
   // measures the latency there.
-  Random random(static_cast<std::uint64_t>(layout.init_bits() + 3));
+  Random random(layout.init_bits() + 3);
   for (const auto& [mix, name] : c_sets) {
     VectorFile inits, fragments;
     Shader twin(spherical.config);

@@ -29,7 +29,7 @@ std::string file_of() {
 template <class Preset>
 void write_function_rom(const Folder& folder, golden::Function function) {
   const golden::FunctionTable& table = golden::function_table<Preset>(function);
-  Random random(static_cast<std::uint64_t>(table.value_bits));
+  Random random(table.value_bits);
   Pipeline pipeline(1);
   const auto add = [&](bool enable, std::uint32_t address) {
     const golden::FunctionSample sample = golden::function_rom<Preset>(function, address);
@@ -46,7 +46,7 @@ void write_function_rom(const Folder& folder, golden::Function function) {
 
 // Inputs: a, b.
 void write_dot_product_of(const Folder& folder, int bits) {
-  Random random(static_cast<std::uint64_t>(bits));
+  Random random(bits);
   Pipeline pipeline(1);
   run(random, [&](bool enable) {
     const Axes a = random_axes(random, bits), b = random.one_in(4) ? a : random_axes(random, bits);
@@ -58,7 +58,7 @@ void write_dot_product_of(const Folder& folder, int bits) {
 
 // Inputs: a, b.
 void write_vector_multiply_of(const Folder& folder, int a_bits, int b_bits) {
-  Random random(static_cast<std::uint64_t>(a_bits + b_bits));
+  Random random(a_bits + b_bits);
   Pipeline pipeline(1);
   run(random, [&](bool enable) {
     const Axes a = random_axes(random, a_bits), b = random_axes(random, b_bits);
@@ -103,9 +103,9 @@ void write_vector_shift_of(const Folder& folder) {
 
 // Inputs: components.
 template <class Preset, int VectorBits>
-void write_unit_vector_of(const Folder& folder, int latency) {
+void write_unit_vector_of(const Folder& folder) {
   Random random(VectorBits);
-  Pipeline pipeline(latency);
+  Pipeline pipeline(std::is_same_v<Preset, Exact> ? 8 : 5);
   run_axes<VectorBits>(random, [&](bool enable, const Axes& v) {
     pipeline.clock(enable, {flat(v, VectorBits)},
                    flat(golden::normalized<Preset, VectorBits>(v), Preset::c_direction_bits));
@@ -211,7 +211,7 @@ void write_spot_cone_of(const Folder& folder) {
 
 // Inputs: word.
 void write_delay_line_of(const Folder& folder, int bits, int depth) {
-  Random random(static_cast<std::uint64_t>(bits + depth));
+  Random random(bits + depth);
   Pipeline pipeline(depth);
   run(random, [&](bool enable) {
     Flat word;
@@ -228,7 +228,7 @@ void write_cosine(const Folder& folder) {
   Random random(c_bits);
   VectorFile file;
   const auto add = [&](std::int64_t dot) {
-    file.word(static_cast<std::uint64_t>(dot), c_bits)
+    file.word(dot, c_bits)
         .word(golden::cosine<Preset>(dot), c_fraction + 1)
         .flag(golden::positive(dot))
         .end_vector();
@@ -247,79 +247,47 @@ void write_cosine(const Folder& folder) {
   file.write(folder / file_of<Preset>());
 }
 
-void write_function_rom(const Folder& folder) {
-  for (const auto function :
-       {golden::Function::reciprocal_root, golden::Function::logarithm, golden::Function::decay}) {
-    write_function_rom<Exact>(folder, function);
-    write_function_rom<Published>(folder, function);
-  }
-}
-
-void write_dot_product(const Folder& folder) {
-  for (const int bits : {4, 16, 24, 30}) write_dot_product_of(folder, bits);
-}
-
-void write_vector_multiply(const Folder& folder) {
-  for (const auto& [a, b] : {std::pair{2, 5}, {16, 11}, {24, 26}, {28, 30}, {13, 26}})
-    write_vector_multiply_of(folder, a, b);
-}
-
-void write_vector_shift(const Folder& folder) {
-  write_vector_shift_of<5, 5>(folder);
-  write_vector_shift_of<30, 24>(folder);
-  write_vector_shift_of<25, 24>(folder);
-  write_vector_shift_of<17, 16>(folder);
-  write_vector_shift_of<16, 24>(folder);
-}
-
-void write_unit_vector(const Folder& folder) {
-  constexpr int c_exact = 8, c_published = 5;  // clocks
-  write_unit_vector_of<Exact, Exact::c_vector_bits>(folder, c_exact);
-  write_unit_vector_of<Exact, Exact::c_offset_bits>(folder, c_exact);
-  write_unit_vector_of<Exact, Exact::c_direction_bits + 1>(folder, c_exact);
-  write_unit_vector_of<Published, Published::c_vector_bits>(folder, c_published);
-  write_unit_vector_of<Published, Published::c_offset_bits>(folder, c_published);
-}
-
-void write_reciprocal_root(const Folder& folder) {
-  write_reciprocal_root_of<Exact>(folder, 4);
-  write_reciprocal_root_of<Published>(folder, 1);
-}
-
-void write_power(const Folder& folder) {
-  write_power_of<Exact>(folder, 6);
-  write_power_of<Published>(folder, 2);
-}
-
-void write_spot_cone(const Folder& folder) {
-  write_spot_cone_of<Exact>(folder);
-  write_spot_cone_of<Published>(folder);
-}
-
-void write_delay_line(const Folder& folder) {
-  for (const auto& [bits, depth] : {std::pair{8, 0}, {8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})
-    write_delay_line_of(folder, bits, depth);
-}
-
-void write_shading_pkg(const Folder& folder) {
-  write_cosine<Exact>(folder);
-  write_cosine<Published>(folder);
-}
-
 }  // namespace
 
 std::vector<Entity> shading_entities() {
   return {
-      {"function_rom", write_function_rom},
-      {"dot_product", write_dot_product},
-      {"vector_multiply", write_vector_multiply},
-      {"vector_shift", write_vector_shift},
-      {"unit_vector", write_unit_vector},
-      {"reciprocal_root", write_reciprocal_root},
-      {"power", write_power},
-      {"spot_cone", write_spot_cone},
-      {"delay_line", write_delay_line},
-      {"shading_pkg", write_shading_pkg},
+      {"function_rom", in_both_presets([]<class P>(const Folder& f) {
+         for (const auto function :
+              {golden::Function::reciprocal_root, golden::Function::logarithm, golden::Function::decay})
+           write_function_rom<P>(f, function);
+       })},
+      {"dot_product", of_sizes(write_dot_product_of, {4, 16, 24, 30})},
+      {"vector_multiply",
+       of_sizes(write_vector_multiply_of, {{2, 5}, {16, 11}, {24, 26}, {28, 30}, {13, 26}})},
+      {"vector_shift",
+       [](const Folder& folder) {
+         write_vector_shift_of<5, 5>(folder);
+         write_vector_shift_of<30, 24>(folder);
+         write_vector_shift_of<25, 24>(folder);
+         write_vector_shift_of<17, 16>(folder);
+         write_vector_shift_of<16, 24>(folder);
+       }},
+      {"unit_vector",
+       [](const Folder& folder) {
+         write_unit_vector_of<Exact, Exact::c_vector_bits>(folder);
+         write_unit_vector_of<Exact, Exact::c_offset_bits>(folder);
+         write_unit_vector_of<Exact, Exact::c_direction_bits + 1>(folder);
+         write_unit_vector_of<Published, Published::c_vector_bits>(folder);
+         write_unit_vector_of<Published, Published::c_offset_bits>(folder);
+       }},
+      {"reciprocal_root",
+       [](const Folder& folder) {
+         write_reciprocal_root_of<Exact>(folder, 4);
+         write_reciprocal_root_of<Published>(folder, 1);
+       }},
+      {"power",
+       [](const Folder& folder) {
+         write_power_of<Exact>(folder, 6);
+         write_power_of<Published>(folder, 2);
+       }},
+      {"spot_cone", in_both_presets([]<class P>(const Folder& f) { write_spot_cone_of<P>(f); })},
+      {"delay_line", of_sizes(write_delay_line_of, {{8, 0}, {8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})},
+      {"shading_pkg", in_both_presets([]<class P>(const Folder& f) { write_cosine<P>(f); })},
   };
 }
 

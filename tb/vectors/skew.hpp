@@ -21,7 +21,7 @@ class Skew {
     for (int part = 0; part < parts; ++part) {
       const int low = part * bits_ / parts, high = (part + 1) * bits_ / parts;
       const std::uint64_t mask = (std::uint64_t{1} << high) - (std::uint64_t{1} << low);
-      skewed |= history_[static_cast<std::size_t>(part)] & mask;
+      skewed |= history_[part] & mask;
     }
     return skewed;
   }

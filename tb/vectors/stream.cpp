@@ -86,32 +86,29 @@ void write_queue(const Folder& folder) {
   file.write(folder / (std::to_string(Bits) + ".txt"));
 }
 
-void write_parameter_register(const Folder& folder) {
-  write_parameter<1>(folder);
-  write_parameter<40>(folder);
-  write_parameter<83>(folder);
-}
-
-void write_stream_register(const Folder& folder) {
-  write_stream<1>(folder);
-  write_stream<32>(folder);
-  write_stream<497>(folder);
-}
-
-void write_stream_queue(const Folder& folder) {
-  write_queue<1, 2>(folder);
-  write_queue<32, 3>(folder);
-  write_queue<97, 3>(folder);
-  write_queue<98, 4>(folder);
-}
-
 }  // namespace
 
 std::vector<Entity> stream_entities() {
   return {
-      {"parameter_register", write_parameter_register},
-      {"stream_register", write_stream_register},
-      {"stream_queue", write_stream_queue},
+      {"parameter_register",
+       [](const Folder& folder) {
+         write_parameter<1>(folder);
+         write_parameter<40>(folder);
+         write_parameter<83>(folder);
+       }},
+      {"stream_register",
+       [](const Folder& folder) {
+         write_stream<1>(folder);
+         write_stream<32>(folder);
+         write_stream<497>(folder);
+       }},
+      {"stream_queue",
+       [](const Folder& folder) {
+         write_queue<1, 2>(folder);
+         write_queue<32, 3>(folder);
+         write_queue<97, 3>(folder);
+         write_queue<98, 4>(folder);
+       }},
   };
 }
 

@@ -114,7 +114,7 @@ void write_cosine_power_of(const Folder& folder, bool highlight) {
 // Inputs: spot, axis, outer, slope, to_light, cosine. The cosine follows to_light after `lead` clocks.
 template <class Preset>
 void write_light_weight_of(const Folder& folder, int lead) {
-  Random random(static_cast<std::uint64_t>(Preset::c_spot_slope_bits + lead));
+  Random random(Preset::c_spot_slope_bits + lead);
   Pipeline pipeline(std::max(5, lead) + 1);
   bool spot = false;
   Axes axis{};
@@ -156,7 +156,7 @@ void write_light_weight_of(const Folder& folder, int lead) {
 // Inputs: coefficients, intensities, weight. The weight follows its coefficients after one clock.
 template <class Preset>
 void write_reflected_term_of(const Folder& folder, int channels, bool weighted) {
-  Random random(static_cast<std::uint64_t>(Preset::c_coefficient_bits + channels));
+  Random random(Preset::c_coefficient_bits + channels);
   Pipeline pipeline(weighted ? 2 : 1);
   golden::Axes intensities{};
   run_lights(random, [&](bool first, bool enable) {
@@ -172,7 +172,7 @@ void write_reflected_term_of(const Folder& folder, int channels, bool weighted) 
     Flat k, i, terms;
     for (int c = 0; c < channels; ++c) {
       const std::uint32_t coefficient = unsigned_word(random, Preset::c_coefficient_bits);
-      const auto intensity = static_cast<std::uint32_t>(intensities[static_cast<std::size_t>(c)]);
+      const auto intensity = static_cast<std::uint32_t>(intensities[c]);
       k.add(coefficient, Preset::c_coefficient_bits);
       i.add(intensity, Preset::c_light_intensity_bits);
       terms.add(golden::reflected_term<Preset>(coefficient, intensity, weight),
@@ -187,7 +187,7 @@ void write_reflected_term_of(const Folder& folder, int channels, bool weighted) 
 template <class Preset>
 void write_radiance_sum_of(const Folder& folder, int channels) {
   constexpr int c_term_bits = Preset::c_reflected_bits + Preset::c_weight_bits;
-  Random random(static_cast<std::uint64_t>(Preset::c_radiance_bits + channels));
+  Random random(Preset::c_radiance_bits + channels);
   Pipeline pipeline(1);
   run(random, [&](bool enable) {
     const bool add = !random.one_in(4);
@@ -204,57 +204,30 @@ void write_radiance_sum_of(const Folder& folder, int channels) {
   pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, channels));
 }
 
-void write_light_vector(const Folder& folder) {
-  for (const bool can : {false, true}) {
-    write_light_vector_of<Exact>(folder, can);
-    write_light_vector_of<Published>(folder, can);
-  }
-}
-
-void write_half_vector(const Folder& folder) {
-  for (const bool depends : {false, true}) {
-    write_half_vector_of<Exact>(folder, depends);
-    write_half_vector_of<Published>(folder, depends);
-  }
-}
-
-void write_cosine_power(const Folder& folder) {
-  for (const bool highlight : {false, true}) {
-    write_cosine_power_of<Exact>(folder, highlight);
-    write_cosine_power_of<Published>(folder, highlight);
-  }
-}
-
-void write_light_weight(const Folder& folder) {
-  // Diffuse, where the factor of the cone is ready last, and specular.
-  for (const int lead : {2, 16}) {
-    write_light_weight_of<Exact>(folder, lead);
-    write_light_weight_of<Published>(folder, lead);
-  }
-}
-
-void write_reflected_term(const Folder& folder) {
-  for (const bool weighted : {false, true})
-    for (const int channels : {1, 3}) {
-      write_reflected_term_of<Exact>(folder, channels, weighted);
-      write_reflected_term_of<Published>(folder, channels, weighted);
-    }
-}
-
-void write_radiance_sum(const Folder& folder) {
-  for (const int channels : {1, 3}) {
-    write_radiance_sum_of<Exact>(folder, channels);
-    write_radiance_sum_of<Published>(folder, channels);
-  }
-}
-
 }  // namespace
 
 std::vector<Entity> terms_entities() {
   return {
-      {"light_vector", write_light_vector},     {"half_vector", write_half_vector},
-      {"cosine_power", write_cosine_power},     {"light_weight", write_light_weight},
-      {"reflected_term", write_reflected_term}, {"radiance_sum", write_radiance_sum},
+      {"light_vector", in_both_presets([]<class P>(const Folder& f) {
+         for (const bool can : {false, true}) write_light_vector_of<P>(f, can);
+       })},
+      {"half_vector", in_both_presets([]<class P>(const Folder& f) {
+         for (const bool depends : {false, true}) write_half_vector_of<P>(f, depends);
+       })},
+      {"cosine_power", in_both_presets([]<class P>(const Folder& f) {
+         for (const bool highlight : {false, true}) write_cosine_power_of<P>(f, highlight);
+       })},
+      // Diffuse, where the factor of the cone is ready last, and specular.
+      {"light_weight", in_both_presets([]<class P>(const Folder& f) {
+         for (const int lead : {2, 16}) write_light_weight_of<P>(f, lead);
+       })},
+      {"reflected_term", in_both_presets([]<class P>(const Folder& f) {
+         for (const bool weighted : {false, true})
+           for (const int channels : {1, 3}) write_reflected_term_of<P>(f, channels, weighted);
+       })},
+      {"radiance_sum", in_both_presets([]<class P>(const Folder& f) {
+         for (const int channels : {1, 3}) write_radiance_sum_of<P>(f, channels);
+       })},
   };
 }
 

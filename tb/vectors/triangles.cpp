@@ -18,8 +18,8 @@ InitVector random_words(Random& random, int init_bits) {
 // Random words in the header, but few lines.
 void put_garbage_lines(InitVector& init, Random& random) {
   using At = Exact::init_header_at;
-  set_bits(init, At::upper_lines, static_cast<std::uint64_t>(random.between(1, 6)));
-  set_bits(init, At::lower_lines, static_cast<std::uint64_t>(random.between(0, 4)));
+  set_bits(init, At::upper_lines, random.between(1, 6));
+  set_bits(init, At::lower_lines, random.between(0, 4));
   if (random.one_in(4)) return;
   // Keep spans short, so that many fit: put the stop edge near the start edge.
   const auto start = get_bits(init, At::start_x);
@@ -83,9 +83,7 @@ Walks random_walks(Random& random) {
 
 void put_walk(InitVector& init, const Walk& walk) {
   using At = Exact::init_header_at;
-  const auto put = [&](const golden::Field& field, std::int64_t value) {
-    set_bits(init, field, static_cast<std::uint64_t>(value));
-  };
+  const auto put = [&](const golden::Field& field, std::int64_t value) { set_bits(init, field, value); };
   const auto put_section = [&](const EdgeSection& s, const golden::Field* x) {
     // The fields of a section in their order: x, quotient, remainder, divisor, error, carry.
     const std::int64_t values[] = {s.pixel, s.quotient, s.remainder, s.divisor, s.error, s.carry};
@@ -109,8 +107,7 @@ InitVector random_triangle<Exact>(Random& random, Mix mix, int init_bits) {
   }
   Walks walks;
   while (walks.empty()) walks = random_walks(random);
-  put_walk(init,
-           walks[static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(walks.size()) - 1))]);
+  put_walk(init, walks[random.between(0, static_cast<std::int64_t>(walks.size()) - 1)]);
   return init;
 }
 
@@ -118,9 +115,7 @@ template <>
 InitVector random_triangle<Published>(Random& random, Mix mix, int init_bits) {
   using At = Published::init_header_at;
   InitVector init = random_words<Published>(random, init_bits);
-  const auto put = [&](const golden::Field& field, std::int64_t value) {
-    set_bits(init, field, static_cast<std::uint64_t>(value));
-  };
+  const auto put = [&](const golden::Field& field, std::int64_t value) { set_bits(init, field, value); };
   constexpr std::int64_t c_one = std::int64_t{1} << Published::c_edge_x_fraction_bits;
   put(At::upper_lines, random.between(1, random.one_in(3) ? 20 : 6));
   if (mix == Mix::mixed && random.one_in(8)) return init;
