@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "scene/scene.hpp"
-
 namespace halfway::oracle {
 namespace {
 
@@ -15,110 +13,47 @@ constexpr Real c_pi = 3.14159265358979323846264338327950288L;
 constexpr int c_units = 16;  // of a pixel
 constexpr Real c_last_depth = 16777215;
 
-Vector operator+(const Vector& a, const Vector& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vector operator*(Real s, const Vector& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-/// Multiplies channel by channel.
-Vector operator*(const Vector& a, const Vector& b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
-Real dot(const Vector& a, const Vector& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-Real length(const Vector& a) {
-  return std::sqrt(dot(a, a));
-}
-Vector unit(const Vector& a) {
-  return (1 / length(a)) * a;
-}
 Real power(Real base, Real exponent) {
   return base > 0 ? std::pow(base, exponent) : 0;
 }
 
-template <class Other>
-Vector copy(const Other& v) {
-  return {v.x, v.y, v.z};
-}
-
 }  // namespace
-
-World copy(const halfway::Scene& scene) {
-  World world{.eye = copy(scene.camera.eye_world),
-              .target = copy(scene.camera.target_world),
-              .up = copy(scene.camera.up_world),
-              .ambient = copy(scene.ambient),
-              .background = copy(scene.background),
-              .fov_degrees = scene.camera.vertical_fov_degrees,
-              .near = scene.camera.near,
-              .far = scene.camera.far,
-              .shadows = scene.shadows,
-              .materials = {},
-              .lights = {},
-              .triangles = {}};
-  for (const auto& m : scene.materials)
-    world.materials.push_back({m.brdf == Brdf::phong   ? Reflection::phong
-                               : m.brdf == Brdf::blinn ? Reflection::blinn
-                                                       : Reflection::cook_torrance,
-                               copy(m.colour), copy(m.specular_colour), m.ambient, m.diffuse, m.specular,
-                               m.exponent, m.roughness, m.reflectance});
-  for (const auto& l : scene.directional)
-    world.lights.push_back({.kind = Kind::directional,
-                            .place = copy(l.to_light_world),
-                            .intensity = copy(l.intensity),
-                            .axis = {}});
-  for (const auto& l : scene.positional)
-    world.lights.push_back({.kind = Kind::positional,
-                            .place = copy(l.position_world),
-                            .intensity = copy(l.intensity),
-                            .axis = {}});
-  for (const auto& l : scene.spots)
-    world.lights.push_back({Kind::spot, copy(l.position_world), copy(l.intensity), copy(l.axis_world),
-                            l.cos_inner, l.cos_outer});
-  for (const auto& t : scene.triangles) {
-    Triangle triangle{.corner = {}, .material = t.material};
-    for (int i = 0; i < 3; ++i)
-      triangle.corner[i] = {copy(scene.positions_world[t.position[i]]),
-                            copy(scene.normals_world[t.normal[i]])};
-    world.triangles.push_back(triangle);
-  }
-  return world;
-}
 
 // The camera's axes are found by Gram-Schmidt. The slope fills the frame: a point at distance w along the
 // viewing axis and h above it is (h/w) (height/2) / tan(fov/2) pixels above the centre of the frame.
-Oracle::Oracle(World world, unsigned width, unsigned height, Fault fault)
-    : world_(std::move(world)), width_(width), height_(height), fault_(fault) {
-  forward_ = unit(world_.target - world_.eye);
-  up_ = unit(world_.up - dot(world_.up, forward_) * forward_);
+Oracle::Oracle(const Scene& scene, unsigned width, unsigned height, Fault fault)
+    : scene_(scene), width_(width), height_(height), fault_(fault), eye_(scene.camera.eye_world) {
+  for (const auto& l : scene.directional)
+    lights_.push_back({Kind::directional, Vector(l.to_light_world), Vector(l.intensity)});
+  for (const auto& l : scene.positional)
+    lights_.push_back({Kind::positional, Vector(l.position_world), Vector(l.intensity)});
+  for (const auto& l : scene.spots)
+    lights_.push_back({Kind::spot, Vector(l.position_world), Vector(l.intensity), Vector(l.axis_world),
+                       l.cos_inner, l.cos_outer});
+  forward_ = normalize(Vector(scene.camera.target_world) - eye_);
+  const Vector up(scene.camera.up_world);
+  up_ = normalize(up - dot(up, forward_) * forward_);
   right_ = cross(forward_, up_);
-  if (has("mirrored")) right_ = -1 * right_;
-  if (has("upside_down")) up_ = -1 * up_;
-  const Real half_angle = world_.fov_degrees * c_pi / 180 / (has("fov_is_half") ? 1 : 2);
+  if (has("mirrored")) right_ = -right_;
+  if (has("upside_down")) up_ = -up_;
+  const Real half_angle = Real(scene.camera.vertical_fov_degrees) * c_pi / 180 / (has("fov_is_half") ? 1 : 2);
   const Real half_side = Real(has("fov_is_horizontal") ? width : height) / 2;
   pixels_per_slope_ = half_side / std::tan(half_angle);
 
-  Vector low = world_.eye, high = world_.eye;
-  for (const Triangle& t : world_.triangles)
-    for (const Corner& c : t.corner) {
-      low = {std::min(low.x, c.position.x), std::min(low.y, c.position.y), std::min(low.z, c.position.z)};
-      high = {std::max(high.x, c.position.x), std::max(high.y, c.position.y), std::max(high.z, c.position.z)};
-    }
+  Vector low = eye_, high = eye_;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) low = min(low, position(t, i)), high = max(high, position(t, i));
   radius_ = length(high - low) / 2;
-  screen_.resize(world_.triangles.size());
-  for (std::size_t i = 0; i < world_.triangles.size(); ++i) project(i);
+  screen_.resize(scene.triangles.size());
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i) project(i);
+}
+
+Vector Oracle::position(std::size_t triangle, int corner) const {
+  return Vector(scene_.positions_world[scene_.triangles[triangle].position[corner]]);
 }
 
 Real Oracle::distance(const Vector& position) const {
-  return dot(position - world_.eye, forward_);
+  return dot(position - eye_, forward_);
 }
 
 // Corners snap to the nearest 1/16 pixel, halves up. Corners are counter-clockwise seen from outside. A
@@ -126,13 +61,12 @@ Real Oracle::distance(const Vector& position) const {
 void Oracle::project(std::size_t triangle) {
   ScreenTriangle corners;
   for (int i = 0; i < 3; ++i) {
-    const Vector& position = world_.triangles[triangle].corner[i].position;
-    const Real w = distance(position);
-    if (!(w >= world_.near && w <= world_.far)) {
+    const Vector from_eye = position(triangle, i) - eye_;
+    const Real w = dot(from_eye, forward_);
+    if (!(w >= scene_.camera.near && w <= scene_.camera.far)) {
       clipped_ = true;
       return;
     }
-    const Vector from_eye = position - world_.eye;
     const Real x = Real(width_) / 2 + pixels_per_slope_ * dot(from_eye, right_) / w;
     const Real y = Real(height_) / 2 - pixels_per_slope_ * dot(from_eye, up_) / w;
     const Real half = has("snapped_down") ? 0 : 0.5L;
@@ -199,8 +133,8 @@ Real real(const mpq_class& q) {
 
 // 1/w is linear on the screen, and so is depth = far/(far - near) (1 - near/w). Depth is 0 at the near plane
 // and 1 at the far plane.
-Real Oracle::depth_of(const Corner& corner) const {
-  const Real w = distance(corner.position), near = world_.near, far = world_.far;
+Real Oracle::depth_of(const Vector& position) const {
+  const Real w = distance(position), near = scene_.camera.near, far = scene_.camera.far;
   if (has("depth_of_distance")) return (w - near) / (far - near);
   return far / (far - near) * (1 - near / w);
 }
@@ -208,7 +142,7 @@ Real Oracle::depth_of(const Corner& corner) const {
 Real Oracle::depth_steps(std::size_t triangle, int x, int y) const {
   const auto weight = weights(*screen_[triangle], x, y);
   Real depth = 0;
-  for (int i = 0; i < 3; ++i) depth += real(weight[i]) * depth_of(world_.triangles[triangle].corner[i]);
+  for (int i = 0; i < 3; ++i) depth += real(weight[i]) * depth_of(position(triangle, i));
   return depth * c_last_depth + (has("depth_one_step_deeper") ? 1 : 0);
 }
 
@@ -223,33 +157,34 @@ Oracle::Surface Oracle::surface(std::size_t triangle, int x, int y) const {
     share[i] = real(weight[i]) * (has("linear_on_screen") ? 1 : t[i].inverse_w);
     sum += share[i];
   }
+  const auto normal = [&](int corner) {
+    return Vector(scene_.normals_world[scene_.triangles[triangle].normal[corner]]);
+  };
   Surface s;
   for (int i = 0; i < 3; ++i) {
-    const Corner& corner = world_.triangles[triangle].corner[i];
-    s.position = s.position + (share[i] / sum) * corner.position;
-    s.normal = s.normal + (share[i] / sum) * corner.normal;
+    s.position += (share[i] / sum) * position(triangle, i);
+    s.normal += (share[i] / sum) * normal(i);
   }
-  if (has("flat_normal")) s.normal = world_.triangles[triangle].corner[0].normal;
-  if (!has("normal_not_unit")) s.normal = unit(s.normal);
+  if (has("flat_normal")) s.normal = normal(0);
+  if (!has("normal_not_unit")) s.normal = normalize(s.normal);
   return s;
 }
 
 // The factor of k_s. N.L > 0 is known.
 Real Oracle::highlight(const Material& m, const Vector& n, const Vector& l, const Vector& v) const {
-  const Real nl = dot(n, l), exponent = m.exponent + (has("exponent_plus_one") ? 1 : 0);
+  const Real nl = dot(n, l), exponent = Real(m.exponent) + (has("exponent_plus_one") ? 1 : 0);
   // R = 2 (N.L) N - L; (R.V)^n.
-  if (m.reflection == Reflection::phong)
-    return power(dot(has("phong_by_light") ? l : 2 * nl * n - l, v), exponent);
+  if (m.brdf == Brdf::phong) return power(dot(has("phong_by_light") ? l : 2 * nl * n - l, v), exponent);
   // H = (L + V)/|L + V|; (N.H)^n.
   const Vector sum = (has("halfway_of_normal") ? n : l) + v;
-  const Vector h = has("halfway_not_unit") ? 0.5L * sum : unit(sum);
+  const Vector h = has("halfway_not_unit") ? 0.5L * sum : normalize(sum);
   const Real nh = dot(n, h);
-  if (m.reflection == Reflection::blinn) return power(nh, exponent);
+  if (m.brdf == Brdf::blinn) return power(nh, exponent);
   // P F G / (4 (N.L)(N.V)), times N.L for the irradiance.
   const Real nv = dot(n, v), vh = dot(v, h), lh = dot(l, h);
   if (!(nv > 0) || !(nh > 0)) return 0;
   // P = exp(-tan^2/m^2) / (pi m^2 cos^4).
-  const Real cos2 = nh * nh, slope2 = m.roughness * m.roughness;
+  const Real cos2 = nh * nh, slope2 = Real(m.roughness) * m.roughness;
   const Real density =
       std::exp(-(1 - cos2) / cos2 / slope2) /
       ((has("beckmann_without_pi") ? 1 : c_pi) * slope2 * cos2 * (has("beckmann_squared_cosine") ? 1 : cos2));
@@ -269,28 +204,25 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
     if (std::abs(margin) < c_doubt && doubtful != nullptr) *doubtful = true;
   };
   // Sine of the angle by which the outside faces the light.
-  const auto facing = [&](const Triangle& t) {
-    const Vector normal =
-        cross(t.corner[1].position - t.corner[0].position, t.corner[2].position - t.corner[0].position);
-    const Vector way = far ? light.place : light.place - t.corner[0].position;
+  const auto facing = [&](std::size_t t) {
+    const Vector a = position(t, 0), normal = cross(position(t, 1) - a, position(t, 2) - a);
+    const Vector way = far ? light.place : light.place - a;
     return dot(normal, way) / (length(normal) * length(way));
   };
-  const Real own = facing(world_.triangles[triangle]);
+  const Real own = facing(triangle);
   doubt(own);
   if (own < 0 && !has("averted_faces_lit")) return true;
 
   // The ray from + s way, with s from 0 to 1, or without an upper limit.
   const Vector way = far ? light.place : light.place - from;
   bool shadowed = false;
-  for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
-    const Triangle& t = world_.triangles[i];
-    if (i == triangle || (facing(t) < 0) == has("lit_faces_cast")) continue;
-    const Vector e1 = t.corner[1].position - t.corner[0].position,
-                 e2 = t.corner[2].position - t.corner[0].position;
+  for (std::size_t t = 0; t < scene_.triangles.size(); ++t) {
+    if (t == triangle || (facing(t) < 0) == has("lit_faces_cast")) continue;
+    const Vector a = position(t, 0), e1 = position(t, 1) - a, e2 = position(t, 2) - a;
     const Vector p = cross(way, e2);
     const Real determinant = dot(e1, p);
     if (determinant == 0) continue;
-    const Vector to = from - t.corner[0].position;
+    const Vector to = from - a;
     const Vector q = cross(to, e1);
     const Real u = dot(to, p) / determinant, v = dot(way, q) / determinant, s = dot(e2, q) / determinant;
     // The margin by which the ray passes inside (above 0) or outside.
@@ -307,18 +239,19 @@ bool Oracle::is_shadowed(std::size_t triangle, const Vector& from, const Light& 
 // I = k_a I_a + sum over lights of I_in (k_d (N.L) + k_s highlight), for N.L > 0. The ambient and diffuse
 // parts have the material's colour; highlights have their own.
 Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doubtful) const {
-  const Material& m = world_.materials[world_.triangles[triangle].material];
+  const Material& m = scene_.materials[scene_.triangles[triangle].material];
+  const Vector own_colour(m.colour), specular_colour(m.specular_colour);
   const Vector& n = surface.normal;
-  const Vector v = has("eye_at_infinity") ? -1 * forward_ : unit(world_.eye - surface.position);
-  Vector sum;
-  if (!has("ambient_missing")) sum = m.ambient * (world_.ambient * m.colour);
-  for (std::size_t i = 0; i < world_.lights.size(); ++i) {
+  const Vector v = has("eye_at_infinity") ? -forward_ : normalize(eye_ - surface.position);
+  Vector sum(0);
+  if (!has("ambient_missing")) sum = Real(m.ambient) * Vector(scene_.ambient) * own_colour;
+  for (std::size_t i = 0; i < lights_.size(); ++i) {
     if (has("second_light_missing") && i == 1) continue;
-    const Light& light = world_.lights[i];
+    const Light& light = lights_[i];
     const bool far = light.kind == Kind::directional;
     const bool by_direction = has("positional_is_directional") && !far;
     const Vector way = far || by_direction ? light.place : light.place - surface.position;
-    const Vector l = unit(way);
+    const Vector l = normalize(way);
     Vector intensity = light.intensity;
     if (has("falls_off_by_distance") && !far) intensity = (1 / dot(way, way)) * intensity;
     if (light.kind == Kind::spot) {
@@ -340,26 +273,26 @@ Vector Oracle::radiance(std::size_t triangle, const Surface& surface, bool* doub
     if (std::abs(nl) < c_doubt && doubtful != nullptr) *doubtful = true;
     const bool lit = nl > 0;
     if (lit || has("averted_faces_lit"))
-      if (world_.shadows && !has("shadows_missing") &&
+      if (scene_.shadows && !has("shadows_missing") &&
           is_shadowed(triangle, surface.position, light, doubtful))
         continue;
     if (lit || has("diffuse_unclamped")) {
-      const Vector colour = has("diffuse_in_all_channels") ? m.colour.x * Vector{1, 1, 1} : m.colour;
-      sum = sum + (m.diffuse * nl) * (intensity * colour);
+      const Vector colour = has("diffuse_in_all_channels") ? Vector(own_colour.x) : own_colour;
+      sum += m.diffuse * nl * intensity * colour;
     }
     if (lit || has("highlight_below_horizon"))
-      sum = sum + (m.specular * highlight(m, n, l, v)) *
-                      (intensity * (has("specular_takes_colour") ? m.colour : m.specular_colour));
+      sum += m.specular * highlight(m, n, l, v) * intensity *
+             (has("specular_takes_colour") ? own_colour : specular_colour);
   }
   return sum;
 }
 
 // The radiance of the nearest triangle as a byte: 255 times the radiance, rounded, halves up.
 Oracle::Pixel Oracle::pixel(int x, int y) const {
-  Pixel pixel{.triangle = std::nullopt, .colour = world_.background};
+  Pixel pixel{.triangle = std::nullopt, .colour = Vector(scene_.background)};
   Real nearest = 0;
   bool doubtful = false;
-  for (std::size_t i = 0; i < world_.triangles.size(); ++i) {
+  for (std::size_t i = 0; i < scene_.triangles.size(); ++i) {
     if (!covers(i, x, y)) continue;
     const Real depth = depth_steps(i, x, y) * (has("last_of_depth") ? -1 : 1);
     if (pixel.triangle && std::abs(depth - nearest) < 1e-3L) doubtful = true;
@@ -368,9 +301,9 @@ Oracle::Pixel Oracle::pixel(int x, int y) const {
     nearest = depth;
   }
   if (pixel.triangle) pixel.colour = radiance(*pixel.triangle, surface(*pixel.triangle, x, y), &doubtful);
-  const Real channel[3] = {pixel.colour.x, pixel.colour.y, pixel.colour.z};
   for (int i = 0; i < 3; ++i) {
-    const Real steps = 255 * std::clamp(channel[i], Real(0), Real(1)) + (has("truncated_to_byte") ? 0 : 0.5L);
+    const Real steps =
+        255 * std::clamp(pixel.colour[i], Real(0), Real(1)) + (has("truncated_to_byte") ? 0 : 0.5L);
     pixel.byte[i] = static_cast<std::uint8_t>(std::floor(steps));
     pixel.doubtful[i] = doubtful || std::abs(steps - std::round(steps)) < c_doubt;
   }

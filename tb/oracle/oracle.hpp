@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the picture of a scene from its equations only, as an independent check of projection, coverage,
-// depth, illumination and shadows. The oracle shares no code with model/; it only copies the plain fields of
+// depth, illumination and shadows. The oracle shares no code with model/; it only reads the plain fields of
 // a scene. It is slow and simple: every pixel tests every triangle. Screen geometry is in integers and
 // rationals (GMP). Everything else is in long double, with a rounding 2000 times finer than that of the
 // tested code.
@@ -24,56 +24,27 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-namespace halfway {
-struct Scene;
-}
+#include "scene/scene.hpp"
 
 namespace halfway::oracle {
 
 using Real = long double;
-
-struct Vector {
-  Real x = 0, y = 0, z = 0;
-};
-
-enum class Reflection { blinn, phong, cook_torrance };
-struct Material {
-  Reflection reflection;
-  Vector colour, specular_colour;
-  Real ambient, diffuse, specular, exponent, roughness, reflectance;
-};
+using Vector = glm::vec<3, Real>;
 
 enum class Kind { directional, positional, spot };
 struct Light {
   Kind kind;
   Vector place;  ///< of a directional light: the direction to the light
   Vector intensity;
-  Vector axis;  ///< of a spot: the direction in which it shines
+  Vector axis{};  ///< of a spot: the direction in which it shines
   Real cos_inner = 0, cos_outer = 0;
 };
-
-struct Corner {
-  Vector position, normal;
-};
-struct Triangle {
-  std::array<Corner, 3> corner;
-  std::size_t material;
-};
-
-struct World {
-  Vector eye, target, up, ambient, background;
-  Real fov_degrees, near, far;
-  bool shadows;
-  std::vector<Material> materials;
-  std::vector<Light> lights;
-  std::vector<Triangle> triangles;
-};
-/// Only this function reads a Scene. The scene's camera must give near and far.
-World copy(const Scene& scene);
 
 /// The name of a fault in c_faults (oracle_test.cpp) that is put into the oracle; empty: none.
 using Fault = std::string_view;
@@ -92,7 +63,8 @@ inline constexpr Real c_doubt = 1e-9L;
 
 class Oracle {
  public:
-  Oracle(World world, unsigned width, unsigned height, Fault fault = {});
+  /// The scene must outlive the oracle, and its camera must give near and far.
+  Oracle(const Scene& scene, unsigned width, unsigned height, Fault fault = {});
 
   /// The triangle on the screen; empty if it is seen from behind or edge-on. No corner may be nearer than the
   /// near plane: see is_clipped.
@@ -110,7 +82,7 @@ class Oracle {
 
   /// The point of a triangle at a pixel's centre.
   struct Surface {
-    Vector position, normal;
+    Vector position{}, normal{};
   };
   Surface surface(std::size_t triangle, int x, int y) const;
   /// Sets `doubtful`, unless it is null, if a decision (a horizon, a shadow's edge) is in doubt.
@@ -118,26 +90,27 @@ class Oracle {
 
   struct Pixel {
     std::optional<std::size_t> triangle;  ///< the nearest
-    Vector colour;
+    Vector colour{};
     std::array<std::uint8_t, 3> byte{};
     std::array<bool, 3> doubtful{};  ///< rounding may give the next byte
   };
   Pixel pixel(int x, int y) const;
-  const World& world() const { return world_; }
 
  private:
   bool has(Fault fault) const { return fault_ == fault; }
   void project(std::size_t triangle);
+  Vector position(std::size_t triangle, int corner) const;
   Real distance(const Vector& position) const;
   std::array<mpq_class, 3> weights(const ScreenTriangle& triangle, int x, int y) const;
-  Real depth_of(const Corner& corner) const;
+  Real depth_of(const Vector& position) const;
   Real highlight(const Material& m, const Vector& n, const Vector& l, const Vector& v) const;
   bool is_shadowed(std::size_t triangle, const Vector& from, const Light& light, bool* doubtful) const;
 
-  World world_;
+  const Scene& scene_;
+  std::vector<Light> lights_;
   unsigned width_, height_;
   Fault fault_;
-  Vector right_, up_, forward_;
+  Vector eye_, right_, up_, forward_;
   Real pixels_per_slope_;
   Real radius_ = 0;
   bool clipped_ = false;

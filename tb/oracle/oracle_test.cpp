@@ -34,7 +34,6 @@
 namespace halfway {
 namespace {
 
-using oracle::copy;
 using oracle::Fault;
 using oracle::Oracle;
 using oracle::Real;
@@ -85,10 +84,6 @@ Findings compare_picture(const Scene& scene, FrameSize size, const Oracle& oracl
   return found;
 }
 
-glm::dvec3 in_double(const oracle::Vector& v) {
-  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
-}
-
 Findings compare_radiance(const Scene& scene, FrameSize size, const Oracle& oracle) {
   Findings found;
   for (std::uint32_t y = 0; y < size.height; ++y)
@@ -97,9 +92,9 @@ Findings compare_radiance(const Scene& scene, FrameSize size, const Oracle& orac
       if (!triangle) continue;
       const auto surface = oracle.surface(*triangle, static_cast<int>(x), static_cast<int>(y));
       bool doubtful = false;
-      const glm::dvec3 expected = in_double(oracle.radiance(*triangle, surface, &doubtful));
+      const glm::dvec3 expected = glm::dvec3(oracle.radiance(*triangle, surface, &doubtful));
       const glm::dvec3 got = radiance(scene, scene.materials[scene.triangles[*triangle].material],
-                                      in_double(surface.position), in_double(surface.normal));
+                                      glm::dvec3(surface.position), glm::dvec3(surface.normal));
       ++found.compared;
       found.doubtful += doubtful;
       if (doubtful) continue;
@@ -174,23 +169,7 @@ class Random {
 
 // A new kind comes last: then the random scenes of the others stay.
 enum class Lights { ambient, directional, positional, spot, hard_spot, all };
-const char* name_of(Lights lights) {
-  switch (lights) {
-    case Lights::ambient:
-      return "ambient";
-    case Lights::directional:
-      return "directional";
-    case Lights::positional:
-      return "positional";
-    case Lights::spot:
-      return "spot";
-    case Lights::hard_spot:
-      return "hard_spot";
-    case Lights::all:
-      return "all";
-  }
-  std::abort();
-}
+constexpr const char* c_light_names[] = {"ambient", "directional", "positional", "spot", "hard_spot", "all"};
 constexpr const char* c_brdf_names[] = {"blinn", "phong", "cook_torrance"};
 
 void add_light(Scene& scene, Random& random, Lights kind) {
@@ -321,10 +300,11 @@ std::vector<Case> random_cases(unsigned seeds) {
           if (shadows && lights == Lights::ambient) continue;
           const unsigned number =
               6 * static_cast<unsigned>(lights) + 2 * static_cast<unsigned>(brdf) + shadows;
-          cases.push_back({fmt::format("{} {}{}, seed {}", c_brdf_names[static_cast<int>(brdf)],
-                                       name_of(lights), shadows ? " shadows" : "", seed),
-                           std::make_shared<Scene>(random_scene(1000 * seed + number, brdf, lights, shadows)),
-                           {31 + number % 7, 27 + number % 5}});
+          cases.push_back(
+              {fmt::format("{} {}{}, seed {}", c_brdf_names[static_cast<int>(brdf)],
+                           c_light_names[static_cast<int>(lights)], shadows ? " shadows" : "", seed),
+               std::make_shared<Scene>(random_scene(1000 * seed + number, brdf, lights, shadows)),
+               {31 + number % 7, 27 + number % 5}});
         }
     const FrameSize size{33, 29};
     cases.push_back({fmt::format("half pixels, seed {}", seed),
@@ -362,13 +342,13 @@ struct AllFindings {
 };
 
 void compare_all(const Case& one, AllFindings& found) {
-  const Oracle oracle(copy(*one.scene), one.size.width, one.size.height);
+  const Oracle oracle(*one.scene, one.size.width, one.size.height);
   ASSERT_FALSE(oracle.is_clipped());
   ASSERT_EQ(oracle.doubtful_corners(), 0U) << "take another size or seed";
   AllFindings here;
   here.picture = compare_picture(*one.scene, one.size, oracle);
   // radiance() does not compute shadows.
-  oracle::World lit = copy(*one.scene);
+  Scene lit = *one.scene;
   lit.shadows = false;
   here.radiance = compare_radiance(*one.scene, one.size, Oracle(lit, one.size.width, one.size.height));
   for (const Shader shader : c_shaders)
@@ -471,7 +451,7 @@ TEST_P(OracleFault, IsFound) {
   static const std::vector<Case> c_cases = random_cases(1);
   const auto any = [&](auto&& compare) {
     return std::ranges::any_of(c_cases, [&](const Case& one) {
-      return compare(one, Oracle(copy(*one.scene), one.size.width, one.size.height, GetParam())).wrong != 0;
+      return compare(one, Oracle(*one.scene, one.size.width, one.size.height, GetParam())).wrong != 0;
     });
   };
   // Compare depth, which the picture does not show, if the picture is right.
