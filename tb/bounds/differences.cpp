@@ -192,16 +192,6 @@ std::string plane_script(int fraction, double limit, double lines, double steps)
       fraction, lines, steps, limit);
 }
 
-// Runs Gappa on the script. Without Gappa nothing is proved, and only the formula is reported.
-void prove(const Context& context, const std::string& script, double limit, Finding& finding) {
-  const auto said = gappa(context, script);
-  if (!said) return;
-  if (said->empty())
-    finding.proved = limit;
-  else
-    finding.failure = "Gappa does not prove it: " + *said;
-}
-
 constexpr double c_lines = c_side - 1, c_pixels = c_side - 1, c_carries = c_side - 1;
 
 // A triangle through fit and golden interpolator. Every pixel is compared with exact rationals. Preset
@@ -352,13 +342,11 @@ Finding edge(const Context& context, const Stated& stated) {
 std::vector<Check> difference_checks() {
   return {
       {"both", "depth_sum", "", "Gappa; a triangle through setup and golden interpolator", depth},
-      {"exact", "intensity", "", "Gappa; a triangle through setup and golden interpolator", intensity<Exact>},
-      {"published", "intensity", "", "Gappa; a triangle through fit and golden interpolator",
-       intensity<Published>},
+      {"both", "intensity", "", "Gappa; a triangle through setup and golden interpolator",
+       of_preset(intensity<Exact>, intensity<Published>)},
       {"both", "intensity", "samples", "intervals over the whole triangle", sample_weights},
-      {"exact", "plane_sum", "", "Gappa; a triangle through setup and golden interpolator", plane<Exact>},
-      {"published", "plane_sum", "", "Gappa; a triangle through setup and golden interpolator",
-       plane<Published>},
+      {"both", "plane_sum", "", "Gappa; a triangle through setup and golden interpolator",
+       of_preset(plane<Exact>, plane<Published>)},
       {"published", "edge_x", "", "Gappa; edges between whole pixels by the golden adder", edge},
   };
 }

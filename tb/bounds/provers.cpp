@@ -7,16 +7,19 @@
 
 namespace halfway::bounds {
 
-std::optional<std::string> gappa(const Context& context, std::string_view script) {
-  if (context.quick) return std::nullopt;
+void prove(const Context& context, const std::string& script, double limit, Finding& finding) {
+  if (context.quick) return;
   const std::filesystem::path file = context.scratch / "bound.gappa";
-  if (const auto written = write_file(file, script); !written) return written.error().message;
+  const auto written = write_file(file, script);
   const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(60)},
                                "apt-get install gappa");
-  if (!end) return end.error().message;
-  // The last part of Gappa's output names what it could not prove.
-  return end->succeeded() ? std::string()
-                          : end->output.substr(std::min(end->output.rfind("Error"), end->output.size()));
+  if (!written || !end)
+    finding.failure = (written ? end.error() : written.error()).message;
+  else if (end->succeeded())
+    finding.proved = limit;
+  else  // the last part of the output names what could not be proved
+    finding.failure = "Gappa does not prove it: " +
+                      end->output.substr(std::min(end->output.rfind("Error"), end->output.size()));
 }
 
 }  // namespace halfway::bounds

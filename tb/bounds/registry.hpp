@@ -2,14 +2,15 @@
 // The check of a bound: its method, the worst case found, and its argument.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/test/big_real.hpp"
 #include "tables/formats.hpp"
 
 namespace halfway::bounds {
@@ -34,6 +35,11 @@ void keep_worst(auto& finding, double error, Where&& where) {
   if (error <= finding.worst) return;
   finding.worst = error;
   finding.where = where();
+}
+
+/// The distance of the two numbers, rounded up.
+inline double distance(double value, const BigReal& truth) {
+  return std::nextafter(static_cast<double>(abs(truth - value)), HUGE_VAL);
 }
 
 /// A bound as model/tables states it.
@@ -67,16 +73,22 @@ struct TableFinding {
   std::string table;
   double bound = 0, derived = 0, worst = 0;
   std::string where;
-  std::string failure{};
 };
 
-/// Whole cells, by intervals with outward rounding. All generated tables, and cosine tables of all sizes
+/// Whole cells, by 400 bits. All generated tables, and cosine tables of all sizes
 /// (quick: of a few).
 std::vector<TableFinding> cosine_tables(const Context& context);
 std::vector<TableFinding> function_tables();
 
-/// Gappa's result for a script: an empty string if it proves everything, else its output. Empty optional:
-/// Gappa is not installed.
-std::optional<std::string> gappa(const Context& context, std::string_view script);
+/// Runs Gappa on the script, unless the context is quick: the limit is then proved, or the check fails.
+void prove(const Context& context, const std::string& script, double limit, Finding& finding);
+
+/// A check that has a function for each preset.
+using Run = Finding(const Context&, const Stated&);
+inline std::function<Run> of_preset(Run* exact, Run* published) {
+  return [=](const Context& context, const Stated& stated) {
+    return (stated.preset.name == "exact" ? exact : published)(context, stated);
+  };
+}
 
 }  // namespace halfway::bounds

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "golden/half_vector.hpp"
 #include "golden/unit_vector.hpp"
-#include "interval.hpp"
 #include "registry.hpp"
 
 namespace halfway::bounds {
@@ -14,7 +14,7 @@ namespace {
 
 using golden::Axes, golden::Exact, golden::Published, golden::ReciprocalRoot;
 
-// The table only: each entry over its whole cell.
+// The table only: each entry over its whole cell. x^-1/2 decreases, so the error is largest at an end of it.
 template <class P>
 Finding entry(const Context&, const Stated& stated) {
   const golden::FunctionTable& table = golden::function_table<P>(golden::Function::reciprocal_root);
@@ -23,14 +23,11 @@ Finding entry(const Context&, const Stated& stated) {
   for (int i = 0; i < cells; ++i) {
     const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);
     for (const int end : {i, i + 1}) {
-      const Dyadic x =
-          end < cells / 2 ? Dyadic{cells + 2 * end, table.address_bits} : Dyadic{4 * end, table.address_bits};
-      const Enclosure truth = reciprocal_root(x);
-      // Relative to the root. x^-1/2 decreases, so both errors are largest at an end of the cell.
-      const double error = stated.bound.of == "relative" ? farthest(value, truth) / truth.low * (1 + 0x1p-51)
-                                                         : farthest(value, truth);
-      keep_worst(finding, error,
-                 [&] { return fmt::format("entry {} at x = {}", i, std::ldexp(x.number, -x.shift)); });
+      const double x = end < cells / 2 ? 1 + 2.0 * end / cells : 4.0 * end / cells;
+      // Relative to the root: |value sqrt(x) - 1|.
+      const double error =
+          stated.bound.of == "relative" ? distance(1, value * sqrt(x)) : distance(value, 1.0 / sqrt(x));
+      keep_worst(finding, error, [&] { return fmt::format("entry {} at x = {}", i, x); });
     }
   }
   finding.proved = finding.worst;
@@ -147,6 +144,7 @@ Finding length(const Context& context, const Stated& stated) {
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(true, starts, finding);
   climb<P, P::c_offset_bits>(true, starts, finding);
+  climb<P, golden::c_half_sum_bits<P>>(true, starts / 10, finding);
   // The derivation, with the error of the root over every x.
   const double all_roots = root<P>(context, stated).proved;
   if (all_roots > 0)
@@ -192,6 +190,7 @@ Finding direction_angle(const Context& context, const Stated& stated) {
   const int starts = context.quick ? 3'000 : 200'000;
   climb<P, P::c_vector_bits>(false, starts, finding);
   climb<P, P::c_offset_bits>(false, starts, finding);
+  climb<P, golden::c_half_sum_bits<P>>(false, starts / 10, finding);
   // Use the longest vectors: their lowest bits are cut.
   constexpr int c_cut = std::max(0, P::c_offset_bits - P::c_direction_bits);
   const double unit = stated.format.unit() / 2;  // unit of a shifted vector
@@ -251,22 +250,18 @@ Finding offset(const Context&, const Stated& stated) {
 
 std::vector<Check> root_checks() {
   return {
-      {"exact", "root_entry", "", "intervals over whole cells", entry<Exact>},
-      {"published", "root_entry", "", "intervals over whole cells", entry<Published>},
-      {"exact", "root_entry", "relative", "intervals over whole cells", entry<Exact>},
-      {"published", "root_entry", "relative", "intervals over whole cells", entry<Published>},
-      {"exact", "root", "", "every x, in integers", root<Exact>},
-      {"published", "root", "", "every x, in integers", root<Published>},
-      {"exact", "square", "", "random vectors; a cut leaves less than a unit", square<Exact>},
-      {"published", "square", "", "random vectors; a cut leaves less than a unit", square<Published>},
-      {"exact", "direction", "component", "cosines of dot products; a rounding leaves half a unit",
-       component<Exact>},
-      {"published", "direction", "component", "cosines of dot products; a rounding leaves half a unit",
-       component<Published>},
-      {"exact", "direction", "length", "every root, and a derivation; hill climbing", length<Exact>},
-      {"published", "direction", "length", "every root, and a derivation; hill climbing", length<Published>},
-      {"exact", "direction", "angle", "boxes of directions; hill climbing", direction_angle<Exact>},
-      {"published", "direction", "angle", "boxes of directions; hill climbing", direction_angle<Published>},
+      {"both", "root_entry", "", "whole cells, by 400 bits", of_preset(entry<Exact>, entry<Published>)},
+      {"both", "root_entry", "relative", "whole cells, by 400 bits",
+       of_preset(entry<Exact>, entry<Published>)},
+      {"both", "root", "", "every x, in integers", of_preset(root<Exact>, root<Published>)},
+      {"both", "square", "", "random vectors; a cut leaves less than a unit",
+       of_preset(square<Exact>, square<Published>)},
+      {"both", "direction", "component", "cosines of dot products; a rounding leaves half a unit",
+       of_preset(component<Exact>, component<Published>)},
+      {"both", "direction", "length", "every root, and a derivation; hill climbing",
+       of_preset(length<Exact>, length<Published>)},
+      {"both", "direction", "angle", "boxes of directions; hill climbing",
+       of_preset(direction_angle<Exact>, direction_angle<Published>)},
       {"exact", "offset", "", "random places; a rounding and a cut", offset},
   };
 }

@@ -3,18 +3,13 @@
 // number is rounded once, by at most half a unit.
 #include <fmt/format.h>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <memory>
-#include <numbers>
-#include <random>
-
 #include "golden/shading_token.hpp"
 #include "plan/plan.hpp"
 #include "registry.hpp"
 #include "setup/init_vector.hpp"
 #include "setup/processors_setup.hpp"
 #include "setup/spherical_setup.hpp"
+#include "setup/test/random_scenes.hpp"
 
 namespace halfway::bounds {
 namespace {
@@ -23,43 +18,21 @@ using golden::Exact, golden::Published;
 
 constexpr FrameSize c_small{64, 64};
 
-// The eye is at (0, 0, 5), so that view space is world space with another origin.
-struct RandomScene {
+// Four lights of each kind and one triangle. The eye is at (0, 0, 5), so that view space is world space with
+// another origin.
+Scene random_scene(int seed) {
+  RandomScenes random(static_cast<unsigned>(seed));
   Scene scene;
-  std::mt19937_64 random;
-
-  explicit RandomScene(std::uint64_t seed) : random(seed) {
-    scene.ambient = colour(1.0);
-    scene.positions_world = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-    scene.normals_world = {{0, 0, 1}};
-    scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
-    Material m;
-    m.colour = colour(1.0);
-    m.specular_colour = colour(1.0);
-    m.ambient = real(0.1, 0.9);
-    m.diffuse = real(0.1, 0.9);
-    m.specular = real(0.1, 0.9);
-    m.exponent = std::exp(real(0.01, 6.5));
-    scene.materials = {m};
-    for (int i = 0; i < 4; ++i) scene.directional.push_back({unit(), colour(0.9)});
-    for (int i = 0; i < 4; ++i)
-      scene.positional.push_back({{real(-3, 3), real(-3, 3), real(-2, 4)}, colour(0.9)});
-    for (int i = 0; i < 4; ++i) {
-      const double outer = real(-0.9, 0.9), inner = outer + (1 - outer) * real(0.01, 0.9);
-      scene.spots.push_back({{real(-3, 3), real(-3, 3), real(-2, 4)}, unit(), inner, outer, colour(0.9)});
-    }
-  }
-  double real(double low, double high) {
-    return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
-  }
-  glm::dvec3 colour(double most) { return {real(0, most), real(0, most), real(0, most)}; }
-  glm::dvec3 unit() {
-    for (;;) {
-      const glm::dvec3 v{real(-1, 1), real(-1, 1), real(-1, 1)};
-      if (glm::dot(v, v) > 0.01) return glm::normalize(v);
-    }
-  }
-};
+  scene.ambient = random.colour(false);
+  scene.materials = {random.material(false, false)};
+  scene.materials[0].brdf = Brdf::blinn;
+  for (const auto kind : {RandomScenes::directional, RandomScenes::positional, RandomScenes::spots})
+    random.add_lights(scene, 4, kind, 1.0, false);
+  scene.positions_world = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  scene.normals_world = {{0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
+  return scene;
+}
 
 // Compares words of `fraction` fraction bits with their numbers and keeps the worst.
 struct Seen {
@@ -102,13 +75,13 @@ Finding over_scenes(const Context& context, const Stated& stated, See&& see) {
   Finding finding;
   const Seen seen{finding, stated.format.fraction_bits};
   for (int i = 0; i < (context.quick ? 40 : 2000); ++i) {
-    const RandomScene random(static_cast<std::uint64_t>(i));
-    const SetupWords<P> words = setup_words<P>(random.scene);
+    const Scene scene = random_scene(i);
+    const SetupWords<P> words = setup_words<P>(scene);
     if (words.lights.size() != 13) {
       finding.failure = "the set-up did not output the lights of the scene";
       return finding;
     }
-    see(seen, random.scene, words);
+    see(seen, scene, words);
   }
   finding.proved = stated.format.unit() / 2;  // one rounding
   return finding;
@@ -163,10 +136,8 @@ Finding spot_slope(const Context& context, const Stated& stated) {
           // The cubic at two thirds of the cone's edge, by the word and by the number.
           const auto cubic = [](double t) { return t * t * (3 - 2 * t); };
           const double is = std::ldexp(words.lights[9 + i].slope, -stated.format.fraction_bits), t = 2.0 / 3;
-          const double error = std::fabs(cubic(std::min(1.0, t * is / slope)) - cubic(t));
-          if (error <= seen.finding.worst) continue;
-          seen.finding.worst = error;
-          seen.finding.where = fmt::format("a slope of {:.9f}, two thirds into its edge", slope);
+          keep_worst(seen.finding, std::fabs(cubic(std::min(1.0, t * is / slope)) - cubic(t)),
+                     [&] { return fmt::format("a slope of {:.9f}, two thirds into its edge", slope); });
         }
       });
   if (share) {
@@ -245,22 +216,22 @@ Finding factor(const Context& context, const Stated& stated) {
   Finding finding;
   const Seen seen{finding, stated.format.fraction_bits};
   for (int i = 0; i < (context.quick ? 40 : 300); ++i) {
-    const RandomScene random(static_cast<std::uint64_t>(i));
-    const auto plan = plan_scene(random.scene, {.shader = Shader::spherical, .preset = c_preset});
+    const Scene scene = random_scene(i);
+    const auto plan = plan_scene(scene, {.shader = Shader::spherical, .preset = c_preset});
     if (!plan) {
       finding.failure = plan.error().message;
       return finding;
     }
-    const SphericalSetup setup(random.scene, c_small, plan->key, {});
+    const SphericalSetup setup(scene, c_small, plan->key, {});
     std::vector<std::uint32_t> words;
     SetupCounts counts;
     setup.append(0, words, counts);
     const golden::SphericalLayout<P> layout(golden_config(plan->key));
-    const Material& m = random.scene.materials[0];
+    const Material& m = scene.materials[0];
     for (int c = 0; c < 3; ++c)
       seen.word(static_cast<std::int64_t>(
                     golden::get_bits(words, P::ambient_channel_at::ambient, layout.ambient_low(c))),
-                255 * random.scene.ambient[c] * m.ambient * m.colour[c] + 0.5, "an ambient factor");
+                255 * scene.ambient[c] * m.ambient * m.colour[c] + 0.5, "an ambient factor");
   }
   finding.proved = stated.format.unit() / 2;
   return finding;
@@ -271,24 +242,18 @@ Finding factor(const Context& context, const Stated& stated) {
 std::vector<Check> setup_checks() {
   constexpr std::string_view c_scenes = "random scenes through setup; a rounding leaves half a unit";
   return {
-      {"exact", "light_intensity", "", c_scenes, light_intensity<Exact>},
-      {"published", "light_intensity", "", c_scenes, light_intensity<Published>},
-      {"exact", "light_place", "", c_scenes, light_place<Exact>},
-      {"published", "light_place", "", c_scenes, light_place<Published>},
-      {"exact", "spot_slope", "", c_scenes, spot_slope<Exact>},
-      {"published", "spot_slope", "", c_scenes, spot_slope<Published>},
-      {"exact", "spot_slope", "share", "derivation; the least slopes", spot_slope<Exact>},
-      {"published", "spot_slope", "share", "derivation; the least slopes", spot_slope<Published>},
-      {"exact", "coefficient", "", c_scenes, coefficient<Exact>},
-      {"published", "coefficient", "", c_scenes, coefficient<Published>},
-      {"exact", "exponent", "", c_scenes, exponent<Exact>},
-      {"published", "exponent", "", c_scenes, exponent<Published>},
-      {"exact", "exponent", "highlight", "derivation; the least exponents", exponent<Exact>},
-      {"published", "exponent", "highlight", "derivation; the least exponents", exponent<Published>},
-      {"exact", "vector", "", "every fraction that is cut", vector<Exact>},
-      {"published", "vector", "", "every fraction that is cut", vector<Published>},
-      {"exact", "factor", "", c_scenes, factor<Exact>},
-      {"published", "factor", "", c_scenes, factor<Published>},
+      {"both", "light_intensity", "", c_scenes,
+       of_preset(light_intensity<Exact>, light_intensity<Published>)},
+      {"both", "light_place", "", c_scenes, of_preset(light_place<Exact>, light_place<Published>)},
+      {"both", "spot_slope", "", c_scenes, of_preset(spot_slope<Exact>, spot_slope<Published>)},
+      {"both", "spot_slope", "share", "derivation; the least slopes",
+       of_preset(spot_slope<Exact>, spot_slope<Published>)},
+      {"both", "coefficient", "", c_scenes, of_preset(coefficient<Exact>, coefficient<Published>)},
+      {"both", "exponent", "", c_scenes, of_preset(exponent<Exact>, exponent<Published>)},
+      {"both", "exponent", "highlight", "derivation; the least exponents",
+       of_preset(exponent<Exact>, exponent<Published>)},
+      {"both", "vector", "", "every fraction that is cut", of_preset(vector<Exact>, vector<Published>)},
+      {"both", "factor", "", c_scenes, of_preset(factor<Exact>, factor<Published>)},
   };
 }
 

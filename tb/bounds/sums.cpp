@@ -187,10 +187,10 @@ std::vector<Check> sum_checks() {
       {"both", "colour", "rounded", "every fraction of preset published", colour_rounded},
       {"both", "depth", "", "the program's own limits", depth_range},
       {"both", "depth", "rounded", "every fraction", depth_rounded},
-      {"exact", "reflected", "", "random k and I by the golden processor", reflected<Exact>},
-      {"published", "reflected", "", "random k and I by the golden processor", reflected<Published>},
-      {"exact", "radiance", "", "16 lights by the golden processors", radiance<Exact>},
-      {"published", "radiance", "", "16 lights by the golden processors", radiance<Published>},
+      {"both", "reflected", "", "random k and I by the golden processor",
+       of_preset(reflected<Exact>, reflected<Published>)},
+      {"both", "radiance", "", "16 lights by the golden processors",
+       of_preset(radiance<Exact>, radiance<Published>)},
   };
 }
 
