@@ -1,53 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the picture of a scene from its equations only, as an independent check of projection, coverage,
 // depth, illumination and shadows. The oracle shares no code with model/; it only reads the plain fields of
-// a scene. It is slow and simple: every pixel tests every triangle. Screen geometry is in integers and
-// rationals (GMP). Everything else is in long double, with a rounding 2000 times finer than that of the
-// tested code.
+// a scene. It is slow and simple: every pixel tests every triangle. Screen geometry is in integers.
+// Everything else is in long double, with a rounding 2000 times finer than that of the tested code.
 //
-// Equations. Each is repeated where it is used.
+// Equations, besides those of specification.hpp. Each is repeated where it is used.
 //  perspective and depth          Akenine-Moller, Haines, Hoffman: Real-Time Rendering, 4th ed.,
 //                                 sections 4.7 and 23.7
-//  coverage, top-left rule        the same, section 23.1; Pineda: A Parallel Algorithm for Polygon
-//                                 Rasterization (1988)
 //  perspective correction         Heckbert, Moreton: Interpolation for Polygon Texture Mapping and Shading
 //                                 (1991)
-//  Blinn, Phong                   spherical, equations 4 and 5; Blinn: Models of Light Reflection (1977)
-//  Cook-Torrance                  spherical, equation 7; Cook, Torrance: A Reflectance Model for Computer
-//                                 Graphics (1982), with Beckmann's distribution and Schlick's approximation
-//                                 of Fresnel's term (1994)
-//  positional lights, spots       processors, table of terms; no fall-off with distance
 //  ray against triangle           Moller, Trumbore: Fast, Minimum Storage Ray/Triangle Intersection (1997)
 #pragma once
 
-#include <gmpxx.h>
-
 #include <array>
 #include <cstdint>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <optional>
-#include <string_view>
 #include <vector>
 
-#include "scene/scene.hpp"
+#include "oracle/specification.hpp"
 
 namespace halfway::oracle {
-
-using Real = long double;
-using Vector = glm::vec<3, Real>;
-
-enum class Kind { directional, positional, spot };
-struct Light {
-  Kind kind;
-  Vector place;  ///< of a directional light: the direction to the light
-  Vector intensity;
-  Vector axis{};  ///< of a spot: the direction in which it shines
-  Real cos_inner = 0, cos_outer = 0;
-};
-
-/// The name of a fault in c_faults (oracle_test.cpp) that is put into the oracle; empty: none.
-using Fault = std::string_view;
 
 /// A corner on the screen: its position in 1/16 pixel, and the reciprocal of its distance along the viewing
 /// axis.
@@ -56,10 +28,6 @@ struct ScreenCorner {
   Real inverse_w;
 };
 using ScreenTriangle = std::array<ScreenCorner, 3>;
-
-/// A decision is in doubt if the real number that decides is this close to the limit: rounding may then
-/// decide differently.
-inline constexpr Real c_doubt = 1e-9L;
 
 class Oracle {
  public:
@@ -85,8 +53,8 @@ class Oracle {
     Vector position{}, normal{};
   };
   Surface surface(std::size_t triangle, int x, int y) const;
-  /// Sets `doubtful`, unless it is null, if a decision (a horizon, a shadow's edge) is in doubt.
-  Vector radiance(std::size_t triangle, const Surface& surface, bool* doubtful) const;
+  /// Sets `doubtful` if a decision (a horizon, a shadow's edge) is in doubt.
+  Vector radiance(std::size_t triangle, const Surface& surface, bool& doubtful) const;
 
   struct Pixel {
     std::optional<std::size_t> triangle;  ///< the nearest
@@ -101,13 +69,10 @@ class Oracle {
   void project(std::size_t triangle);
   Vector position(std::size_t triangle, int corner) const;
   Real distance(const Vector& position) const;
-  std::array<mpq_class, 3> weights(const ScreenTriangle& triangle, int x, int y) const;
   Real depth_of(const Vector& position) const;
-  Real highlight(const Material& m, const Vector& n, const Vector& l, const Vector& v) const;
-  bool is_shadowed(std::size_t triangle, const Vector& from, const Light& light, bool* doubtful) const;
+  bool is_shadowed(std::size_t triangle, const Vector& from, const Light& light, bool& doubtful) const;
 
   const Scene& scene_;
-  std::vector<Light> lights_;
   unsigned width_, height_;
   Fault fault_;
   Vector eye_, right_, up_, forward_;

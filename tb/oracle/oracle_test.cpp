@@ -19,7 +19,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
-#include <random>
 #include <set>
 
 #include "plan/plan.hpp"
@@ -27,6 +26,8 @@
 #include "scene/scene.hpp"
 #include "setup/project.hpp"
 #include "setup/setup.hpp"
+#include "setup/test/random_scenes.hpp"
+#include "setup/test/random_solids.hpp"
 #include "shading/shade.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
@@ -92,7 +93,7 @@ Findings compare_radiance(const Scene& scene, FrameSize size, const Oracle& orac
       if (!triangle) continue;
       const auto surface = oracle.surface(*triangle, static_cast<int>(x), static_cast<int>(y));
       bool doubtful = false;
-      const glm::dvec3 expected = glm::dvec3(oracle.radiance(*triangle, surface, &doubtful));
+      const glm::dvec3 expected = glm::dvec3(oracle.radiance(*triangle, surface, doubtful));
       const glm::dvec3 got = radiance(scene, scene.materials[scene.triangles[*triangle].material],
                                       glm::dvec3(surface.position), glm::dvec3(surface.normal));
       ++found.compared;
@@ -149,138 +150,63 @@ Findings compare_fragments(const Scene& scene, FrameSize size, const Oracle& ora
 
 // Scenes.
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double within(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_()) / 4294967296.0);
-  }
-  glm::dvec3 cube(double side) { return {within(-side, side), within(-side, side), within(-side, side)}; }
-  glm::dvec3 colour() { return {within(0.1, 1), within(0.1, 1), within(0.1, 1)}; }
-  glm::dvec3 direction() {
-    glm::dvec3 v = cube(1);
-    while (glm::length(v) < 0.2) v = cube(1);
-    return glm::normalize(v);
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
 // A new kind comes last: then the random scenes of the others stay.
 enum class Lights { ambient, directional, positional, spot, hard_spot, all };
 constexpr const char* c_light_names[] = {"ambient", "directional", "positional", "spot", "hard_spot", "all"};
 constexpr const char* c_brdf_names[] = {"blinn", "phong", "cook_torrance"};
 
-void add_light(Scene& scene, Random& random, Lights kind) {
-  const glm::dvec3 intensity = random.within(0.3, 0.8) * random.colour();
-  const glm::dvec3 place = random.within(0.3, 4.0) * random.direction();
-  const glm::dvec3 axis = glm::normalize(random.cube(0.5) - place);
-  const double inner = random.within(0.85, 0.97);
-  if (kind == Lights::directional) scene.directional.push_back({random.direction(), intensity});
-  if (kind == Lights::positional) scene.positional.push_back({place, intensity});
-  if (kind == Lights::spot)
-    scene.spots.push_back({place, axis, inner, inner - random.within(0.02, 0.2), intensity});
-  if (kind == Lights::hard_spot) scene.spots.push_back({place, axis, inner, inner, intensity});
-}
-
-void add_triangle(Scene& scene, const std::array<glm::dvec3, 3>& positions,
-                  const std::array<glm::dvec3, 3>& normals, std::uint32_t material) {
-  SceneTriangle triangle{.position = {}, .normal = {}, .material = material};
-  for (int i = 0; i < 3; ++i) {
-    triangle.position[i] = static_cast<std::uint32_t>(scene.positions_world.size());
-    triangle.normal[i] = static_cast<std::uint32_t>(scene.normals_world.size());
-    scene.positions_world.push_back(positions[i]);
-    scene.normals_world.push_back(normals[i]);
-  }
-  scene.triangles.push_back(triangle);
-}
-
-/// A dented octahedron, each side divided into four, with normals that differ slightly from its own.
-void add_solid(Scene& scene, Random& random, glm::dvec3 centre, double radius, std::uint32_t material) {
-  const glm::dvec3 seed = random.cube(9);
-  const auto corner = [&](glm::dvec3 v) {
-    return centre + radius * (1 + 0.2 * std::sin(glm::dot(seed, v))) * glm::normalize(v);
-  };
-  const auto normal = [&](glm::dvec3 v) {
-    return glm::normalize(glm::normalize(v) +
-                          0.3 * glm::dvec3(std::sin(3 * v.y), std::cos(4 * v.z), std::sin(2 * v.x)));
-  };
-  const auto add = [&](glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-    add_triangle(scene, {corner(a), corner(b), corner(c)}, {normal(a), normal(b), normal(c)}, material);
-  };
-  for (int side = 0; side < 8; ++side) {
-    const glm::dvec3 x{side & 1 ? -1 : 1, 0, 0}, y{0, side & 2 ? -1 : 1, 0}, z{0, 0, side & 4 ? -1 : 1};
-    const bool turned = x.x * y.y * z.z < 0;
-    const glm::dvec3 a = x, b = turned ? z : y, c = turned ? y : z;
-    const glm::dvec3 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
-    add(a, ab, ca);
-    add(ab, b, bc);
-    add(ca, bc, c);
-    add(ab, bc, ca);
-  }
-}
-
+// Solids with holes, and one light of the kind, or of each kind, around and between them.
 Scene random_scene(unsigned seed, Brdf brdf, Lights lights, bool shadows) {
-  Random random(seed);
-  Scene scene;
+  Scene scene = RandomSolids(seed).scene(5);
+  RandomScenes random(seed);
+  for (int i = 0; i < 20; ++i)
+    scene.triangles.erase(scene.triangles.begin() + random.whole(0, int(scene.triangles.size()) - 1));
+  scene.positional[0].position_world = random.within(0.3, 1.5) * random.unit();
   scene.name = "random";
-  scene.camera = {.eye_world = random.within(4.0, 6.0) * random.direction(),
-                  .target_world = random.cube(0.3),
-                  .up_world = random.direction(),
-                  .vertical_fov_degrees = random.within(28, 50),
-                  .near = 0.7,
-                  .far = 11.0};
-  scene.ambient = random.colour();
-  scene.background = 0.3 * random.colour();
+  scene.camera.vertical_fov_degrees = random.within(28, 50);
+  scene.camera.near = 0.3;
+  scene.camera.far = 11.0;
+  scene.ambient = random.colour(false);
+  scene.background = 0.3 * random.colour(false);
   scene.shadows = shadows;
-  for (int i = 0; i < 2; ++i)
-    scene.materials.push_back({.name = fmt::format("m{}", i),
-                               .brdf = brdf,
-                               .colour = random.colour(),
-                               .specular_colour = random.colour(),
-                               .ambient = random.within(0.1, 0.4),
-                               .diffuse = random.within(0.2, 0.7),
-                               .specular = random.within(0.2, 0.6),
-                               .exponent = std::exp(random.within(0.0, 5.0)),
-                               .roughness = random.within(0.15, 0.6),
-                               .reflectance = random.within(0.02, 0.9)});
-  for (std::uint32_t i = 0; i < 3; ++i)
-    add_solid(scene, random, random.cube(0.9), random.within(0.4, 0.9), i % 2);
+  const auto keep = [&](Lights kind, auto& of_kind) {
+    if (lights != Lights::all && lights != kind) of_kind.clear();
+    for (auto& light : of_kind) light.intensity = random.colour(false);
+  };
+  keep(Lights::directional, scene.directional);
+  keep(Lights::positional, scene.positional);
+  if (lights == Lights::hard_spot) scene.spots[0].cos_outer = scene.spots[0].cos_inner;
+  keep(lights == Lights::hard_spot ? lights : Lights::spot, scene.spots);
+  scene.materials.clear();
   for (int i = 0; i < 2; ++i) {
-    if (lights == Lights::all)
-      for (const Lights kind : {Lights::directional, Lights::positional, Lights::spot})
-        add_light(scene, random, kind);
-    else
-      add_light(scene, random, lights);
+    Material& m = scene.materials.emplace_back(random.material(false, false, 150.0));
+    m.brdf = brdf;
+    m.roughness = random.within(0.15, 0.6);
+    m.reflectance = random.within(0.02, 0.9);
   }
+  for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+    scene.triangles[i].material = static_cast<std::uint32_t>(i % 2);
   return scene;
 }
 
 /// Triangles with corners on whole and half pixels, so that edges pass through pixel centres.
 Scene half_pixel_scene(unsigned seed, FrameSize size) {
-  Random random(seed);
+  RandomScenes random(seed);
   Scene scene = random_scene(seed, Brdf::blinn, Lights::directional, false);
   scene.triangles.clear();
   scene.positions_world.clear();
   scene.normals_world.clear();
-  scene.camera = {.eye_world = {0, 0, 2},
-                  .target_world = {0, 0, 0},
-                  .up_world = {0, 1, 0},
-                  .vertical_fov_degrees = 53.0,
-                  .near = 0.5,
-                  .far = 4.0};
+  scene.camera = {.eye_world = {0, 0, 2}, .vertical_fov_degrees = 53.0, .near = 0.5, .far = 4.0};
   const double slope = 2 * std::tan(53.0 / 360.0 * 3.14159265358979323846) / size.height;
-  const auto corner = [&] {
+  for (std::uint32_t i = 0; i < 120; ++i) {
     const double x = std::floor(random.within(2, 2.0 * size.width - 2)) / 2,
                  y = std::floor(random.within(2, 2.0 * size.height - 2)) / 2;
     const double distance = random.within(0.8, 3.5);
-    return glm::dvec3((x - 0.5 * size.width) * slope * distance, (0.5 * size.height - y) * slope * distance,
-                      2 - distance);
-  };
-  for (int i = 0; i < 40; ++i)
-    add_triangle(scene, {corner(), corner(), corner()},
-                 {random.direction(), random.direction(), random.direction()}, 0);
+    scene.positions_world.emplace_back((x - 0.5 * size.width) * slope * distance,
+                                       (0.5 * size.height - y) * slope * distance, 2 - distance);
+    scene.normals_world.push_back(random.unit());
+    if (i % 3 == 2) scene.triangles.push_back({{i - 2, i - 1, i}, {i - 2, i - 1, i}, 0});
+  }
   return scene;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The specification: the papers' formulas at one pixel, in exact integers or long double, without any of the
-// tested code. Figures are measured against its values.
+// The specification of what is drawn from triangles on the screen, in exact integers or long double, without
+// any of the tested code. Figures are measured against its values.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,9 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
-#include <numbers>
 
 #include "frame/frame_size.hpp"
+#include "oracle/specification.hpp"
 #include "scene/scene.hpp"
 #include "setup/edge.hpp"
 #include "setup/init_vector.hpp"
@@ -20,57 +19,10 @@
 
 namespace halfway::stability {
 
-using Wide = __int128;
 using LongVec = glm::vec<3, long double>;
 
-/// Exact barycentric coordinates of a point over one divisor, which is twice the area. The point is in
-/// 1/2^(unit_bits + 1) pixels, the vertices in 1/2^unit_bits pixels.
-struct ExactBarycentric {
-  std::array<Wide, 3> weight;
-  Wide sum;
-  std::array<long double, 3> real() const {
-    return {(long double)weight[0] / (long double)sum, (long double)weight[1] / (long double)sum,
-            (long double)weight[2] / (long double)sum};
-  }
-};
-
-inline ExactBarycentric barycentric(const std::array<ScreenPoint, 3>& p, Wide x_half, Wide y_half) {
-  const auto twice_area = [](Wide ax, Wide ay, Wide bx, Wide by, Wide cx, Wide cy) {
-    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
-  };
-  std::array<Wide, 3> x, y;
-  for (std::size_t i = 0; i < 3; ++i) x[i] = 2 * Wide{p[i].x}, y[i] = 2 * Wide{p[i].y};
-  return {
-      {twice_area(x_half, y_half, x[1], y[1], x[2], y[2]), twice_area(x[0], y[0], x_half, y_half, x[2], y[2]),
-       twice_area(x[0], y[0], x[1], y[1], x_half, y_half)},
-      twice_area(x[0], y[0], x[1], y[1], x[2], y[2])};
-}
-
-/// The centre of pixel `at`, in 1/2^(unit_bits + 1) pixels.
-constexpr Wide centre(std::int64_t at, int unit_bits) {
-  return (2 * Wide{at} + 1) << unit_bits;
-}
-
-/// Returns whether the pixel's centre lies in the triangle, by the top-left rule: a centre on an edge belongs
-/// to the triangle to the right of the edge, or below it if the edge is level.
-inline bool covers(std::array<ScreenPoint, 3> p, int unit_bits, std::int64_t x, std::int64_t y) {
-  ExactBarycentric b = barycentric(p, centre(x, unit_bits), centre(y, unit_bits));
-  if (b.sum == 0) return false;
-  if (b.sum < 0) {
-    std::swap(p[1], p[2]);
-    b = barycentric(p, centre(x, unit_bits), centre(y, unit_bits));
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (b.weight[i] < 0) return false;
-    if (b.weight[i] > 0) continue;
-    // The edge opposite to vertex i. Corners are clockwise on a screen with y downwards, so the inside is to
-    // the right of the edge's direction.
-    const ScreenPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];
-    const bool left = to.y < from.y, top = to.y == from.y && to.x > from.x;
-    if (!left && !top) return false;
-  }
-  return true;
-}
+using oracle::barycentric, oracle::centre, oracle::covers, oracle::ExactBarycentric, oracle::radiance,
+    oracle::Wide;
 
 /// Calls span(y, begin, end) for each line of the frame with covered pixels: `covers` solved for x, edge by
 /// edge.
@@ -166,71 +118,6 @@ inline LongVec unit_normal(const ScreenTriangle& t, const ExactSurface& s) {
   if (length > c_noise) return s.normal_world / length;
   const LongVec a(t.vertex[0].position_world), b(t.vertex[1].position_world), c(t.vertex[2].position_world);
   return glm::normalize(glm::cross(c - a, b - a));
-}
-
-/// The factor of k_s: (N.H)^n, (R.V)^n, or P F G/(4 N.V) of Cook and Torrance, where N.L is cancelled
-/// (spherical, equations 4 to 7). All vectors have unit length. The result is not bounded.
-inline long double specular(const Material& m, const LongVec& n, const LongVec& l, const LongVec& v) {
-  const auto power = [&](long double base) {
-    return base > 0 ? std::pow(std::min(base, 1.0L), (long double)m.exponent) : 0.0L;
-  };
-  const long double n_dot_l = glm::dot(n, l);
-  if (m.brdf == Brdf::phong) return power(2 * n_dot_l * glm::dot(n, v) - glm::dot(l, v));
-  const LongVec sum = l + v;
-  const long double length = glm::length(sum);
-  if (!(length > 0)) return 0;
-  const LongVec h = sum / length;
-  const long double n_dot_h = glm::dot(n, h);
-  if (m.brdf == Brdf::blinn) return power(n_dot_h);
-  const long double n_dot_v = glm::dot(n, v), v_dot_h = glm::dot(v, h);
-  if (!(n_dot_v > 0) || !(n_dot_h > 0)) return 0;
-  const LongVec across = glm::cross(n, h);
-  const long double cos2 = n_dot_h * n_dot_h, m2 = (long double)m.roughness * m.roughness;
-  const long double density = std::exp(-glm::dot(across, across) / (cos2 * m2)) /
-                              (std::numbers::pi_v<long double> * m2 * cos2 * cos2);
-  const long double fresnel =
-      m.reflectance + (1 - (long double)m.reflectance) * std::pow(1 - std::min(v_dot_h, 1.0L), 5.0L);
-  const long double shadowed = 2 * n_dot_h * std::min(n_dot_v, n_dot_l) / v_dot_h;
-  return density * fresnel * std::min(shadowed, 1.0L) / (4 * n_dot_v);
-}
-
-/// The radiance I_a k_a + sum of I (k_d N.L + k_s specular) over the lights in front of the surface
-/// (spherical, equations 1 to 3; processors, section 2), not clamped. `normal` has unit length. A light at
-/// the point, within the precision of doubles, has no direction and adds nothing.
-inline LongVec radiance(const Scene& scene, const Material& m, const LongVec& position,
-                        const LongVec& normal) {
-  LongVec sum = LongVec(scene.ambient) * LongVec(m.colour) * (long double)m.ambient;
-  const LongVec to_eye = LongVec(scene.camera.eye_world) - position;
-  const long double eye_distance = glm::length(to_eye);
-  const LongVec v = eye_distance > 0 ? to_eye / eye_distance : normal;
-  const long double noise = 4 * std::numeric_limits<double>::epsilon() * glm::length(position);
-  const auto add = [&](const LongVec& to_light, const LongVec& intensity, long double least = 0) {
-    const long double distance = glm::length(to_light);
-    if (!(distance > least)) return;
-    const LongVec l = to_light / distance;
-    const long double n_dot_l = glm::dot(normal, l);
-    if (!(n_dot_l > 0)) return;
-    sum += intensity * (LongVec(m.colour) * ((long double)m.diffuse * std::min(n_dot_l, 1.0L)) +
-                        LongVec(m.specular_colour) * ((long double)m.specular * specular(m, normal, l, v)));
-  };
-  for (const DirectionalLight& light : scene.directional)
-    add(LongVec(light.to_light_world), LongVec(light.intensity));
-  for (const PositionalLight& light : scene.positional)
-    add(LongVec(light.position_world) - position, LongVec(light.intensity), noise);
-  for (const SpotLight& light : scene.spots) {
-    const LongVec to_light = LongVec(light.position_world) - position;
-    const long double distance = glm::length(to_light);
-    if (!(distance > noise)) continue;
-    const long double cosine = -glm::dot(to_light, LongVec(light.axis_world)) / distance,
-                      inner = light.cos_inner, outer = light.cos_outer;
-    long double share = cosine >= inner ? 1.0L : 0.0L;
-    if (cosine < inner && cosine > outer) {
-      const long double t = (cosine - outer) / (inner - outer);
-      share = t * t * (3 - 2 * t);
-    }
-    add(to_light, share * LongVec(light.intensity));
-  }
-  return sum;
 }
 
 }  // namespace halfway::stability
