@@ -67,6 +67,40 @@ TEST(Arc, AnyPairsOfDirections) {
   EXPECT_LT(ends, c_bound);
 }
 
+// If two directions are closer than 1e-13 to opposite, their plane is uncertain in the eighth digit. If both
+// vectors turn, the arc depends on their rounding, and it is less certain the closer it is to half a turn.
+void expect_arc(glm::dvec3 u1, glm::dvec3 u2, glm::dvec3 v1, glm::dvec3 v2, bool is_known = true) {
+  const bool still = v1 == v2;
+  const CosineArc arc = still ? cosine_arc(u1, u2, v1) : cosine_arc(u1, u2, v1, v2);
+  expect_sane(arc);
+  EXPECT_NEAR(arc.at(0.0), glm::dot(u1, v1), c_bound);
+  EXPECT_NEAR(arc.at(1.0), glm::dot(u2, v2), c_bound);
+  if (!is_known) return;
+  EXPECT_LE(largest_error(arc, expected_cosines<BigReal>(u1, u2, v1, v2)),
+            still ? c_bound : c_bound / std::sin(arc.sweep));
+}
+
+TEST(Arc, SmallTurnsAndAlmostHalfTurns) {
+  Directions random(4);
+  for (const double angle : c_small)
+    for (int i = 0; i < 100; ++i) {
+      SCOPED_TRACE(angle);
+      const bool known = angle >= 1e-13;
+      const glm::dvec3 u1 = random.any(), v1 = random.any(), opposed = random.at(u1, angle, true);
+      expect_arc(u1, random.at(u1, angle), v1, v1);
+      expect_arc(u1, random.at(u1, 0.8), v1, random.at(v1, angle));
+      expect_arc(u1, opposed, v1, v1, known);
+      // If both vectors turn, they are opposite only after u2 is turned back.
+      const glm::dvec3 v2 = random.at(v1, 0.7);
+      const auto ahead =
+          turned_back(Vector<long double>(opposed), Vector<long double>(v2), Vector<long double>(v1));
+      expect_arc(u1, {double(ahead.x), double(ahead.y), double(ahead.z)}, v1, v2, known);
+      expect_arc(u1, random.at(u1, 1.0), v1, random.at(v1, angle, true), known);
+      // u is constant: relative to v it turns by the same angle in the other direction.
+      expect_arc(v1, v1, u1, opposed, false);
+    }
+}
+
 TEST(Arc, SlerpMatchesEighths) {
   Directions random(3);
   for (int i = 0; i < 20'000; ++i) {

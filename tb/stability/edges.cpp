@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "stability/hard_case.hpp"
@@ -92,31 +91,11 @@ std::vector<Shape> random_shapes(TriangleKind kind, FrameSize frame, int count) 
   return shapes;
 }
 
-// Corners anywhere on one line, and collinear or equal corners, also on the lines of the pixel centres.
-std::vector<Shape> flat_shapes(int count) {
-  RandomTriangles random(2);
-  std::vector<Shape> shapes;
-  for (int i = 0; i < count; ++i) {
-    const int line = 16 * random.within(0, 60);
-    const auto corner = [&] {
-      return ScreenPoint{random.within(0, 97 * 16 - 1), line + random.within(0, 15)};
-    };
-    shapes.push_back(shape_of({corner(), corner(), corner()}));
-    const int unit = i % 2 == 0 ? 1 : 8;
-    const ScreenPoint a{8 * random.within(0, 120), 8 * random.within(0, 80)},
-        step{unit * random.within(-40, 40), unit * random.within(-40, 40)};
-    const auto at = [&](int n) { return ScreenPoint{a.x + n * step.x, a.y + n * step.y}; };
-    shapes.push_back(shape_of({a, at(random.within(0, 6)), at(random.within(-6, 6))}));
-  }
-  return shapes;
-}
-
 void every_kind(Trial& trial) {
   const int count = trial.rounds(150, 20'000);
   for (const TriangleKind kind : {TriangleKind::on_centres, TriangleKind::horizontal_edge,
                                   TriangleKind::one_line, TriangleKind::subpixel, TriangleKind::small})
     cover_both(trial, random_shapes(kind, c_frame, count), c_frame);
-  cover_both(trial, flat_shapes(count), c_frame);
 }
 
 // Corners at the corners of guard band and frame, or up to half a pixel off.
@@ -134,73 +113,22 @@ std::vector<Shape> corner_shapes(int count) {
   return shapes;
 }
 
-// From one end of the guard band through the frame to the other, with the third corner a few units off the
-// edge.
-std::vector<Shape> wide_slivers(FrameSize frame, int count) {
-  RandomTriangles random(11);
-  std::vector<Shape> shapes;
-  for (int i = 0; i < count; ++i) {
-    const double x = random.within(0, static_cast<int>(frame.width) * 16),
-                 y = random.within(0, static_cast<int>(frame.height) * 16),
-                 turn = i % 5 == 0 ? 0.0 : std::numbers::pi * random.within(0, 1 << 20) / (1 << 20);
-    const auto end = [&](double dx, double dy) {
-      const auto room = [](double from, double along) {
-        return along > 0   ? (c_guard_end * 16 - from) / along
-               : along < 0 ? (c_guard_begin * 16 - from) / along
-                           : 1e9;
-      };
-      const double reach = std::min(room(x, dx), room(y, dy));
-      return ScreenPoint{static_cast<std::int32_t>(x + reach * dx),
-                         static_cast<std::int32_t>(y + reach * dy)};
-    };
-    const ScreenPoint a = end(std::cos(turn), std::sin(turn)), b = end(-std::cos(turn), -std::sin(turn));
-    const auto clamped = [](double v) {
-      return static_cast<std::int32_t>(std::clamp<double>(v, c_guard_begin * 16, c_guard_end * 16));
-    };
-    const double t = random.within(0, 64) / 64.0;
-    const int off = i % 2 == 0 ? 1 : 20;
-    shapes.push_back(shape_of({a,
-                               b,
-                               {clamped(a.x + t * (b.x - a.x) + random.within(-off, off)),
-                                clamped(a.y + t * (b.y - a.y) + random.within(-off, off))}}));
-  }
-  return shapes;
-}
-
 // Triangles with corners at the guard band and those that extend over all of it, and so over every frame.
 void guard_band(Trial& trial) {
-  constexpr TriangleKind c_kind = TriangleKind::crossing;
   for (const FrameSize frame : {c_frame, FrameSize{4096, 3}, FrameSize{3, 4096}}) {
     const bool small = frame.width == c_frame.width;
     cover_exact(trial, corner_shapes(trial.rounds(small ? 150 : 20, small ? 20'000 : 1'000)), frame);
-    cover_exact(trial, random_shapes(c_kind, frame, trial.rounds(small ? 150 : 20, small ? 20'000 : 2'000)),
-                frame);
-    cover_exact(trial, wide_slivers(frame, trial.rounds(100, 8'000)), frame);
+    for (const TriangleKind kind : {TriangleKind::crossing, TriangleKind::thin_across})
+      cover_exact(trial, random_shapes(kind, frame, trial.rounds(small ? 150 : 20, small ? 20'000 : 2'000)),
+                  frame);
   }
   if (trial.quick()) return;
   cover_exact(trial, corner_shapes(8), c_largest);
-  cover_exact(trial, random_shapes(c_kind, c_largest, 6), c_largest);
+  cover_exact(trial, random_shapes(TriangleKind::crossing, c_largest, 6), c_largest);
 }
 
-// Two corners at both ends of the frame's 4096 pixels, and the third corner 1/16 pixel off the edge between
-// them.
 void slivers(Trial& trial) {
-  RandomTriangles random(3);
-  std::vector<Shape> shapes;
-  const int side = 4096 * 16 - 1;
-  for (int i = 0; i < trial.rounds(60, 3'000); ++i) {
-    ScreenPoint a{random.within(0, 40), random.within(0, side)},
-        b{side - random.within(0, 40), i % 3 == 0 ? a.y + i % 2 : random.within(0, side)};
-    if (i % 4 == 1) std::swap(a.x, a.y), std::swap(b.x, b.y);
-    b.y = std::clamp(b.y, 0, side);
-    const std::int64_t t = random.within(0, 4096);
-    ScreenPoint c{static_cast<std::int32_t>(a.x + (b.x - a.x) * t / 4096),
-                  static_cast<std::int32_t>(a.y + (b.y - a.y) * t / 4096)};
-    (random.within(0, 1) == 0 ? c.x : c.y) += random.within(0, 1) == 0 ? 1 : -1;
-    c = {std::clamp(c.x, 0, side), std::clamp(c.y, 0, side)};
-    shapes.push_back(shape_of({a, b, c}));
-  }
-  cover_both(trial, shapes, c_largest);
+  cover_both(trial, random_shapes(TriangleKind::sliver, c_largest, trial.rounds(200, 12'000)), c_largest);
 }
 
 // Two triangles with a common edge: one is whole, the other is fully split.
@@ -253,36 +181,12 @@ void fractional_edges(Trial& trial) {
     measure_colours(trial, preset, pieces, c_frame);
 }
 
-constexpr std::string_view c_integers =
-                               "edges step by integer quotient and remainder; top-left rule at pixel centres",
-                           c_once = "pixels drawn = pixels covered";
-
-constexpr HardCase c_cases[] = {
-    {"every_kind",
-     "Vertices on pixel centres, horizontal edges, triangles of one line, within a pixel, of a few pixels, "
-     "without area",
-     "quadratic, section 5: vertices are whole pixels, edges step by rounded slopes (1/0 for a horizontal "
-     "edge), spans and lines include both ends",
-     c_integers, c_once, "pixels", PublishedForm::breaks, every_kind},
-    {"slivers", "Slivers 1/16 pixel thick and 4096 pixels long",
-     "quadratic, section 5: vertices are whole pixels; section 3: D is close to 0", c_integers, c_once,
-     "pixels", PublishedForm::breaks, slivers},
-    {"guard_band", "Vertices at the guard band, triangles and slivers across it",
-     "quadratic, section 5: triangles are clipped at the frame",
-     "at most three init vectors, each within the frame; 13 bits for pixels", c_once, "pixels",
-     PublishedForm::silent, guard_band},
-    {"t_junctions", "A split triangle next to an unsplit one, levels 1 to 5",
-     "quadratic, section 4: midpoints are rounded to whole pixels, so they are not on the edge",
-     "one more fraction bit per level, so midpoints stay on the edge",
-     "each pixel is drawn once (published: no cracks)", "pixels", PublishedForm::breaks, t_junctions},
-    {"fractional_edges", "Fractional edges",
-     "quadratic, section 5: I steps by the slope A, which is no integer, to X_start",
-     "separate differences for the integer step of the edge and for its carry",
-     "the colour at the pixel's centre", "steps", PublishedForm::breaks, fractional_edges},
-};
-
+constexpr HardCase c_cases[] = {{"every_kind", every_kind},
+                                {"slivers", slivers},
+                                {"guard_band", guard_band},
+                                {"t_junctions", t_junctions},
+                                {"fractional_edges", fractional_edges}};
 INSTANTIATE_TEST_SUITE_P(edges, HardCases, testing::ValuesIn(c_cases), id_of);
 
 }  // namespace
-
 }  // namespace halfway::stability

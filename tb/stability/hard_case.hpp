@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hard cases: where a published formula breaks, how the hardware avoids it, and the property that then holds.
-// Each family is a file that lists its cases and instantiates the tests HardCases with them.
+// Hard cases: where a published formula breaks, how the hardware avoids it, and the property that then holds
+// (cases.toml). Each family is a file that lists its sweeps and instantiates the tests HardCases with them.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <memory>
 #include <ostream>
 #include <string>
@@ -16,21 +15,11 @@
 namespace halfway::stability {
 
 struct HardCase {
-  std::string_view id;  ///< the test's name
-  std::string_view name;
-  std::string_view breaks;  ///< the formula and its place in the paper
-  std::string_view remedy;
-  std::string_view holds;  ///< the property that the figures measure
-  std::string_view unit;   ///< of figures and bounds
-  PublishedForm published;
+  std::string_view id;  ///< the test's name, and the case's in cases.toml
   /// Adds every figure and its bound to the trial, and draws the scenes that reach the hardware.
   void (*sweep)(Trial&);
-  /// A figure with a greater bound is ill-conditioned: at its pixel the illumination model is discontinuous,
-  /// or so steep that the last bit of a word changes the colour. The page counts these figures and gives the
-  /// worst of the others.
-  double conditioned = std::numeric_limits<double>::infinity();
 
-  friend void PrintTo(const HardCase& c, std::ostream* out) { *out << c.name; }
+  friend void PrintTo(const HardCase& c, std::ostream* out) { *out << c.id; }
 };
 
 /// Two tests for each case: `Quick` takes part of a second, `Full` up to minutes. Both record the case's row

@@ -52,9 +52,6 @@ Scene lit(Material material = {}) {
   return scene;
 }
 
-// Colour steps. Half a step is the rounding to eight bits.
-constexpr double c_conditioned = 1.0;
-
 const Material c_shiny{.colour = {0.9, 0.6, 0.3}, .diffuse = 0.5, .specular = 0.5, .exponent = 60.0};
 
 // Corners counter-clockwise, with one normal each.
@@ -312,60 +309,18 @@ void scales(Trial& trial) {
     }
 }
 
-constexpr std::string_view c_within = "the illumination model, within the errors of the units";
-
-constexpr HardCase c_cases[] = {
-    {"halfway_vectors", "Distance of a light in the half vector",
-     "processors, table 2 and equation 3: (E + P_p − P)/abs(E + P_p − P) adds a unit vector to a vector as "
-     "long as the light is distant",
-     "L is normalized before V is added", c_within, "colour steps", PublishedForm::breaks, halfway_vectors},
-    {"normals", "Normals that are not normalized, opposed normals, zero normals",
-     "processors, version I: N.H is scaled by cos(edge/2), its power by cos(edge/2)^m; version II: N/abs(N) "
-     "is 0/0",
-     "N is normalized where it is not constant; a zero vector remains zero; a flat face has its own normal",
-     "the illumination model, within the errors of the units; where N is zero any colour", "colour steps",
-     PublishedForm::breaks, normals, c_conditioned},
-    {"perspective", "N and P across a floor, and close to the eye",
-     "processors, section 5: N and P are linear on the screen",
-     "N/w, the view ray and 1/w are interpolated; clipping at the near plane; planes have a range of 2^13 "
-     "times the drawn values",
-     c_within, "colour steps", PublishedForm::breaks, perspective},
-    {"light_at_the_surface", "A light at a point of the surface, and at the eye",
-     "processors: (P_p − P)/abs(P_p − P) is 0/0; E is constant",
-     "block shift before the square; a zero vector remains zero; V of each point, computed from the view ray",
-     "the illumination model, within the errors of the units; at the point itself any share of the light",
-     "colour steps", PublishedForm::breaks, light_at_the_surface, c_conditioned},
-    {"far_light", "A light at 1 to 10^300 times the size of the scene",
-     "processors: P_p − P in words of one fixed scale",
-     "each light's position has its own power of two; above 2^31 the light is drawn as directional, with a "
-     "note",
-     c_within, "colour steps", PublishedForm::breaks, far_light},
-    {"no_halfway", "L = −V: the half vector is 0/0", "spherical, equation 6: (L + V)/abs(L + V)",
-     "a zero vector remains zero: no highlight", c_within, "colour steps", PublishedForm::breaks, no_halfway},
-    {"below_the_horizon", "Highlights below the horizon",
-     "processors: I_out = I_in + k I (N.H)^m for every N.L", "no highlight where N.L <= 0", c_within,
-     "colour steps", PublishedForm::breaks, below_the_horizon},
-    {"exponents", "Exponents from 1 to above 8191", "processors, section 3.1: the power by a table",
-     "log2 and 2^-x by interpolated tables; exponents are clamped to 8192, with a note", c_within,
-     "colour steps", PublishedForm::breaks, exponents},
-    {"spots", "Spots as narrow as 0.1 degrees, and spots with a hard edge",
-     "processors: no spots; the units resolve a cosine to 2^-7",
-     "cosines are accurate to 2^-19, the edge's slope is up to 2^18; a note for cones below 0.63 degrees",
-     "the illumination model, within the errors of the units, which a narrow cone magnifies; at a hard edge "
-     "any share of the light",
-     "colour steps", PublishedForm::breaks, spots, c_conditioned},
-    {"past_white", "Sums above white over 33 processors; k and I out of range",
-     "processors, equation 5 and section 3.1: I_out = I_in + k I (N.A)^x in integers",
-     "saturating sums of 22 bits; k up to 16, I and k I up to 64 times white; larger values are clamped, "
-     "with a note",
-     "the illumination model of the clamped values, clamped to white", "colour steps", PublishedForm::breaks,
-     past_white},
-    {"scales", "Scenes from 10^-30 to 10^30", "processors: a unit E added to P_p − P",
-     "each scale is a power of two", c_within, "colour steps", PublishedForm::breaks, scales},
-};
-
+constexpr HardCase c_cases[] = {{"halfway_vectors", halfway_vectors},
+                                {"normals", normals},
+                                {"perspective", perspective},
+                                {"light_at_the_surface", light_at_the_surface},
+                                {"far_light", far_light},
+                                {"no_halfway", no_halfway},
+                                {"below_the_horizon", below_the_horizon},
+                                {"exponents", exponents},
+                                {"spots", spots},
+                                {"past_white", past_white},
+                                {"scales", scales}};
 INSTANTIATE_TEST_SUITE_P(processors, HardCases, testing::ValuesIn(c_cases), id_of);
 
 }  // namespace
-
 }  // namespace halfway::stability

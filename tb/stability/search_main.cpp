@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -20,6 +19,7 @@
 #include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/seconds.hpp"
+#include "sim/system/threads.hpp"
 #include "stability/search.hpp"
 
 namespace halfway::stability {
@@ -66,80 +66,53 @@ struct Options {
   SimulatorFolders folders() const { return {source, source / "build" / "cache"}; }
 };
 
-// State that all threads of one search share.
-class Run {
- public:
-  Run(const SearchKind& kind, const Options& options, std::uint64_t count)
-      : kind_(kind), options_(options), end_(options.first + count), next_(options.first) {}
-
-  // Batches are taken in order, so that the first failure does not depend on the number of threads.
-  void work() {
-    const auto search = kind_.make(options_.folders(), options_.quick);
-    Tally tally;
-    std::vector<std::uint32_t> seeds;
-    for (std::uint64_t at; !stop_ && (at = next_.fetch_add(c_batch)) < end_;) {
-      seeds.clear();
-      for (std::uint64_t i = at; i < std::min(at + c_batch, end_); ++i) {
-        seeds.push_back(seed_of(i));
-        fail(i, search->check(seeds.back(), tally));
-      }
-      if ((at - options_.first) / c_batch % kind_.rtl_every != 0) continue;
-      if (const auto rtl = search->check_rtl(seeds, tally))
-        fail(at, *rtl);
-      else
-        break_off(rtl.error());
-    }
-    const std::lock_guard lock(mutex_);
-    tally_.add(tally);
-  }
-
-  std::uint64_t done() const { return std::min(next_.load(), end_) - options_.first; }
-  const Tally& tally() const { return tally_; }
-  /// The first input that fails, or the first one of its batch, and the reason.
-  const std::map<std::uint64_t, std::string>& failures() const { return failures_; }
-  const Status& tools() const { return tools_; }
-
- private:
-  // Different numbers of a run, and runs with neighbouring seeds, share no input.
-  std::uint32_t seed_of(std::uint64_t number) const {
-    return options_.seed * 0x9E37'79B9U + static_cast<std::uint32_t>(number);
-  }
-  void fail(std::uint64_t number, const std::string& what) {
-    if (what.empty()) return;
-    const std::lock_guard lock(mutex_);
-    failures_.emplace(number, what);
-    stop_ = true;
-  }
-  void break_off(const Error& error) {
-    const std::lock_guard lock(mutex_);
-    tools_ = error;
-    stop_ = true;
-  }
-
-  const SearchKind& kind_;
-  const Options& options_;
-  std::uint64_t end_;
-  std::atomic<std::uint64_t> next_;
-  std::atomic<bool> stop_ = false;
-  std::mutex mutex_;
-  Tally tally_;
-  std::map<std::uint64_t, std::string> failures_;
-  Status tools_ = Ok{};
+// What the threads of one search share.
+struct Shared {
+  std::mutex mutex{};
+  std::vector<std::unique_ptr<Search>> idle{};
+  Tally tally{};
 };
 
-// Runs the workers and shows their progress on a terminal.
-void run_threads(Run& run, const SearchKind& kind, std::uint64_t count, unsigned threads) {
-  std::atomic<unsigned> working = threads;  // outlives the workers: each one decrements it at its end
-  std::vector<std::jthread> workers;
-  for (unsigned i = 0; i < threads; ++i)
-    workers.emplace_back([&] {
-      run.work();
-      --working;
-    });
-  while (isatty(STDERR_FILENO) && working > 0) {
-    fmt::print(stderr, "{}: {} of {}\r", kind.name, run.done(), count);
-    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+// Checks the inputs from `first` on. An error names the input that fails, or the first one of a batch that
+// fails in the RTL, and how to make it again.
+Status check_batch(const SearchKind& kind, const Options& options, std::uint64_t first, std::uint64_t end,
+                   Search& search, Tally& tally) {
+  const auto failed = [&](std::uint64_t number, const std::string& what) -> Status {
+    if (what.empty()) return Ok{};
+    return Error{ExitCode::differs, fmt::format("{}; again: halfway_search --seed {} --first {} --{} {} .",
+                                                what, options.seed, number, kind.name, c_batch)};
+  };
+  std::vector<std::uint32_t> seeds;
+  for (std::uint64_t i = first; i < end; ++i) {
+    // Different numbers of a run, and runs with neighbouring seeds, share no input.
+    seeds.push_back(options.seed * 0x9E37'79B9U + static_cast<std::uint32_t>(i));
+    if (Status status = failed(i, search.check(seeds.back(), tally)); !status) return status;
   }
+  if ((first - options.first) / c_batch % kind.rtl_every != 0) return Ok{};
+  const auto rtl = search.check_rtl(seeds, tally);
+  return rtl ? failed(first, *rtl) : Status(rtl.error());
+}
+
+// Checks batch after batch on threads, each with a search of its own. The first failure does not depend on
+// the number of threads.
+Status check_all(const SearchKind& kind, const Options& options, std::uint64_t count, Shared& shared) {
+  const unsigned threads = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
+  return for_each_on_threads(threads, (count + c_batch - 1) / c_batch, [&](std::size_t batch) {
+    std::unique_lock lock(shared.mutex);
+    if (isatty(STDERR_FILENO)) fmt::print(stderr, "{}: {} of {}\r", kind.name, batch * c_batch, count);
+    if (shared.idle.empty()) shared.idle.push_back(kind.make(options.folders(), options.quick));
+    std::unique_ptr<Search> search = std::move(shared.idle.back());
+    shared.idle.pop_back();
+    lock.unlock();
+    Tally tally;
+    const std::uint64_t first = options.first + batch * c_batch,
+                        end = options.first + std::min((batch + 1) * c_batch, count);
+    Status status = check_batch(kind, options, first, end, *search, tally);
+    lock.lock();
+    shared.idle.push_back(std::move(search));
+    shared.tally.add(tally);
+    return status;
+  });
 }
 
 page::Section section_of(const SearchKind& kind, const Options& options, const Tally& tally, double seconds,
@@ -161,23 +134,17 @@ ExitCode run_search(const SearchKind& kind, const Options& options, std::uint64_
                     std::vector<page::Section>& sections) {
   const auto began = std::chrono::steady_clock::now();
   const std::clock_t processor_began = std::clock();
-  Run run(kind, options, count);
-  run_threads(run, kind, count, options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency()));
-  const Tally& tally = run.tally();
+  Shared shared;
+  const Status status = check_all(kind, options, count, shared);
+  const Tally& tally = shared.tally;
   fmt::print("{}: {} inputs, {} fragments; {} inputs, {} fragments in the RTL; {:.1f} s\n", kind.name,
              tally.inputs, tally.fragments, tally.rtl_inputs, tally.rtl_fragments, seconds_since(began));
   for (const auto& [quantity, worst] : tally.worst)
     fmt::print("  {}: {:.4g} of {:.4g} at worst, {} inputs {}\n", quantity, worst.figure, worst.bound,
                worst.count, worst.where.empty() ? "" : "(" + worst.where + ")");
-  if (!run.failures().empty()) {
-    const auto& [number, what] = *run.failures().begin();
-    fmt::print("FAILS: {}; again: halfway_search --seed {} --first {} --{} {} .\n", what, options.seed,
-               number, kind.name, c_batch);
-    return ExitCode::differs;
-  }
-  if (!run.tools()) {
-    fmt::print(stderr, "{}\n", run.tools().error().message);
-    return run.tools().error().code;
+  if (!status) {
+    fmt::print("FAILS: {}\n", status.error().message);
+    return status.error().code;
   }
   sections.push_back(section_of(kind, options, tally, seconds_since(began),
                                 double(std::clock() - processor_began) / CLOCKS_PER_SEC));

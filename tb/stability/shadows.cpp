@@ -294,19 +294,6 @@ void finish(Trial& trial, const Sum& sum) {
   });
 }
 
-/// A floor with solids on it.
-Scene on_a_floor(RandomSolids& random, int solids) {
-  Scene scene = random.scene(solids);
-  Mesh floor = make_box({30.0, 0.5, 30.0}, 2);
-  for (glm::dvec3& p : floor.positions) p.y -= 1.5;
-  add_mesh(scene, floor);
-  glm::dvec3& sun = scene.directional[0].to_light_world;
-  sun.y = std::abs(sun.y) + 0.1;
-  sun = glm::normalize(sun);
-  scene.camera.up_world = {0.1, 1.0, 0.1};
-  return scene;
-}
-
 // Casts shadows in scenes that make(random, round) returns.
 template <class Make>
 Sum cast_all(Trial& trial, unsigned seed, Make&& make, bool with_published = true,
@@ -322,7 +309,7 @@ Sum cast_all(Trial& trial, unsigned seed, Make&& make, bool with_published = tru
 template <class Change>
 void cast_on_floors(Trial& trial, unsigned seed, Change&& change) {
   cast_all(trial, seed, [&](RandomSolids& random, int i) {
-    Scene scene = on_a_floor(random, 4);
+    Scene scene = random.on_a_floor(4);
     change(random, scene, i);
     return scene;
   });
@@ -474,37 +461,11 @@ void nested_volumes(Trial& trial) {
   }
 }
 
-constexpr std::string_view c_holds =
-    "away from edges of shadows, light is wrong only where it is nearly parallel to its triangle: up to this "
-    "angle";
-
-constexpr HardCase c_cases[] = {
-    {"volumes",
-     "Shared edges of shadow volumes, open meshes, a light inside a solid, silhouettes at the terminator",
-     "quadratic, section 5: spans include both ends, so a counter counts a shared edge twice",
-     "both presets walk shadow polygons with exact edges; the volume of all triangles that face away from "
-     "the light is closed for every mesh, and they are inside of it",
-     c_holds, "sine of the light's angle", PublishedForm::breaks, volumes},
-    {"eye_and_near_plane", "The eye inside shadow volumes, volumes that cross the near plane",
-     "processors, section 3.3: an object is lit if the counter is 0, and shadow polygons open and close "
-     "volumes",
-     "the counter starts with the number of volumes around the eye; the part in front of the near plane is "
-     "drawn at depth 0",
-     c_holds, "sine of the light's angle", PublishedForm::breaks, eye_and_near_plane},
-    {"plates", "Plates that touch, in grazing light",
-     "processors, section 3.3: shadow polygons have vertices of finitely many bits",
-     "surfaces and the sides of volumes that meet them are planes through vertices rounded to 1/16 pixel; "
-     "the set-up rounds more finely on request (`ProcessorsSetupOptions::subpixel_bits`)",
-     c_holds, "sine of the light's angle", PublishedForm::breaks, plates},
-    {"nested_volumes", "511 nested volumes, and 512",
-     "processors, figure 2: a shadow counter of unspecified width",
-     "10 bits; an overflow raises `fault` in golden model and RTL; the set-up counts the nested volumes and "
-     "refuses a scene with more than 511",
-     "pixels, counts and faults equal those of rays", "pixels", PublishedForm::silent, nested_volumes},
-};
-
+constexpr HardCase c_cases[] = {{"volumes", volumes},
+                                {"eye_and_near_plane", eye_and_near_plane},
+                                {"plates", plates},
+                                {"nested_volumes", nested_volumes}};
 INSTANTIATE_TEST_SUITE_P(shadows, HardCases, testing::ValuesIn(c_cases), id_of);
 
 }  // namespace
-
 }  // namespace halfway::stability

@@ -9,8 +9,6 @@
 #include <numbers>
 
 #include "golden_run/test/spherical_drawing.hpp"
-#include "setup/arc.hpp"
-#include "setup/test/exact_turns.hpp"
 #include "setup/test/random_scenes.hpp"
 #include "stability/hard_case.hpp"
 #include "stability/specification.hpp"
@@ -21,77 +19,6 @@ namespace halfway::stability {
 namespace {
 
 constexpr double c_pi = std::numbers::pi;
-
-// ---- Cosines along an arc: doubles compared with 250 bits
-
-constexpr double c_arc_bound = 3e-15;  // arc.hpp's contract
-
-// Angles close to 0, by decades.
-constexpr double c_small[] = {1e-16, 1e-15, 1e-14, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8,
-                              1e-7,  1e-6,  1e-5,  1e-4,  1e-3,  1e-2,  0.1,   1.0};
-// If two directions are closer than this to opposite, their plane is uncertain in the eighth digit.
-constexpr double c_least_known = 1e-13;
-
-struct Ends {
-  glm::dvec3 u1, u2, v1, v2;
-};
-
-// Equations 11 to 14 and 16 as printed.
-CosineArc arc_as_published(const Ends& e) {
-  const glm::dvec3 c = glm::cross(e.v1, e.v2);
-  const double cos_gamma_v = glm::dot(e.v1, e.v2);
-  const glm::dvec3 u2_back =
-      cos_gamma_v * e.u2 - glm::cross(c, e.u2) + glm::dot(c, e.u2) / (1.0 + cos_gamma_v) * c;
-  const double cos_gamma = glm::dot(e.u1, u2_back), gamma = std::acos(cos_gamma);
-  const double cos1 = glm::dot(e.u1, e.v1), cos2 = glm::dot(e.u2, e.v2);
-  const double b = (cos2 - cos1 * cos_gamma) / std::sin(gamma);
-  return {std::hypot(cos1, b), gamma, std::atan2(b, cos1)};
-}
-
-double largest_error(const CosineArc& arc, const std::array<double, 9>& expected) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < 9; ++i)
-    largest = std::max(largest, or_infinity(std::abs(arc.at(static_cast<double>(i) / 8.0) - expected[i])));
-  return largest;
-}
-
-// Measures the cosines at every eighth of the arc, and those at both ends against the dot products. If both
-// vectors turn, the arc depends on their rounding, and it is less certain the closer it is to half a turn.
-void try_arc(Trial& trial, const Ends& e, double at, bool is_known = true) {
-  const bool still = e.v1 == e.v2;
-  const CosineArc ours = still ? cosine_arc(e.u1, e.u2, e.v1) : cosine_arc(e.u1, e.u2, e.v1, e.v2);
-  const auto where = [&] { return fmt::format("an angle of {:.0e}", at); };
-  trial.require(ours.amplitude >= 0.0 && ours.amplitude <= 1.0 && ours.sweep >= 0.0 && ours.sweep <= c_pi &&
-                    std::abs(0.5 * ours.sweep - ours.phase) <= c_pi,
-                [&] { return where() + ": an arc is out of its range"; });
-  trial.ours(std::abs(ours.at(0.0) - glm::dot(e.u1, e.v1)), c_arc_bound, where);
-  trial.ours(std::abs(ours.at(1.0) - glm::dot(e.u2, e.v2)), c_arc_bound, where);
-  if (!is_known) return;
-  const auto expected = expected_cosines<BigReal>(e.u1, e.u2, e.v1, e.v2);
-  const double bound = still ? c_arc_bound : c_arc_bound / std::sin(ours.sweep);
-  trial.both(largest_error(ours, expected), largest_error(arc_as_published(e), expected), bound, where);
-}
-
-// u turns or stays, v turns or stays; each by a small angle, or by a small angle less than half a turn.
-void arcs(Trial& trial) {
-  Directions random(4);
-  for (const double angle : c_small)
-    for (int i = 0; i < trial.rounds(25, 10'000); ++i) {
-      const bool known = angle >= c_least_known;
-      const glm::dvec3 u1 = random.any(), v1 = random.any(), opposed = random.at(u1, angle, true);
-      try_arc(trial, {u1, random.at(u1, angle), v1, v1}, angle);
-      try_arc(trial, {u1, random.at(u1, 0.8), v1, random.at(v1, angle)}, angle);
-      try_arc(trial, {u1, opposed, v1, v1}, angle, known);
-      // If both vectors turn, they are opposite only after u2 is turned back.
-      const glm::dvec3 v2 = random.at(v1, 0.7);
-      const auto ahead =
-          turned_back(Vector<long double>(opposed), Vector<long double>(v2), Vector<long double>(v1));
-      try_arc(trial, {u1, {double(ahead.x), double(ahead.y), double(ahead.z)}, v1, v2}, angle, known);
-      try_arc(trial, {u1, random.at(u1, 1.0), v1, random.at(v1, angle, true)}, angle, known);
-      // u is constant: relative to v it turns by the same angle in the other direction.
-      try_arc(trial, {v1, v1, u1, opposed}, angle, false);
-    }
-}
 
 // ---- Bells
 
@@ -417,74 +344,24 @@ void long_spans(Trial& trial) {
   }
 }
 
-constexpr std::string_view c_promise =
-    "the illumination model, within the threshold and the errors of fit and table";
-
-constexpr HardCase c_cases[] = {
-    {"arcs", "γ or γ_v near 0 or π: the formulas",
-     "spherical, equations 11 and 15: (cos θ2 − cos θ1 cos γ)/sin γ is 0/0; before equation 15: u2' divides "
-     "by 1 + cos γ_v",
-     "t·v1, where t is the tangent at u1, computed from u2 − u1 or u2 + u1; coordinates in the frame that "
-     "rotates with v",
-     "the cosines along the span, compared with arithmetic of 250 bits", "of a cosine", PublishedForm::breaks,
-     arcs},
-    {"near_vectors", "γ → 0: equal normals", "spherical, equations 11 and 15: 0/0",
-     "the tangent from the chord u2 − u1", c_promise, "colour steps", PublishedForm::breaks, near_vectors},
-    {"opposed_normals", "γ → π: opposed normals, normals without length",
-     "spherical, equation 11: opposed normals do not define a plane of rotation; equation 10: N/‖N‖ is 0/0",
-     "the middle of the span defines the plane; the triangle is cut into strips; the normal of the triangle "
-     "where the sum is shorter than 10⁻⁸",
-     c_promise, "colour steps", PublishedForm::breaks, opposed_normals},
-    {"far_lights", "γ_v → 0: lights at a distance of 10³ to 10³⁰⁸",
-     "processors, equation 3: squares of (P_p − P) overflow", "vectors are scaled before squaring", c_promise,
-     "colour steps", PublishedForm::breaks, far_lights},
-    {"light_in_the_surface", "γ_v → π: light in the plane of the surface or at a point of it",
-     "spherical, before equation 15: 1 + cos γ_v is 0; processors, equation 3: (P_p − P)/‖P_p − P‖ is 0/0",
-     "the light is 0 at the point itself; the triangle is cut into strips", c_promise, "colour steps",
-     PublishedForm::breaks, light_in_the_surface},
-    {"amplitude_zero", "A = 0", "spherical, equation 16: φ = atan2(0, 0)",
-     "the factor is 0 for every angle; horizon test", c_promise, "colour steps", PublishedForm::breaks,
-     amplitude_zero},
-    {"exponents", "n = 1 to above 10⁶",
-     "spherical, equations 18 and 19: cos² ax for all n, C = I k_s Aⁿ underflows",
-     "cos^m with m = 1 to 16, and a gain; n is clamped to 10⁶", c_promise, "colour steps",
-     PublishedForm::breaks, exponents},
-    {"past_the_bell", "Angle outside the bell",
-     "spherical, section 4: 12 bits, which wrap in our reading; the paper prints zero otherwise",
-     "an angle out of range gives 0", c_promise, "colour steps", PublishedForm::breaks, past_the_bell},
-    {"narrow_bells", "Bell narrower than a pixel", "spherical, section 4: one arc per line",
-     "the triangle is cut into strips, down to one pixel", c_promise, "colour steps", PublishedForm::breaks,
-     narrow_bells},
-    {"four_bit_tables", "Rings of a 4-bit table", "spherical, figure 15", "9 address bits and 8 data bits",
-     c_promise, "colour steps", PublishedForm::breaks, four_bit_tables},
-    {"long_spans", "Spans of 4096 pixels",
-     "spherical, section 4: 12 bits for the angle, off by 8 addresses on 1024 pixels", "22 fraction bits",
-     c_promise, "colour steps", PublishedForm::breaks, long_spans},
-    {"halfway_of_zero", "L = −V", "spherical, equation 6: H = (L + V)/‖L + V‖ is 0/0", "no highlight there",
-     c_promise, "colour steps", PublishedForm::breaks, halfway_of_zero},
-    {"eye_at_the_surface", "Eye at the surface",
-     "spherical, section 3: V rotates by half a turn from pixel to pixel", "the triangle is cut into strips",
-     c_promise, "colour steps", PublishedForm::breaks, eye_at_the_surface},
-    {"one_pixel_spans", "Spans of one pixel", "spherical, section 4: s = aγ/(X_end − X_start) is 0/0",
-     "the step of the angle is 0", c_promise, "colour steps", PublishedForm::breaks, one_pixel_spans},
-    {"behind_the_horizon", "Highlight below the horizon", "spherical, equation 18: N·H > 0 where N·L < 0",
-     "the highlight is 0 where the diffuse angle is out of range", c_promise, "colour steps",
-     PublishedForm::breaks, behind_the_horizon},
-    {"spots_that_end_at_once", "Spots with a hard edge", "spherical, section 4: C is constant along a line",
-     "the triangle is cut into strips", c_promise, "colour steps", PublishedForm::breaks,
-     spots_that_end_at_once},
-    {"over_exposure", "Over-exposure", "spherical, section 4: C exceeds its word",
-     "C is clamped where the smallest entry of the table gives white",
-     "white where the model is white; the other channels are unchanged", "colour steps",
-     PublishedForm::breaks, over_exposure},
-    {"wide_triangles", "Triangles wider than the frame",
-     "spherical, section 5: ends of lines are interpolated along the edges without perspective",
-     "guard band; ends of lines are points of the surface at the pixels", c_promise, "colour steps",
-     PublishedForm::breaks, wide_triangles},
-};
-
+constexpr HardCase c_cases[] = {{"near_vectors", near_vectors},
+                                {"opposed_normals", opposed_normals},
+                                {"far_lights", far_lights},
+                                {"light_in_the_surface", light_in_the_surface},
+                                {"amplitude_zero", amplitude_zero},
+                                {"exponents", exponents},
+                                {"past_the_bell", past_the_bell},
+                                {"narrow_bells", narrow_bells},
+                                {"four_bit_tables", four_bit_tables},
+                                {"long_spans", long_spans},
+                                {"halfway_of_zero", halfway_of_zero},
+                                {"eye_at_the_surface", eye_at_the_surface},
+                                {"one_pixel_spans", one_pixel_spans},
+                                {"behind_the_horizon", behind_the_horizon},
+                                {"spots_that_end_at_once", spots_that_end_at_once},
+                                {"over_exposure", over_exposure},
+                                {"wide_triangles", wide_triangles}};
 INSTANTIATE_TEST_SUITE_P(spherical, HardCases, testing::ValuesIn(c_cases), id_of);
 
 }  // namespace
-
 }  // namespace halfway::stability

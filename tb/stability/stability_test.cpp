@@ -21,24 +21,19 @@ Worst worst_of(std::initializer_list<double> figures) {
 }
 
 TEST(Refutation, ComesFromOurFiguresAlone) {
-  EXPECT_EQ(refutation(PublishedForm::silent, worst_of({0.5, 1.0}), {}), "");
-  EXPECT_EQ(refutation(PublishedForm::silent, {}, {}), "has no figure");
-  EXPECT_EQ(refutation(PublishedForm::silent, worst_of({0.5, 1.5, 1.0}), {}), "1.5 of 1 at x");
-  EXPECT_EQ(refutation(PublishedForm::silent, worst_of({NAN, 0.5}), {}), "nan of 1 at x");
-  EXPECT_EQ(refutation(PublishedForm::breaks, worst_of({2.0}), worst_of({2.0})), "2 of 1 at x");
+  EXPECT_EQ(refutation(true, worst_of({0.5, 1.0}), {}), "");
+  EXPECT_EQ(refutation(true, {}, {}), "has no figure");
+  EXPECT_EQ(refutation(true, worst_of({0.5, 1.5, 1.0}), {}), "1.5 of 1 at x");
+  EXPECT_EQ(refutation(true, worst_of({NAN, 0.5}), {}), "nan of 1 at x");
+  EXPECT_EQ(refutation(false, worst_of({2.0}), worst_of({2.0})), "2 of 1 at x");
 }
 
 TEST(Refutation, ComesFromPublishedFiguresThatAreNotAsExpected) {
   const Worst ours = worst_of({1.0}), within = worst_of({1.0}), beyond = worst_of({0.0, INFINITY});
-  EXPECT_EQ(refutation(PublishedForm::breaks, ours, beyond), "");
-  EXPECT_EQ(refutation(PublishedForm::breaks, ours, within),
-            "the published form does not break: 1 of 1 at x");
-  EXPECT_EQ(refutation(PublishedForm::holds, ours, within), "");
-  EXPECT_EQ(refutation(PublishedForm::holds, ours, beyond), "the published form breaks: inf of 1 at x");
-  for (const PublishedForm expected : {PublishedForm::breaks, PublishedForm::holds})
-    EXPECT_EQ(refutation(expected, ours, {}), "has no figure of the published form");
-  EXPECT_EQ(refutation(PublishedForm::silent, ours, within),
-            "has a figure of the published form, but is listed without one");
+  EXPECT_EQ(refutation(false, ours, beyond), "");
+  EXPECT_EQ(refutation(false, ours, within), "the published form does not break: 1 of 1 at x");
+  EXPECT_EQ(refutation(false, ours, {}), "has no figure of the published form");
+  EXPECT_EQ(refutation(true, ours, within), "has a figure of the published form, but is listed without one");
 }
 
 TEST(Trial, KeepsWellConditionedFiguresApart) {

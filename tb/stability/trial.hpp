@@ -33,15 +33,10 @@ struct Worst {
   void add(double next, double next_bound, const std::function<std::string()>& where_of);
 };
 
-/// Behaviour of the published form in the case.
-enum class PublishedForm {
-  breaks,  ///< at least one of its figures must exceed the bound
-  holds,   ///< all its figures must be within the bound
-  silent   ///< no paper has such a form; it has no figure
-};
-
-/// The reason for which the figures refute the case; empty if they do not.
-std::string refutation(PublishedForm expected, const Worst& ours, const Worst& published);
+/// The reason for which the figures refute the case; empty if they do not. If the published form is silent,
+/// no paper has such a form, and it has no figure. Otherwise at least one of its figures must exceed the
+/// bound.
+std::string refutation(bool is_silent, const Worst& ours, const Worst& published);
 
 struct DrawOptions {
   PlanRequest plan{};
@@ -50,15 +45,7 @@ struct DrawOptions {
 };
 
 /// All words that the setup sends to the hardware for one frame.
-struct Stream {
-  unsigned init_bits = 0;
-  std::vector<std::uint32_t> prologue{}, units{};
-  SetupCounts counts{};
-
-  std::size_t vector_words() const { return (init_bits + 31) / 32; }
-  std::vector<std::uint32_t> words() const;  ///< prologue and units
-};
-Stream stream_of(const Setup& setup);
+std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts);
 
 /// A scene's stream and the golden model's fragments for it.
 struct Drawing {

@@ -154,14 +154,15 @@ class TriangleSearch final : public Search {
                               return at < fragments_.size() &&
                                      std::tuple(fragments_[at].y, fragments_[at].x) < std::tuple(y, x);
                             };
-                            Row row(s, y, begin, end - begin, y - first_y);
+                            // Lines, one carry each, and the line's pixels from either end.
+                            const auto steps = static_cast<long double>(2 * (y - first_y) + end - begin - 1);
                             for (std::int64_t x = begin; x < end; ++x) {
                               while (before(x)) uncovered(fragments_[at++]);
                               if (at == fragments_.size() || fragments_[at].y != y || fragments_[at].x != x) {
                                 if (pixels++ == 0)
                                   wrong = fmt::format("pixel {},{} is covered but not drawn", x, y);
                               } else {
-                                row.compare(fragments_[at++], x, colour, z);
+                                compare(s, fragments_[at++], steps, colour, z);
                               }
                             }
                           });
@@ -199,69 +200,29 @@ class TriangleSearch final : public Search {
   // A largest frame has 256 MB of fragments; limit the number of threads that hold so many.
   static constexpr std::size_t c_most_kept = 1 << 20;
 
-  // One line of the specification: barycentric coordinates stepped as integers.
-  class Row {
-   public:
-    Row(const Subject& s, std::int64_t y, std::int64_t begin, std::int64_t pixels, std::int64_t lines)
-        : subject_(s),
-          y_(y),
-          begin_(begin),
-          piece_(s.piece, s.unit_bits, begin, y),
-          whole_(s.whole, s.unit_bits, begin, y) {
-      // Bound of the steps to a pixel: lines, one carry each, and the line's pixels from either end. Each
-      // word is rounded to half its last place (formats: intensity, depth_sum). Samples and depths are exact
-      // here. The last term is the error of long double.
-      const long double k = static_cast<long double>(2 * lines + pixels - 1);
-      colour_bound_ = std::ldexp(1 + k + k * (k - 1) / 2, -c_sample_bits - 1) + 0x1p-48L;
-      depth_bound_ = std::ldexp(1 + k, -c_depth_bits - 1) + 0x1p-34L;
-    }
-    // Measures the error beyond the half step of rounding.
-    void compare(const Fragment& f, std::int64_t x, Worst& colour, Worst& z) const {
-      const std::array<long double, 3> p = piece_.at(x - begin_), w = whole_.at(x - begin_);
-      const auto add = [&](Worst& worst, long double off, long double bound) {
-        worst.add(static_cast<double>(std::max(off - 0.5L, 0.0L)), static_cast<double>(bound),
-                  [&] { return fmt::format("pixel {},{}, steps above its rounding", x, y_); });
-      };
-      for (std::size_t c = 0; c < 3; ++c) {
-        const auto& sample = subject_.sample[subject_.channels == 3 ? c : 0];
-        const long double exact =
-            quadratic(p, {sample[0], sample[1], sample[2], sample[3], sample[4], sample[5]});
-        add(colour, std::abs(channels(f)[c] - std::clamp(exact, 0.0L, 255.0L)), colour_bound_);
-      }
-      const auto& d = subject_.depth;
-      const long double exact =
-          std::ldexp(linear(w, {static_cast<long double>(d[0]), static_cast<long double>(d[1]),
-                                static_cast<long double>(d[2])}),
-                     -c_depth_bits);
-      add(z, std::abs(static_cast<long double>(f.z) - exact), depth_bound_);
-    }
-
-   private:
-    struct Steps {
-      std::array<std::int64_t, 3> start, step;
-      long double reciprocal;
-      Steps(const Points& p, int unit_bits, std::int64_t x, std::int64_t y) {
-        // Each is below 2^50: the guard band has 2^22 units at the deepest level.
-        const ExactBarycentric here = barycentric(p, centre(x, unit_bits), centre(y, unit_bits)),
-                               next = barycentric(p, centre(x + 1, unit_bits), centre(y, unit_bits));
-        for (std::size_t i = 0; i < 3; ++i) {
-          start[i] = static_cast<std::int64_t>(here.weight[i]);
-          step[i] = static_cast<std::int64_t>(next.weight[i] - here.weight[i]);
-        }
-        reciprocal = 1.0L / static_cast<long double>(static_cast<std::int64_t>(here.sum));
-      }
-      std::array<long double, 3> at(std::int64_t i) const {
-        const auto weight = [&](std::size_t n) {
-          return static_cast<long double>(start[n] + i * step[n]) * reciprocal;
-        };
-        return {weight(0), weight(1), weight(2)};
-      }
+  // Measures the error beyond the half step of rounding, after `steps` steps to the pixel. Each word is
+  // rounded to half its last place (formats: intensity, depth_sum). Samples and depths are exact here. The
+  // last term of a bound is the error of long double.
+  static void compare(const Subject& s, const Fragment& f, long double steps, Worst& colour, Worst& z) {
+    const auto at = [&](const Points& points) {
+      return barycentric(points, centre(f.x, s.unit_bits), centre(f.y, s.unit_bits)).real();
     };
-    const Subject& subject_;
-    std::int64_t y_, begin_;
-    Steps piece_, whole_;
-    long double colour_bound_, depth_bound_;
-  };
+    const auto add = [&](Worst& worst, long double off, long double bound) {
+      worst.add(static_cast<double>(std::max(off - 0.5L, 0.0L)), static_cast<double>(bound),
+                [&] { return fmt::format("pixel {},{}, steps above its rounding", f.x, f.y); });
+    };
+    const auto colour_bound = std::ldexp(1 + steps + steps * (steps - 1) / 2, -c_sample_bits - 1) + 0x1p-48L;
+    const std::array<long double, 3> p = at(s.piece);
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::array<long double, 6> sample;
+      std::ranges::copy(s.sample[s.channels == 3 ? c : 0], sample.begin());
+      add(colour, std::abs(channels(f)[c] - std::clamp(quadratic(p, sample), 0.0L, 255.0L)), colour_bound);
+    }
+    std::array<long double, 3> depth;
+    std::ranges::copy(s.depth, depth.begin());
+    add(z, std::abs(f.z - std::ldexp(linear(at(s.whole), depth), -c_depth_bits)),
+        std::ldexp(1 + steps, -c_depth_bits - 1) + 0x1p-34L);
+  }
 
   SimulatorFolders folders_;
   std::array<std::unique_ptr<GoldenModel>, 2> golden_;
