@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the verilated netlist_constructs like tb/netlist/netlist_constructs_tb.vhd.
+// Runs a verilated netlist with a stimulus and a response like tb/netlist/netlist_known_bad_tb.vhd.
 #include <cstdint>
 #include <cstring>
 

@@ -4,7 +4,6 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.netlist_constructs_pkg.all;
 
 entity netlist_known_bad is
   generic (
@@ -13,8 +12,8 @@ entity netlist_known_bad is
   port (
     clk      : in  std_logic;
     reset    : in  std_logic;
-    stimulus : in  std_logic_vector(c_stimulus - 1 downto 0);
-    response : out std_logic_vector(c_lanes * c_lane - 1 downto 0)
+    stimulus : in  std_logic_vector(159 downto 0);
+    response : out std_logic_vector(95 downto 0)
   );
 end entity;
 
