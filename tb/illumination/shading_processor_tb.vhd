@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both presets, every processor of six pipelines against the golden model, by processor_checker.
+-- Both presets, every processor of seven pipelines against the golden model, by processor_checker.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_pkg.all;
