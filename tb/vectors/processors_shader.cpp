@@ -197,15 +197,8 @@ class Host {
     inits_.words_of(vector, layout_.init_bits()).word(0, 32).end_vector();
     twin_.draw(vector, [&](const Fragment& f) {
       shaded_.words_of(words_of(twin_.token()), layout_.token_bits());
-      shaded_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
-      shaded_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
-      for (const std::uint8_t colour : {f.red, f.green, f.blue}) shaded_.word(colour, Preset::c_colour_bits);
-      shaded_.end_vector();
-      fragments_.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
-      fragments_.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
-      for (const std::uint8_t colour : {f.red, f.green, f.blue})
-        fragments_.word(colour, Preset::c_colour_bits);
-      fragments_.word(0, 32).end_vector();
+      add_fragment<Preset>(shaded_, f).end_vector();
+      add_fragment<Preset>(fragments_, f).word(0, 32).end_vector();
     });
   }
 

@@ -25,14 +25,6 @@ void add_clock(VectorFile& file, std::int64_t clock) {
   file.word(clock, 32).end_vector();
 }
 
-template <class Preset>
-void add_fragment(VectorFile& file, const Fragment& f, std::int64_t clock) {
-  file.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
-  file.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
-  for (const std::uint8_t colour : {f.red, f.green, f.blue}) file.word(colour, Preset::c_colour_bits);
-  add_clock(file, clock);
-}
-
 // Colours that change slowly over the triangle. One channel in six keeps random words.
 template <class Preset, int Degree>
 void put_colours(InitVector& init, Random& random, int channels) {
@@ -106,7 +98,7 @@ void write_quadratic(const Folder& folder) {
         may_lose = QuadraticClock::may_lose(pixels);
       }
       auto at = clocks.begin();
-      twin.draw(init, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); });
+      twin.draw(init, [&](const Fragment& f) { add_clock(add_fragment<Preset>(fragments, f), *at++); });
     }
     const std::string stem =
         std::string(Preset::c_name) + std::to_string(Channels) + (Degree == 1 ? "_planes_" : "_") + name;
@@ -209,7 +201,7 @@ void write_spherical(const Folder& folder, const Spherical& spherical) {
       last_pixels = lines.back().pixels();
       pixels_before = static_cast<std::int64_t>(clocks.size());
       auto at = clocks.begin();
-      twin.draw(group, [&](const Fragment& f) { add_fragment<Preset>(fragments, f, *at++); });
+      twin.draw(group, [&](const Fragment& f) { add_clock(add_fragment<Preset>(fragments, f), *at++); });
     }
     const std::string stem = std::string(spherical.name) + '_' + name;
     inits.write(folder / (stem + "_init.txt"));

@@ -10,6 +10,7 @@
 #include "golden/triangle_walker.hpp"
 #include "golden/walker_clock.hpp"
 #include "setup/walk.hpp"
+#include "sim/stream_files/vector_file.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
@@ -49,6 +50,15 @@ std::vector<WalkedLine> walk_lines(const InitVector& init) {
     if (walker.line_last()) return lines;
     walker.line_step();
   }
+}
+
+/// Columns triangle, y, x, z, red, green, blue.
+template <class Preset>
+VectorFile& add_fragment(VectorFile& file, const Fragment& f) {
+  file.word(f.triangle, Preset::c_triangle_bits).word(f.y, Preset::c_pixel_y_bits);
+  file.word(f.x, Preset::c_pixel_x_bits).word(f.z, Preset::c_depth_bits);
+  for (const std::uint8_t colour : {f.red, f.green, f.blue}) file.word(colour, Preset::c_colour_bits);
+  return file;
 }
 
 /// Counts the clocks that are lost between triangles whose lines all cover a pixel.
