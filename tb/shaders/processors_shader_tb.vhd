@@ -9,7 +9,10 @@ use work.tb_shaders_pkg.all;
 use work.tb_pkg.all;
 
 entity processors_shader_tb is
-  generic (g_folder : string := "processors_shader");
+  generic (
+    g_folder : string  := "processors_shader";
+    g_whole  : boolean := true -- false: with shadows, where a new frame takes 4096 clocks, only some of the passes
+  );
 end entity;
 
 architecture sim of processors_shader_tb is
@@ -37,8 +40,9 @@ begin
           g_hardware => c_hardware(i),
           g_timed    => false,
           g_gapless  => c_hardware(i).unrolled and not c_shadows,
-          g_resets   => 10 - 8 * boolean'pos(c_shadows),
-          g_faults   => c_shadows,
+          g_one_side => g_whole or not c_shadows,
+          g_resets   => 10 - 8 * boolean'pos(c_shadows) - boolean'pos(c_shadows and not g_whole),
+          g_faults   => c_shadows and g_whole,
           g_stem     => g_folder & "/" & nth_word(c_names, i) & "_");
   end generate;
 

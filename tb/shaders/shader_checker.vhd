@@ -16,6 +16,7 @@ entity shader_checker is
     g_timed    : boolean  := true;  -- the files contain the clocks
     g_latency  : positive := 1;     -- if timed: clocks from the first init vector of a triangle to its first fragment
     g_gapless  : boolean;           -- no clock is lost if no line is empty, except after a single pixel
+    g_one_side : boolean  := true;  -- also passes in which only one side stalls
     g_resets   : natural  := 10;    -- number of passes that end with a reset
     g_faults   : boolean  := false; -- a set "fault" exists: fault must be '1' at its end
     g_stem     : string             -- start of the file names
@@ -303,8 +304,10 @@ begin
     pass("dense", 1, 0, 0, 0);
     pass("mixed", 1, 0, 0, 0);
     pass("mixed", 12, 1, 1, 0);
-    pass("mixed", 13, 4, 0, 0);
-    pass("dense", 14, 0, 1, 0);
+    if g_one_side then
+      pass("mixed", 13, 4, 0, 0);
+      pass("dense", 14, 0, 1, 0);
+    end if;
     for i in 0 to g_resets - 1 loop
       pass("mixed", 20 + i, 0, i mod 2, c_resets(i));
     end loop;
