@@ -16,7 +16,7 @@ root=$PWD
 # Name, minutes on two cores, Markdown file, programs.
 pages='bounds 2 docs/results/bounds.md halfway_bounds
 cells 4 docs/results/synthesis.md halfway_synth
-accuracy 3 docs/accuracy.md halfway_accuracy
+accuracy 4 docs/accuracy.md halfway
 transcripts 1 README.md halfway
 figures 3 docs/results/figures/README.md halfway
 gallery 4 docs/accuracy.md halfway_studies
@@ -59,13 +59,45 @@ end_page() {
   shift
   build/tb/halfway_page . "$name" "$(file_of "$name")" "$@"
 }
+# Study scenes, and write their tables into a part of the page of accuracy.
+write_study() { # part, space, scenes
+  part=$1 space=$2
+  shift 2
+  for scene; do
+    shift
+    out=build/accuracy/$(basename "$space" .toml)/$(basename "$scene" .toml)
+    build/halfway study "$scene" --space "$space" --out "$out" ${threads:+--threads "$threads"}
+    set -- "$@" "$out/study.csv"
+  done
+  build/tb/halfway_page . --table "$part" docs/accuracy.md "$@"
+}
 run() { # page, options
   name=$1
   shift
   if [ $# -gt 0 ]; then evidence=; else evidence=--evidence; fi
   case $name in
     bounds) build/tb/halfway_bounds --gtest_brief=1 $evidence ;;
-    accuracy) build/tb/halfway_accuracy --gtest_brief=1 $evidence ;;
+    accuracy)
+      mkdir -p build/accuracy
+      # The study's sphere without its highlight, under one light.
+      bright=
+      for intensity in 1 10 100 1000; do
+        bright="$bright build/accuracy/bright_$intensity.toml"
+        sed "s/^k_s = .*/k_s = 0.0/; s/^intensity = .*/intensity = $intensity.0/" sim/studies/sphere.toml \
+          >"build/accuracy/bright_$intensity.toml"
+      done
+      printf '[[sweep]]\nmethod = "spherical"\n' >build/accuracy/bright.toml
+      # shellcheck disable=SC2086 # scenes
+      {
+        write_study frames sim/studies/accuracy.toml spheres
+        write_study 'within one step' sim/studies/one_step.toml sim/studies/sphere.toml
+        write_study 'cosine tables' sim/studies/tables.toml sim/studies/sphere.toml
+        write_study 'bright lights' build/accuracy/bright.toml $bright
+        write_study 'root tables' sim/studies/roots.toml sim/studies/sphere.toml sim/studies/distant_eye.toml
+      }
+      end_page accuracy ghdl verilator yosys
+      build/tb/halfway_page . --judge accuracy docs/accuracy.md 'largest error'
+      ;;
     hard_cases)
       build/tb/halfway_stability --gtest_list_tests | sed -n 's,^\([a-z_]*\)/HardCases\.$,\1,p' | sort -u |
         xargs -P "$jobs" -I{} build/tb/halfway_stability --gtest_brief=1 --evidence --part={}/

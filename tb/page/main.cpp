@@ -4,6 +4,8 @@
 //   halfway_page ROOT                      prints the commit that evidence is of; fails if files have changes
 //   halfway_page ROOT PAGE FILE TOOL...    writes the line with commit, date, tools and machine into the
 //   page's file
+//   halfway_page ROOT --judge SECTION FILE COLUMN  compares the column of a page with thresholds
+//   halfway_page ROOT --table PART FILE CSV...     writes tables of studies into the part of a page
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "page/measured.hpp"
+#include "page/study_table.hpp"
 #include "sim/program/program.hpp"
 #include "sim/system/file.hpp"
 
@@ -41,6 +44,18 @@ Result<ExitCode> judge_column(const std::filesystem::path& root, const std::stri
   return judged(root, values);
 }
 
+Status write_table(const std::filesystem::path& root, const std::string& part, const std::string& file,
+                   std::span<const std::string> studies) {
+  std::vector<Table> tables;
+  for (const std::string& study : studies) {
+    auto table = read_csv(root / study);
+    if (!table) return table.error();
+    if (table->rows.empty()) return bad_input(study + ": has no row");
+    tables.push_back(std::move(*table));
+  }
+  return write_sections(root / file, std::vector<Section>{{part, study_table(tables)}});
+}
+
 int run(const std::vector<std::string>& arguments) {
   constexpr std::size_t c_root = 1, c_page = 3;  // numbers of arguments
   if (arguments.size() != c_root && arguments.size() < c_page)
@@ -49,6 +64,11 @@ int run(const std::vector<std::string>& arguments) {
   if (arguments.size() == c_judge && arguments[1] == "--judge") {
     const auto end = judge_column(arguments[0], arguments[2], arguments[3], arguments[4]);
     return end ? static_cast<int>(*end) : cli::report(end.error());
+  }
+  if (arguments.size() >= c_judge && arguments[1] == "--table") {
+    const Status written =
+        write_table(arguments[0], arguments[2], arguments[3], std::span(arguments).subspan(c_judge - 1));
+    return written ? 0 : cli::report(written.error());
   }
   const auto commit = measured_commit(arguments[0]);
   if (!commit) return cli::report(commit.error());

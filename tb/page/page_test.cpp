@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "page/study_table.hpp"
+
 namespace halfway::page {
 namespace {
 
@@ -63,6 +65,15 @@ TEST(Page, NamesItsCommitBelowItsTitle) {
       with_origin(twice, {"proofs", "fedcba9876543210", "on Friday."}),
       "<!-- licence -->\n# Page\n\nMeasured by `make evidence PAGE=gallery` at commit `0123456789ab` on "
       "Tuesday.\n\nMeasured by `make evidence PAGE=proofs` at commit `fedcba987654` on Friday.\n\nIntro.\n");
+}
+
+TEST(StudyTable, OmitsColumnsOfOneValue) {
+  const std::vector<std::string> columns = {"point", "cycles", "largest_error", "rms", "scene", "unused"};
+  const Table tables[] = {{columns, {{"a", "120", "2", "0.123456", "near", "x"}}},
+                          {columns, {{"b", "120", "2", "1.218e+06", "far", "y"}}}};
+  EXPECT_EQ(study_table(tables),
+            "| scene | design | rms error | largest error |\n| --- | --- | --- | --- |\n"
+            "| near | a | 0.1235 | 2 |\n| far | b | 1218000 | 2 |\n");
 }
 
 }  // namespace
