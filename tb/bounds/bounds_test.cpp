@@ -9,12 +9,10 @@
 #include <cctype>
 #include <cmath>
 #include <ostream>
-#include <set>
 
 #include "page/page.hpp"
 #include "registry.hpp"
 #include "sim/pages/template.hpp"
-#include "sim/system/file.hpp"
 
 namespace halfway::bounds {
 namespace {
@@ -30,14 +28,6 @@ constexpr double c_rounding = 1e-9;  // relative rounding of the doubles in whic
 
 std::string number_or_dash(double value) {
   return value > 0 ? number(value) : "–";
-}
-
-// Runs a check with a folder for its scripts.
-template <class Run>
-auto with_context(bool quick, Run&& run) {
-  const auto scratch = TemporaryFolder::make(testing::TempDir());
-  EXPECT_TRUE(scratch) << scratch.error().message;
-  return run(Context{quick, scratch ? scratch->path() : std::filesystem::path()});
 }
 
 const std::vector<tables::PresetFormats>& presets() {
@@ -66,8 +56,6 @@ struct StatedBound {
   const tables::Format* format;
   const tables::Bound* bound;
   Check check;  ///< without `run` nothing checks the bound
-
-  Finding find(const Context& context) const { return check.run(context, {*preset, *format, *bound}); }
 
   friend void PrintTo(const StatedBound& b, std::ostream* out) {
     *out << b.format->name << ' ' << b.bound->of;
@@ -101,7 +89,7 @@ class FormatBounds : public testing::TestWithParam<StatedBound> {
   void check(bool quick) {
     const auto& [preset, format, bound, check] = GetParam();
     ASSERT_TRUE(check.run) << "nothing checks the bound";
-    const Finding finding = with_context(quick, [&](const Context& c) { return GetParam().find(c); });
+    const Finding finding = check.run({quick}, {*preset, *format, *bound});
     EXPECT_EQ(finding.failure, "");
     const double derived = tables::derived(*preset, *format, *bound);
     const double most = bound->value * (1 + c_rounding), worst = std::max(finding.worst, 0.0);
@@ -164,24 +152,21 @@ TEST(Checks, EachFormatStatesABoundAndEachCheckHasOne) {
 
 // ---- Tables
 
-using Rows = std::vector<std::vector<std::string>>;
-
-// Each table is a test of its own suite, so that it has its own section in the page.
-struct Table {
-  std::string name;
-  std::vector<std::string> columns;
-  /// Checks the rows.
-  Rows (*rows)(const Context&);
-
-  friend void PrintTo(const Table& t, std::ostream* out) { *out << t.name; }
-};
-
-class TableBounds : public testing::TestWithParam<Table> {
+// Each kind of table is a test of its own suite, so that it has its own section in the page.
+class TableBounds : public testing::TestWithParam<std::vector<TableFinding> (*)(const Context&)> {
  protected:
   void check(bool quick) {
-    const Rows rows = with_context(quick, GetParam().rows);
+    const std::vector<std::string> columns = {"table", "bound", "found", "of the bound", "where"};
+    std::vector<std::vector<std::string>> rows;
+    for (const TableFinding& f : GetParam()({quick})) {
+      EXPECT_LE(f.derived, f.bound * (1 + c_rounding)) << f.table;
+      EXPECT_LE(f.worst, f.bound) << f.table;
+      EXPECT_GE(f.worst, c_tight * f.bound) << f.table << ": nothing comes closer";
+      rows.push_back(
+          {f.table, number(f.bound), number(f.worst), fmt::format("{:.2f}", f.worst / f.bound), f.where});
+    }
     EXPECT_FALSE(rows.empty());
-    RecordProperty(std::string(page::c_table), markdown_table(GetParam().columns, rows));
+    RecordProperty(std::string(page::c_table), markdown_table(columns, rows));
   }
 };
 
@@ -191,36 +176,8 @@ TEST_P(TableBounds, Quick) {
 TEST_P(TableBounds, Full) {
   check(false);
 }
-
-void expect_near_bound(double worst, double bound, std::string_view what) {
-  EXPECT_LE(worst, bound) << what;
-  EXPECT_GE(worst, c_tight * bound) << what << ": nothing comes closer";
-}
-
-Rows rows_of(const std::vector<TableFinding>& findings) {
-  Rows rows;
-  for (const TableFinding& f : findings) {
-    EXPECT_LE(f.derived, f.bound * (1 + c_rounding)) << f.table;
-    expect_near_bound(f.worst, f.bound, f.table);
-    rows.push_back(
-        {f.table, number(f.bound), number(f.worst), fmt::format("{:.2f}", f.worst / f.bound), f.where});
-  }
-  return rows;
-}
-
-const std::vector<std::string>& table_columns() {
-  static const std::vector<std::string> c_columns = {"table", "bound", "found", "of the bound", "where"};
-  return c_columns;
-}
-
-INSTANTIATE_TEST_SUITE_P(Cosine_tables, TableBounds,
-                         testing::Values(Table{"cosine", table_columns(), [](const Context& context) {
-                                                 return rows_of(cosine_tables(context));
-                                               }}));
-INSTANTIATE_TEST_SUITE_P(Function_tables, TableBounds,
-                         testing::Values(Table{"function", table_columns(), [](const Context& /*context*/) {
-                                                 return rows_of(function_tables());
-                                               }}));
+INSTANTIATE_TEST_SUITE_P(Cosine_tables, TableBounds, testing::Values(cosine_tables));
+INSTANTIATE_TEST_SUITE_P(Function_tables, TableBounds, testing::Values(function_tables));
 
 }  // namespace
 }  // namespace halfway::bounds

@@ -9,7 +9,12 @@ namespace halfway::bounds {
 
 void prove(const Context& context, const std::string& script, double limit, Finding& finding) {
   if (context.quick) return;
-  const std::filesystem::path file = context.scratch / "bound.gappa";
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  if (!folder) {
+    finding.failure = folder.error().message;
+    return;
+  }
+  const std::filesystem::path file = folder->path() / "bound.gappa";
   const auto written = write_file(file, script);
   const auto end = run_process({.arguments = {"gappa", file.string()}, .timeout = std::chrono::minutes(60)},
                                "apt-get install gappa");

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -17,8 +16,7 @@ namespace halfway::bounds {
 
 /// Parameters of a check.
 struct Context {
-  bool quick = false;             ///< a few seconds in total: strides instead of all arguments
-  std::filesystem::path scratch;  ///< for Gappa's scripts
+  bool quick = false;  ///< a few seconds in total: strides instead of all arguments
 };
 
 struct Finding {
@@ -75,10 +73,9 @@ struct TableFinding {
   std::string where;
 };
 
-/// Whole cells, by 400 bits. All generated tables, and cosine tables of all sizes
-/// (quick: of a few).
+/// Whole cells, by 400 bits. All generated tables, and cosine tables of all sizes (quick: of a few).
 std::vector<TableFinding> cosine_tables(const Context& context);
-std::vector<TableFinding> function_tables();
+std::vector<TableFinding> function_tables(const Context& context);
 
 /// Runs Gappa on the script, unless the context is quick: the limit is then proved, or the check fails.
 void prove(const Context& context, const std::string& script, double limit, Finding& finding);

@@ -133,7 +133,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
   return findings;
 }
 
-std::vector<TableFinding> function_tables() {
+std::vector<TableFinding> function_tables(const Context& /*context*/) {
   std::vector<TableFinding> findings;
   for (const FunctionTable& table : tables::function_tables()) {
     TableFinding finding;
