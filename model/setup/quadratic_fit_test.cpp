@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares QuadraticFit and DepthFit with the 6x6 and 3x3 systems solved in rationals, and the golden model's
-// fragments with those rationals at every covered pixel. PixelFit has no tolerance.
+// registers with PixelFit's colours, without tolerance. tb/bounds and the searches and hard cases of
+// tb/stability compare the golden model with the quadratic at every pixel.
 #include "setup/quadratic_fit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <set>
 #include <span>
 #include <utility>
@@ -264,163 +264,6 @@ TEST(PixelFit, EachPixelHasItsColourExactly) {
   EXPECT_GT(backward, 1000);
   EXPECT_GT(diagonal, 100);
   EXPECT_GT(moved, 1000);
-}
-
-/// Compares every pixel's registers with the rationals, which are stored as numerators over D^2 and D.
-class Comparison {
- public:
-  Comparison(const Points& p, int unit_bits, const SixSamples& samples, const std::array<std::int64_t, 3>& z)
-      : points_(p), unit_bits_(unit_bits), d_(twice_area(p)), squared_(d_ * d_) {
-    const Quadratic quadratic = through(p, samples);
-    for (std::size_t i = 0; i < 6; ++i) {
-      const mpq_class k = quadratic.k[i] * to_mpz(squared_);
-      EXPECT_EQ(k.get_den(), 1);
-      numerator_[i] = to_int128(k.get_num());
-    }
-    std::array<std::array<mpq_class, 4>, 3> rows;
-    for (std::size_t i = 0; i < 3; ++i)
-      rows[i] = {p[i].x - p[0].x, p[i].y - p[0].y, 1, static_cast<long>(z[i])};
-    const std::array<mpq_class, 3> plane = solved<3>(rows);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const mpq_class k = plane[i] * to_mpz(squared_);
-      EXPECT_EQ(k.get_den(), 1);
-      plane_[i] = to_int128(k.get_num());
-    }
-  }
-
-  void begin(const Walk& walk) { walk_ = walk, carries_ = -1; }
-
-  template <class Shader>
-  void line(const Shader& shader) {
-    line_start_ = shader.walker().start().value();
-    const std::int64_t y = shader.walker().y();
-    carries_ = line_start_ - walk_.start.pixel - walk_.start.quotient * (y - walk_.y);
-  }
-
-  template <class Shader>
-  void span(const Shader& shader, golden::SpanXWord at) {
-    const std::int64_t x = at.value(), y = shader.walker().y();
-    const Int128 u = centre(x, points_[0].x, unit_bits_), v = centre(y, points_[0].y, unit_bits_);
-    // If the words belong to one quadratic, only the distance of the pixel from the start matters, not the
-    // path to it.
-    const std::int64_t lines = y - walk_.y, steps = std::abs(carries_ + x - line_start_), k = lines + steps;
-
-    const Int128 exact = (numerator_[0] * u + numerator_[1] * v + numerator_[3]) * u +
-                         (numerator_[2] * v + numerator_[4]) * v + numerator_[5];
-    const std::int64_t value = shader.channel(0).value().value() - (1LL << (c_fraction - 1));
-    const Int128 off = 4 * magnitude(value * squared_ - exact), bound = (2 + 2 * k + k * k) * squared_;
-    ASSERT_TRUE(off <= bound) << "pixel " << x << ',' << y << ", k = " << k << ": off by "
-                              << static_cast<double>(off) / static_cast<double>(bound) << " of the bound";
-    const double steps_exact =
-        std::ldexp(static_cast<double>(exact) / static_cast<double>(squared_), -c_fraction);
-    exact_colour_ = std::clamp(steps_exact, 0.0, 255.0);
-
-    const Int128 depth = plane_[0] * u + plane_[1] * v + plane_[2];
-    const std::int64_t z = shader.depth().value().value() - (1 << 14);
-    const Int128 z_off = 2 * magnitude(z * squared_ - depth),
-                 z_bound = (1 + lines + carries_ + std::abs(x - line_start_)) * squared_;
-    ASSERT_TRUE(z_off <= z_bound) << "depth of pixel " << x << ',' << y;
-    exact_depth_ = std::ldexp(static_cast<double>(depth) / static_cast<double>(squared_), -15);
-    ++pixels_;
-  }
-
-  void fragment(const Fragment& f) {
-    // The bound of the shader's header: 0.5 for rounding, plus the error of the differences.
-    ASSERT_LE(std::abs(f.red - exact_colour_), 0.65) << "pixel " << f.x << ',' << f.y;
-    ASSERT_LE(std::abs(f.z - exact_depth_), 0.69) << "pixel " << f.x << ',' << f.y;
-  }
-  std::int64_t pixels() const { return pixels_; }
-
- private:
-  static Int128 magnitude(Int128 v) { return v < 0 ? -v : v; }
-
-  Points points_;
-  int unit_bits_;
-  Int128 d_, squared_;
-  std::array<Int128, 6> numerator_;
-  std::array<Int128, 3> plane_;
-  Walk walk_;
-  std::int64_t line_start_ = 0, carries_ = 0;
-  double exact_colour_ = 0.0, exact_depth_ = 0.0;
-  std::int64_t pixels_ = 0;
-};
-
-/// Draws one triangle with the golden model, one channel. Returns the number of its pixels.
-std::int64_t draw(const Points& p, int unit_bits, FrameSize frame, const SixSamples& samples,
-                  const std::array<std::int64_t, 3>& z) {
-  using Shader = golden::QuadraticShader<Exact, 1>;
-  using At = Exact::init_header_at;
-  const Walks walks = plan_walks(p, unit_bits, frame);
-  if (walks.empty()) return 0;
-  const QuadraticFit fit(p, unit_bits);
-  const DepthFit depth(p, unit_bits, z);
-  Comparison comparison(p, unit_bits, samples, z);
-  for (const Walk& walk : walks) {
-    const DifferenceStart start{walk.start.pixel, walk.y, walk.start.quotient, walk.backward};
-    std::array<std::uint32_t, Shader::c_init_words> init{};
-    put_walk(init, walk);
-    const auto put = [&](const golden::Field& field, Int128 value) {
-      golden::set_bits(init, field, static_cast<std::uint64_t>(value));
-    };
-    const DepthWords dw = depth.words(start, 1 << 14);
-    put(At::z, dw.value);
-    put(At::z_dx, dw.dx);
-    put(At::z_de0, dw.de0);
-    put(At::z_de1, dw.de1);
-    const QuadraticWords qw = fit.at(start).words(samples, std::int64_t{1} << (c_fraction - 1));
-    put_words(init, qw);
-    comparison.begin(walk);
-    Shader shader;
-    shader.draw(
-        init, [&](const Fragment& f) { comparison.fragment(f); }, comparison);
-  }
-  return comparison.pixels();
-}
-
-constexpr std::int64_t c_far = std::int64_t{(1 << 24) - 3} << 15, c_near = std::int64_t{1} << 15;
-
-TEST(GoldenQuadratic, EveryPixelOfARandomTriangleIsWithinTheStatedBound) {
-  std::int64_t drawn = 0;
-  for (int level = 0; level <= 5; ++level)
-    for (const TriangleKind kind : c_triangle_kinds) {
-      RandomTriangles random(static_cast<unsigned>(100 * level + static_cast<int>(kind)));
-      for (int round = 0; round < 40; ++round) {
-        const FrameSize frame{200, 160};
-        const Points p = random.next(kind, 4 + level, frame, level);
-        // Over all levels, these are all combinations of the least and the largest samples.
-        const SixSamples samples = random_samples(random, 40 * level + round);
-        drawn +=
-            draw(p, 4 + level, frame, samples,
-                 {round % 2 ? c_near : c_far, round % 3 ? c_far : c_near, random.within(1, 1 << 24) << 7});
-        if (HasFatalFailure()) return;
-      }
-    }
-  EXPECT_GT(drawn, 1'000'000);
-}
-
-TEST(GoldenQuadratic, LongAndTallTrianglesAreWithinTheStatedBound) {
-  std::int64_t drawn = 0;
-  RandomTriangles random(7);
-  const auto units = [&](int pixels) { return 16 * pixels + random.within(-8, 8); };
-  for (int round = 0; round < 12; ++round) {
-    // Triangles from corner to corner and along each side, wide and thin, forward and backward, also beyond
-    // the frame.
-    const int thick = round % 4 == 0 ? 4096 : round % 4 == 1 ? 64 : 2, by = round % 3 == 0 ? 2000 : 0;
-    const std::array<Points, 6> shapes = {{
-        {{{units(-by), units(-by)}, {units(4096 + by), units(4096 + by)}, {units(thick), units(0)}}},
-        {{{units(4096 + by), units(-by)}, {units(-by), units(4096 + by)}, {units(4096 - thick), units(0)}}},
-        {{{units(0), units(-by)}, {units(0), units(4096 + by)}, {units(thick), units(4096)}}},
-        {{{units(4096), units(0)},
-          {units(4096), units(4096)},
-          {units(4096 - thick), units(random.within(0, 4096))}}},
-        {{{units(-by), units(0)}, {units(4096 + by), units(1)}, {units(4096), units(thick)}}},
-        {{{units(4096), units(0)}, {units(0), units(1)}, {units(0), units(thick)}}},
-    }};
-    const Points& p = shapes[static_cast<std::size_t>(round) % shapes.size()];
-    drawn += draw(p, 4, c_largest_frame, random_samples(random, round), {c_near, c_far, c_near + 12345});
-    if (HasFatalFailure()) return;
-  }
-  EXPECT_GT(drawn, 1'000'000);
 }
 
 }  // namespace
