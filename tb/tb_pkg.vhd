@@ -3,7 +3,7 @@
 -- the run with vector number, actual and expected value, clocks, random stalls, and the end of a testbench.
 --
 -- The shape of a testbench: one process per instance reads the rows of a file, drives the instance's inputs, compares
--- its outputs and gives its clock.
+-- its outputs and gives its clock. Testbenches of this shape alone are written from tb/rows.toml.
 --
 --   vectors.open_file(g_folder & "/16.txt", c_latency);
 --   while vectors.next_clock loop

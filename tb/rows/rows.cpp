@@ -163,17 +163,12 @@ class Writer {
           port == "clk"                     ? " := '0'"
           : port == "reset" && has("reset") ? " := '1'"
                                             : "");
-    const Texts delay = split(value("delay"), ",");
-    if (has("delay") && !interface_.port_types.contains(delay.at(1)))
-      put("signal {} : {};", delay[1], interface_.port_types.at(delay[0]));
     if (has("declare")) put(value("declare"));
     put("begin\ndut : entity work.{}", entity_);
     if (!interface_.generic_names.empty() && !generics.empty())
       put("generic map ({})", fmt::join(associations(interface_.generic_names), ", "));
     put("port map ({});", fmt::join(associations(interface_.port_names), ", "));
-    if (has("delay"))
-      put("late : entity work.delay_line\ngeneric map ({}'length, {})\nport map (clk, enable, {}, {});",
-          delay[1], delay.at(2), delay[1], delay[0]);
+    if (has("connect")) put(value("connect"));
     put("run : process is\nvariable vectors : vectors_t;\nbegin");
     put("vectors.open_file(g_folder & \"/\" & {} & \".txt\"{});", file_of(form, generics, values),
         has("latency") ? ", " + value("latency") : "");
