@@ -2,9 +2,11 @@
 #include "mutants/design.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
+#include <iterator>
 #include <sstream>
+
+#include "sim/system/must.hpp"
 
 namespace halfway::mutants {
 namespace {
@@ -14,70 +16,64 @@ Stream read_stream(const toml::table& table) {
           table["columns"].value_or(std::string()), table["prompt"].value_or(false)};
 }
 
-/// Reads the file's table. An error names file and line.
-Result<toml::table> parse(const std::filesystem::path& file) {
-  try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& error) {
-    return bad_input(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()));
-  }
+std::string text_of(const toml::table& table, const char* name) {
+  return table[name].value_or(std::string());
+}
+
+std::vector<std::string> words_of(const toml::table& table, const char* name) {
+  std::istringstream words(text_of(table, name));
+  return {std::istream_iterator<std::string>(words), {}};
 }
 
 }  // namespace
 
-Result<std::vector<Survivor>> read_survivors(const std::filesystem::path& file) {
-  const auto all = parse(file);
-  if (!all) return all.error();
-  std::vector<Survivor> survivors;
-  for (const toml::node& node : *(*all)["survivor"].as_array()) {
-    const toml::table& table = *node.as_table();
-    const auto text = [&](const char* name) { return table[name].value_or(std::string()); };
-    survivors.push_back({text("file"), text("text"), text("reason")});
+toml::table read_toml(const std::filesystem::path& file) {
+  try {
+    return toml::parse_file(file.string());
+  } catch (const toml::parse_error& error) {
+    throw Failure{
+        bad_input(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()))};
   }
-  return survivors;
 }
 
-Result<std::vector<Without>> read_without(const std::filesystem::path& file) {
-  const auto all = parse(file);
-  if (!all) return all.error();
-  std::vector<Without> without;
-  for (const toml::node& node : *(*all)["without"].as_array()) {
-    const toml::table& table = *node.as_table();
-    const auto text = [&](const char* name) { return table[name].value_or(std::string()); };
-    without.push_back({text("name"), text("within"), text("reason")});
-  }
-  return without;
+std::vector<Survivor> read_survivors(const std::filesystem::path& file) {
+  return read_list<Survivor>(read_toml(file), "survivor", [](const toml::table& table) {
+    return Survivor{text_of(table, "file"), text_of(table, "text"), text_of(table, "reason")};
+  });
 }
 
-Result<std::vector<Design>> read_designs(const std::filesystem::path& file) {
+std::vector<Without> read_without(const std::filesystem::path& file) {
+  return read_list<Without>(read_toml(file), "without", [](const toml::table& table) {
+    return Without{text_of(table, "name"), text_of(table, "within"), text_of(table, "reason")};
+  });
+}
+
+std::vector<Design> read_designs(const std::filesystem::path& file) {
   std::vector<Design> designs;
-  const auto all = parse(file);
-  if (!all) return all.error();
-  for (const toml::node& node : *(*all)["entity"].as_array()) {
+  const toml::table all = read_toml(file);
+  for (const toml::node& node : *all["entity"].as_array()) {
     const toml::table& entity = *node.as_table();
     Design common;
-    common.entity = entity["name"].value_or(std::string());
-    common.rows = entity["rows"].value_or(std::string());
+    common.entity = text_of(entity, "name");
+    common.rows = text_of(entity, "rows");
     common.skip = entity["skip"].value_or(0U);
-    common.stalled = entity["stalled"].value_or(std::string());
+    common.stalled = text_of(entity, "stalled");
     common.reset = entity["reset"].value_or(false);
     common.proofs = entity["proofs"].value_or(true);
     if (const toml::table* input = entity["input"].as_table()) common.input = read_stream(*input);
-    if (const toml::array* outputs = entity["outputs"].as_array())
-      for (const toml::node& output : *outputs) common.outputs.push_back(read_stream(*output.as_table()));
+    if (entity.contains("outputs")) common.outputs = read_list<Stream>(entity, "outputs", read_stream);
     for (const toml::node& variant_node : *entity["variants"].as_array()) {
       const toml::table& variant = *variant_node.as_table();
       Design design = common;
-      design.name = common.entity + "." + variant["name"].value_or(std::string());
+      design.name = common.entity + "." + text_of(variant, "name");
       design.faults = variant["faults"].value_or(100U);
       design.quick = variant["quick"].value_or(false);
-      std::istringstream generics(variant["generics"].value_or(std::string()));
-      for (std::string word; generics >> word;) {
+      for (const std::string& word : words_of(variant, "generics")) {
         const auto equals = word.find('=');
         design.generics.emplace_back("g_" + word.substr(0, equals), word.substr(equals + 1));
       }
-      std::istringstream sets(variant["sets"].value_or(std::string()));
-      for (std::string word; sets >> word;) design.sets.push_back(common.entity + "/" + word);
+      for (const std::string& word : words_of(variant, "sets"))
+        design.sets.push_back(common.entity + "/" + word);
       designs.push_back(std::move(design));
     }
   }

@@ -3,12 +3,12 @@
 // and check their ports.
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "common/result.hpp"
 
 namespace halfway::mutants {
 
@@ -36,18 +36,30 @@ struct Design {
   bool quick = false;   ///< part of the quick form
 };
 
-Result<std::vector<Design>> read_designs(const std::filesystem::path& file);
+// These functions throw Failure, with file and line.
+
+toml::table read_toml(const std::filesystem::path& file);
+
+/// `read` of each table in the list `name`.
+template <class Item, class Read>
+std::vector<Item> read_list(const toml::table& all, const char* name, const Read& read) {
+  std::vector<Item> items;
+  for (const toml::node& node : *all[name].as_array()) items.push_back(read(*node.as_table()));
+  return items;
+}
+
+std::vector<Design> read_designs(const std::filesystem::path& file);
 
 /// An entity without a netlist of its own in designs.toml.
 struct Without {
   std::string entity, within, reason;  ///< one of the last two is empty
 };
-Result<std::vector<Without>> read_without(const std::filesystem::path& file);
+std::vector<Without> read_without(const std::filesystem::path& file);
 
 /// Why no vector finds the faults of a VHDL line.
 struct Survivor {
   std::string file, text, reason;  ///< `text` is part of the line
 };
-Result<std::vector<Survivor>> read_survivors(const std::filesystem::path& file);
+std::vector<Survivor> read_survivors(const std::filesystem::path& file);
 
 }  // namespace halfway::mutants

@@ -19,7 +19,8 @@
 #include "mutants/source_faults.hpp"
 #include "page/measured.hpp"
 #include "sim/program/program.hpp"
-#include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
+#include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 
 namespace halfway::mutants {
@@ -70,48 +71,52 @@ std::string to_string(const Outcome& outcome) {
                      outcome.fault.wire);
 }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+std::string to_string(TestEnd end) {
+  switch (end) {
+    case TestEnd::passes:
+      return "passes";
+    case TestEnd::fails:
+      return "fails";
+    case TestEnd::unfinished:
+      return "does not end in time";
+  }
+  return {};
 }
 
-Result<NetlistResult> run_netlist(const Options& options, const Design& design, const GhdlLibrary& library) {
+NetlistResult run_netlist(const Options& options, const Design& design, const GhdlLibrary& library) {
   const auto start = Clock::now();
-  const auto netlist = make_faulty_netlist(design, library, options.scratch, options.seed);
-  if (!netlist) return netlist.error();
-  const auto model = compile(design, *netlist, options.source, options.scratch);
-  if (!model) return model.error();
-  const auto vectors = read_design_vectors(design, options.vectors);
-  if (!vectors) return vectors.error();
+  const FaultyNetlist netlist = make_faulty_netlist(design, library, options.scratch, options.seed);
+  const CompiledNetlist model = compile(design, netlist, options.source, options.scratch);
+  const DesignVectors vectors = read_design_vectors(design, options.vectors);
   // Without a fault all outputs must be equal.
-  if (const auto difference = replay(design, *vectors, *model, 0))
-    return Error{ExitCode::differs, fmt::format("{}: without a fault: {}", design.name, *difference)};
+  if (const auto difference = replay(design, vectors, model, 0))
+    throw Failure{{ExitCode::differs, fmt::format("{}: without a fault: {}", design.name, *difference)}};
   NetlistResult result;
   result.step = options.step;
   // A row is of some faults at least.
   if (options.evidence)
     result.step =
-        std::min(options.step, std::max(1U, static_cast<unsigned>(netlist->faults.size() / c_fewest)));
-  if (options.one > netlist->faults.size())
-    return bad_input(fmt::format("--one: {} has no fault {}; take 1 to {}", design.name, options.one,
-                                 netlist->faults.size()));
+        std::min(options.step, std::max(1U, static_cast<unsigned>(netlist.faults.size() / c_fewest)));
+  if (options.one > netlist.faults.size())
+    throw Failure{bad_input(fmt::format("--one: {} has no fault {}; take 1 to {}", design.name, options.one,
+                                        netlist.faults.size()))};
   std::vector<std::uint32_t> survivors;
-  for (std::uint32_t number = 1; number <= netlist->faults.size(); ++number) {
-    const Fault& fault = netlist->faults[number - 1];
+  for (std::uint32_t number = 1; number <= netlist.faults.size(); ++number) {
+    const Fault& fault = netlist.faults[number - 1];
     // Skip faults of clocks: a replay has no time between edges, in which an inverted clock would be visible.
     if (fault.port == "CLK" || (options.one != 0 && number != options.one)) continue;
     if (number % result.step != 0) continue;
-    const auto difference = replay(design, *vectors, *model, number);
+    const auto difference = replay(design, vectors, model, number);
     result.outcomes.push_back(
         {fault, number, difference ? End::found : End::survived, difference.value_or(std::string())});
     if (!difference) survivors.push_back(number);
   }
   if (options.prove && design.proofs) {
     const auto proved =
-        prove_equivalent(*netlist, survivors, options.quick ? c_quick_proof_time : c_proof_time);
-    if (!proved) return proved.error();
+        prove_equivalent(netlist, survivors, options.quick ? c_quick_proof_time : c_proof_time);
     for (Outcome& outcome : result.outcomes) {
-      const auto at = std::find(survivors.begin(), survivors.end(), outcome.number);
-      if (at != survivors.end() && (*proved)[static_cast<std::size_t>(at - survivors.begin())])
+      const auto at = std::ranges::find(survivors, outcome.number);
+      if (at != survivors.end() && proved[static_cast<std::size_t>(at - survivors.begin())])
         outcome.end = End::equivalent;
     }
   }
@@ -148,86 +153,61 @@ page::Row row_of(const Design& design, const NetlistResult& result, const Reason
 
 class Run {
  public:
-  explicit Run(const Options& options) : options_(options) {}
-
-  ExitCode all() {
-    if (const Status done = open(); !done) return fail(done.error());
-    if (options_.netlists)
-      if (const Status done = run_netlists(); !done) return fail(done.error());
-    if (options_.sources)
-      if (const Status done = run_sources(); !done) return fail(done.error());
-    return judge();
-  }
-
- private:
-  static ExitCode fail(const Error& error) {
-    fmt::print(stderr, "{}\n", error.message);
-    return error.code;
-  }
-
-  /// Reads descriptions, and the rows that are measured.
-  Status open() {
-    auto reasons = Reasons::read(options_.source);
-    if (!reasons) return reasons.error();
-    reasons_ = *reasons;
-    const auto tool = GhdlTool::find();
-    if (!tool) return tool.error();
-    const auto sources = read_rtl_sources(options_.source);
-    if (!sources) return sources.error();
-    auto library = GhdlLibrary::for_synthesis(*tool, *sources, options_.scratch);
-    if (!library) return library.error();
-    library_ = *library;
-    auto designs = read_designs(options_.source / "tb/mutants/designs.toml");
-    if (!designs) return designs.error();
-    auto faults = read_source_faults(options_.source / "tb/mutants/source_faults.toml");
-    if (!faults) return faults.error();
-    if (options_.evidence)
-      if (const Status opened = open_page(*designs, *faults); !opened) return opened;
+  explicit Run(const Options& options)
+      : options_(options),
+        reasons_(options.source),
+        designs_(read_designs(options.source / "tb/mutants/designs.toml")),
+        faults_(read_source_faults(options.source / "tb/mutants/source_faults.toml")) {
+    if (options_.evidence) measured_ = open_page();
     const auto is_left_out = [&](const std::string& name, const std::string& row, bool quick) {
       return name.find(options_.part) == std::string::npos || (options_.quick && !quick) ||
              (measured_ && measured_->has(row));
     };
-    std::erase_if(*designs, [&](const Design& d) { return is_left_out(d.name, d.name, d.quick); });
-    std::erase_if(*faults,
+    std::erase_if(designs_, [&](const Design& d) { return is_left_out(d.name, d.name, d.quick); });
+    std::erase_if(faults_,
                   [&](const SourceFault& f) { return is_left_out(f.test, row_name(f.test), f.quick); });
-    designs_ = std::move(*designs);
-    faults_ = std::move(*faults);
-    return Ok{};
   }
 
-  Status open_page(const std::vector<Design>& designs, const std::vector<SourceFault>& faults) {
+  ExitCode all() {
+    if (options_.netlists) run_netlists();
+    if (options_.sources) run_sources();
+    return judge();
+  }
+
+ private:
+  page::Measured open_page() const {
     std::vector<std::string> rows;
-    for (const Design& design : designs) rows.push_back(design.name);
+    for (const Design& design : designs_) rows.push_back(design.name);
     std::set<std::string> tests;
-    for (const SourceFault& fault : faults) tests.insert(row_name(fault.test));
+    for (const SourceFault& fault : faults_) tests.insert(row_name(fault.test));
     rows.insert(rows.end(), tests.begin(), tests.end());
-    auto measured = page::Measured::open(
+    return must(page::Measured::open(
         {.name = "mutants",
          .root = options_.source,
          .file = "docs/results/mutants.md",
          .tools = {"ghdl", "yosys", "verilator"},
          .rows = std::move(rows),
-         .sections = [this](std::span<const page::Row> of) { return mutant_sections(of, *reasons_); },
-         .values = mutant_values});
-    if (!measured) return measured.error();
-    measured_ = std::move(*measured);
-    return Ok{};
+         .sections = [this](std::span<const page::Row> of) { return mutant_sections(of, reasons_); },
+         .values = mutant_values}));
   }
 
-  Status store(const page::Row& row) const { return measured_ ? measured_->put(row) : Status(Ok{}); }
+  void store(const page::Row& row) const {
+    if (measured_) must(measured_->put(row));
+  }
 
-  Status run_netlists() {
+  void run_netlists() {
+    const GhdlTool tool = must(GhdlTool::find());
+    const GhdlLibrary library =
+        must(GhdlLibrary::for_synthesis(tool, must(read_rtl_sources(options_.source)), options_.scratch));
     page::Countdown countdown(designs_.size());
-    return for_each_on_threads(options_.jobs, designs_.size(), [&](std::size_t i) -> Status {
+    must_for_each(options_.jobs, designs_.size(), [&](std::size_t i) {
       const Design& design = designs_[i];
-      auto result = run_netlist(options_, design, *library_);
-      if (!result) return result.error();
+      NetlistResult result = run_netlist(options_, design, library);
       const std::scoped_lock lock(mutex_);
       fmt::print("{} ", countdown.next());
-      print(design.name, *result);
-      if (const Status stored = store(row_of(design, *result, *reasons_)); !stored) return stored;
-      netlists_[design.name] = std::move(*result);
-      return Ok{};
+      print(design.name, result);
+      store(row_of(design, result, reasons_));
+      netlists_[design.name] = std::move(result);
     });
   }
 
@@ -242,51 +222,39 @@ class Run {
     std::fflush(stdout);
   }
 
-  Status run_sources() {
-    // Without a fault each testbench must pass.
-    std::map<std::string, SourceFault> tests;
-    std::map<std::string, std::size_t> remaining;
-    for (const SourceFault& fault : faults_) {
-      tests[fault.test].test = fault.test;
-      ++remaining[fault.test];
-    }
-    std::map<std::string, std::size_t> count_of = remaining;
-    std::set<std::string> missed;
-    std::vector<SourceFault> all;
-    for (const auto& [name, test] : tests) all.push_back(test);
-    const std::size_t count = all.size();
-    all.insert(all.end(), faults_.begin(), faults_.end());
-    for (auto& [test, jobs] : remaining) ++jobs;
-    return for_each_on_threads(options_.jobs, all.size(), [&](std::size_t i) -> Status {
-      const auto start = Clock::now();
-      const auto end = run_testbench(all[i], options_.source, options_.vectors, options_.scratch);
-      if (!end) return end.error();
-      const std::string how = *end == TestEnd::passes  ? "passes"
-                              : *end == TestEnd::fails ? "fails"
-                                                       : "does not end in time";
-      const std::string what =
-          fmt::format("{}: {}_tb {}", i < count ? "no fault" : name_of(all[i]), all[i].test, how);
-      const std::scoped_lock lock(mutex_);
-      fmt::print("{}, {:.1f} s\n", what, seconds_since(start));
-      std::fflush(stdout);
-      const bool right = *end == (i < count ? TestEnd::passes : TestEnd::fails);
-      const std::string& test = all[i].test;
-      if (!right) {
-        missed_.push_back(what);
-        missed.insert(test);
-      }
-      if (i >= count) {
-        ++sources_;
-        sources_found_ += right;
-      }
-      if (--remaining[test] > 0) return Ok{};
-      if (missed.contains(test)) return Ok{};
-      const std::string count_text = std::to_string(count_of[test]);
-      return store(
-          {.name = row_name(test),
+  void run_sources() {
+    std::map<std::string, std::vector<SourceFault>> of_tests;
+    for (const SourceFault& fault : faults_) of_tests[fault.test].push_back(fault);
+    const std::vector<std::pair<std::string, std::vector<SourceFault>>> tests(of_tests.begin(),
+                                                                              of_tests.end());
+    must_for_each(options_.jobs, tests.size(),
+                  [&](std::size_t i) { run_testbenches(tests[i].first, tests[i].second); });
+  }
+
+  /// Without a fault the testbench must pass, with each fault it must fail.
+  void run_testbenches(const std::string& test, const std::vector<SourceFault>& faults) {
+    std::size_t found = 0;
+    const bool passes = ends(TestEnd::passes, {.test = test}, "no fault");
+    for (const SourceFault& fault : faults) found += ends(TestEnd::fails, fault, name_of(fault));
+    const std::scoped_lock lock(mutex_);
+    sources_ += faults.size();
+    sources_found_ += found;
+    if (!passes || found < faults.size()) return;
+    const std::string count = std::to_string(found);
+    store({.name = row_name(test),
            .section = std::string(c_source_section),
-           .fields = {{"testbench", "`" + test + "_tb`"}, {"faults", count_text}, {"found", count_text}}});
-    });
+           .fields = {{"testbench", "`" + test + "_tb`"}, {"faults", count}, {"found", count}}});
+  }
+
+  bool ends(TestEnd wanted, const SourceFault& fault, const std::string& name) {
+    const auto start = Clock::now();
+    const TestEnd end = run_testbench(fault, options_.source, options_.vectors, options_.scratch);
+    const std::string what = fmt::format("{}: {}_tb {}", name, fault.test, to_string(end));
+    const std::scoped_lock lock(mutex_);
+    fmt::print("{}, {:.1f} s\n", what, seconds_since(start));
+    std::fflush(stdout);
+    if (end != wanted) missed_.push_back(what);
+    return end == wanted;
   }
 
   /// Prints all faults, writes the page if rows were stored, and returns the exit code.
@@ -297,7 +265,7 @@ class Run {
       found += result.count(End::found);
       for (const Outcome& outcome : result.outcomes)
         if (options_.quick && outcome.end == End::survived &&
-            reasons_->of(reasons_->line_at(outcome.fault.place)).empty())
+            reasons_.of(reasons_.line_at(outcome.fault.place)).empty())
           wrong.push_back(
               fmt::format("{}: fault {} ({}) survives; improve the vectors or give the reason in "
                           "tb/mutants/survivors.toml",
@@ -307,17 +275,15 @@ class Run {
       wrong.emplace_back("no fault of any netlist is found");
     if (options_.sources) fmt::print("sources: {} faults, {} found\n", sources_, sources_found_);
     for (const std::string& what : wrong) fmt::print("{}\n", what);
-    if (!wrong.empty() || !measured_) return wrong.empty() ? ExitCode::equal : ExitCode::differs;
-    const auto end = measured_->finish();
-    return end ? *end : fail(end.error());
+    if (!wrong.empty()) return ExitCode::differs;
+    return measured_ ? must(measured_->finish()) : ExitCode::equal;
   }
 
   const Options& options_;
-  std::optional<Reasons> reasons_;
-  std::optional<GhdlLibrary> library_;
-  std::optional<page::Measured> measured_;
+  const Reasons reasons_;
   std::vector<Design> designs_;
   std::vector<SourceFault> faults_;
+  std::optional<page::Measured> measured_;
   std::mutex mutex_;
   std::map<std::string, NetlistResult> netlists_;
   std::size_t sources_ = 0, sources_found_ = 0;

@@ -14,6 +14,7 @@
 #include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::mutants {
 namespace {
@@ -22,38 +23,35 @@ const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
 
 TEST(SourceFaults, OldTextsOccurExactlyOnce) {
   const auto faults = read_source_faults(c_source / "tb/mutants/source_faults.toml");
-  ASSERT_TRUE(faults) << faults.error().message;
-  EXPECT_GE(faults->size(), 40U);
-  for (const SourceFault& fault : *faults) {
+  EXPECT_GE(faults.size(), 40U);
+  for (const SourceFault& fault : faults) {
     if (fault.in_vectors) continue;
-    const auto text = read_file(c_source / fault.file);
-    ASSERT_TRUE(text) << text.error().message;
-    const auto changed = with_fault(fault, *text);
-    ASSERT_TRUE(changed) << changed.error().message;
-    EXPECT_NE(*changed, *text) << fault.file;
+    const std::string text = must(read_file(c_source / fault.file));
+    const std::string changed = with_fault(fault, text);
+    EXPECT_NE(changed, text) << fault.file;
   }
 }
 
 TEST(SourceFaults, TextThatIsAbsentOrThereTwiceIsAnError) {
   const SourceFault fault{.file = "x.vhd", .old_text = "a", .new_text = "b", .test = "x"};
-  EXPECT_FALSE(with_fault(fault, "c"));
-  EXPECT_FALSE(with_fault(fault, "a a"));
-  EXPECT_EQ(*with_fault(fault, "c a"), "c b");
+  EXPECT_THROW(with_fault(fault, "c"), Failure);
+  EXPECT_THROW(with_fault(fault, "a a"), Failure);
+  EXPECT_EQ(with_fault(fault, "c a"), "c b");
 }
 
 TEST(SourceFaults, InvertsTheLowestBitOfAWord) {
   SourceFault fault{.file = "x.txt", .line = 2, .word = 2, .in_vectors = true, .test = "x"};
   const std::string text = "1 2F\n3 4E\nend 2\n";
-  EXPECT_EQ(*with_fault(fault, text), "1 2F\n3 4F\nend 2\n");
+  EXPECT_EQ(with_fault(fault, text), "1 2F\n3 4F\nend 2\n");
   fault.word = 1;
-  EXPECT_EQ(*with_fault(fault, text), "1 2F\n2 4E\nend 2\n");
+  EXPECT_EQ(with_fault(fault, text), "1 2F\n2 4E\nend 2\n");
   fault.line = 9;
-  EXPECT_FALSE(with_fault(fault, text));
+  EXPECT_THROW(with_fault(fault, text), Failure);
 }
 
 TEST(SourceFaults, FileEndsEarly) {
   const SourceFault fault{.file = "x.txt", .in_vectors = true, .test = "x"};
-  EXPECT_EQ(*with_fault(fault, "1\n2\n3\n4\nend 4\n"), "1\n2\n3\n4\n");
+  EXPECT_EQ(with_fault(fault, "1\n2\n3\n4\nend 4\n"), "1\n2\n3\n4\n");
 }
 
 TEST(VhdlPlaces, AreThoseOfTheCommentBeforeTheStatement) {
@@ -66,9 +64,8 @@ TEST(VhdlPlaces, AreThoseOfTheCommentBeforeTheStatement) {
 
 TEST(Designs, NameEveryStreamOrColumns) {
   const auto designs = read_designs(c_source / "tb/mutants/designs.toml");
-  ASSERT_TRUE(designs) << designs.error().message;
-  EXPECT_GE(designs->size(), 40U);
-  for (const Design& design : *designs) {
+  EXPECT_GE(designs.size(), 40U);
+  for (const Design& design : designs) {
     EXPECT_NE(design.rows.empty(), design.input.port.empty()) << design.name;
     EXPECT_FALSE(design.sets.empty()) << design.name;
   }
@@ -76,11 +73,10 @@ TEST(Designs, NameEveryStreamOrColumns) {
 
 // The entities of the RTL, each with the entities that it contains.
 std::map<std::string, std::set<std::string>> entities_with_parts() {
-  const auto sources = read_rtl_sources(c_source);
-  EXPECT_TRUE(sources) << sources.error().message;
+  const auto sources = must(read_rtl_sources(c_source));
   const std::regex entity(R"((?:^|\n)entity (\w+) is)"), part(R"(\bentity work\.(\w+))");
   std::map<std::string, std::set<std::string>> entities;
-  for (const VhdlSource& source : *sources) {
+  for (const VhdlSource& source : sources) {
     std::smatch name;
     if (!std::regex_search(source.content, name, entity)) continue;
     std::set<std::string>& parts = entities[name[1]];
@@ -102,14 +98,12 @@ TEST(Designs, HaveEveryEntityOrTheReason) {
   const auto file = c_source / "tb/mutants/designs.toml";
   const auto designs = read_designs(file);
   const auto without = read_without(file);
-  ASSERT_TRUE(designs) << designs.error().message;
-  ASSERT_TRUE(without) << without.error().message;
   const auto entities = entities_with_parts();
   EXPECT_GT(entities.size(), 50U);
   std::set<std::string> listed, named;
-  for (const Design& design : *designs) named.insert(design.entity);
+  for (const Design& design : designs) named.insert(design.entity);
   listed = named;
-  for (const Without& one : *without) {
+  for (const Without& one : without) {
     EXPECT_TRUE(listed.insert(one.entity).second) << one.entity << " is listed twice";
     EXPECT_NE(one.within.empty(), one.reason.empty()) << one.entity;
     if (one.within.empty()) continue;
@@ -143,17 +137,14 @@ TEST(Rows, BecomeThePage) {
       {.name = "sources of c",
        .section = std::string(c_source_section),
        .fields = {{"testbench", "c_tb"}, {"faults", "2"}, {"found", "2"}}}};
-  auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const auto listed = folder->path() / "tb/mutants/survivors.toml";
-  ASSERT_TRUE(
-      make_folders(listed.parent_path()) &&
-      write_file(listed,
-                 "survivor = [{ file = \"stream/count.vhd\", text = \"if reset\", reason = \"starts at "
-                 "zero\" }]\n"));
-  const auto reasons = Reasons::read(folder->path());
-  ASSERT_TRUE(reasons) << reasons.error().message;
-  const auto sections = mutant_sections(rows, *reasons);
+  const TemporaryFolder folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const auto listed = folder.path() / "tb/mutants/survivors.toml";
+  must(make_folders(listed.parent_path()));
+  must(write_file(listed,
+                  "survivor = [{ file = \"stream/count.vhd\", text = \"if reset\", reason = \"starts at "
+                  "zero\" }]\n"));
+  const Reasons reasons(folder.path());
+  const auto sections = mutant_sections(rows, reasons);
   ASSERT_EQ(sections.size(), 3U);
   EXPECT_THAT(
       sections[0].body,
@@ -174,11 +165,9 @@ TEST(Rows, BecomeThePage) {
 
 TEST(Survivors, NameLinesOfTheSources) {
   const auto survivors = read_survivors(c_source / "tb/mutants/survivors.toml");
-  ASSERT_TRUE(survivors) << survivors.error().message;
-  for (const Survivor& survivor : *survivors) {
-    const auto text = read_file(c_source / "rtl" / survivor.file);
-    ASSERT_TRUE(text) << text.error().message;
-    EXPECT_THAT(*text, testing::HasSubstr(survivor.text)) << survivor.file;
+  for (const Survivor& survivor : survivors) {
+    EXPECT_THAT(must(read_file(c_source / "rtl" / survivor.file)), testing::HasSubstr(survivor.text))
+        << survivor.file;
     EXPECT_FALSE(survivor.text.empty()) << survivor.file;
     EXPECT_FALSE(survivor.reason.empty()) << survivor.file;
   }

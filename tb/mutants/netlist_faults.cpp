@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/verilated_library.hpp"
@@ -35,14 +36,15 @@ constexpr const char* c_mutate =
 // The Verilog that Yosys writes has implicit widths.
 constexpr const char* c_lint = "/* verilator lint_off WIDTH */\n";
 
-Status run_in(const std::filesystem::path& folder, std::vector<std::string> arguments,
-              const std::string& what) {
-  const auto end =
-      run_process({.arguments = std::move(arguments), .working_folder = folder, .timeout = c_yosys_time},
-                  c_install_yosys);
-  if (!end) return end.error();
-  if (!end->succeeded()) return tool_failed(fmt::format("{}: {}: {}", what, end->how(), end->output));
-  return Ok{};
+/// Yosys's or ABC's end; `time` limits it.
+ProcessEnd run_in(const std::filesystem::path& folder, std::vector<std::string> arguments,
+                  std::chrono::seconds time = c_yosys_time) {
+  return must(run_process({.arguments = std::move(arguments), .working_folder = folder, .timeout = time},
+                          c_install_yosys));
+}
+
+void expect_success(const ProcessEnd& end, const std::string& what) {
+  if (!end.succeeded()) throw Failure{tool_failed(fmt::format("{}: {}: {}", what, end.how(), end.output))};
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -169,37 +171,31 @@ std::vector<std::string> vhdl_places(const std::string& printed) {
   return places;
 }
 
-Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrary& library,
-                                          const std::filesystem::path& scratch, unsigned seed) {
-  const auto printed = library.synthesize(design.entity, design.generics);
-  if (!printed) return printed.error();
-  const auto text = mend_netlist(*printed);
-  if (!text) return text.error();
+FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& library,
+                                  const std::filesystem::path& scratch, unsigned seed) {
+  const std::string printed = must(library.synthesize(design.entity, design.generics));
+  const std::string text = must(mend_netlist(printed));
   FaultyNetlist netlist{scratch / design.name, design.entity, {}, {}};
   const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed);
   // Reuse the result of an earlier run on the same netlist.
-  const std::string key = ContentHash().add(*text).add(script).add(c_lint).hex();
+  const std::string key = ContentHash().add(text).add(script).add(c_lint).hex();
   const auto kept = read_file(netlist.folder / "key");
   if (!kept || *kept != key) {
-    if (auto s = make_folders(netlist.folder); !s) return s.error();
-    if (auto s = write_file(netlist.folder / "netlist.v", *text); !s) return s.error();
-    if (auto s = write_file(netlist.folder / "mutate.ys", script); !s) return s.error();
-    if (auto s = run_in(netlist.folder, {"yosys", "-q", "mutate.ys"}, design.name); !s) return s.error();
-    if (auto s = write_file(netlist.folder / "key", key); !s) return s.error();
+    must(make_folders(netlist.folder));
+    must(write_file(netlist.folder / "netlist.v", text));
+    must(write_file(netlist.folder / "mutate.ys", script));
+    expect_success(run_in(netlist.folder, {"yosys", "-q", "mutate.ys"}), design.name);
+    must(write_file(netlist.folder / "key", key));
   }
-  const auto list = read_file(netlist.folder / "faults.ys");
-  if (!list) return list.error();
-  const auto netlist_lines = lines_of(*text);
-  const auto places = vhdl_places(*printed);
+  const auto netlist_lines = lines_of(text);
+  const auto places = vhdl_places(printed);
   if (places.size() != netlist_lines.size())
-    return tool_failed(fmt::format("{}: {} lines of the netlist have {} places; correct vhdl_places",
-                                   design.name, netlist_lines.size(), places.size()));
-  for (const std::string& line : lines_of(*list))
+    throw Failure{tool_failed(fmt::format("{}: {} lines of the netlist have {} places; correct vhdl_places",
+                                          design.name, netlist_lines.size(), places.size()))};
+  for (const std::string& line : lines_of(must(read_file(netlist.folder / "faults.ys"))))
     netlist.faults.push_back(read_fault(line, netlist_lines, places));
-  const auto mutated = read_file(netlist.folder / "mutated.v");
-  if (!mutated) return mutated.error();
   static const std::regex c_declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
-  for (const std::string& line : lines_of(*mutated))
+  for (const std::string& line : lines_of(must(read_file(netlist.folder / "mutated.v"))))
     if (std::smatch found; std::regex_match(line, found, c_declaration) && found[3] != "mutsel")
       netlist.ports.push_back({found[3],
                                found[2].matched ? static_cast<std::uint32_t>(std::stoul(found[2])) + 1 : 1,
@@ -207,58 +203,46 @@ Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrar
   return netlist;
 }
 
-Result<CompiledNetlist> compile(const Design& design, const FaultyNetlist& netlist,
-                                const std::filesystem::path& source, const std::filesystem::path& scratch) {
-  const auto mutated = read_file(netlist.folder / "mutated.v");
-  if (!mutated) return mutated.error();
+CompiledNetlist compile(const Design& design, const FaultyNetlist& netlist,
+                        const std::filesystem::path& source, const std::filesystem::path& scratch) {
   std::string ports = "PORT(mutsel,16,1)";
   for (const FaultyNetlist::Port& port : netlist.ports)
     ports += fmt::format("PORT({},{},{})", port.name, port.bits, port.is_input ? 1 : 0);
-  const auto library = open_verilated({.name = design.name,
-                                       .netlist = c_lint + *mutated,
-                                       .top = design.entity,
-                                       .harness = source / "tb/mutants/model_harness.cpp",
-                                       .include_folder = source,
-                                       .harness_headers = {source / "tb/mutants/model_harness.hpp"},
-                                       .definitions = {"MUTANT_PORTS=" + ports},
-                                       .fast = false,
-                                       .compiler = {}},
-                                      scratch);
-  if (!library) return library.error();
-  return CompiledNetlist::open(*library);
+  return CompiledNetlist(
+      must(open_verilated({.name = design.name,
+                           .netlist = c_lint + must(read_file(netlist.folder / "mutated.v")),
+                           .top = design.entity,
+                           .harness = source / "tb/mutants/model_harness.cpp",
+                           .include_folder = source,
+                           .harness_headers = {source / "tb/mutants/model_harness.hpp"},
+                           .definitions = {"MUTANT_PORTS=" + ports},
+                           .fast = false,
+                           .compiler = {}},
+                          scratch)));
 }
 
-Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
-                                           const std::vector<std::uint32_t>& numbers,
-                                           std::chrono::seconds time) {
+std::vector<bool> prove_equivalent(const FaultyNetlist& netlist, const std::vector<std::uint32_t>& numbers,
+                                   std::chrono::seconds time) {
   std::vector<bool> proved(numbers.size());
   if (numbers.empty()) return proved;
-  if (auto s = write_file(netlist.folder / "miter.v", miter(netlist)); !s) return s.error();
-  const std::string script =
+  must(write_file(netlist.folder / "miter.v", miter(netlist)));
+  must(write_file(
+      netlist.folder / "miter.ys",
       "read_verilog mutated.v miter.v\nhierarchy -top miter\nproc\nflatten\nopt -full\nmemory_map\n"
       "setundef -undriven -zero\nsetundef -init -zero\nopt -full\nasync2sync\ntechmap\nopt\ndffunmap\n"
-      "setundef -zero\nopt_clean\naigmap\nopt_clean\nwrite_aiger -ascii -symbols -zinit miter.aag\n";
-  if (auto s = write_file(netlist.folder / "miter.ys", script); !s) return s.error();
-  const auto made = run_process(
-      {.arguments = {"yosys", "-q", "miter.ys"}, .working_folder = netlist.folder, .timeout = c_miter_time},
-      c_install_yosys);
-  if (!made) return made.error();
-  if (made->timed_out) return proved;
-  if (!made->succeeded())
-    return tool_failed(fmt::format("miter of {}: {}: {}", netlist.top, made->how(), made->output));
-  const auto gates = read_file(netlist.folder / "miter.aag");
-  if (!gates) return gates.error();
+      "setundef -zero\nopt_clean\naigmap\nopt_clean\nwrite_aiger -ascii -symbols -zinit miter.aag\n"));
+  const ProcessEnd made = run_in(netlist.folder, {"yosys", "-q", "miter.ys"}, c_miter_time);
+  if (made.timed_out) return proved;
+  expect_success(made, "miter of " + netlist.top);
+  const std::string gates = must(read_file(netlist.folder / "miter.aag"));
   for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (auto s = write_file(netlist.folder / "fault.aig", select_fault(*gates, numbers[i])); !s)
-      return s.error();
-    const auto end = run_process(
-        {.arguments = {"yosys-abc", "-c",
-                       fmt::format("read_aiger fault.aig; &get -n; &scorr; &put; pdr -T {}", time.count())},
-         .working_folder = netlist.folder,
-         .timeout = c_reduction_time + time},
-        c_install_yosys);
-    if (!end) return end.error();
-    proved[i] = end->succeeded() && end->output.find("Property proved.") != std::string::npos;
+    must(write_file(netlist.folder / "fault.aig", select_fault(gates, numbers[i])));
+    const ProcessEnd end =
+        run_in(netlist.folder,
+               {"yosys-abc", "-c",
+                fmt::format("read_aiger fault.aig; &get -n; &scorr; &put; pdr -T {}", time.count())},
+               c_reduction_time + time);
+    proved[i] = end.succeeded() && end.output.find("Property proved.") != std::string::npos;
   }
   return proved;
 }

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "mutants/design.hpp"
 #include "mutants/replay.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
@@ -39,19 +38,20 @@ struct FaultyNetlist {
 /// `printed` is GHDL's netlist.
 std::vector<std::string> vhdl_places(const std::string& printed);
 
+// These functions throw Failure.
+
 /// `scratch` keeps the result. Each `seed` selects other faults.
-Result<FaultyNetlist> make_faulty_netlist(const Design& design, const GhdlLibrary& library,
-                                          const std::filesystem::path& scratch, unsigned seed);
+FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& library,
+                                  const std::filesystem::path& scratch, unsigned seed);
 
 /// Compiles the netlist with Verilator.
-Result<CompiledNetlist> compile(const Design& design, const FaultyNetlist& netlist,
-                                const std::filesystem::path& source, const std::filesystem::path& scratch);
+CompiledNetlist compile(const Design& design, const FaultyNetlist& netlist,
+                        const std::filesystem::path& source, const std::filesystem::path& scratch);
 
 /// For each of the fault numbers: true if a proof shows that no output ever differs, for all inputs, with all
 /// registers zero at the start. `time` limits each proof. Nothing is proved of a netlist whose gates take
 /// more than a minute to make.
-Result<std::vector<bool>> prove_equivalent(const FaultyNetlist& netlist,
-                                           const std::vector<std::uint32_t>& numbers,
-                                           std::chrono::seconds time);
+std::vector<bool> prove_equivalent(const FaultyNetlist& netlist, const std::vector<std::uint32_t>& numbers,
+                                   std::chrono::seconds time);
 
 }  // namespace halfway::mutants

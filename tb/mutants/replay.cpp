@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::mutants {
 namespace {
@@ -471,13 +472,10 @@ constexpr std::array c_paces = {
 
 }  // namespace
 
-Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::string& columns,
-                                unsigned skip) {
-  const auto text = read_file(file);
-  if (!text) return text.error();
+VectorFile read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip) {
+  std::istringstream lines(must(read_file(file)));
   VectorFile vectors{file.filename().string(), {}};
   const auto parsed = parse_columns(columns);
-  std::istringstream lines(*text);
   std::string line;
   for (unsigned number = 0; std::getline(lines, line) && !line.starts_with("end "); ++number) {
     if (number < skip) continue;
@@ -488,8 +486,8 @@ Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::st
       for (unsigned i = 0; i < column.words; ++i) {
         std::string digits;
         if (!(words >> digits))
-          return bad_input(fmt::format("{}:{}: has no word for the column {}; correct designs.toml",
-                                       file.string(), number + 1, column.name));
+          throw Failure{bad_input(fmt::format("{}:{}: has no word for the column {}; correct designs.toml",
+                                              file.string(), number + 1, column.name))};
         const Word word = parse_word(digits);
         joined.insert(joined.end(), word.begin(), word.end());
       }
@@ -497,34 +495,28 @@ Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::st
     }
     vectors.rows.push_back(std::move(row));
   }
-  if (vectors.rows.empty()) return bad_input(file.string() + ": holds no vector; halfway_vectors writes it");
+  if (vectors.rows.empty())
+    throw Failure{bad_input(file.string() + ": holds no vector; halfway_vectors writes it")};
   return vectors;
 }
 
-Result<DesignVectors> read_design_vectors(const Design& design, const std::filesystem::path& folder) {
+DesignVectors read_design_vectors(const Design& design, const std::filesystem::path& folder) {
   DesignVectors all;
   for (const std::string& name : design.sets) {
     DesignVectors::Set set{name, {}};
     std::vector<Stream> streams{design.input};
     streams.insert(streams.end(), design.outputs.begin(), design.outputs.end());
     if (!design.rows.empty()) streams = {{"", "", design.rows, false}};
-    for (const Stream& stream : streams) {
-      auto file = read_vectors(folder / (name + stream.file + ".txt"), stream.columns, design.skip);
-      if (!file) return file.error();
-      set.files.push_back(std::move(*file));
-    }
+    for (const Stream& stream : streams)
+      set.files.push_back(read_vectors(folder / (name + stream.file + ".txt"), stream.columns, design.skip));
     all.sets.push_back(std::move(set));
   }
   return all;
 }
 
-Result<CompiledNetlist> CompiledNetlist::open(SharedLibrary library) {
-  CompiledNetlist netlist(std::move(library));
-  const Status bound =
-      netlist.library_.bind(netlist.create, "mutant_create", netlist.destroy, "mutant_destroy", netlist.eval,
-                            "mutant_eval", netlist.ports, "mutant_ports");
-  if (!bound) return bound.error();
-  return netlist;
+CompiledNetlist::CompiledNetlist(SharedLibrary library) : library_(std::move(library)) {
+  must(library_.bind(create, "mutant_create", destroy, "mutant_destroy", eval, "mutant_eval", ports,
+                     "mutant_ports"));
 }
 
 std::optional<std::string> replay(const Design& design, const DesignVectors& vectors,

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "mutants/design.hpp"
 #include "mutants/model_harness.hpp"
 #include "sim/system/shared_library.hpp"
@@ -25,8 +24,10 @@ struct VectorFile {
   std::vector<std::vector<Word>> rows;
 };
 
+// Readers throw Failure.
+
 /// Reads a file in the format of sim/stream_files/vector_file.hpp. A column "name/3" joins three words.
-Result<VectorFile> read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip);
+VectorFile read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip);
 
 /// The vector files of a design. They are read once for all faults.
 struct DesignVectors {
@@ -36,12 +37,12 @@ struct DesignVectors {
   };
   std::vector<Set> sets;
 };
-Result<DesignVectors> read_design_vectors(const Design& design, const std::filesystem::path& folder);
+DesignVectors read_design_vectors(const Design& design, const std::filesystem::path& folder);
 
 /// The compiled netlist of a design with all its faults.
 class CompiledNetlist {
  public:
-  static Result<CompiledNetlist> open(SharedLibrary library);
+  explicit CompiledNetlist(SharedLibrary library);
 
   void* (*create)() = nullptr;
   void (*destroy)(void*) = nullptr;
@@ -49,7 +50,6 @@ class CompiledNetlist {
   std::uint32_t (*ports)(void*, ModelPort*) = nullptr;
 
  private:
-  explicit CompiledNetlist(SharedLibrary library) : library_(std::move(library)) {}
   SharedLibrary library_;
 };
 

@@ -40,11 +40,8 @@ Cells row_of(const std::string& name, const Sum& sum) {
 
 }  // namespace
 
-Result<Reasons> Reasons::read(const std::filesystem::path& source) {
-  const auto listed = read_survivors(source / "tb/mutants/survivors.toml");
-  if (!listed) return listed.error();
-  return Reasons(source, *listed);
-}
+Reasons::Reasons(const std::filesystem::path& source)
+    : source_(source), listed_(read_survivors(source / "tb/mutants/survivors.toml")) {}
 
 std::string Reasons::line_at(const std::string& place) const {
   const auto colon = place.find(':');

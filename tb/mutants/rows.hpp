@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/result.hpp"
 #include "mutants/design.hpp"
 #include "page/page.hpp"
 #include "page/thresholds.hpp"
@@ -18,15 +17,14 @@ namespace halfway::mutants {
 /// The reasons for survivors, by file and text of the VHDL line: survivors.toml.
 class Reasons {
  public:
-  static Result<Reasons> read(const std::filesystem::path& source);
+  /// Throws Failure.
+  explicit Reasons(const std::filesystem::path& source);
   /// "file: text of the line" for "file:line"; a comment above the line does not change it.
   std::string line_at(const std::string& place) const;
   /// The reason for survivors of the line `line_at(place)`; empty if there is none.
   std::string of(std::string_view line) const;
 
  private:
-  Reasons(std::filesystem::path source, std::vector<Survivor> listed)
-      : source_(std::move(source)), listed_(std::move(listed)) {}
   std::filesystem::path source_;
   std::vector<Survivor> listed_;
 };

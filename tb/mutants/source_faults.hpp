@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
-
 namespace halfway::mutants {
 
 struct SourceFault {
@@ -20,19 +18,21 @@ struct SourceFault {
   bool quick = false;  ///< part of the quick form
 };
 
+// These functions throw Failure.
+
 /// Reads source_faults.toml.
-Result<std::vector<SourceFault>> read_source_faults(const std::filesystem::path& file);
+std::vector<SourceFault> read_source_faults(const std::filesystem::path& file);
 
 /// The file's text with the fault. Fails if the old text does not occur exactly once, or if the vector file
 /// does not have the word.
-Result<std::string> with_fault(const SourceFault& fault, const std::string& text);
+std::string with_fault(const SourceFault& fault, const std::string& text);
 
 enum class TestEnd { passes, fails, unfinished };
 
 /// Runs the testbench of `fault.test` in a copy of the sources and vectors. Without a file the copy has no
 /// fault. A testbench whose analysis or run takes longer than `c_testbench_time` is unfinished.
-Result<TestEnd> run_testbench(const SourceFault& fault, const std::filesystem::path& source,
-                              const std::filesystem::path& vectors, const std::filesystem::path& scratch);
+TestEnd run_testbench(const SourceFault& fault, const std::filesystem::path& source,
+                      const std::filesystem::path& vectors, const std::filesystem::path& scratch);
 inline constexpr std::chrono::seconds c_testbench_time{900};
 
 }  // namespace halfway::mutants
