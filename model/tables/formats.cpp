@@ -11,6 +11,10 @@
 
 namespace halfway::tables {
 
+std::string Number::text() const {
+  return fmt::format("{}{}.{}", is_signed ? 's' : 'u', integer_bits, fraction_bits);
+}
+
 const Format& format_of(const PresetFormats& preset, std::string_view name) {
   const auto it = std::ranges::find(preset.formats, name, &Format::name);
   if (it == preset.formats.end())
@@ -18,57 +22,54 @@ const Format& format_of(const PresetFormats& preset, std::string_view name) {
   return *it;
 }
 
+int total_bits(const PresetFormats& preset, const std::vector<Field>& fields) {
+  int bits = 0;
+  for (const Field& field : fields) bits += format_of(preset, field.format).bits();
+  return bits;
+}
+
 namespace {
+
+// A signed and an unsigned number, by the bits before and after its point.
+constexpr Number s(int integer_bits, int fraction_bits) {
+  return {true, integer_bits, fraction_bits};
+}
+constexpr Number u(int integer_bits, int fraction_bits) {
+  return {false, integer_bits, fraction_bits};
+}
 
 // Formats common to both presets.
 std::vector<Format> common_formats() {
   return {
-      {"flag", false, 1, 0, "one bit", {at_most(1, "1")}},
-      {"triangle",
-       false,
-       32,
-       0,
+      {u(1, 0), "flag", "one bit", {at_most(1, "1")}},
+      {u(32, 0),
+       "triangle",
        "number of the scene's triangle, carried through as a tag",
        {at_most(0x1p32 - 1, "2^32 - 1")}},
-      {"pixel_x", false, 12, 0, "frames up to 4096 pixels wide", {at_most(4095, "frame - 1")}},
-      {"pixel_y", false, 12, 0, "frames up to 4096 lines high", {at_most(4095, "frame - 1")}},
-      {"lines", false, 13, 0, "0 to 4096 lines", {at_most(4096, "frame")}},
-      {"span_x",
-       true,
-       13,
-       0,
-       "-1 to 4096: a span's end is exclusive on either side",
-       {at_most(4096, "frame")}},
-      {"colour",
-       false,
-       8,
-       0,
+      {u(12, 0), "pixel_x", "frames up to 4096 pixels wide", {at_most(4095, "frame - 1")}},
+      {u(12, 0), "pixel_y", "frames up to 4096 lines high", {at_most(4095, "frame - 1")}},
+      {u(13, 0), "lines", "0 to 4096 lines", {at_most(4096, "frame")}},
+      {s(13, 0), "span_x", "-1 to 4096: a span's end is exclusive on either side", {at_most(4096, "frame")}},
+      {u(8, 0),
+       "colour",
        "stored in the frame: the sum before it, rounded once and clamped",
        {at_most(255, "2^8 - 1"), off_by(0.5, "colour steps", "u / 2", "rounded")}},
-      {"depth",
-       false,
-       24,
-       0,
+      {u(24, 0),
+       "depth",
        "compared by the depth test: the sum before it, rounded once",
        {at_most(0x1p24 - 1, "2^24 - 1"), off_by(0.5, "depth steps", "u / 2", "rounded")}},
-      {"depth_sum",
-       true,
-       24,
-       15,
+      {s(24, 15),
+       "depth_sum",
        "first differences, each word off by at most half a unit",
        {off_by(0.19, "depth steps", "(1 + k) * u / 2")}},
-      {"command", false, 3, 0, "of a vector or token of the shading processors", {at_most(7, "7")}},
-      {"light", false, 5, 0, "a light's number from 1; 0 is the ambient light", {at_most(16, "lights")}},
-      {"shadow_count",
-       true,
-       9,
-       0,
+      {u(3, 0), "command", "of a vector or token of the shading processors", {at_most(7, "7")}},
+      {u(5, 0), "light", "a light's number from 1; 0 is the ambient light", {at_most(16, "lights")}},
+      {s(9, 0),
+       "shadow_count",
        "shadow volumes opened minus those closed, clamped to -512 to 511",
        {at_most(512, "2^9")}},
-      {"spot_slope",
-       false,
-       18,
-       6,
+      {u(18, 6),
+       "spot_slope",
        "1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone "
        "of a tenth of a degree reaches its full light. The share is t^2 (3 - 2t), where t is the slope times "
        "the distance of the cosine from the edge. Its error is 6 t^2 (1 - t), at most 8/9, times the "
@@ -92,47 +93,35 @@ constexpr Quantity c_quantities[] = {
 
 std::vector<Format> exact_formats() {
   return {
-      {"edge_error",
-       false,
-       18,
-       0,
+      {u(18, 0),
+       "edge_error",
        "up to the edge's height in subpixels: 16 per pixel from -2048 to 6143; subdivision does not double "
        "it",
        {at_most(131056, "(6143 + 2048) * 16")}},
-      {"edge_x", true, 13, 0, "an edge is a whole pixel and a remainder", {at_most(4096, "frame")}},
-      {"intensity",
-       true,
-       11,
-       28,
+      {s(13, 0), "edge_x", "an edge is a whole pixel and a remainder", {at_most(4096, "frame")}},
+      {s(11, 28),
+       "intensity",
        "second differences; each word is off by at most half a unit. So is each sample; the weights of the "
        "six samples add up to at most 5/3. With samples up to 1023 the quadratic stays within +-2046",
        {off_by(0.15, "colour steps", "(1 + k + k * (k - 1) / 2) * u / 2"),
         off_by(3.2e-9, "colour steps", "5 / 3 * u / 2", "samples")}},
-      {"angle",
-       true,
-       10,
-       22,
+      {s(10, 22),
+       "angle",
        "half bells; start and slope are each off by at most half a unit, together a quarter of a 2^-9 cell; "
        "exponents up to 10^6 stay within +-1024",
        {off_by(0x1p-11, "half bells", "(1 + pixels) * u / 2")}},
-      {"power", false, 3, 0, "which table: cosine to the power 2^word", {at_most(4, "4")}},
-      {"plane_sum",
-       true,
-       1,
-       42,
+      {u(3, 0), "power", "which table: cosine to the power 2^word", {at_most(4, "4")}},
+      {s(1, 42),
+       "plane_sum",
        "first differences, each word off by at most half a unit",
        {off_by(0.4, "steps of vector", "(1 + k) * u / 2 / u_vector")}},
-      {"vector",
-       true,
-       1,
-       28,
+      {s(1, 28),
+       "vector",
        "interpolated N/w, view ray and 1/w, scaled so that the largest component is 1/2 to 1; plane_sum "
        "rounded",
        {off_by(0x1p-29, "", "u / 2")}},
-      {"direction",
-       true,
-       1,
-       22,
+      {s(1, 22),
+       "direction",
        "components of unit vectors, rounded; an exponent m multiplies the error of a cosine by m. The error "
        "of the length: that of root, half that of a square of at least 1/4, and three rounded components. "
        "The error of the angle: a vector of at least 1/2 whose components are cut by half a unit (at most "
@@ -140,78 +129,56 @@ std::vector<Format> exact_formats() {
        {off_by(0x1p-23, "", "u / 2", "component"),
         off_by(1.42e-6, "", "1.2 * 10^-6 + 2 * u_square + sqrt(3) * u / 2", "length"),
         off_by(5.9e-7, "radians", "4.9 * u / 2", "angle")}},
-      {"offset",
-       true,
-       2,
-       28,
+      {s(2, 28),
+       "offset",
        "from a surface point to a light, before it is normalized: the light's position is rounded, the "
        "point's is cut",
        {off_by(0x1.8p-28, "", "(1 / 2 + 1) * u")}},
-      {"light_place",
-       true,
-       1,
-       26,
+      {s(1, 26),
+       "light_place",
        "a light's direction, or its position divided by 2^light_shift",
        {off_by(0x1p-27, "", "u / 2")}},
-      {"light_shift",
-       false,
-       5,
-       0,
+      {u(5, 0),
+       "light_shift",
        "a light may be 2^31 times as far as the nearest surface",
        {at_most(31, "31")}},
-      {"square", false, 2, 28, "square of a vector's length, 1/4 to 3; cut", {off_by(0x1p-28, "", "u")}},
-      {"root_entry",
-       false,
-       0,
-       12,
+      {u(2, 28), "square", "square of a vector's length, 1/4 to 3; cut", {off_by(0x1p-28, "", "u")}},
+      {u(0, 12),
+       "root_entry",
        "table of 1/sqrt(x), 512 entries: half a step, and half a cell of 2^-8 times the slope, 1/2 to 1",
        {off_by(0.0011, "", "u / 2 + 2^-8 / 2 / 2"),
         off_by(0.00115, "of it", "sqrt(2) * u / 2 + 2^-8 / 2 / 2", "relative")}},
-      {"root",
-       false,
-       1,
-       23,
+      {u(1, 23),
+       "root",
        "after a Newton step from an entry with relative error r: too small by 3/2 r^2; raised by 17/2 units, "
        "cut by half a unit and by one unit (sqrt(2) of the result at x = 2, where r is largest)",
        {off_by(1.2e-6, "of it", "3 / 2 * 0.00115^2 - (17 - 1) / 2 * u + sqrt(2) * u")}},
-      {"exponent",
-       false,
-       13,
-       8,
+      {u(13, 8),
+       "exponent",
        "up to 8191; an error dn changes x^n by x^n ln(1/x) dn, at most dn/(e n)",
        {off_by(0x1p-9, "", "u / 2"), off_by(0.0008, "of a highlight's peak", "u / 2 / e", "highlight")}},
-      {"weight",
-       false,
-       1,
-       16,
+      {u(1, 16),
+       "weight",
        "a power of a cosine, or the share of a spot for slopes up to 2^12: t is cut by a unit and by 2^-28 "
        "of the slope, and the share changes by at most 3/2 of t; a diffuse term's cosine is rounded",
        {off_by(0.00101, "", "2^-15 + m * 2^-23", "power"),
         off_by(0x1.cp-15, "", "3 / 2 * (u + 2^12 * 2^-28) + u / 2", "spot"),
         off_by(0x1p-17, "", "u / 2", "diffuse")}},
-      {"coefficient", false, 4, 16, "k of a material, up to 15", {off_by(0x1p-17, "", "u / 2")}},
-      {"light_intensity",
-       false,
-       14,
-       4,
+      {u(4, 16), "coefficient", "k of a material, up to 15", {off_by(0x1p-17, "", "u / 2")}},
+      {u(14, 4),
+       "light_intensity",
        "colour steps, 64 times white",
        {off_by(0x1p-5, "colour steps", "u / 2")}},
-      {"reflected",
-       false,
-       14,
-       8,
+      {u(14, 8),
+       "reflected",
        "k I in colour steps, rounded; clamped at 64 times white",
        {off_by(0x1p-9, "colour steps", "u / 2")}},
-      {"radiance",
-       false,
-       10,
-       12,
+      {u(10, 12),
+       "radiance",
        "sum of the terms in colour steps, each cut except the ambient one; clamped at four times white",
        {off_by(0x1p-7, "colour steps", "terms * u")}},
-      {"factor",
-       false,
-       16,
-       8,
+      {u(16, 8),
+       "factor",
        "colour steps; the largest factor times the smallest entry of 8 bits is white, so a larger factor "
        "would change nothing",
        {off_by(0x1p-9, "colour steps", "u / 2")}},
@@ -220,99 +187,78 @@ std::vector<Format> exact_formats() {
 
 std::vector<Format> published_formats() {
   return {
-      {"edge_error", false, 0, 0, "edges are stepped by a real slope", {at_most(0, "0")}},
-      {"edge_x",
-       true,
-       13,
-       18,
+      {u(0, 0), "edge_error", "edges are stepped by a real slope", {at_most(0, "0")}},
+      {s(13, 18),
+       "edge_x",
        "32 bits, as the quadratic paper's other registers; start and slope each off by at most half a unit",
        {off_by(0x1p-7, "pixels", "(1 + lines) * u / 2")}},
-      {"intensity",
-       true,
-       11,
-       20,
+      {s(11, 20),
+       "intensity",
        "32 bits with 20 fraction bits: the quadratic paper's figure 7; second differences, each word off by "
        "at most half a unit: 4 colour steps after 4095 steps. The error of edges between pixels is "
        "additional",
        {off_by(16, "colour steps", "(1 + k_published + k_published * (k_published - 1) / 2) * u / 2"),
         off_by(8e-7, "colour steps", "5 / 3 * u / 2", "samples")}},
-      {"angle",
-       true,
-       0,
-       11,
+      {s(0, 11),
+       "angle",
        "12 bits, the upper 6 of them the address: the spherical paper's line interpolator. That it wraps at "
        "the bell's ends is our reading. Start and slope are each off by at most half a unit: 8 addresses "
        "after 1023 steps",
        {off_by(1, "half bells", "(1 + pixels) * u / 2")}},
-      {"power", false, 0, 0, "only cosine squared", {at_most(0, "0")}},
-      {"plane_sum",
-       true,
-       1,
-       26,
+      {u(0, 0), "power", "only cosine squared", {at_most(0, "0")}},
+      {s(1, 26),
+       "plane_sum",
        "first differences, each word off by at most half a unit",
        {off_by(1.5, "steps of vector", "(1 + k) * u / 2 / u_vector")}},
-      {"vector",
-       true,
-       1,
-       14,
+      {s(1, 14),
+       "vector",
        "16 bits: the processors paper's text gives no width; interpolated N and P, plane_sum rounded",
        {off_by(0x1p-15, "", "u / 2")}},
-      {"direction",
-       true,
-       1,
-       14,
+      {s(1, 14),
+       "direction",
        "16 bits, so that an N that is not normalized is not changed; otherwise as in preset exact, but "
        "vectors of at most 17 bits are cut, by a quarter of a unit",
        {off_by(0x1p-15, "", "u / 2", "component"),
         off_by(0.0094, "", "0.0092 + 2 * u_square + sqrt(3) * u / 2", "length"),
         off_by(1.02e-4, "radians", "3.3 * u / 2 * (1 + 0.0094)", "angle")}},
-      {"offset",
-       true,
-       2,
-       14,
+      {s(2, 14),
+       "offset",
        "from a surface point to a light, before it is normalized; with the vector to the eye, a sum of three "
        "words below 2",
        {at_most(4, "(2 - u) + 1 + 1")}},
-      {"light_place", true, 1, 14, "as vector", {off_by(0x1p-15, "", "u / 2")}},
-      {"light_shift", false, 0, 0, "all positions have one scale", {at_most(0, "0")}},
-      {"square", false, 2, 14, "square of a vector's length, 1/4 to 3; cut", {off_by(0x1p-14, "", "u")}},
-      {"root_entry",
-       false,
-       0,
-       9,
+      {s(1, 14), "light_place", "as vector", {off_by(0x1p-15, "", "u / 2")}},
+      {u(0, 0), "light_shift", "all positions have one scale", {at_most(0, "0")}},
+      {u(2, 14), "square", "square of a vector's length, 1/4 to 3; cut", {off_by(0x1p-14, "", "u")}},
+      {u(0, 9),
+       "root_entry",
        "table of 1/sqrt(x), 64 entries: half a step, and half a cell of 2^-5 times the slope, 1/2 to 1",
        {off_by(0.0088, "", "u / 2 + 2^-5 / 2 / 2"),
         off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2", "relative")}},
-      {"root", false, 0, 9, "the table's entry", {off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2")}},
-      {"exponent",
-       false,
-       10,
-       0,
+      {u(0, 9), "root", "the table's entry", {off_by(0.0092, "of it", "sqrt(2) * u / 2 + 2^-5 / 2 / 2")}},
+      {u(10, 0),
+       "exponent",
        "integers up to 1023",
        {off_by(0.5, "", "u / 2"), off_by(0.184, "of a highlight's peak", "u / 2 / e", "highlight")}},
-      {"weight",
-       false,
-       1,
-       8,
+      {u(1, 8),
+       "weight",
        "a power of a cosine, or the share of a spot: next to 1 the middle of a cell of the logarithm and its "
        "rounding are off by 0.0062, so that an m-th power falls by e^(-m / 232); 2^-x, rounding and the cut "
        "of the product are additional. A diffuse term's cosine is rounded",
        {off_by(1, "", "1 - e^(-m / 232) + 0.0074 + u / 2 + 2^-10", "power"),
         off_by(0x1p-7, "", "3 / 2 * u + u / 2", "spot"), off_by(0x1p-9, "", "u / 2", "diffuse")}},
-      {"coefficient", false, 1, 7, "an integer, in 1/128", {off_by(0x1p-8, "", "u / 2")}},
-      {"light_intensity", false, 8, 0, "an integer, in colour steps", {off_by(0.5, "colour steps", "u / 2")}},
-      {"reflected", false, 8, 0, "k I, an integer, rounded", {off_by(0.5, "colour steps", "u / 2")}},
-      {"radiance",
-       false,
-       8,
-       0,
+      {u(1, 7), "coefficient", "an integer, in 1/128", {off_by(0x1p-8, "", "u / 2")}},
+      {u(8, 0), "light_intensity", "an integer, in colour steps", {off_by(0.5, "colour steps", "u / 2")}},
+      {u(8, 0), "reflected", "k I, an integer, rounded", {off_by(0.5, "colour steps", "u / 2")}},
+      {u(8, 0),
+       "radiance",
        "an integer: each term except the ambient one is cut; clamped at white",
        {off_by(32, "colour steps", "terms * u")}},
-      {"factor", false, 10, 8, "colour steps up to 1023", {off_by(0x1p-9, "colour steps", "u / 2")}},
+      {u(10, 8), "factor", "colour steps up to 1023", {off_by(0x1p-9, "colour steps", "u / 2")}},
   };
 }
 
-std::vector<Format> joined(std::vector<Format> a, const std::vector<Format>& b) {
+template <class Item>
+std::vector<Item> joined(std::vector<Item> a, const std::vector<Item>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
@@ -321,14 +267,13 @@ std::vector<Format> joined(std::vector<Format> a, const std::vector<Format>& b) 
 // then for each line and light a diffuse and a specular part. Angles are in units of half a bell: the bell
 // reaches zero at 1.
 std::vector<Layout> spherical_layouts(bool exact) {
-  std::vector<Field> specular = {{"angle", "angle", "Θ at the first pixel of the line"},
-                                 {"slope", "angle", "change of Θ per pixel"}};
+  const std::vector<Field> diffuse = {{"angle", "angle", "Θ at the first pixel of the line"},
+                                      {"slope", "angle", "change of Θ per pixel"}};
+  std::vector<Field> specular = diffuse;
   if (exact) specular.push_back({"power", "power", "log2 of the cosine's power: which table is read"});
   return {
       {"ambient", {}, {{"ambient", "factor", "ambient light of the triangle, in colour steps, plus 0.5"}}},
-      {"diffuse",
-       {{"angle", "angle", "Θ at the first pixel of the line"}, {"slope", "angle", "change of Θ per pixel"}},
-       {{"factor", "factor", "255 I k_d A c 2^D / (2^D - 1), in colour steps"}}},
+      {"diffuse", diffuse, {{"factor", "factor", "255 I k_d A c 2^D / (2^D - 1), in colour steps"}}},
       {"specular", specular, {{"factor", "factor", "255 I k_s A^n g c 2^D / (2^D - 1), in colour steps"}}},
   };
 }
@@ -376,11 +321,6 @@ std::vector<Layout> processors_layouts(bool exact) {
        {},
        {{"intensity", "light_intensity", "intensity of the light, in colour steps: 255 is white"}}},
   };
-}
-
-std::vector<Layout> joined(std::vector<Layout> a, const std::vector<Layout>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
 }
 
 std::vector<Layout> exact_layouts() {
@@ -462,12 +402,6 @@ std::vector<std::string_view> all_names(const std::vector<PresetFormats>& preset
   return names;
 }
 
-int total_bits(const PresetFormats& preset, const std::vector<Field>& fields) {
-  int bits = 0;
-  for (const Field& field : fields) bits += format_of(preset, field.format).bits();
-  return bits;
-}
-
 std::string vhdl_slices(const PresetFormats& preset, const std::vector<Field>& fields,
                         const std::vector<std::string_view>& names) {
   std::string text;
@@ -496,8 +430,7 @@ std::string upper_first(std::string_view name) {
 
 // The reason for a format and its bounds, one per line.
 std::string commented(const Format& format, std::string_view indent) {
-  std::string text = fmt::format("{}{}{}.{}: {}\n", indent, format.is_signed ? 's' : 'u', format.integer_bits,
-                                 format.fraction_bits, format.why);
+  std::string text = fmt::format("{}{}: {}\n", indent, format.text(), format.why);
   for (const Bound& bound : format.bounds)
     fmt::format_to(std::back_inserter(text), "{}  {}\n", indent, to_string(bound));
   return text;
@@ -546,10 +479,7 @@ std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) 
   if (words.angle_bits) format("angle").fraction_bits = *words.angle_bits;
   if (words.fraction_bits) format("intensity").fraction_bits = *words.fraction_bits;
   if (words.seed_bits) entry.fraction_bits = *words.seed_bits;
-  if (!newton) {
-    root.integer_bits = entry.integer_bits;
-    root.fraction_bits = entry.fraction_bits;
-  }
+  if (!newton) static_cast<Number&>(root) = entry;
   return presets;
 }
 

@@ -14,17 +14,22 @@
 
 namespace halfway::tables {
 
-/// A fixed-point format: value = word * 2^-fraction_bits.
-struct Format {
-  std::string_view name;
+/// A fixed-point number: value = word * 2^-fraction_bits.
+struct Number {
   bool is_signed;
   int integer_bits;  ///< without the sign
   int fraction_bits;
-  std::string_view why;       ///< the reason for the widths
-  std::vector<Bound> bounds;  ///< worst cases of its words; tb/bounds checks each
 
   double unit() const { return std::ldexp(1.0, -fraction_bits); }
   int bits() const { return (is_signed ? 1 : 0) + integer_bits + fraction_bits; }
+  /// Such as s10.22.
+  std::string text() const;
+};
+
+struct Format : Number {
+  std::string_view name;
+  std::string_view why;       ///< the reason for the widths
+  std::vector<Bound> bounds;  ///< worst cases of its words; tb/bounds checks each
 };
 
 /// A named word in a flat vector. The fields of a list are consecutive from bit 0 upwards.
@@ -52,6 +57,8 @@ struct PresetFormats {
 
 /// The format of this name; throws std::logic_error if there is none.
 const Format& format_of(const PresetFormats& preset, std::string_view name);
+
+int total_bits(const PresetFormats& preset, const std::vector<Field>& fields);
 
 /// Both presets. Each format name exists in both.
 std::vector<PresetFormats> preset_formats();

@@ -99,22 +99,16 @@ void add_fields(std::string& page, const PresetFormats& preset, const std::vecto
   int low = 0;
   for (const Field& field : fields) {
     const Format& format = format_of(preset, field.format);
-    fmt::format_to(to, "| {} | `{}` | {}:{} | {}{}.{} | {} |\n", block, field.name, low + format.bits() - 1,
-                   low, format.is_signed ? 's' : 'u', format.integer_bits, format.fraction_bits,
-                   field.meaning);
+    fmt::format_to(to, "| {} | `{}` | {}:{} | {} | {} |\n", block, field.name, low + format.bits() - 1, low,
+                   format.text(), field.meaning);
     low += format.bits();
   }
 }
 
 /// The total number of bits, if the section shows more than one block.
 void add_bits(std::string& page, const PresetFormats& preset, const Section& section, const Layout& layout) {
-  const auto bits_of = [&](const std::vector<Field>& fields) {
-    int bits = 0;
-    for (const Field& field : fields) bits += format_of(preset, field.format).bits();
-    return bits;
-  };
   if (layout.header.empty() || layout.channel.empty()) return;
-  const int header = bits_of(layout.header), block = bits_of(layout.channel);
+  const int header = total_bits(preset, layout.header), block = total_bits(preset, layout.channel);
   auto to = std::back_inserter(page);
   if (section.layout == "light_axes")
     fmt::format_to(to, "\nHeader: {} bits; an axis: {}; together {}.\n", header, block, header + 3 * block);
@@ -138,9 +132,8 @@ void add_material(std::string& page, const std::vector<PresetFormats>& presets) 
                    preset.name);
     for (const MaterialWord& word : c_material) {
       const Format& format = format_of(preset, word.format);
-      fmt::format_to(to, "| `{}` | {} | {} | {}{}.{} | {} | {} |\n", word.name, word.count, format.bits(),
-                     format.is_signed ? 's' : 'u', format.integer_bits, format.fraction_bits, word.condition,
-                     word.meaning);
+      fmt::format_to(to, "| `{}` | {} | {} | {} | {} | {} |\n", word.name, word.count, format.bits(),
+                     format.text(), word.condition, word.meaning);
     }
   }
 }

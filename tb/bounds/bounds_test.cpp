@@ -111,8 +111,7 @@ class FormatBounds : public testing::TestWithParam<StatedBound> {
     }
 
     const std::string of(bound->kind == tables::Bound::Kind::range ? "range" : bound->of);
-    RecordProperty("format", fmt::format("`{}` {}{}.{}", format->name, format->is_signed ? 's' : 'u',
-                                         format->integer_bits, format->fraction_bits));
+    RecordProperty("format", fmt::format("`{}` {}", format->name, format->text()));
     RecordProperty("of", of.empty() ? "–" : of);
     RecordProperty("bound", fmt::format("{}{}{}", tables::shown(bound->value), bound->unit.empty() ? "" : " ",
                                         bound->unit));
