@@ -19,6 +19,10 @@ void FaceList::add_position(const glm::vec3& position) {
 std::string FaceList::divide(std::span<const Corner> corners) {
   corners_ = corners;
   divided_.clear();
+  if (corners.size() < 3) {
+    add_point_or_line();
+    return {};
+  }
   triangles_ += corners.size() - 2;
   if (triangles_ > c_max_triangles)
     return fmt::format("more than {} triangles; reduce the mesh", c_max_triangles);
@@ -40,6 +44,13 @@ std::string FaceList::divide(std::span<const Corner> corners) {
       return "the concave faces up to here have too many corners; divide them into triangles";
   }
   return {};
+}
+
+std::vector<std::string> FaceList::left_out() const {
+  std::vector<std::string> what;
+  if (points_and_lines_ > 0) what.push_back(fmt::format("{} points and lines left out", points_and_lines_));
+  if (without_area_ > 0) what.push_back(fmt::format("{} faces without area left out", without_area_));
+  return what;
 }
 
 void FaceList::append(std::uint32_t material, Mesh& mesh) {

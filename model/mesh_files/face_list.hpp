@@ -23,16 +23,21 @@ class FaceList {
   void add_position(const glm::vec3& position);
   std::size_t positions() const { return positions_.size(); }
 
-  /// Divide a face of three corners or more. Returns what is wrong with it, or nothing. The corners must
-  /// exist until `append`.
+  /// Divide a face. Returns what is wrong with it, or nothing. A face of one or two corners is a point or a
+  /// line. The corners must exist until `append`.
   std::string divide(std::span<const Corner> corners);
   /// True if the last face has triangles.
   bool is_divided() const { return !divided_.empty(); }
   /// Append the triangles of the last `divide` to the mesh. Vertices are in the order of their first use.
   void append(std::uint32_t material, Mesh& mesh);
 
+  /// Counts a point or line.
+  void add_point_or_line() { ++points_and_lines_; }
+
   /// Faces whose corners are on one line; they have no triangles.
   std::uint64_t without_area() const { return without_area_; }
+  /// What has no triangles, for notes.
+  std::vector<std::string> left_out() const;
 
  private:
   std::vector<glm::vec3> positions_;
@@ -41,7 +46,7 @@ class FaceList {
   std::vector<glm::vec3> places_;
   std::vector<Triangulator::Triangle> divided_;
   Triangulator triangulator_;
-  std::uint64_t triangles_ = 0, without_area_ = 0;
+  std::uint64_t triangles_ = 0, points_and_lines_ = 0, without_area_ = 0;
 };
 
 }  // namespace halfway

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -101,8 +102,13 @@ class ObjReader {
     return Ok{};
   }
 
-  /// Read the numbers of a line. Returns their count.
-  Result<int> read_numbers(TextLines& lines, const Field& field, std::array<float, 6>& values) const {
+  /// Read the numbers of a line. Returns their count, which is one of those allowed.
+  static Result<int> read_numbers(TextLines& lines, Field& field, std::array<float, 6>& values,
+                                  std::span<const int> allowed, std::string_view allowed_text) {
+    if (field.all++ == c_max_vertices) {
+      return lines.error(
+          fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, c_max_vertices));
+    }
     int count = 0;
     for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
       float value = 0.0f;
@@ -113,19 +119,15 @@ class ObjReader {
       if (count < 6) values[static_cast<std::size_t>(count)] = value;
       ++count;
     }
-    return count;
-  }
-  static Error wrong_count(const TextLines& lines, const Field& field, int count, std::string_view allowed) {
+    if (std::ranges::find(allowed, count) != allowed.end()) return count;
     return lines.error(
-        fmt::format("{} {} has {} numbers; it must have {}", field.what, field.all, count, allowed));
+        fmt::format("{} {} has {} numbers; it must have {}", field.what, field.all, count, allowed_text));
   }
 
   Status read_position(TextLines& lines) {
-    if (position_.all++ == c_max_vertices) return too_many(lines, position_);
     std::array<float, 6> v{};
-    const Result<int> count = read_numbers(lines, position_, v);
+    const Result<int> count = read_numbers(lines, position_, v, std::array{3, 4, 6}, "3, 4 or 6");
     if (!count) return count.error();
-    if (*count != 3 && *count != 4 && *count != 6) return wrong_count(lines, position_, *count, "3, 4 or 6");
     if (*count == 4) {
       if (v[3] == 0.0f) {
         return lines.error(
@@ -144,27 +146,18 @@ class ObjReader {
   }
 
   Status read_normal(TextLines& lines) {
-    if (normal_.all++ == c_max_vertices) return too_many(lines, normal_);
     std::array<float, 6> v{};
-    const Result<int> count = read_numbers(lines, normal_, v);
+    const Result<int> count = read_numbers(lines, normal_, v, std::array{3}, "3");
     if (!count) return count.error();
-    if (*count != 3) return wrong_count(lines, normal_, *count, "3");
     loaded_.mesh.normals.emplace_back(v[0], v[1], v[2]);
     return Ok{};
   }
 
   Status read_texel(TextLines& lines) {
-    ++texel_.all;
     std::array<float, 6> v{};
-    const Result<int> count = read_numbers(lines, texel_, v);
+    const Result<int> count = read_numbers(lines, texel_, v, std::array{1, 2, 3}, "1 to 3");
     if (!count) return count.error();
-    if (*count < 1 || *count > 3) return wrong_count(lines, texel_, *count, "1 to 3");
     return Ok{};
-  }
-
-  static Error too_many(const TextLines& lines, const Field& field) {
-    return lines.error(
-        fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, c_max_vertices));
   }
 
   /// The line is one name with blanks, or several names.
@@ -206,7 +199,7 @@ class ObjReader {
         ok = read_face(lines);
       } else if (keyword == "l" || keyword == "p") {
         ok = read_corners(lines);
-        ++points_and_lines_;
+        faces_.add_point_or_line();
       } else if (keyword == "usemtl") {
         material_name_ = lines.rest();
         material_ = c_none;
@@ -274,11 +267,7 @@ class ObjReader {
 
   Status read_face(TextLines& lines) {
     if (Status ok = read_corners(lines); !ok) return ok;
-    if (corners_.size() < 3) {
-      ++points_and_lines_;
-      return Ok{};
-    }
-    if (line_of_first_face_ == 0) line_of_first_face_ = lines.line();
+    if (line_of_first_face_ == 0 && corners_.size() > 2) line_of_first_face_ = lines.line();
     if (const std::string fault = faces_.divide(corners_); !fault.empty()) return lines.error(fault);
     if (!faces_.is_divided()) return Ok{};
     if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
@@ -324,8 +313,7 @@ class ObjReader {
     if (has_colours_) note("vertex colours are left out");
     if (has_textures_) note("textures are left out");
     if (has_curves_) note("curves and surfaces are left out");
-    if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
-    if (faces_.without_area() > 0) note(fmt::format("{} faces without area left out", faces_.without_area()));
+    for (const std::string& left_out : faces_.left_out()) note(left_out);
     loaded_.notes.insert(loaded_.notes.end(), notes_.begin(), notes_.end());
   }
 
@@ -349,7 +337,6 @@ class ObjReader {
   std::uint64_t line_of_first_face_ = 0;
 
   std::set<std::string> notes_;
-  std::uint64_t points_and_lines_ = 0;
   bool has_colours_ = false, has_textures_ = false, has_curves_ = false;
 };
 

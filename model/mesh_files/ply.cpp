@@ -9,8 +9,10 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,55 +28,40 @@ namespace {
 
 // ---- Types
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-struct TypeName {
-  std::string_view name;
-  Type type;
+/// A type of numbers. A double represents the values of all types.
+struct Type {
+  std::string_view name, other_name;
+  std::size_t size;  ///< bytes
+  bool is_real;
+  std::int64_t least, greatest;  ///< of integers
+  double (*value_at)(std::string_view bytes, std::size_t at, ByteOrder order);
 };
-constexpr TypeName c_type_names[] = {
-    {"char", Type::int8},   {"uchar", Type::uint8},   {"short", Type::int16},     {"ushort", Type::uint16},
-    {"int", Type::int32},   {"uint", Type::uint32},   {"float", Type::float32},   {"double", Type::float64},
-    {"int8", Type::int8},   {"uint8", Type::uint8},   {"int16", Type::int16},     {"uint16", Type::uint16},
-    {"int32", Type::int32}, {"uint32", Type::uint32}, {"float32", Type::float32}, {"float64", Type::float64}};
 
-const TypeName* find_type(std::string_view name) {
-  const auto found = std::find_if(std::begin(c_type_names), std::end(c_type_names),
-                                  [name](const TypeName& type) { return type.name == name; });
-  return found == std::end(c_type_names) ? nullptr : found;
+template <class T>
+double value_at(std::string_view bytes, std::size_t at, ByteOrder order) {
+  return static_cast<double>(number_in<T>(bytes, at, order));
 }
 
-bool is_real(Type type) {
-  return type == Type::float32 || type == Type::float64;
+template <class T>
+constexpr Type type_of(std::string_view name, std::string_view other_name) {
+  using Limits = std::numeric_limits<T>;
+  if constexpr (std::is_floating_point_v<T>)
+    return {name, other_name, sizeof(T), true, 0, 0, value_at<T>};
+  else
+    return {name, other_name, sizeof(T), false, Limits::min(), Limits::max(), value_at<T>};
 }
 
-/// Bytes of each type, in the order of Type.
-constexpr std::size_t c_sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
-/// Least and greatest value of the integer types, in the order of Type.
-constexpr std::int64_t c_least[] = {INT8_MIN, 0, INT16_MIN, 0, INT32_MIN, 0};
-constexpr std::int64_t c_greatest[] = {INT8_MAX, UINT8_MAX, INT16_MAX, UINT16_MAX, INT32_MAX, UINT32_MAX};
+constexpr Type c_types[] = {
+    type_of<std::int8_t>("char", "int8"),    type_of<std::uint8_t>("uchar", "uint8"),
+    type_of<std::int16_t>("short", "int16"), type_of<std::uint16_t>("ushort", "uint16"),
+    type_of<std::int32_t>("int", "int32"),   type_of<std::uint32_t>("uint", "uint32"),
+    type_of<float>("float", "float32"),      type_of<double>("double", "float64")};
 
-/// A double represents the values of all types.
-double value_at(std::string_view bytes, std::size_t at, Type type, ByteOrder order) {
-  switch (type) {
-    case Type::int8:
-      return number_in<std::int8_t>(bytes, at, order);
-    case Type::uint8:
-      return number_in<std::uint8_t>(bytes, at, order);
-    case Type::int16:
-      return number_in<std::int16_t>(bytes, at, order);
-    case Type::uint16:
-      return number_in<std::uint16_t>(bytes, at, order);
-    case Type::int32:
-      return number_in<std::int32_t>(bytes, at, order);
-    case Type::uint32:
-      return number_in<std::uint32_t>(bytes, at, order);
-    case Type::float32:
-      return static_cast<double>(number_in<float>(bytes, at, order));
-    case Type::float64:
-      return number_in<double>(bytes, at, order);
-  }
-  return 0.0;
+/// Null if there is none.
+const Type* find_type(std::string_view name) {
+  const auto found = std::ranges::find_if(
+      c_types, [name](const Type& type) { return name == type.name || name == type.other_name; });
+  return found == std::end(c_types) ? nullptr : found;
 }
 
 // ---- Header
@@ -92,9 +79,8 @@ std::size_t index_in(const std::string_view (&words)[N], std::string_view word) 
 
 struct Property {
   std::string_view name;
-  Type type = Type::int8;
-  bool is_list = false;
-  Type length_type = Type::int8;  ///< of a list
+  const Type* type = nullptr;
+  const Type* length_type = nullptr;  ///< of a list; null if it is none
   Use use = Use::none;
 };
 
@@ -128,7 +114,8 @@ class PlyReader {
                                        ? "no face of the mesh has any area; correct the vertices"
                                        : "the mesh has no faces; export it with faces"));
     }
-    add_notes();
+    if (has_colours_) note("vertex colours are left out");
+    for (const std::string& left_out : faces_.left_out()) note(left_out);
     join_positions(loaded_.mesh);
     return std::move(loaded_);
   }
@@ -191,8 +178,7 @@ class PlyReader {
     if (fault != std::errc() || end != count.data() + count.size()) {
       return lines_.error(quoted(count) + " is not a count of items; correct it");
     }
-    for (const Element& other : elements_) {
-      if (other.name != element.name) continue;
+    if (has_element(element.name)) {
       return lines_.error(fmt::format("a second element {}; rename or remove it", quoted(element.name)));
     }
     if (element.name == "vertex") {
@@ -204,7 +190,7 @@ class PlyReader {
       }
     } else if (element.name == "face" || element.name == "tristrips") {
       element.kind = element.name == "face" ? Kind::face : Kind::tristrips;
-      if (elements_.empty() || !has_element("vertex")) {
+      if (!has_element("vertex")) {
         return lines_.error(fmt::format("element {} before element vertex; reorder them", element.name));
       }
     }
@@ -212,8 +198,7 @@ class PlyReader {
     return Ok{};
   }
   bool has_element(std::string_view name) const {
-    return std::any_of(elements_.begin(), elements_.end(),
-                       [name](const Element& element) { return element.name == name; });
+    return std::ranges::find(elements_, name, &Element::name) != elements_.end();
   }
 
   Status read_property() {
@@ -221,23 +206,19 @@ class PlyReader {
     Element& element = elements_.back();
     Property property;
     std::string_view type = lines_.word();
-    property.is_list = type == "list";
-    if (property.is_list) {
+    if (type == "list") {
       const std::string_view length_type = lines_.word();
-      const TypeName* found = find_type(length_type);
-      if (found == nullptr || is_real(found->type)) {
+      property.length_type = find_type(length_type);
+      if (property.length_type == nullptr || property.length_type->is_real) {
         return lines_.error(quoted(length_type) + " is not a type for the length of a list; correct it");
       }
-      property.length_type = found->type;
       type = lines_.word();
     }
-    const TypeName* found = find_type(type);
-    if (found == nullptr) return lines_.error(quoted(type) + " is not a type of PLY; correct it");
-    property.type = found->type;
+    property.type = find_type(type);
+    if (property.type == nullptr) return lines_.error(quoted(type) + " is not a type of PLY; correct it");
     property.name = lines_.word();
     if (property.name.empty()) return lines_.error("a property without a name; give it one");
-    for (const Property& other : element.properties) {
-      if (other.name != property.name) continue;
+    if (std::ranges::find(element.properties, property.name, &Property::name) != element.properties.end()) {
       return lines_.error(fmt::format("a second property {} of {}; rename or remove it",
                                       quoted(property.name), quoted(element.name)));
     }
@@ -246,10 +227,10 @@ class PlyReader {
     const std::size_t number = index_in(c_numbers, property.name);
     const bool is_corners = property.name == "vertex_indices" || property.name == "vertex_index";
     if (element.kind == Kind::vertex && number < std::size(c_numbers)) {
-      if (property.is_list) return lines_.error(fmt::format("{} is a list; correct it", property.name));
+      if (property.length_type) return lines_.error(fmt::format("{} is a list; correct it", property.name));
       property.use = static_cast<Use>(number);
-    } else if ((element.kind == Kind::face || element.kind == Kind::tristrips) && is_corners) {
-      if (!property.is_list || is_real(property.type)) {
+    } else if (has_corners(element) && is_corners) {
+      if (!property.length_type || property.type->is_real) {
         return lines_.error(fmt::format("{} is not a list of integers; correct it", property.name));
       }
       if (uses(element, Use::corners)) return lines_.error("a second list of corners; remove it");
@@ -260,9 +241,11 @@ class PlyReader {
     element.properties.push_back(property);
     return Ok{};
   }
+  static bool has_corners(const Element& element) {
+    return element.kind == Kind::face || element.kind == Kind::tristrips;
+  }
   static bool uses(const Element& element, Use use) {
-    return std::any_of(element.properties.begin(), element.properties.end(),
-                       [use](const Property& property) { return property.use == use; });
+    return std::ranges::find(element.properties, use, &Property::use) != element.properties.end();
   }
 
   Status check_elements() {
@@ -287,11 +270,9 @@ class PlyReader {
           return error("vertices have only a part of nx, ny and nz; give all three or none");
         }
       }
-      if (element.kind == Kind::face || element.kind == Kind::tristrips) {
-        if (!uses(element, Use::corners)) {
-          return error(
-              fmt::format("element {} has no list vertex_indices; export the file again", element.name));
-        }
+      if (has_corners(element) && !uses(element, Use::corners)) {
+        return error(
+            fmt::format("element {} has no list vertex_indices; export the file again", element.name));
       }
     }
     return Ok{};
@@ -316,13 +297,13 @@ class PlyReader {
       std::array<float, 6> numbers{};
       for (const Property& property : element.properties) {
         double length = 1.0;
-        if (property.is_list) {
-          if (Status ok = read_value(element, property, property.length_type, length); !ok) return ok;
+        if (property.length_type) {
+          if (Status ok = read_value(element, property, *property.length_type, length); !ok) return ok;
           if (length < 0.0) return error(element, fmt::format("a list of {} values; correct it", length));
         }
         for (double i = 0.0; i < length; i += 1.0) {
           double value = 0.0;
-          if (Status ok = read_value(element, property, property.type, value); !ok) return ok;
+          if (Status ok = read_value(element, property, *property.type, value); !ok) return ok;
           if (property.use == Use::corners) {
             if (Status ok = add_corner(element, value); !ok) return ok;
           } else if (property.use != Use::none) {
@@ -334,21 +315,23 @@ class PlyReader {
       if (Status ok = add_item(element, numbers); !ok) return ok;
     }
     if (element.kind == Kind::other && element.count > 0) {
-      loaded_.notes.push_back(fmt::format("{}: elements {} are left out", file_, quoted(element.name)));
+      note(fmt::format("elements {} are left out", quoted(element.name)));
     }
     return Ok{};
   }
 
   Error error(const Element& element, std::string_view what) const {
-    const std::string text = fmt::format("{} {}: {}", element.name, item_, what);
-    return is_text_ ? lines_.error(text) : bad_input(fmt::format("{}: byte {}: {}", file_, at_, text));
+    return error(fmt::format("{} {}: {}", element.name, item_, what));
   }
   Error truncated(const Element& element) const {
-    const std::string text = fmt::format(
-        "the file ends at item {} of {} of {}; it is truncated, or the count in its header is "
-        "wrong; export it again",
-        item_, element.count, quoted(element.name));
-    return is_text_ ? lines_.error(text) : bad_input(fmt::format("{}: byte {}: {}", file_, at_, text));
+    return error(
+        fmt::format("the file ends at item {} of {} of {}; it is truncated, or the count in its header is "
+                    "wrong; export it again",
+                    item_, element.count, quoted(element.name)));
+  }
+  /// An error at the current line or byte.
+  Error error(std::string_view what) const {
+    return is_text_ ? lines_.error(what) : bad_input(fmt::format("{}: byte {}: {}", file_, at_, what));
   }
 
   /// Go to the next line that is not empty.
@@ -362,34 +345,30 @@ class PlyReader {
     return error(element, quoted(word_) + " follows its last number; remove it");
   }
   Status check_end() {
-    if (is_text_) {
-      if (!next_line()) return Ok{};
-      return lines_.error(quoted(word_) +
-                          " follows the last element; correct the counts in the header, or remove it");
-    }
-    if (at_ == bytes_.size()) return Ok{};
-    return bad_input(fmt::format(
-        "{}: byte {}: {} bytes follow the last element; correct the counts in the header, or remove them",
-        file_, at_, bytes_.size() - at_));
+    if (is_text_ ? !next_line() : at_ == bytes_.size()) return Ok{};
+    return error(is_text_ ? quoted(word_) +
+                                " follows the last element; correct the counts in the header, or remove it"
+                          : fmt::format("{} bytes follow the last element; correct the counts in the header, "
+                                        "or remove them",
+                                        bytes_.size() - at_));
   }
 
   /// Read the next number of this type. A number that is used is finite as a float.
-  Status read_value(const Element& element, const Property& property, Type type, double& value) {
+  Status read_value(const Element& element, const Property& property, const Type& type, double& value) {
     if (!is_text_) {
-      const std::size_t size = c_sizes[static_cast<std::size_t>(type)];
-      if (bytes_.size() - at_ < size) return truncated(element);
-      value = value_at(bytes_, at_, type, order_);
+      if (bytes_.size() - at_ < type.size) return truncated(element);
+      value = type.value_at(bytes_, at_, order_);
       // Half a unit above the largest float, the nearest float is infinite.
-      if (property.use != Use::none && is_real(type) && !(std::abs(value) < 0x1.ffffffp127)) {
+      if (property.use != Use::none && type.is_real && !(std::abs(value) < 0x1.ffffffp127)) {
         return error(element, fmt::format("{} is not finite, or too large; correct it", property.name));
       }
-      at_ += size;
+      at_ += type.size;
       return Ok{};
     }
     if (word_.empty()) {
       return error(element, fmt::format("{} is missing at the end of the line; add it", property.name));
     }
-    if (is_real(type)) {
+    if (type.is_real) {
       float number = 0.0f;
       const NumberFault fault = read_number(word_, number);
       const bool is_refused = property.use != Use::none || fault == NumberFault::not_a_number;
@@ -400,11 +379,10 @@ class PlyReader {
     } else {
       std::int64_t number = 0;
       const auto [end, fault] = std::from_chars(word_.data(), word_.data() + word_.size(), number);
-      const auto index = static_cast<std::size_t>(type);
       if (fault == std::errc::invalid_argument || end != word_.data() + word_.size()) {
         return error(element, quoted(word_) + " is not an integer; correct it, or the type in the header");
       }
-      if (fault != std::errc() || number < c_least[index] || number > c_greatest[index]) {
+      if (fault != std::errc() || number < type.least || number > type.greatest) {
         return error(element, quoted(word_) +
                                   " is out of the range of its type; correct it, or the type in the header");
       }
@@ -445,10 +423,6 @@ class PlyReader {
   }
 
   Status add_face(const Element& element, std::span<const FaceList::Corner> corners) {
-    if (corners.size() < 3) {
-      ++points_and_lines_;
-      return Ok{};
-    }
     if (const std::string fault = faces_.divide(corners); !fault.empty()) return error(element, fault);
     faces_.append(0, loaded_.mesh);
     return Ok{};
@@ -468,14 +442,7 @@ class PlyReader {
     return Ok{};
   }
 
-  void add_notes() {
-    const auto note = [this](std::string_view what) {
-      loaded_.notes.push_back(fmt::format("{}: {}", file_, what));
-    };
-    if (has_colours_) note("vertex colours are left out");
-    if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
-    if (faces_.without_area() > 0) note(fmt::format("{} faces without area left out", faces_.without_area()));
-  }
+  void note(std::string_view what) { loaded_.notes.push_back(fmt::format("{}: {}", file_, what)); }
 
   std::string_view bytes_;
   std::string_view file_;
@@ -493,7 +460,6 @@ class PlyReader {
   std::vector<FaceList::Corner> corners_;  ///< of the current face or strip
   FaceList faces_;
   LoadedMesh loaded_;
-  std::uint64_t points_and_lines_ = 0;
 };
 
 }  // namespace
