@@ -464,15 +464,7 @@ double quick_sum(const Scene& scene, const Material& m, const SampledTriangle& t
   if (!is_narrow(to_eye[0], to_eye[1], to_eye[2], c_narrow_directions)) return c_unknown;
   double sum = 0.0;
   for_each_light(scene, [&](const Light& light) {
-    switch (light.ref.kind) {
-      case LightKind::directional:
-      case LightKind::positional:
-        sum += quick_bound(m, t, view, light_at_samples(light, t));
-        break;
-      case LightKind::spot:
-        sum += c_unknown;
-        break;
-    }
+    sum += light.cone ? c_unknown : quick_bound(m, t, view, light_at_samples(light, t));
   });
   return sum;
 }
@@ -496,15 +488,8 @@ double missed_highlight_bound(const Scene& scene, const Material& m, const Sampl
     LightOnTriangle on_triangle = light_at_samples(light, t);
     const glm::dvec3& from = light.point.xyz_world;
     on_triangle.to_light = light.point.w == 0.0 ? Cone{from, 0.0} : cone_to(t, from);
-    switch (light.ref.kind) {
-      case LightKind::directional:
-      case LightKind::positional:
-        missed += missed_light(m, t, view, on_triangle).steps;
-        break;
-      case LightKind::spot:
-        missed += missed_spot(m, t, view, on_triangle, *light.cone);
-        break;
-    }
+    missed += light.cone ? missed_spot(m, t, view, on_triangle, *light.cone)
+                         : missed_light(m, t, view, on_triangle).steps;
   });
   return missed;
 }

@@ -388,12 +388,6 @@ class ProcessorsSetup final : public Setup {
     return world[n[0]] == world[n[1]] && world[n[0]] == world[n[2]];
   }
 
-  static glm::dvec3 corner(std::size_t i) {
-    glm::dvec3 barycentric(0.0);
-    barycentric[static_cast<int>(i)] = 1.0;
-    return barycentric;
-  }
-
   Surface surface_of(const ScreenTriangle& t) const {
     Surface surface;
     std::array<glm::dvec3, 3> normal, place;
@@ -410,7 +404,7 @@ class ProcessorsSetup final : public Setup {
     } else {
       surface.normalize = normalizes_;
       for (std::size_t i = 0; i < 3; ++i) {
-        normal[i] = surface_point(t, corner(i)).normal_world;
+        normal[i] = surface_point(t, barycentric_at_vertex(i)).normal_world;
         place[i] = std::ldexp(1.0, -scale_exponent_) * view_.point(t.vertex[i].position_world);
       }
     }

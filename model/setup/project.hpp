@@ -172,6 +172,11 @@ glm::dvec3 barycentric_screen(const ScreenTriangle& triangle, std::int64_t x_hal
 glm::dvec3 barycentric_at_centre(const ScreenTriangle& triangle, int subpixel_bits, std::int64_t x,
                                  std::int64_t y);
 
+/// The same at a vertex, 0 to 2.
+inline glm::dvec3 barycentric_at_vertex(std::size_t vertex) {
+  return {vertex == 0, vertex == 1, vertex == 2};
+}
+
 struct SurfacePoint {
   glm::dvec3 position_world;
   glm::dvec3 normal_world;  ///< always unit

@@ -86,9 +86,7 @@ class Sampler {
   Sample at(const Corner& corner) const { return sample(corner, shaded(corner.barycentric)); }
   Sample at_vertex(std::size_t i) const {
     const ScreenVertex& v = triangle_.vertex[i];
-    glm::dvec3 barycentric(0.0);
-    barycentric[static_cast<int>(i)] = 1.0;
-    return shared({{v.x, v.y}, barycentric}, i, i);
+    return shared({{v.x, v.y}, barycentric_at_vertex(i)}, i, i);
   }
   /// In the middle of the edge between vertices i and j, which are the samples a and b.
   Sample at_edge(const Sample& a, std::size_t i, const Sample& b, std::size_t j) const {
@@ -489,7 +487,6 @@ class QuadraticSetup::Worker final : public SetupWorker {
   }
 
   const QuadraticSetup& setup_;
-  std::vector<ScreenTriangle> on_screen_;
   MeshProjector mesh_;
   RecentSamples samples_;
 };

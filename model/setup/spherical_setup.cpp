@@ -310,9 +310,8 @@ class SphericalSetup::ExactTriangle {
         part_(part),
         words_(words),
         counts_(counts),
-        subpixel_bits_(setup.projector_.options().subpixel_bits) {
-    for (std::size_t i = 0; i < 3; ++i) corners_[i] = {triangle.vertex[i].x, triangle.vertex[i].y};
-  }
+        subpixel_bits_(setup.projector_.options().subpixel_bits),
+        corners_(screen_points(triangle)) {}
 
   void append() {
     const auto [left, right] = std::minmax({corners_[0].x, corners_[1].x, corners_[2].x});
@@ -325,7 +324,8 @@ class SphericalSetup::ExactTriangle {
     if (walks.empty()) return;
     depth_.emplace(corners_, subpixel_bits_, fixed_depths(triangle_));
     if (setup_.options_.ends == SpanEnds::slerped_along_edges)
-      for (std::size_t i = 0; i < 3; ++i) vertex_[i] = vectors(surface_point(triangle_, corner(i)));
+      for (std::size_t i = 0; i < 3; ++i)
+        vertex_[i] = vectors(surface_point(triangle_, barycentric_at_vertex(i)));
     append(columns, walks);
   }
 
@@ -523,12 +523,6 @@ class SphericalSetup::ExactTriangle {
     return true;
   }
 
-  static glm::dvec3 corner(std::size_t i) {
-    glm::dvec3 barycentric(0.0);
-    barycentric[static_cast<int>(i)] = 1.0;
-    return barycentric;
-  }
-
   const SphericalSetup& setup_;
   const ScreenTriangle& triangle_;
   const Material& material_;
@@ -559,7 +553,6 @@ class SphericalSetup::Worker final : public SetupWorker {
 
  private:
   const SphericalSetup& setup_;
-  std::vector<ScreenTriangle> on_screen_;
   MeshProjector mesh_;
   ExactTriangle::Part part_;
 };
@@ -576,9 +569,7 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
   for (std::size_t i = 0; i < 3; ++i) {
     const ScreenVertex& v = triangle.vertex[i];
     p[i] = {static_cast<long double>(v.x), static_cast<long double>(v.y), depth_steps(v.z)};
-    glm::dvec3 barycentric(0.0);
-    barycentric[static_cast<int>(i)] = 1.0;
-    vertex[i] = vectors_at(material, surface_point(triangle, barycentric));
+    vertex[i] = vectors_at(material, surface_point(triangle, barycentric_at_vertex(i)));
     ++counts.shaded;
   }
   ++counts.leaves;
