@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "common/test/is_error.hpp"
-#include "plan/plan.hpp"
+#include "plan/test/planned.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway {
@@ -18,17 +18,9 @@ using ::testing::ElementsAre, ::testing::HasSubstr;
 
 // A triangle per exponent, and one without a highlight.
 Scene scene_with(const std::vector<double>& exponents) {
-  Scene scene;
-  scene.name = "s";
-  scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  scene.normals_world = {{0, 0, 1}};
-  scene.directional.push_back({});
-  const auto add = [&](const Material& material) {
-    scene.materials.push_back(material);
-    scene.triangles.push_back({{0, 1, 2}, {0, 0, 0}, static_cast<std::uint32_t>(scene.materials.size() - 1)});
-  };
-  add({.name = "matt", .specular = 0.0, .exponent = 7.0});
-  for (const double n : exponents) add({.name = "shiny", .specular = 0.5, .exponent = n});
+  Scene scene = with_lights(1);
+  scene.materials[0] = {.name = "matt", .specular = 0.0, .exponent = 7.0};
+  for (const double n : exponents) wear(scene, {.name = "shiny", .specular = 0.5, .exponent = n});
   return scene;
 }
 

@@ -9,32 +9,12 @@
 #include <string>
 
 #include "common/test/is_error.hpp"
-#include "plan/plan.hpp"
-#include "sim/system/must.hpp"
+#include "plan/test/planned.hpp"
 
 namespace halfway {
 namespace {
 
 using ::testing::AllOf, ::testing::HasSubstr;
-
-// A flat grey triangle, without lights.
-Scene flat_scene() {
-  Scene scene;
-  scene.name = "s";
-  scene.materials = {{.name = "plain"}};
-  scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  scene.normals_world = {{0, 0, 1}, {0, 0.6, 0.8}, {0, 0, 1}};
-  scene.triangles = {{{0, 1, 2}, {0, 0, 2}, 0}};  // two normals by index, one by value
-  return scene;
-}
-
-Scene with_lights(std::size_t directional, std::size_t positional = 0, std::size_t spots = 0) {
-  Scene scene = flat_scene();
-  scene.directional.resize(directional);
-  scene.positional.resize(positional);
-  scene.spots.resize(spots);
-  return scene;
-}
 
 Plan planned_processors(const Scene& scene, PlanRequest request = {}) {
   request.shader = Shader::processors;
@@ -51,12 +31,8 @@ std::string refusal(const Scene& scene, PlanRequest request = {}) {
   EXPECT_EQ(plan.error().code, ExitCode::bad_input);
   return plan.error().message;
 }
-const PlannedEffect& processors_effect(const Plan& plan, Effect which) {
-  return *std::ranges::find(plan.effects, which, &PlannedEffect::effect);
-}
-
 TEST(PlanProcessors, LightsByTheirKinds) {
-  EXPECT_EQ(key(flat_scene()), "processors_shader-exact-c1-l0.0.0-unrolled");
+  EXPECT_EQ(key(grey_scene()), "processors_shader-exact-c1-l0.0.0-unrolled");
   EXPECT_EQ(key(with_lights(1)), "processors_shader-exact-c1-l1.0.0-d-s-unrolled");
   EXPECT_EQ(key(with_lights(1, 2, 3)), "processors_shader-exact-c1-l1.2.3-d-s-unrolled");
   Scene dark = with_lights(2, 2, 2);
@@ -73,8 +49,7 @@ TEST(PlanProcessors, NoProcessorsForTermsThatNoMaterialReflects) {
   scene.materials[0].diffuse = 0.0;
   scene.shadows = true;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
-  EXPECT_EQ(processors_effect(planned_processors(scene), Effect::normalization).why,
-            "no material reflects a light");
+  EXPECT_EQ(effect(planned_processors(scene), Effect::normalization).why, "no material reflects a light");
   scene.materials[0].specular = 0.3;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled");
 }
@@ -85,7 +60,7 @@ TEST(PlanProcessors, NormalizesIfNormalsDifferOrAsPublishedForLightsWithAPlace) 
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const auto normalization = [&](const Scene& scene) {
       const Plan plan = planned_processors(scene, {.preset = preset});
-      const PlannedEffect& e = processors_effect(plan, Effect::normalization);
+      const PlannedEffect& e = effect(plan, Effect::normalization);
       EXPECT_EQ(e.called_for, plan.key.processors.normalize);
       EXPECT_EQ(e.elaborated, plan.key.processors.normalize);
       return e;
@@ -109,8 +84,8 @@ TEST(PlanProcessors, ShadowsWhereALightIsReflected) {
   Scene scene = with_lights(1);
   scene.shadows = true;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled");
-  EXPECT_EQ(processors_effect(planned_processors(scene), Effect::shadow).by, DoneBy::hardware);
-  EXPECT_TRUE(processors_effect(planned_processors(scene), Effect::shadow).elaborated);
+  EXPECT_EQ(effect(planned_processors(scene), Effect::shadow).by, DoneBy::hardware);
+  EXPECT_TRUE(effect(planned_processors(scene), Effect::shadow).elaborated);
   scene.directional.clear();
   EXPECT_FALSE(planned_processors(scene).key.processors.shadows);
 }
@@ -128,7 +103,7 @@ TEST(PlanProcessors, OnlyBlinnHighlightsAreSupported) {
     EXPECT_EQ(key(scene), key(with_lights(1)));
     scene.materials[1].specular = 0.4;
     scene.directional.clear();
-    EXPECT_EQ(key(scene), key(flat_scene()));
+    EXPECT_EQ(key(scene), key(grey_scene()));
   }
 }
 
@@ -138,7 +113,7 @@ TEST(PlanProcessors, AllEffectsUsesSpotHardwareForEveryLight) {
     const auto all = [&](const Scene& scene, std::optional<unsigned> lights = {}) {
       return key(scene, {.preset = preset, .all_effects = true, .lights = lights});
     };
-    EXPECT_EQ(all(flat_scene()), begin + "1-d-s-n-shadows-unrolled");
+    EXPECT_EQ(all(grey_scene()), begin + "1-d-s-n-shadows-unrolled");
     EXPECT_EQ(all(with_lights(2, 1, 1)), begin + "4-d-s-n-shadows-unrolled");
     EXPECT_EQ(all(with_lights(2, 1, 1), 16), begin + "16-d-s-n-shadows-unrolled");
     EXPECT_EQ(planned_processors(with_lights(1), {.preset = preset}).everything.name(), all(with_lights(1)));
@@ -156,7 +131,7 @@ TEST(PlanProcessors, TwoForms) {
     EXPECT_TRUE(
         is_error(plan_scene(with_lights(1), {.shader = shader, .form = ProcessorForm::folded}), "--form"));
   }
-  EXPECT_THAT(refusal(flat_scene(), {.tables = TableSize{6, 6}}), HasSubstr("only the spherical shader"));
+  EXPECT_THAT(refusal(grey_scene(), {.tables = TableSize{6, 6}}), HasSubstr("only the spherical shader"));
 }
 
 TEST(PlanProcessors, OtherKeysDifferInOneEffect) {
@@ -165,7 +140,7 @@ TEST(PlanProcessors, OtherKeysDifferInOneEffect) {
   shaded.triangles[0].normal = {0, 1, 2};
   for (const Preset preset : {Preset::exact, Preset::published})
     for (const bool all_effects : {false, true})
-      for (const Scene& scene : {flat_scene(), with_lights(1), with_lights(0, 2), shaded}) {
+      for (const Scene& scene : {grey_scene(), with_lights(1), with_lights(0, 2), shaded}) {
         const Plan plan = planned_processors(scene, {.preset = preset, .all_effects = all_effects});
         for (const PlannedEffect& e : plan.effects) {
           SCOPED_TRACE(plan.key.name() + ": " + to_string(e.effect));

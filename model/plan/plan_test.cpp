@@ -16,51 +16,17 @@
 
 #include "common/test/is_error.hpp"
 #include "golden/cosine_tables.hpp"
+#include "plan/test/planned.hpp"
 #include "shading/effects.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
 
 using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
 
-// One grey triangle, all grey, without lights. Exponent 2: the bell equals cos^2.
-Scene grey_scene() {
-  Scene scene;
-  scene.name = "s";
-  scene.materials = {{.name = "plain", .exponent = 2.0}};
-  scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  scene.normals_world = {{0, 0, 1}};
-  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
-  return scene;
-}
-
-Scene lit_scene() {
-  Scene scene = grey_scene();
-  scene.directional.push_back({});
-  return scene;
-}
-
-void wear(Scene& scene, const Material& material) {
-  scene.materials.push_back(material);
-  scene.triangles.push_back(scene.triangles[0]);
-  scene.triangles.back().material = static_cast<std::uint32_t>(scene.materials.size() - 1);
-}
-
-Plan planned(const Scene& scene, const PlanRequest& request) {
-  return must(plan_scene(scene, request));
-}
 Plan spherical(const Scene& scene, Preset preset = Preset::exact) {
   return planned(scene, {.shader = Shader::spherical, .preset = preset});
-}
-
-const PlannedEffect& effect(const Plan& plan, Effect which) {
-  const auto it = std::ranges::find(plan.effects, which, &PlannedEffect::effect);
-  if (it != plan.effects.end()) return *it;
-  ADD_FAILURE() << "no effect '" << to_string(which) << "'";
-  static const PlannedEffect c_none{};
-  return c_none;
 }
 
 TEST(Plan, OneChannelIfEverythingVisibleIsGrey) {
@@ -69,44 +35,31 @@ TEST(Plan, OneChannelIfEverythingVisibleIsGrey) {
       const PlanRequest request{.shader = shader, .preset = preset};
       const auto channels = [&](const Scene& scene) { return planned(scene, request).key.channels; };
       const auto why = [&](const Scene& scene) { return effect(planned(scene, request), Effect::colour); };
-      const Scene grey = lit_scene();
+      Scene grey = with_lights(1);
+      grey.materials.push_back({.name = "unworn", .colour = {1.0, 0.0, 0.0}});
+      grey.background = {0.1, 0.2, 0.3};  // pixels without a triangle are not shaded
       EXPECT_EQ(channels(grey), 1U);
       EXPECT_FALSE(why(grey).called_for);
       EXPECT_THAT(why(grey).why, HasSubstr("grey"));
 
-      Scene scene = grey;
-      scene.ambient = {0.2, 0.2, 0.3};
-      EXPECT_EQ(channels(scene), 3U);
-      EXPECT_TRUE(why(scene).called_for);
-      EXPECT_THAT(why(scene).why, HasSubstr("ambient"));
-
-      scene = grey;
-      scene.positional.resize(2);
-      scene.positional[1].intensity = {0.0, 1.0, 0.0};
-      EXPECT_EQ(channels(scene), 3U);
-      EXPECT_THAT(why(scene).why, HasSubstr("positional light 2"));
-
-      scene = grey;
-      scene.spots.push_back({.intensity = {0.0, 0.0, 0.5}});
-      EXPECT_EQ(channels(scene), 3U);
-      EXPECT_THAT(why(scene).why, HasSubstr("spot light 1"));
-
-      scene = grey;
-      wear(scene, {.name = "rust", .colour = {0.6, 0.3, 0.1}});
-      EXPECT_EQ(channels(scene), 3U);
-      EXPECT_THAT(why(scene).why, HasSubstr("'rust'"));
-
-      scene = grey;
-      wear(scene, {.name = "gold", .specular_colour = {1.0, 0.8, 0.3}});
-      EXPECT_EQ(channels(scene), 3U);
-      EXPECT_THAT(why(scene).why, HasSubstr("'gold'"));
-      scene.materials.back().specular = 0.0;  // a highlight of strength zero has no colour
-      EXPECT_EQ(channels(scene), 1U);
-
-      scene = grey;
-      scene.materials.push_back({.name = "unworn", .colour = {1.0, 0.0, 0.0}});
-      scene.background = {0.1, 0.2, 0.3};  // pixels without a triangle are not shaded
-      EXPECT_EQ(channels(scene), 1U);
+      const auto expect_coloured = [&](const Scene& scene, const char* reason) {
+        EXPECT_EQ(channels(scene), 3U) << reason;
+        EXPECT_TRUE(why(scene).called_for) << reason;
+        EXPECT_THAT(why(scene).why, HasSubstr(reason));
+      };
+      Scene ambient = grey, positional = grey, spot = grey, rust = grey, gold = grey;
+      ambient.ambient = {0.2, 0.2, 0.3};
+      expect_coloured(ambient, "ambient");
+      positional.positional = {{}, {.intensity = {0.0, 1.0, 0.0}}};
+      expect_coloured(positional, "positional light 2");
+      spot.spots.push_back({.intensity = {0.0, 0.0, 0.5}});
+      expect_coloured(spot, "spot light 1");
+      wear(rust, {.name = "rust", .colour = {0.6, 0.3, 0.1}});
+      expect_coloured(rust, "'rust'");
+      wear(gold, {.name = "gold", .specular_colour = {1.0, 0.8, 0.3}});
+      expect_coloured(gold, "'gold'");
+      gold.materials.back().specular = 0.0;  // a highlight of strength zero has no colour
+      EXPECT_EQ(channels(gold), 1U);
     }
 }
 
@@ -114,7 +67,7 @@ TEST(Plan, NamesEveryEffectOnceWithItsReason) {
   for (const Shader shader : c_shaders)
     for (const Preset preset : {Preset::exact, Preset::published})
       for (const bool all_effects : {false, true})
-        for (const Scene& scene : {grey_scene(), lit_scene()}) {
+        for (const Scene& scene : {grey_scene(), with_lights(1)}) {
           const Plan plan = planned(scene, {.shader = shader, .preset = preset, .all_effects = all_effects});
           EXPECT_EQ(plan.key.shader, shader);
           EXPECT_EQ(plan.key.preset, preset);
@@ -142,7 +95,7 @@ TEST(Plan, ShadowsAreNeededOnlyWithReflectedLight) {
     const auto shadow = [&](const Scene& scene) {
       return effect(planned(scene, {.shader = shader}), Effect::shadow);
     };
-    Scene scene = lit_scene();
+    Scene scene = with_lights(1);
     EXPECT_FALSE(shadow(scene).called_for);
     EXPECT_EQ(shadow(scene).why, "the scene has no shadows");
     scene.shadows = true;
@@ -156,7 +109,7 @@ TEST(Plan, ShadowsAreNeededOnlyWithReflectedLight) {
 
 // The effects that a scene needs do not depend on the shader.
 TEST(Plan, QuadraticLeavesLightsToTheHost) {
-  Scene scene = lit_scene();
+  Scene scene = with_lights(1);
   scene.positional.resize(40);
   wear(scene, {.brdf = Brdf::cook_torrance});
   const Plan plan = planned(scene, {});
@@ -254,7 +207,7 @@ TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
       {{.name = "dull", .diffuse = 0.0, .specular = 0.0}, false, false, "every k_d is 0", "every k_s is 0"},
   };
   for (const Case& c : cases) {
-    Scene scene = lit_scene();
+    Scene scene = with_lights(1);
     scene.materials[0] = c.material;
     scene.materials.push_back({.name = "unworn"});
     const Plan plan = spherical(scene);
@@ -274,7 +227,7 @@ TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
     EXPECT_EQ(reflected_lights(scene).size(), units.lights);
   }
   // Many lights, but no material that reflects them.
-  Scene scene = lit_scene();
+  Scene scene = with_lights(1);
   scene.materials[0].diffuse = scene.materials[0].specular = 0.0;
   scene.directional.resize(100);
   EXPECT_EQ(spherical(scene).key.spherical.lights, 0U);
@@ -282,7 +235,7 @@ TEST(Plan, EffectsThatNoMaterialShowsAreLeftOut) {
 }
 
 TEST(Plan, CookTorranceIsRefusedIfItsHighlightIsVisible) {
-  Scene scene = lit_scene();
+  Scene scene = with_lights(1);
   wear(scene, {.name = "copper", .brdf = Brdf::cook_torrance});
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const auto plan = plan_scene(scene, {.shader = Shader::spherical, .preset = preset});
@@ -304,7 +257,7 @@ TEST(Plan, WhiteHighlightsUseOneMultiplier) {
     return plan.key.spherical.highlight_channels;
   };
   const auto why = [](const Scene& scene) { return effect(spherical(scene), Effect::highlight_colour).why; };
-  Scene scene = lit_scene();
+  Scene scene = with_lights(1);
   EXPECT_EQ(highlight_channels(scene), 1U);
   wear(scene, {.name = "red", .colour = {0.8, 0.1, 0.1}});
   EXPECT_EQ(spherical(scene).key.channels, 3U);
@@ -329,7 +282,7 @@ TEST(Plan, WhiteHighlightsUseOneMultiplier) {
 
 TEST(Plan, PowersAreThoseOfTheExponentsInUse) {
   const auto powers = [](const std::vector<double>& exponents, Preset preset = Preset::exact) {
-    Scene scene = lit_scene();
+    Scene scene = with_lights(1);
     scene.materials[0].exponent = exponents[0];
     for (std::size_t i = 1; i < exponents.size(); ++i) wear(scene, {.exponent = exponents[i]});
     // None of these is visible.
@@ -361,20 +314,20 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const bool exact = preset == Preset::exact;
     const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
-    const Plan plan = spherical(lit_scene(), preset);
+    const Plan plan = spherical(with_lights(1), preset);
     EXPECT_EQ(plan.key.spherical.tables, (TableSize{usual.address_bits, usual.data_bits}));
     EXPECT_THAT(plan.key.name(), HasSubstr(fmt::format("-rom{}x{}", usual.address_bits, usual.data_bits)));
     for (const golden::CosineTable& table : golden::c_cosine_tables) {
       const TableSize size{table.address_bits, table.data_bits};
       const auto other =
-          plan_scene(lit_scene(), {.shader = Shader::spherical, .preset = preset, .tables = size});
+          plan_scene(with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = size});
       if (table.exact == exact) {
         ASSERT_TRUE(other) << other.error().message;
         EXPECT_EQ(other->key.spherical.tables, size);
       }
     }
-    const auto unknown =
-        plan_scene(lit_scene(), {.shader = Shader::spherical, .preset = preset, .tables = TableSize{12, 3}});
+    const auto unknown = plan_scene(
+        with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = TableSize{12, 3}});
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ExitCode::bad_input);
     EXPECT_THAT(unknown.error().message,
@@ -385,15 +338,16 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
   }
   // A table size of one preset is not available for the other.
   const golden::CosineSize published = golden::c_published_cosine_size;
-  EXPECT_FALSE(plan_scene(lit_scene(), {.shader = Shader::spherical,
-                                        .tables = TableSize{published.address_bits, published.data_bits}}));
-  EXPECT_TRUE(is_error(plan_scene(lit_scene(), {.tables = TableSize{9, 8}}), "only the spherical shader"));
+  EXPECT_FALSE(plan_scene(
+      with_lights(1),
+      {.shader = Shader::spherical, .tables = TableSize{published.address_bits, published.data_bits}}));
+  EXPECT_TRUE(is_error(plan_scene(with_lights(1), {.tables = TableSize{9, 8}}), "only the spherical shader"));
 }
 
 // The counterpart of an effect differs only in the units that the effect needs, whether it adds or removes
 // it.
 TEST(Plan, OtherKeysDifferInOneEffect) {
-  Scene scene = lit_scene();
+  Scene scene = with_lights(1);
   scene.positional.resize(2);
   wear(scene,
        {.name = "gold", .colour = {0.8, 0.6, 0.2}, .specular_colour = {1.0, 0.8, 0.3}, .exponent = 16.0});
@@ -414,7 +368,7 @@ TEST(Plan, OtherKeysDifferInOneEffect) {
   EXPECT_EQ(other(poor, Effect::spot), "spherical_shader-exact-c1-l1-d-rom9x8");
   EXPECT_EQ(other(poor, Effect::colour), "spherical_shader-exact-c3-l0");
   // Removing the only light also removes its effects.
-  EXPECT_EQ(other(spherical(lit_scene()), Effect::directional), "spherical_shader-exact-c1-l0");
+  EXPECT_EQ(other(spherical(with_lights(1)), Effect::directional), "spherical_shader-exact-c1-l0");
   for (const Plan& plan : {rich, poor})
     for (const PlannedEffect& e : plan.effects)
       if (e.other) {
@@ -433,7 +387,7 @@ TEST(Plan, AllEffectsSelectsAllOfTheShadersHardware) {
     EXPECT_EQ(plan.called_for.name(), spherical(scene, preset).key.name());
     return plan.key.name();
   };
-  Scene three = lit_scene();
+  Scene three = with_lights(1);
   three.spots.resize(2);
   const std::string all = "-d-s3-cos1.2.4.8.16-rom9x8";
   EXPECT_EQ(key(grey_scene(), Preset::exact), "spherical_shader-exact-c3-l1" + all);
