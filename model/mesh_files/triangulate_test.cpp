@@ -181,14 +181,6 @@ TEST(Triangulate, TrianglesAreAppended) {
   EXPECT_EQ(triangles[0], (Triangulator::Triangle{7, 8, 9}));
 }
 
-TEST(Triangulate, RepeatedCornersCountOnce) {
-  Triangles triangles;
-  EXPECT_EQ(divide({{0, 0}, {4, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}}, triangles), PolygonKind::divided);
-  EXPECT_EQ(triangles.size(), 2u);
-  EXPECT_EQ(divide({{0, 0}, {4, 0}, {4, 0}, {0, 4}}, triangles), PolygonKind::divided);
-  EXPECT_EQ(triangles, (Triangles{{0, 1, 3}}));
-}
-
 TEST(Triangulate, APolygonOnALineHasNoArea) {
   Triangles triangles;
   for (const Plane& plane : {c_xy, Plane{{2, 1, -1}, {-1, 3, 5}, {-7, 0, 9}}}) {
@@ -197,22 +189,6 @@ TEST(Triangulate, APolygonOnALineHasNoArea) {
     EXPECT_EQ(divide({{5, 5}, {5, 5}, {5, 5}, {5, 5}}, triangles, plane), PolygonKind::no_area);
   }
   EXPECT_TRUE(triangles.empty());
-}
-
-TEST(Triangulate, AnOutlineThatCrossesItselfIsRefused) {
-  const Outline outlines[] = {
-      {{0, 0}, {2, 2}, {2, 0}, {0, 2}},          // a bow tie of area zero
-      {{0, 0}, {3, 3}, {3, 0}, {0, 2}},          // a bow tie
-      {{0, 0}, {4, 3}, {0, 3}, {4, 0}, {2, 5}},  // a pentagram: wound twice in the middle
-      {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 4}, {0, 4}},  // twice around
-      {{0, 0}, {4, 0}, {4, 4}, {2, -1}},                                 // an edge through another
-      {{0, 0}, {6, 0}, {6, 2}, {1, 2}, {1, -1}, {0, -1}},                // through its first edge
-  };
-  for (const Outline& outline : outlines) {
-    Triangles triangles;
-    EXPECT_EQ(divide(outline, triangles), PolygonKind::crossing) << text_of(outline);
-    EXPECT_TRUE(triangles.empty());
-  }
 }
 
 TEST(Triangulate, ASkewQuadIsDividedInItsLargestProjection) {

@@ -118,47 +118,6 @@ TEST(Edge, SteppingByQuotientAndRemainderReproducesAt) {
     }
 }
 
-TEST(Edge, AJitteredGridCoversEachPixelOnce) {
-  std::mt19937 random(5);
-  for (int round = 0; round < 40; ++round) {
-    constexpr int c_cells = 9, c_unit = 16;
-    const FrameSize frame{40, 36};
-    std::uniform_int_distribution<std::int32_t> jitter(-c_unit, c_unit);
-    std::array<std::array<ScreenPoint, c_cells + 1>, c_cells + 1> grid;
-    for (int j = 0; j <= c_cells; ++j)
-      for (int i = 0; i <= c_cells; ++i)
-        // Every other round keeps the vertices on lattice lines, where ties occur.
-        grid[j][i] = {(i * 6 - 6) * c_unit + (round % 2 ? jitter(random) : c_unit / 2),
-                      (j * 6 - 6) * c_unit + (round % 2 ? jitter(random) : c_unit / 2)};
-    Counts counts(frame);
-    // A triangle split at the midpoints of its edges, which need one more bit, must still meet its unsplit
-    // neighbour without gap or overlap.
-    const auto draw = [&](ScreenPoint a, ScreenPoint b, ScreenPoint c) {
-      if (random() % 2) return add_spans({a, b, c}, 4, counts);
-      const auto middle = [](ScreenPoint p, ScreenPoint q) { return ScreenPoint{p.x + q.x, p.y + q.y}; };
-      const auto twice = [](ScreenPoint p) { return ScreenPoint{2 * p.x, 2 * p.y}; };
-      const ScreenPoint ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      add_spans({twice(a), ab, ca}, 5, counts);
-      add_spans({ab, twice(b), bc}, 5, counts);
-      add_spans({ca, bc, twice(c)}, 5, counts);
-      add_spans({ab, bc, ca}, 5, counts);
-    };
-    for (int j = 0; j < c_cells; ++j)
-      for (int i = 0; i < c_cells; ++i) {
-        const ScreenPoint a = grid[j][i], b = grid[j][i + 1], c = grid[j + 1][i + 1], d = grid[j + 1][i];
-        if (random() % 2) {
-          draw(a, b, c);
-          draw(a, c, d);
-        } else {
-          draw(a, b, d);
-          draw(b, c, d);
-        }
-      }
-    for (std::uint32_t y = 0; y < frame.height; ++y)
-      for (std::uint32_t x = 0; x < frame.width; ++x) ASSERT_EQ(counts.at(x, y), 1) << x << ',' << y;
-  }
-}
-
 void expect_three_of_a_block(const std::array<ScreenPoint, 3>& p, int unit_bits) {
   const std::vector<Pixel> pixels = covered_pixels(p, unit_bits, {8, 8});
   ASSERT_LE(pixels.size(), 3u) << p[0].x << ',' << p[0].y << ' ' << p[1].x << ',' << p[1].y << ' ' << p[2].x

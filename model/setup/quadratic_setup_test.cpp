@@ -85,9 +85,6 @@ glm::dvec3 steps_at(const Scene& scene, const ScreenTriangle& t, glm::dvec3 bary
 glm::dvec3 steps_at(const Scene& scene, const ScreenTriangle& t, const Fragment& f) {
   return steps_at(scene, t, barycentric_at_centre(t, c_subpixel_bits, f.x, f.y));
 }
-glm::dvec3 corner(int i) {
-  return {i == 0, i == 1, i == 2};
-}
 glm::dvec3 colour_of(const Fragment& f) {
   return {f.red, f.green, f.blue};
 }
@@ -170,10 +167,11 @@ TEST(QuadraticSetup, FragmentsAreTheQuadraticThroughTheRadianceAndThePlaneThroug
       const ScreenTriangle& t = by_source.at(f.triangle);
       const auto sample = [&](glm::dvec3 barycentric) { return steps_at(scene, t, barycentric); };
       const glm::dvec3 b = barycentric_at_centre(t, c_subpixel_bits, f.x, f.y);
-      const glm::dvec3 colour =
-          b.x * (2 * b.x - 1) * sample(corner(0)) + b.y * (2 * b.y - 1) * sample(corner(1)) +
-          b.z * (2 * b.z - 1) * sample(corner(2)) + 4 * b.x * b.y * sample({0.5, 0.5, 0}) +
-          4 * b.x * b.z * sample({0.5, 0, 0.5}) + 4 * b.y * b.z * sample({0, 0.5, 0.5});
+      const glm::dvec3 colour = b.x * (2 * b.x - 1) * sample(barycentric_at_vertex(0)) +
+                                b.y * (2 * b.y - 1) * sample(barycentric_at_vertex(1)) +
+                                b.z * (2 * b.z - 1) * sample(barycentric_at_vertex(2)) +
+                                4 * b.x * b.y * sample({0.5, 0.5, 0}) +
+                                4 * b.x * b.z * sample({0.5, 0, 0.5}) + 4 * b.y * b.z * sample({0, 0.5, 0.5});
       // Rounding, plus the error of the differences over a triangle of less than 100 pixels.
       const glm::dvec3 off = glm::abs(colour_of(f) - glm::clamp(colour, 0.0, 255.0));
       ASSERT_LE(std::max({off.x, off.y, off.z}), 0.5 + 1e-4);
@@ -409,7 +407,8 @@ TEST(QuadraticSetup, PlanesPassThroughTheVertices) {
     const glm::dvec3 weight = barycentric_at_centre(t, c_subpixel_bits, f.x, f.y);
     glm::dvec3 colour(0.0);
     for (int i = 0; i < 3; ++i)
-      colour += weight[i] * glm::clamp(steps_at(scene, t, corner(i)), 0.0, c_largest_sample);
+      colour += weight[i] * glm::clamp(steps_at(scene, t, barycentric_at_vertex(static_cast<std::size_t>(i))),
+                                       0.0, c_largest_sample);
     const glm::dvec3 off = glm::abs(colour_of(f) - glm::min(colour, 255.0));
     ASSERT_LE(std::max({off.x, off.y, off.z}), 0.501);
   }

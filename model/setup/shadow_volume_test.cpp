@@ -5,28 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
-#include "reference/ray_cast.hpp"
-#include "reference/visible_pixels.hpp"
-#include "scene/camera.hpp"
 #include "scene/lights.hpp"
-#include "setup/edge.hpp"
-#include "setup/test/pixels.hpp"
 #include "setup/test/random_solids.hpp"
 #include "shading/effects.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
-
-const std::filesystem::path c_scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
 
 /// The winding number of the surface around a point, from the solid angles of its triangles, and its distance
 /// from the nearest integer before rounding.
@@ -213,171 +203,6 @@ TEST(ShadowVolume, CoordinatesStayInRange) {
           ASSERT_LT(glm::length(p), 1e9);
         }
   }
-}
-
-// ---- The counting rule, pixel by pixel, compared with shadow rays
-
-struct CountFigures {
-  int pixels = 0, lit = 0, shadowed = 0;
-  int differ = 0;       ///< pixels where count and ray differ
-  int unexplained = 0;  ///< of these, neither at a shadow's edge nor at grazing incidence of the light
-  std::size_t polygons = 0;
-  std::uint32_t most_around_eye = 0;
-
-  /// At most one of `per` pixels differs, and each of them has a reason.
-  void expect_agreement(int least_lit, int least_shadowed, int per) const {
-    EXPECT_GT(lit, least_lit);
-    EXPECT_GT(shadowed, least_shadowed);
-    EXPECT_LT(differ * per, pixels);
-    EXPECT_EQ(unexplained, 0);
-  }
-};
-
-/// Calls found(pixel, z) for each pixel that the triangle covers.
-template <class Found>
-void for_each_depth(const ScreenTriangle& t, FrameSize frame, Found&& found) {
-  const glm::dvec3 z{t.vertex[0].z, t.vertex[1].z, t.vertex[2].z};
-  for_each_pixel(t, frame, [&](std::uint32_t x, std::uint32_t y) {
-    found(std::size_t{y} * frame.width + x, glm::dot(barycentric_at_centre(t, 4, x, y), z));
-  });
-}
-
-void count_and_compare(const Scene& scene, FrameSize frame, CountFigures& sum) {
-  const Projector projector(scene, frame, {});
-  const std::vector<ScreenTriangle> triangles = projector.project_all();
-  const std::size_t pixels = std::size_t{frame.width} * frame.height;
-  constexpr std::uint32_t c_nothing = 0xffffffffu;
-  std::vector<double> nearest(pixels, 2.0);
-  std::vector<std::uint32_t> seen(pixels, c_nothing);
-  for (std::uint32_t i = 0; i < triangles.size(); ++i)
-    for_each_depth(triangles[i], frame, [&](std::size_t pixel, double z) {
-      if (!(z < nearest[pixel])) return;
-      nearest[pixel] = z;
-      seen[pixel] = i;
-    });
-
-  const std::vector<LightRef> lights = shining_lights(scene);
-  const std::vector<ShadowVolumes> volumes = make_shadow_volumes(scene, lights);
-  ProjectionCounts counts;
-  const std::vector<ShadowPolygon> polygons = shadow_polygons(scene, projector, volumes, counts);
-  ASSERT_EQ(counts.unrepresentable, 0u);
-  sum.polygons += polygons.size();
-  const ShadowRays rays(scene);
-  for (std::uint32_t light = 0; light < lights.size(); ++light) {
-    std::vector<int> count(pixels, static_cast<int>(volumes[light].around_eye));
-    sum.most_around_eye = std::max(sum.most_around_eye, volumes[light].around_eye);
-    for (const ShadowPolygon& polygon : polygons) {
-      ASSERT_GT(polygon.triangle.twice_area(), 0);
-      if (polygon.light != light) continue;
-      for_each_depth(polygon.triangle, frame, [&](std::size_t pixel, double z) {
-        if (z < nearest[pixel]) count[pixel] += polygon.opens ? 1 : -1;
-      });
-    }
-    std::vector<char> lit(pixels);
-    const LightPoint from = light_of(scene, lights[light]).point;
-    std::vector<char> grazed(pixels);
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      if (seen[pixel] == c_nothing) continue;
-      const ScreenTriangle& t = triangles[seen[pixel]];
-      const glm::dvec3 point =
-          surface_point(t, barycentric_at_centre(t, 4, static_cast<std::int64_t>(pixel % frame.width),
-                                                 static_cast<std::int64_t>(pixel / frame.width)))
-              .position_world;
-      lit[pixel] = rays.reaches(lights[light], point, t.source);
-      const auto [a, b, c] = corners_world(scene, scene.triangles[t.source]);
-      const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
-      grazed[pixel] = std::abs(glm::dot(normal, glm::normalize(from.way_from(point)))) < 0.06;
-    }
-    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-      if (seen[pixel] == c_nothing) continue;
-      ++sum.pixels;
-      ++(lit[pixel] ? sum.lit : sum.shadowed);
-      if ((count[pixel] == 0) == bool(lit[pixel])) continue;
-      ++sum.differ;
-      bool at_edge = false;
-      const auto x = static_cast<std::int64_t>(pixel % frame.width),
-                 y = static_cast<std::int64_t>(pixel / frame.width);
-      for (std::int64_t v = std::max<std::int64_t>(y - 1, 0); v < std::min<std::int64_t>(y + 2, frame.height);
-           ++v)
-        for (std::int64_t u = std::max<std::int64_t>(x - 1, 0);
-             u < std::min<std::int64_t>(x + 2, frame.width); ++u) {
-          const auto neighbour = static_cast<std::size_t>(v * frame.width + u);
-          // At the outline of a surface, another surface or the background starts.
-          at_edge |= seen[neighbour] == c_nothing || lit[neighbour] != lit[pixel];
-        }
-      if (!at_edge && !grazed[pixel]) ++sum.unexplained;
-    }
-  }
-}
-
-// 30 in a million differ, within a pixel of an edge: vertices on the screen have an error of up to 1/32
-// pixel, and a ray may start at a point close to a side of the volume.
-TEST(ShadowCount, AgreesWithRaysInTheBuiltInScene) {
-  const Scene scene = must(load_scene("shadows", c_scenes));
-  CountFigures figures;
-  count_and_compare(scene, {640, 480}, figures);
-  figures.expect_agreement(100'000, 30'000, 10'000);
-  // Only sides, and almost never cut: the caps would be ten times as many.
-  EXPECT_LT(figures.polygons, 500u);
-}
-
-TEST(ShadowCount, AgreesWithRaysAmongSolids) {
-  RandomSolids random(7);
-  CountFigures figures;
-  for (int round = 0; round < 60; ++round)
-    count_and_compare(random.scene(1 + round % 5), {160, 120}, figures);
-  figures.expect_agreement(100'000, 100'000, 1'000);
-}
-
-TEST(ShadowCount, IncludesVolumesAroundTheEye) {
-  RandomSolids random(8);
-  CountFigures figures;
-  int within = 0;
-  for (int round = 0; round < 40; ++round) {
-    Scene scene = random.on_a_floor(4);
-    // In the shadow of a solid, for the directional or the positional light; every other time close to a side
-    // of a volume.
-    const LightPoint light =
-        light_of(scene, {round % 2 ? LightKind::directional : LightKind::positional, 0}).point;
-    const glm::dvec3 caster = scene.positions_world[round % 4 < 2 ? 0 : 5];
-    scene.camera.eye_world = caster - random.within(0.2, 1.0) * glm::normalize(light.way_from(caster)) +
-                             random.within(1e-4, 0.3) * random.unit();
-    scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
-    scene.camera.target_world = random.cube(1.0);
-    const std::uint32_t before = figures.most_around_eye;
-    figures.most_around_eye = 0;
-    count_and_compare(scene, {160, 120}, figures);
-    within += figures.most_around_eye > 0;
-    figures.most_around_eye = std::max(figures.most_around_eye, before);
-  }
-  EXPECT_GT(within, 20);
-  EXPECT_GE(figures.most_around_eye, 2u);
-  figures.expect_agreement(100'000, 100'000, 1'000);
-}
-
-// The near plane cuts volumes and cuts solids open; the eye is in a solid; meshes are open.
-TEST(ShadowCount, AgreesWhereInsidesAreVisible) {
-  RandomSolids random(9);
-  CountFigures figures;
-  for (int round = 0; round < 60; ++round) {
-    Scene scene = random.on_a_floor(4);
-    if (round % 3 == 0) {
-      scene.camera.eye_world = 3.0 * random.unit();
-      scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
-      scene.camera.near = random.within(1.0, 3.0);
-    } else if (round % 3 == 1) {
-      const SceneTriangle& t = scene.triangles[0];
-      glm::dvec3 middle(0.0);
-      for (const std::uint32_t p : t.position) middle += scene.positions_world[p] / 3.0;
-      const auto [a, b, c] = corners_world(scene, t);
-      scene.camera.eye_world = middle - 0.05 * glm::normalize(glm::cross(b - a, c - a));
-      scene.camera.target_world = random.cube(2.0);
-    } else {
-      for (int i = 0; i < 20; ++i) scene.triangles.erase(scene.triangles.begin() + random.whole(0, 30));
-    }
-    count_and_compare(scene, {160, 120}, figures);
-  }
-  figures.expect_agreement(200'000, 200'000, 1'000);
 }
 
 }  // namespace

@@ -16,13 +16,6 @@ inline mpz_class to_mpz(Int128 v) {
   return v < 0 ? mpz_class(-z) : z;
 }
 
-/// For a number below 2^127 in magnitude.
-inline Int128 to_int128(const mpz_class& z) {
-  const mpz_class magnitude = abs(z), high = magnitude >> 64;
-  const Int128 v = (static_cast<Int128>(high.get_ui()) << 64) | magnitude.get_ui();
-  return z < 0 ? -v : v;
-}
-
 /// round(v), halves up: the rounding of all words in setup.
 inline mpz_class rounded(const mpq_class& v) {
   const mpz_class doubled = 2 * v.get_num() + v.get_den(), divisor = 2 * v.get_den();

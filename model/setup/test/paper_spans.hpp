@@ -94,12 +94,8 @@ struct SpanThere {
   Real doubt = 0;  ///< of t
 };
 
-inline glm::dvec3 corner(std::size_t i) {
-  return {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};
-}
 inline SurfacePoint pixel_point(const ScreenTriangle& t, std::int64_t x, std::int64_t y) {
-  return surface_point(t,
-                       barycentric_screen(t, (2 * x + 1) << c_subpixel_bits, (2 * y + 1) << c_subpixel_bits));
+  return surface_point(t, barycentric_at_centre(t, c_subpixel_bits, x, y));
 }
 
 // First and last pixel in drawing order.
@@ -115,7 +111,7 @@ class Ends {
   Ends(const Scene& scene, const Material& material, const ScreenTriangle& triangle)
       : scene_(scene), material_(material), t_(triangle) {
     for (std::size_t i = 0; i < 3; ++i)
-      vertex_[i] = vectors_there(scene, material, surface_point(triangle, corner(i)));
+      vertex_[i] = vectors_there(scene, material, surface_point(triangle, barycentric_at_vertex(i)));
     std::ranges::sort(down_, [&](std::size_t a, std::size_t b) { return t_.vertex[a].y < t_.vertex[b].y; });
   }
   SpanThere on_surface(const Span& s) const {
