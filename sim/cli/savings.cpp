@@ -31,15 +31,12 @@ void run(const Folders& folders, unsigned threads) {
 
 }  // namespace
 
-void add_savings(CLI::App& app, const Folders& folders, int& exit_code) {
+void add_savings(CLI::App& app, const Folders& folders, int&) {
   CLI::App* sub =
       app.add_subcommand("savings", "measure the tables of docs/effects.md again and write them (minutes)");
   const auto threads = std::make_shared<unsigned>(0);
   sub->add_option("--threads", *threads, "threads (0: all cores)")->capture_default_str();
-  sub->callback([=, &folders, &exit_code] {
-    run(folders, *threads);
-    exit_code = 0;
-  });
+  sub->callback([=, &folders] { run(folders, *threads); });
 }
 
 }  // namespace halfway::cli

@@ -31,12 +31,9 @@ HardwareCost measure(const SavingsCase& which, bool all, const SimulatorFolders&
   const auto plan = must(plan_scene(scene, PlanRequest{.shader = which.shader, .preset = which.preset}));
   const HardwareKey& key = all ? plan.everything : plan.called_for;
   const Cells cells = must(must(CellCounter::open(folders)).count(key));
-  CostSettings settings;
-  settings.size = which.shader == Shader::processors ? FrameSize{320, 240} : FrameSize{640, 480};
-  settings.ghdl = false;
-  settings.folders = folders;
+  const FrameSize size = which.shader == Shader::processors ? FrameSize{320, 240} : FrameSize{640, 480};
   return {cells.luts, cells.flip_flops, cells.memory_bits, cells.multipliers,
-          must(simulation_cost(scene, key, settings)).cycles};
+          simulation_cost(scene, key, {.size = size, .ghdl = false, .folders = folders}).cycles};
 }
 
 // 58298 as "58 298".
@@ -82,7 +79,7 @@ std::vector<Savings> measure_savings(const SimulatorFolders& folders, unsigned t
   return savings;
 }
 
-Result<std::string> with_savings(const std::string& page, std::span<const Savings> savings) {
+std::string with_savings(const std::string& page, std::span<const Savings> savings) {
   std::string table =
       "| scene | shader | LUTs of 4 inputs, as needed | with all effects | saved | flip-flops saved |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
@@ -105,8 +102,8 @@ Result<std::string> with_savings(const std::string& page, std::span<const Saving
                          spaced(s.called_for.luts), spaced(s.everything.luts), saved(s, &HardwareCost::luts),
                          saved(s, &HardwareCost::flip_flops));
   }
-  const auto text = with_page_part(page, "savings", table);
-  return text ? with_page_part(*text, "savings of processors", processors) : text;
+  return must(
+      with_page_part(must(with_page_part(page, "savings", table)), "savings of processors", processors));
 }
 
 }  // namespace halfway

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/plan.hpp"
 #include "sim/costs/cells.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
@@ -32,12 +31,11 @@ struct Savings {
   HardwareCost called_for, everything;
 };
 
-/// Measure every case; this takes minutes on all cores. `on_line` receives a line for each hardware. Throws
-/// Failure.
+/// Measure every case; this takes minutes on all cores. `on_line` receives a line for each hardware.
 std::vector<Savings> measure_savings(const SimulatorFolders& folders, unsigned threads,
                                      const std::function<void(const std::string&)>& on_line);
 
 /// The page with its parts "savings" and "savings of processors" written from these costs.
-Result<std::string> with_savings(const std::string& page, std::span<const Savings> savings);
+std::string with_savings(const std::string& page, std::span<const Savings> savings);
 
 }  // namespace halfway

@@ -13,6 +13,7 @@
 #include "sim/run/scene_stream.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 
 namespace halfway {
@@ -23,13 +24,11 @@ constexpr int c_most_passes = 3;
 constexpr double c_long_pass = 1.0;
 
 // The least of up to three passes.
-Status least_of(std::optional<double>& least, const std::function<Result<double>()>& pass) {
-  for (int i = 0; i < c_most_passes && !(least > c_long_pass); ++i) {
-    const auto seconds = pass();
-    if (!seconds) return seconds.error();
-    least = std::min(*seconds, least.value_or(*seconds));
-  }
-  return Ok{};
+template <class Pass>
+double least_of(const Pass& pass) {
+  double least = pass();
+  for (int i = 1; i < c_most_passes && least <= c_long_pass; ++i) least = std::min(least, pass());
+  return least;
 }
 
 class Measurement {
@@ -37,58 +36,47 @@ class Measurement {
   Measurement(const Scene& scene, const HardwareKey& key, const CostSettings& settings)
       : scene_(scene), key_(key), s_(settings), setup_(make_setup(scene, s_.size, key_, s_.setup)) {}
 
-  Result<SimulationCost> run() {
-    auto scratch = TemporaryFolder::make(s_.folders.cache);
-    if (!scratch) return scratch.error();
-    const std::filesystem::path init = scratch->path() / "init.txt";
-    if (s_.ghdl)
-      if (Status status = write_init(init); !status) return status.error();
-    if (s_.verilator)
-      if (Status status = least_of(cost_.verilator_seconds, [&] { return verilator_pass(); }); !status)
-        return status.error();
-    if (s_.ghdl)
-      if (Status status = least_of(cost_.ghdl_seconds, [&] { return ghdl_pass(init); }); !status)
-        return status.error();
+  SimulationCost run() {
+    const TemporaryFolder scratch = must(TemporaryFolder::make(s_.folders.cache));
+    const std::filesystem::path init = scratch.path() / "init.txt";
+    if (s_.ghdl) write_init(init);
+    if (s_.verilator) cost_.verilator_seconds = least_of([&] { return verilator_pass(); });
+    if (s_.ghdl) cost_.ghdl_seconds = least_of([&] { return ghdl_pass(init); });
     return cost_;
   }
 
  private:
   // Also the golden frame.
-  Status write_init(const std::filesystem::path& path) {
+  void write_init(const std::filesystem::path& path) {
     s_.on_progress(fmt::format("setup for {}", key_.name()));
-    auto file = InitFileWriter::open(path, key_.name(), setup_->init_bits());
-    if (!file) return file.error();
+    InitFileWriter file = must(InitFileWriter::open(path, key_.name(), setup_->init_bits()));
     FrameAssembler assembler(s_.size, scene_.background);
     SceneStream stream(*setup_, key_, s_.threads);
     for (Batch batch; stream.next(batch);) {
-      file->write(batch.init_words);
-      if (Status status = assembler.add(batch.golden); !status) return status;
+      file.write(batch.init_words);
+      must(assembler.add(batch.golden));
     }
     cost_.frame = assembler.frame();
-    return file->commit();
+    must(file.commit());
   }
 
-  Result<double> ghdl_pass(const std::filesystem::path& init) {
+  double ghdl_pass(const std::filesystem::path& init) {
     s_.on_progress(fmt::format("GHDL simulates {}", key_.name()));
-    const auto runner = GhdlRunner::open(key_, s_.folders);
-    if (!runner) return runner.error();
+    const GhdlRunner runner = must(GhdlRunner::open(key_, s_.folders));
     const double begin = children_seconds();
-    const auto ran = runner->run(init, init.parent_path() / "trace", {.idle_limit = c_idle_limit});
-    if (!ran) return ran.error();
-    cost_.cycles = ran->cycles;
-    cost_.fragments = ran->fragments;
+    const GhdlRun ran = must(runner.run(init, init.parent_path() / "trace", {.idle_limit = c_idle_limit}));
+    cost_.cycles = ran.cycles;
+    cost_.fragments = ran.fragments;
     return children_seconds() - begin;
   }
 
-  Result<double> verilator_pass() {
+  double verilator_pass() {
     s_.on_progress(fmt::format("Verilator simulates {}", key_.name()));
-    auto engine = open_engine(EngineKind::verilator, key_, s_.folders);
-    if (!engine) return engine.error();
-    RtlFrame rtl(std::move(*engine), s_.size, scene_.background);
+    RtlFrame rtl(must(open_engine(EngineKind::verilator, key_, s_.folders)), s_.size, scene_.background);
     SceneStream stream(*setup_, key_, s_.threads);
-    if (Status status = rtl.draw(scene_, stream); !status) return status.error();
+    must(rtl.draw(scene_, stream));
     const SimulatorRun run = rtl.result();
-    if (!run.fault.empty()) return Error{ExitCode::differs, fmt::format("{}: {}", key_.name(), run.fault)};
+    if (!run.fault.empty()) throw Failure{{ExitCode::differs, fmt::format("{}: {}", key_.name(), run.fault)}};
     cost_.fragments = run.fragments;
     cost_.cycles = *run.cycles;
     cost_.frame = rtl.assembler().frame();
@@ -104,8 +92,7 @@ class Measurement {
 
 }  // namespace
 
-Result<SimulationCost> simulation_cost(const Scene& scene, const HardwareKey& key,
-                                       const CostSettings& settings) {
+SimulationCost simulation_cost(const Scene& scene, const HardwareKey& key, const CostSettings& settings) {
   return Measurement(scene, key, settings).run();
 }
 

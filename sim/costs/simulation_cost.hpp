@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
@@ -18,7 +17,7 @@ namespace halfway {
 
 struct CostSettings {
   FrameSize size;
-  SetupOptions setup;
+  SetupOptions setup{};
   unsigned threads = 1;
   bool ghdl = true, verilator = true;
   SimulatorFolders folders;
@@ -33,9 +32,8 @@ struct SimulationCost {
   Frame frame;  ///< drawn by Verilator, or without it by the golden model
 };
 
-/// A hang or another failure of the hardware is an error. The picture is not compared with the golden
+/// Throws Failure on a hang or another failure of the hardware. The picture is not compared with the golden
 /// model's.
-Result<SimulationCost> simulation_cost(const Scene& scene, const HardwareKey& key,
-                                       const CostSettings& settings);
+SimulationCost simulation_cost(const Scene& scene, const HardwareKey& key, const CostSettings& settings);
 
 }  // namespace halfway
