@@ -60,7 +60,7 @@ std::vector<figures::Entry> draw(const std::vector<figures::Figure>& some, figur
   return entries;
 }
 
-int run(const Folders& folders, const FiguresCommand& command) try {
+int run(const Folders& folders, const FiguresCommand& command) {
   const auto some = chosen(figures::all_figures(folders.source), command.only);
   figures::Context context{
       .folders = {folders.source, folders.cache()},
@@ -92,8 +92,6 @@ int run(const Folders& folders, const FiguresCommand& command) try {
   }
   if (!command.page.empty()) copy_into(folders, command.page, context.out, entries);
   return static_cast<int>(ExitCode::equal);
-} catch (const Failure& failure) {
-  return report(failure.error);
 }
 
 }  // namespace

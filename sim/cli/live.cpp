@@ -8,6 +8,7 @@
 
 #include "sim/cli/options.hpp"
 #include "sim/live/live_page.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -18,31 +19,23 @@ struct LiveCommand {
   unsigned threads = 0;
 };
 
-int run(const Folders& folders, const LiveCommand& command) {
-  std::vector<std::string> scenes = command.scenes;
-  if (scenes.empty()) {
-    auto builtin = builtin_scenes(folders);
-    if (!builtin) return report(builtin.error());
-    scenes = std::move(*builtin);
-  }
+void run(const Folders& folders, const LiveCommand& command) {
   Progress progress("live");
-  const auto made = live::write_live(
+  const live::LivePage made = live::write_live(
       {.page = command.out,
-       .scenes = std::move(scenes),
+       .scenes = command.scenes.empty() ? must(builtin_scenes(folders)) : command.scenes,
        .meshes = command.scenes.empty(),
        .folders = {folders.source, folders.cache()},
        .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()),
        .on_progress = [&](const std::string& what) { progress.show(what); }});
   progress.clear();
-  if (!made) return report(made.error());
-  fmt::print("{}: {} kinds of hardware, {:.1f} MB\n", command.out, made->hardware,
-             static_cast<double>(made->bytes) / 1e6);
-  return 0;
+  fmt::print("{}: {} kinds of hardware, {:.1f} MB\n", command.out, made.hardware,
+             static_cast<double>(made.bytes) / 1e6);
 }
 
 }  // namespace
 
-void add_live(CLI::App& app, const Folders& folders, int& exit_code) {
+void add_live(CLI::App& app, const Folders& folders, int&) {
   const auto command = std::make_shared<LiveCommand>();
   CLI::App* sub =
       app.add_subcommand("live", "write a page that draws the built-in scenes by the RTL in a browser");
@@ -50,7 +43,7 @@ void add_live(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
   sub->add_option("--threads", command->threads, "threads for building (0: all cores)")
       ->capture_default_str();
-  sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
+  sub->callback([&folders, command] { run(folders, *command); });
 }
 
 }  // namespace halfway::cli

@@ -9,6 +9,7 @@
 #include "sim/report/times.hpp"
 #include "sim/system/csv.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/page_part.hpp"
 
 namespace halfway::cli {
@@ -25,74 +26,58 @@ struct ReportCommand {
   std::string readme;  ///< with `times`: also write the short form of that part of this page
 };
 
-Status write_part(const std::string& file, const char* part, const Result<std::string>& text) {
-  if (file.empty()) return Ok{};
-  if (!text) return text.error();
-  return rewrite_page(file, [&](const std::string& page) { return with_page_part(page, part, *text); });
+template <class Text>
+void write_part(const std::string& file, const char* part, const Text& text) {
+  if (!file.empty())
+    must(rewrite_page(file, [&](const std::string& page) { return with_page_part(page, part, text()); }));
 }
 
-int write_front(const ReportCommand& command) {
-  const auto study = read_csv(std::filesystem::path(command.study) / "study.csv");
-  if (!study) return report(study.error());
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return report(scratch.error());
-  const auto designs = report::write_front(*study, command.front, scratch->path());
-  if (!designs) return report(designs.error());
-  if (*designs == 0)
-    return report(bad_input(command.study + ": no design in it has both a cost and an error; make study"));
-  if (Status written = write_part(command.page, "front", report::page_front(report::front_of(*study)));
-      !written)
-    return report(written.error());
+void write_front(const ReportCommand& command) {
+  const Table study = must(read_csv(std::filesystem::path(command.study) / "study.csv"));
+  const TemporaryFolder scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::size_t designs = report::write_front(study, command.front, scratch.path());
+  if (designs == 0)
+    throw Failure{bad_input(command.study + ": no design in it has both a cost and an error; make study")};
+  write_part(command.page, "front", [&] { return report::page_front(report::front_of(study)); });
   fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
-             *designs);
-  return 0;
+             designs);
 }
 
-int write_times(const ReportCommand& command) {
-  const auto times = read_csv(std::filesystem::path(command.study) / "times.csv");
-  if (!times) return report(times.error());
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return report(scratch.error());
-  const auto designs = report::write_times(*times, command.times, scratch->path());
-  if (!designs) return report(designs.error());
-  if (Status written = write_part(command.page, "times", report::page_times(*times)); !written)
-    return report(written.error());
-  if (Status written = write_part(command.readme, "times", report::readme_times(*times)); !written)
-    return report(written.error());
+void write_times(const ReportCommand& command) {
+  const Table times = must(read_csv(std::filesystem::path(command.study) / "times.csv"));
+  const TemporaryFolder scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::size_t designs = report::write_times(times, command.times, scratch.path());
+  write_part(command.page, "times", [&] { return report::page_times(times); });
+  write_part(command.readme, "times", [&] { return report::readme_times(times); });
   fmt::print("{}: the times of {} designs\n", (std::filesystem::path(command.times) / "times.csv").string(),
-             *designs);
-  return 0;
+             designs);
 }
 
-int run(const Folders& folders, const ReportCommand& command) {
+void run(const Folders& folders, const ReportCommand& command) {
   if (!command.front.empty()) return write_front(command);
   if (!command.times.empty()) return write_times(command);
   std::filesystem::path figures = command.figures.value_or("build/figures");
   if (!command.figures && !std::filesystem::exists(figures / "figures.json"))
     figures = folders.source / "docs/results/figures";
-  auto scenes = builtin_scenes(folders);
-  if (!scenes) return report(scenes.error());
   Progress progress("report");
-  const auto made =
+  const report::Report made =
       report::write_report({.page = command.out,
                             .results = command.results,
                             .study = command.study,
                             .figures = figures,
                             .folders = {folders.source, folders.cache()},
-                            .scenes = std::move(*scenes),
+                            .scenes = must(builtin_scenes(folders)),
                             .timing = !command.no_timing,
                             .on_progress = [&](const std::string& what) { progress.show(what); }});
   progress.clear();
-  if (!made) return report(made.error());
-  for (const std::string& note : made->notes) say(note);
-  fmt::print("{}: {} frames, {} points, {} figures, {:.1f} MB\n", command.out, made->frames, made->points,
-             made->figures, static_cast<double>(made->bytes) / 1e6);
-  return 0;
+  for (const std::string& note : made.notes) say(note);
+  fmt::print("{}: {} frames, {} points, {} figures, {:.1f} MB\n", command.out, made.frames, made.points,
+             made.figures, static_cast<double>(made.bytes) / 1e6);
 }
 
 }  // namespace
 
-void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
+void add_report(CLI::App& app, const Folders& folders, int&) {
   const auto command = std::make_shared<ReportCommand>();
   CLI::App* sub = app.add_subcommand("report", "write one HTML page with the results of the other commands");
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
@@ -111,7 +96,7 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code) {
                   "with --front or --times: a page whose part \"front\" or \"times\" is written");
   sub->add_option("--readme", command->readme,
                   "with --times: a page whose part \"times\" is written, in a short form");
-  sub->callback([&folders, &exit_code, command] { exit_code = run(folders, *command); });
+  sub->callback([&folders, command] { run(folders, *command); });
 }
 
 }  // namespace halfway::cli

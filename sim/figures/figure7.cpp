@@ -4,13 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "golden/word.hpp"
 #include "sim/run/stage_trace.hpp"
+#include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::figures {
 
@@ -21,9 +22,8 @@ const HardwareKey& figure7_key() {
   return c_key;
 }
 
-Result<Figure7> read_figure7(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in.is_open()) return bad_input(file.string() + ": cannot be opened");
+Figure7 read_figure7(const std::filesystem::path& file) {
+  std::istringstream in(must(read_file(file)));
   Figure7 figure;
   for (std::string text; std::getline(in, text);) {
     if (text.empty() || text[0] == '#') continue;
@@ -37,14 +37,13 @@ Result<Figure7> read_figure7(const std::filesystem::path& file) {
       restored.push_back(fields.peek() == '=');
       if (std::string in_scan; restored.back()) fields >> in_scan;
     }
-    const Error bad = bad_input(fmt::format("{}: cannot be read: {}", file.string(), text));
-    if (!fields.eof() || words.empty()) return bad;
-    if (kind == "step" && words.size() == 1)
+    const bool is_step = kind == "step" && words.size() == 1;
+    if (!fields.eof() || words.empty() || !(is_step || kind == "line" || kind == "pixel"))
+      throw Failure{bad_input(fmt::format("{}: cannot be read: {}", file.string(), text))};
+    if (is_step)
       figure.step[name] = words.front();
-    else if (kind == "line" || kind == "pixel")
-      (kind == "line" ? figure.line : figure.pixel)[name] = words, figure.restored[name] = restored;
     else
-      return bad;
+      (kind == "line" ? figure.line : figure.pixel)[name] = words, figure.restored[name] = restored;
   }
   return figure;
 }
@@ -114,16 +113,16 @@ Figure7Trace golden_figure7(const Figure7& figure) {
   return trace;
 }
 
-Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& folders) {
+Figure7Trace rtl_figure7(const Figure7& figure, const SimulatorFolders& folders) {
   const auto stages = make_stages(figure7_key());
   const auto init = figure7_init(figure);
-  const auto rtl = trace_stages(figure7_key(), *stages, folders,
-                                {Figure7Shader::c_init_bits, {init.begin(), init.end()}}, c_figure7_pixels);
-  if (!rtl) return rtl.error();
-  if (!rtl->fault.empty()) return Error{ExitCode::differs, rtl->fault};
+  const auto rtl =
+      must(trace_stages(figure7_key(), *stages, folders,
+                        {Figure7Shader::c_init_bits, {init.begin(), init.end()}}, c_figure7_pixels));
+  if (!rtl.fault.empty()) throw Failure{{ExitCode::differs, rtl.fault}};
   Figure7Trace trace;
-  for (std::size_t stage = 0; stage < rtl->events.size(); ++stage)
-    for (const RtlEvent& event : rtl->events[stage]) {
+  for (std::size_t stage = 0; stage < rtl.events.size(); ++stage)
+    for (const RtlEvent& event : rtl.events[stage]) {
       add(trace, stages->stages()[stage], event.words);
       if (stage < 2) (stage == 0 ? trace.line_clock : trace.pixel_clock).push_back(event.cycle);
     }

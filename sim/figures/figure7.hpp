@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
@@ -32,7 +31,7 @@ struct Figure7 {
   /// The published words of a register, restored ones in square brackets.
   std::string published(const std::string& name) const;
 };
-Result<Figure7> read_figure7(const std::filesystem::path& file);
+Figure7 read_figure7(const std::filesystem::path& file);
 
 /// Line k has k pixels; the printed trace ends within the fourth line.
 inline constexpr std::uint32_t c_figure7_lines = 4,
@@ -58,7 +57,7 @@ struct Figure7Trace {
 /// Trace of the golden model, without clocks.
 Figure7Trace golden_figure7(const Figure7& figure);
 /// Trace of the RTL in GHDL.
-Result<Figure7Trace> rtl_figure7(const Figure7& figure, const SimulatorFolders& folders);
+Figure7Trace rtl_figure7(const Figure7& figure, const SimulatorFolders& folders);
 
 /// "FFFD1688 FFFD0626"
 std::string hexadecimal(std::span<const std::uint32_t> words);

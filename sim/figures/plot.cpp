@@ -7,23 +7,10 @@
 #include <pugixml.hpp>
 #include <sstream>
 
-#include "sim/pages/gnuplot.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::figures {
 namespace {
-
-constexpr std::string_view c_style = R"(set encoding utf8
-set linetype 1 linecolor rgb '#0969da' linewidth 1.6
-set linetype 2 linecolor rgb '#d1242f' linewidth 1.6
-set linetype 3 linecolor rgb '#1a7f37' linewidth 1.6
-set linetype 4 linecolor rgb '#8250df' linewidth 1.6
-set linetype 5 linecolor rgb '#bf8700' linewidth 1.6
-set linetype 6 linecolor rgb '#57606a' linewidth 1.2
-set border 3 linecolor rgb '#1f2328'
-set tics nomirror out scale 0.6 textcolor rgb '#1f2328'
-set key noautotitle textcolor rgb '#1f2328'
-)";
 
 // Remove gnuplot's many empty groups, and its titles of curves.
 void prune(pugi::xml_node node) {
@@ -70,10 +57,7 @@ std::string data_block(const std::string& name, std::span<const std::vector<doub
 }
 
 void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing) {
-  const std::string script = fmt::format(
-      "set terminal svg size {},{} dynamic enhanced font 'sans-serif,13' background '#ffffff'\n{}{}",
-      plot.size.width, plot.size.height, c_style, plot.script);
-  const std::string svg = must(run_gnuplot(script, context.out, name));
+  const std::string svg = run_gnuplot(plot.script, context.out, name);
   must(write_file(context.out / (name + ".svg"), described(svg, plot)));
   drawing.pictures.push_back({name + ".svg", plot.title});
 }

@@ -7,16 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "frame/frame_size.hpp"
 #include "sim/figures/figure.hpp"
+#include "sim/pages/gnuplot.hpp"
 
 namespace halfway::figures {
 
 struct Plot {
-  FrameSize size{760, 340};
-  std::string title;   ///< title of the SVG, and text on the page
-  std::string words;   ///< alternative text; may be empty
-  std::string script;  ///< gnuplot script after terminal and output are set
+  std::string title;    ///< title of the SVG, and text on the page
+  std::string words{};  ///< alternative text; may be empty
+  std::string script;   ///< for gnuplot, from plot_style on
 };
 
 /// "$name << EOD", rows of numbers, "EOD".

@@ -17,6 +17,7 @@
 #include "sim/figures/plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/figures/software_shading.hpp"
+#include "sim/pages/timing_diagram.hpp"
 #include "sim/scene_files/load_scene.hpp"
 
 namespace halfway::figures {
@@ -30,50 +31,33 @@ constexpr std::array<std::pair<const char*, const char*>, 3> c_line_registers = 
 constexpr std::array<std::pair<const char*, const char*>, 2> c_pixel_registers = {
     {{"dI(X,Y)", "ΔI(X,Y)"}, {"I(X,Y)", "I(X,Y)"}}};
 
-// One box per word of our registers, over the clocks in which the register holds it.
+// One box per word of our registers, over the clocks in which the register holds it: blue as printed, red if
+// printed differently, grey after the printed ones.
 std::string figure_7_script(const Figure7& figure, const Figure7Trace& trace) {
-  std::array<std::string, 3>
-      blocks;  // words as printed, words after the printed ones, words printed differently
-  const auto add = [&](double lane, std::size_t from, std::size_t until, const std::string& name,
-                       const TraceWords& words, std::size_t i) {
+  TimingDiagram diagram{.end = c_figure7_pixels, .width = 930, .axis = "clock"};
+  for (std::uint32_t clock = 0; clock < c_figure7_pixels; ++clock) {
+    diagram.ticks.emplace_back(clock + 0.5, std::to_string(clock + 1));
+    diagram.lines.push_back(clock + 1.0);
+  }
+  const auto box = [&](double from, double clocks, const std::string& name, const TraceWords& words,
+                       std::size_t i) {
     const TraceWords& printed = figure.words(name);
-    const std::size_t block = i >= printed.size() ? 1 : printed[i] == words.at(i) ? 0 : 2;
-    blocks[block] += fmt::format("{} {} {} {:08X}\n", lane, from, until, words.at(i));
+    const unsigned colour = i >= printed.size()         ? c_grey_box
+                            : printed[i] == words.at(i) ? c_blue_box
+                                                        : c_red_box;
+    diagram.lanes.back().boxes.push_back({from, from + clocks, fmt::format("{:08X}", words.at(i)), colour});
   };
-  double lane = 5.0;
   for (const auto& [name, shown] : c_line_registers) {
-    std::size_t from = 0;
+    diagram.lanes.push_back({shown});
+    double from = 0;
     for (std::uint32_t k = 0; k < c_figure7_lines; from += ++k)
-      add(lane, from, from + k + 1, name, trace.line.at(name), k);
-    lane -= 1.0;
+      box(from, k + 1, name, trace.line.at(name), k);
   }
   for (const auto& [name, shown] : c_pixel_registers) {
-    for (std::size_t i = 0; i < c_figure7_pixels; ++i) add(lane, i, i + 1, name, trace.pixel.at(name), i);
-    lane -= 1.0;
+    diagram.lanes.push_back({shown});
+    for (std::uint32_t i = 0; i < c_figure7_pixels; ++i) box(i, 1, name, trace.pixel.at(name), i);
   }
-  std::string script = "$printed << EOD\n" + blocks[0] + "EOD\n$ours << EOD\n" + blocks[1] +
-                       "EOD\n$other << EOD\n" + blocks[2] + "EOD\n";
-  script += fmt::format(
-      "set xrange [0:{0}]\nset yrange [0.4:5.7]\nunset ytics\nset border 1\nset xtics 1 format "
-      "''\n"
-      "set for [i = 1:{0}] label i sprintf('clock %d', i) at first i - 0.5, graph -0.05 center font ',11'\n"
-      "set lmargin 13\nset bmargin 2.2\nset tmargin 0.4\nset rmargin 1\n",
-      c_figure7_pixels);
-  double label_at = 5.0;
-  int label = 100;
-  for (const auto& registers :
-       {std::span(c_line_registers.data(), 3), std::span(c_pixel_registers.data(), 2)})
-    for (const auto& [name, shown] : registers)
-      script += fmt::format("set label {} '{}' at graph -0.012, first {} right noenhanced\n", label++, shown,
-                            std::exchange(label_at, label_at - 1.0));
-  script += "set style fill solid noborder\nhalf = 0.36\nplot ";
-  for (const auto& [block, colour] :
-       {std::pair{"$printed", "#cfe4f7"}, {"$ours", "#ededed"}, {"$other", "#f7d4cf"}})
-    script += fmt::format(
-        "{0} using 2:1:($2 + 0.02):($3 - 0.02):($1 - half):($1 + half) with boxxyerror linecolor rgb '{1}', "
-        "{0} using (($2 + $3) / 2):1:4 with labels font ',11', ",
-        block, colour);
-  return script + "\n";
+  return timing_script(diagram);
 }
 
 // The words that a register holds while the printed ones are shown, and how many of these differ.
@@ -87,14 +71,14 @@ Measured compared_words(const Figure7& figure, const std::string& name, std::spa
 }
 
 void draw_figure_7(const Context& context, Drawing& out) {
-  const Figure7 figure = must(read_figure7(context.folders.source / "tb" / "published" / "figure7.txt"));
+  const Figure7 figure = read_figure7(context.folders.source / "tb" / "published" / "figure7.txt");
   const Figure7Trace golden = golden_figure7(figure);
   for (const auto& [name, shown] : c_line_registers)
     out.measured[shown] = compared_words(figure, name, golden.line.at(name));
   for (const auto& [name, shown] : c_pixel_registers)
     out.measured[shown] = compared_words(figure, name, golden.pixel.at(name));
   if (!context.quick) {
-    const Figure7Trace rtl = must(rtl_figure7(figure, context.folders));
+    const Figure7Trace rtl = rtl_figure7(figure, context.folders);
     std::size_t words = 0, differing = 0;
     const auto compare = [&](const auto& published, const auto& seen) {
       for (const auto& [name, expected] : published)
@@ -115,8 +99,7 @@ void draw_figure_7(const Context& context, Drawing& out) {
   }
   draw_plot(
       context, "quadratic-07",
-      {.size = {1080, 300},
-       .title = "The five registers of the quadratic interpolator over ten clocks; words as printed are "
+      {.title = "The five registers of the quadratic interpolator over ten clocks; words as printed are "
                 "blue, the one that is printed differently is red, grey goes on where the scan breaks off",
        .script = figure_7_script(figure, golden)},
       out);

@@ -121,9 +121,8 @@ void draw_figure_9(const Context& context, Drawing& out) {
       curve_list("left", "n", c_figure_9_exponents) + "\nset title 'cos² ax'\nplot " +
       curve_list("right", "a", c_figure_9_scales) + "\nunset multiplot\n";
   draw_plot(context, "spherical-09",
-            {.size = {860, 330},
-             .title = "The bells of cosⁿ x for five exponents, and of cos² ax for three scales",
-             .script = script},
+            {.title = "The bells of cosⁿ x for five exponents, and of cos² ax for three scales",
+             .script = plot_style(860, 330) + script},
             out);
 }
 
@@ -202,7 +201,8 @@ void draw_figure_10(const Context& context, Drawing& out) {
         i, c_exponents[i], published_scale(c_exponents[i]));
   plots += "unset multiplot\n";
   draw_plot(context, "spherical-10",
-            {.size = {860, 520}, .title = "cosⁿ x and the cos² ax that stands for it", .script = plots}, out);
+            {.title = "cosⁿ x and the cos² ax that stands for it", .script = plot_style(860, 520) + plots},
+            out);
 }
 
 // ---- Figure 11 ----
@@ -250,9 +250,8 @@ void draw_figure_11(const Context& context, Drawing& out) {
       "title "
       "'6 and 6'\nunset multiplot\n";
   draw_plot(context, "spherical-11",
-            {.size = {860, 330},
-             .title = "cos² and its tables of 4 and of 6 address and data bits, and their errors",
-             .script = script},
+            {.title = "cos² and its tables of 4 and of 6 address and data bits, and their errors",
+             .script = plot_style(860, 330) + script},
             out);
 }
 
@@ -551,10 +550,9 @@ void draw_schemes(const Context& context, Drawing& out) {
   }
   draw_plot(
       context, "spherical-schemes",
-      {.size = {640, 330},
-       .title = "How far the angle between two turning vectors differs where one is constant",
+      {.title = "How far the angle between two turning vectors differs where one is constant",
        .script =
-           data_block("angles", rows) +
+           plot_style(640, 330) + data_block("angles", rows) +
            "set xlabel 'each vector turns by, degrees'\nset ylabel 'largest difference, degrees'\nset xrange "
            "[0:90]\nset xtics 15\nset key top left\n"
            "plot $angles using 1:2 with lines linetype 1 title 'from one direction, at right angles', "

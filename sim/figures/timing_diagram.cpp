@@ -14,6 +14,7 @@
 #include "sim/figures/plot.hpp"
 #include "sim/figures/testbench.hpp"
 #include "sim/ghdl/vcd.hpp"
+#include "sim/pages/timing_diagram.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::figures {
@@ -21,21 +22,20 @@ namespace {
 
 constexpr const char* c_top = "interpolator_timing_tb";
 
-/// A signal's lane in the picture, and its inputs in the hardware.
+/// A signal's lane in the picture, from top to bottom, and its inputs in the hardware.
 struct Lane {
   std::string_view signal;
-  double y;
   std::string_view title;
   std::array<std::string_view, 2> inputs{};
 };
-constexpr std::array<Lane, 8> c_lanes = {{{"step", 9.7, "step"},
-                                          {"init", 8.8, "init"},
-                                          {"sum", 7.0, "adder, + ", {"angle"}},
-                                          {"next_angle", 6.0, "multiplexer", {"sum", "init"}},
-                                          {"angle", 5.0, "register", {"step"}},
-                                          {"ra", 3.2, "ra, its bits 11 to 6"},
-                                          {"sample", 2.2, "ROM", {"ra"}},
-                                          {"product", 1.2, "multiplier, × ", {"sample"}}}};
+constexpr std::array<Lane, 8> c_lanes = {{{"step", "step"},
+                                          {"init", "init"},
+                                          {"sum", "adder, + ", {"angle"}},
+                                          {"next_angle", "multiplexer", {"sum", "init"}},
+                                          {"angle", "register", {"step"}},
+                                          {"ra", "ra, its bits 11 to 6"},
+                                          {"sample", "ROM", {"ra"}},
+                                          {"product", "multiplier, × ", {"sample"}}}};
 
 const Lane& lane_of(std::string_view signal) {
   return *std::ranges::find(c_lanes, signal, &Lane::signal);
@@ -76,14 +76,15 @@ class TraceBuilder {
   }
 
  private:
-  // End the signal's current value. Its transition began when its input changed.
+  // End the signal's current value. Its transition began when its input changed: the value was stable until
+  // then.
   void close(const std::string& signal, double began) {
     if (!value_.contains(signal)) return;
     const double since = since_[signal];
     if (wires_.contains(signal))
       trace_.wires.push_back({signal, since, now_, value_[signal] == "1" ? 1 : 0});
-    else if (now_ > since)
-      trace_.values.push_back({signal, since, now_, pixel_[signal], (since + began) / 2, value_[signal]});
+    else if (began > since)
+      trace_.values.push_back({signal, since, began, pixel_[signal], value_[signal]});
   }
 
   int pixel_of(const std::string& signal) {
@@ -143,21 +144,19 @@ class TraceBuilder {
 
 }  // namespace
 
-Result<TimingTrace> timing_trace(const std::filesystem::path& vcd) {
+TimingTrace timing_trace(const std::filesystem::path& vcd) {
   constexpr double c_femtoseconds = 1e6;  // per nanosecond
-  auto reader = VcdReader::open(vcd);
-  if (!reader) return reader.error();
+  VcdReader reader = must(VcdReader::open(vcd));
   TraceBuilder builder;
   const std::string scope = std::string(c_top) + '/';
-  for (const auto& [path, signal] : reader->signals())
+  for (const auto& [path, signal] : reader.signals())
     if (path.starts_with(scope) && path.find('/', scope.size()) == std::string::npos)
       builder.name(signal.code, path.substr(scope.size()), signal.is_scalar);
   for (;;) {
-    const auto change = reader->next();
-    if (!change) return change.error();
-    builder.at(static_cast<double>(reader->time()) / c_femtoseconds);
-    if (!*change) break;
-    const auto& [code, value] = **change;
+    const auto change = must(reader.next());
+    builder.at(static_cast<double>(reader.time()) / c_femtoseconds);
+    if (!change) break;
+    const auto& [code, value] = *change;
     if (value.size() > 1)
       builder.change(code, hexadecimal(value));
     else if (value == "0" || value == "1")
@@ -165,7 +164,7 @@ Result<TimingTrace> timing_trace(const std::filesystem::path& vcd) {
   }
   TimingTrace trace = builder.finish();
   if (trace.steps.empty() || trace.values.empty())
-    return tool_failed("the timing model's trace has no steps");
+    throw Failure{tool_failed("the timing model's trace has no steps")};
   return trace;
 }
 
@@ -184,93 +183,47 @@ TimingTrace simulated(const Context& context) {
       context, c_top, std::move(packages),
       {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"},
       {"-gg_lines=1", "--vcd=" + vcd.string()});
-  return must(timing_trace(vcd));
+  return timing_trace(vcd);
 }
 
-template <class Rows, class Line>
-std::string block(const char* name, const Rows& rows, const Line& line) {
-  std::string text = fmt::format("${} << EOD\n", name);
-  for (std::size_t i = 0; i < rows.size(); ++i) text += line(rows[i], i) + '\n';
-  return text + "EOD\n";
-}
-
-// Each pixel has the same colour in all lanes: pale when stable, saturated while changing. Values of no pixel
+// Each pixel has the same colour in all lanes: pale when stable, strong while changing. Values of no pixel
 // are grey.
-constexpr std::string_view c_drawing = R"(half = 0.31
-pales = "0xcfe4f7 0xd2eecb 0xfde1c2 0xe6d9f5 0xededed"
-fulls = "0x7ab4e6 0x86cf76 0xf6ae5f 0xb897e0 0xc4c4c4"
-number(pixel) = pixel < 0 || pixel > 3 ? 5 : int(pixel) + 1
-pale(pixel) = int(word(pales, number(pixel)))
-full(pixel) = int(word(fulls, number(pixel)))
-ink = "#1f2328"
-faint = "#8b949e"
-bright = 0xfff1a3
-set lmargin at screen 0.15
-set rmargin at screen 0.985
-set tmargin at screen 0.985
-set bmargin at screen 0.165
-set yrange [0.6:11.7]
-unset key
-unset ytics
-set border 1 linecolor rgb ink
-set xtics 0, 30 out nomirror scale 0.7, 0.35 textcolor rgb ink offset 0, 0.3
-set mxtics 6
-set xlabel "time in ns" textcolor rgb ink offset 0, 0.7
-set label 9 "{/:Bold Stage 1}: line interpolator" at graph -0.138, first 7.85 left textcolor rgb ink
-set label 10 "{/:Bold Stage 2}: ROM and multiplier" at graph -0.138, first 4.05 left textcolor rgb ink
-array swatches[4] = [pale(0), pale(-1), full(0), bright]
-array meanings[4] = ["hexadecimal value, in its pixel's colour", "no pixel's", "new value forms, for 10 ns", \
-  "both stages at work"]
-array places[4] = [0.15, 0.472, 0.597, 0.829]
-set for [i = 1:4] object i rectangle from screen places[i], 0.03 to screen places[i] + 0.026, 0.06 \
-  fillcolor rgb swatches[i] fillstyle solid border linecolor rgb ink
-set for [i = 1:4] label 10 + i meanings[i] at screen places[i] + 0.031, 0.045 left textcolor rgb ink
-set label 15 "10" at screen places[3] + 0.013, 0.045 center font ",10" textcolor rgb ink front
-set style fill solid noborder
-plot \
-  $both using 1:(4):1:2:(0.75):(7.5) with boxxyerror linecolor rgb bright, \
-  $pixels using 2:(0.6):(0):(10.1) with vectors nohead linecolor rgb faint dashtype (3, 3), \
-  $pixels using 2:(11.2):2:3:(10.95):(11.55):(pale($1)) with boxxyerror linecolor rgb variable, \
-  $pixels using (($2 + $3) / 2):(11.25):(sprintf("pixel %d", $1)) with labels textcolor rgb ink, \
-  $steps using 1:(10.5):($2 - $1):(0) with vectors heads filled size 3, 15 linecolor rgb ink, \
-  $steps using (($1 + $2) / 2):(10.68):(sprintf("%g ns", $2 - $1)) with labels textcolor rgb ink, \
-  $values using 2:1:2:3:($1 - half):($1 + half):(pale($4)) with boxxyerror linecolor rgb variable, \
-  $work using 2:1:2:3:($1 - half):($1 + half):(full($4)) with boxxyerror linecolor rgb variable, \
-  $values using 2:1:2:3:($1 - half):($1 + half) with boxxyerror fillstyle empty linecolor rgb ink, \
-  $wires using 2:($1 + half * (2 * $4 - 1)):($3 - $2):(0) with vectors nohead linecolor rgb ink linewidth 1.5, \
-  $wires using ($2 > 0 ? $2 : NaN):($1 - half):(0):(2 * half) with vectors nohead linecolor rgb ink linewidth 1.5, \
-  $values using ($3 - $2 > 10 ? $5 : NaN):1:6 with labels textcolor rgb ink, \
-  $work using (($2 + $3) / 2):1:(sprintf("%g", $3 - $2)) with labels font ",10" textcolor rgb ink
-)";
+unsigned colour_of(int pixel, bool changing) {
+  constexpr std::array c_colours = {0x0072b2U, 0x009e73U, 0xd55e00U, 0x8a63d2U};
+  const bool known = pixel >= 0 && pixel < static_cast<int>(c_colours.size());
+  return (changing ? 0x80000000U : 0xd0000000U) |
+         (known ? c_colours[static_cast<std::size_t>(pixel)] : 0x8a8a8aU);
+}
 
 std::string script_of(const TimingTrace& trace) {
-  const auto span = [](const TimingTrace::Span& s, std::size_t) {
-    return fmt::format("{} {}", s.from, s.until);
-  };
-  std::string text;
-  text += block("both", trace.both, span);
-  text += block("steps", trace.steps, span);
-  text += block("pixels", trace.pixels, [](const TimingTrace::Span& s, std::size_t i) {
-    return fmt::format("{} {} {}", i, s.from, s.until);
-  });
-  text += block("wires", trace.wires, [](const TimingTrace::Wire& w, std::size_t) {
-    return fmt::format("{} {} {} {}", lane_of(w.signal).y, w.from, w.until, w.level);
-  });
-  text += block("values", trace.values, [](const TimingTrace::Value& v, std::size_t) {
-    return fmt::format("{} {} {} {} {} {}", lane_of(v.signal).y, v.from, v.until, v.pixel, v.middle, v.text);
-  });
-  text += block("work", trace.work, [](const TimingTrace::Work& w, std::size_t) {
-    return fmt::format("{} {} {} {}", lane_of(w.signal).y, w.from, w.until, w.pixel);
-  });
-  text += fmt::format("set xrange [0:{}]\n", trace.end);
-  for (std::size_t i = 0; i < c_lanes.size(); ++i)
-    text += fmt::format("set label {} \"{}{}\" at graph -0.012, first {} right textcolor rgb '#1f2328'\n",
-                        i + 1, c_lanes[i].title,
-                        c_lanes[i].signal == "sum"       ? trace.slope
-                        : c_lanes[i].signal == "product" ? trace.factor
-                                                         : "",
-                        c_lanes[i].y);
-  return text + std::string(c_drawing);
+  TimingDiagram diagram{.end = trace.end, .width = 930, .axis = "time in ns"};
+  for (double ns = 0; ns <= trace.end; ns += 30) diagram.ticks.emplace_back(ns, fmt::format("{}", ns));
+  diagram.lanes = {{"pixel"}, {"cycle"}, {"both stages at work"}};
+  for (std::size_t i = 0; i < trace.pixels.size(); ++i) {
+    const auto [from, until] = trace.pixels[i];
+    diagram.lanes[0].boxes.push_back(
+        {from, until, fmt::format("pixel {}", i), colour_of(static_cast<int>(i), false)});
+    diagram.lines.push_back(from);
+  }
+  for (const auto& [from, until] : trace.steps)
+    diagram.lanes[1].boxes.push_back({from, until, fmt::format("{:g} ns", until - from), c_grey_box});
+  for (const auto& [from, until] : trace.both) diagram.lanes[2].boxes.push_back({from, until, "", c_red_box});
+  for (const Lane& lane : c_lanes) {
+    TimingLane shown{std::string(lane.title) + (lane.signal == "sum"       ? trace.slope
+                                                : lane.signal == "product" ? trace.factor
+                                                                           : "")};
+    for (const TimingTrace::Wire& w : trace.wires)
+      if (w.signal == lane.signal) shown.levels.push_back({w.from, w.until, w.level != 0});
+    for (const TimingTrace::Value& v : trace.values)
+      if (v.signal == lane.signal)
+        shown.boxes.push_back({v.from, v.until, v.text, colour_of(v.pixel, false)});
+    for (const TimingTrace::Work& w : trace.work)
+      if (w.signal == lane.signal)
+        shown.boxes.push_back(
+            {w.from, w.until, fmt::format("{:g}", w.until - w.from), colour_of(w.pixel, true)});
+    diagram.lanes.push_back(std::move(shown));
+  }
+  return timing_script(diagram);
 }
 
 // Print a single value, such as "5 ns", if all are equal. The model's delays are the published ones.
@@ -303,8 +256,7 @@ void draw_figure_17(const Context& context, Drawing& out) {
   out.measured["both stages at work at once"] =
       constructed(together, "{} ns in {} pixels", trace.pixels.size());
   draw_plot(context, "spherical-17",
-            {.size = {1080, 590},
-             .title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",
+            {.title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",
              .words = trace.words,
              .script = script_of(trace)},
             out);

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/figures/figure.hpp"
 
 namespace halfway::figures {
@@ -20,11 +19,11 @@ struct TimingTrace {
     double from, until;
     int level;
   };
+  /// Until the transition to the next value begins.
   struct Value {
     std::string signal;
     double from, until;
     int pixel;
-    double middle;  ///< of the time until the next transition begins
     std::string text;
   };
   /// Interval from the last change of a signal's input to the signal's own change.
@@ -48,7 +47,7 @@ struct TimingTrace {
 };
 
 /// Read a VCD file of the first line of interpolator_timing_tb, as written by GHDL; its times are in fs.
-Result<TimingTrace> timing_trace(const std::filesystem::path& vcd);
+TimingTrace timing_trace(const std::filesystem::path& vcd);
 
 void draw_figure_17(const Context& context, Drawing& out);
 

@@ -11,6 +11,7 @@
 
 #include "sim/formats/compiled_sizes.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/shared_library.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/threads.hpp"
@@ -50,20 +51,18 @@ bool is_source(const fs::path& file) {
 }
 
 /// Paths of all sources of core_sources.txt, relative to the project's root.
-Result<std::vector<std::string>> sources_of(const fs::path& root) {
-  const auto list = read_file(root / "sim/live/core_sources.txt");
-  if (!list) return list.error();
+std::vector<std::string> sources_of(const fs::path& root) {
+  const auto list = must(read_file(root / "sim/live/core_sources.txt"));
   std::vector<std::string> sources;
-  std::istringstream lines(*list);
+  std::istringstream lines(list);
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('#')) continue;
     if (line.ends_with(".cpp")) {
       sources.push_back(line);
       continue;
     }
-    const auto files = files_below(root / line, ".cpp");
-    if (!files) return files.error();
-    for (const fs::path& file : *files)
+    const auto files = must(files_below(root / line, ".cpp"));
+    for (const fs::path& file : files)
       if (is_source(file)) sources.push_back((line / file).string());
   }
   std::sort(sources.begin(), sources.end());
@@ -71,15 +70,14 @@ Result<std::vector<std::string>> sources_of(const fs::path& root) {
 }
 
 /// What the module depends on.
-Result<std::string> hash_of(const fs::path& root, const std::vector<std::string>& sources,
-                            const std::vector<tables::GeneratedFile>& generated,
-                            const std::vector<std::string>& tools) {
+std::string hash_of(const fs::path& root, const std::vector<std::string>& sources,
+                    const std::vector<tables::GeneratedFile>& generated,
+                    const std::vector<std::string>& tools) {
   std::vector<std::string> files = sources;
   for (const std::string& folder : c_header_folders)
     for (const char* ending : {".hpp", ".h"}) {
-      const auto headers = files_below(root / folder, ending);
-      if (!headers) return headers.error();
-      for (const fs::path& header : *headers) files.push_back((folder / header).string());
+      const auto headers = must(files_below(root / folder, ending));
+      for (const fs::path& header : headers) files.push_back((folder / header).string());
     }
   ContentHash hash;
   hash.add("core 1");
@@ -88,75 +86,64 @@ Result<std::string> hash_of(const fs::path& root, const std::vector<std::string>
     for (const std::string& item : *list) hash.add(item);
   }
   for (const tables::GeneratedFile& header : generated) hash.add(header.text);
-  for (const std::string& file : files) {
-    const auto text = read_file(root / file);
-    if (!text) return text.error();
-    hash.add(file).add(*text);
-  }
+  for (const std::string& file : files) hash.add(file).add(must(read_file(root / file)));
   return hash.hex();
 }
 
-Status link_libraries(const fs::path& folder) {
-  if (Status made = make_folders(folder); !made) return made;
+void link_libraries(const fs::path& folder) {
+  must(make_folders(folder));
   for (const std::string& library : c_libraries) {
     std::error_code fault;
     fs::create_directory_symlink(fs::path("/usr/include") / library, folder / library, fault);
-    if (fault) return tool_failed(fmt::format("{}: {}", (folder / library).string(), fault.message()));
+    if (fault)
+      throw Failure{tool_failed(fmt::format("{}: {}", (folder / library).string(), fault.message()))};
   }
-  return Ok{};
 }
 
 /// Compile the sources in the folder, several at a time, and link them.
-Status compile(const Compiler& compiler, const fs::path& root, const std::vector<std::string>& sources,
-               const std::vector<tables::GeneratedFile>& generated, const fs::path& folder) {
-  if (Status linked = link_libraries(folder / "include"); !linked) return linked;
-  if (Status written = tables::write_files(folder / "include", generated); !written) return written;
+void compile(const Compiler& compiler, const fs::path& root, const std::vector<std::string>& sources,
+             const std::vector<tables::GeneratedFile>& generated, const fs::path& folder) {
+  link_libraries(folder / "include");
+  must(tables::write_files(folder / "include", generated));
   const auto object = [](std::size_t i) { return fmt::format("{}.o", i); };
   const auto run = [&](const std::vector<std::string>& flags, const std::vector<std::string>& arguments) {
     Command command{.arguments = {compiler.program}, .working_folder = folder};
     command.arguments.insert(command.arguments.end(), flags.begin(), flags.end());
     command.arguments.insert(command.arguments.end(), arguments.begin(), arguments.end());
-    const auto done = run_tool(command, c_install_web_assembly, "core of the page");
-    return done ? Status(Ok{}) : done.error();
+    must(run_tool(command, c_install_web_assembly, "core of the page"));
   };
   std::vector<std::string> flags = c_flags;
   flags.insert(flags.end(),
                {"-I" + (root / "model").string(), "-I" + root.string(), "-isystem", "include", "-c"});
-  const Status compiled = for_each_on_threads(
-      std::max(1U, std::thread::hardware_concurrency()), sources.size(), [&](std::size_t i) {
-        return run(flags, {(root / sources[i]).string(), "-o", object(i)});
-      });
-  if (!compiled) return compiled;
+  must_for_each(std::max(1U, std::thread::hardware_concurrency()), sources.size(), [&](std::size_t i) {
+    run(flags, {(root / sources[i]).string(), "-o", object(i)});
+  });
 
   std::vector<std::string> objects;
   for (std::size_t i = 0; i < sources.size(); ++i) objects.push_back(object(i));
   objects.insert(objects.end(), {"-o", c_module_name});
-  if (Status linked = run(c_link_flags, objects); !linked) return linked;
+  run(c_link_flags, objects);
   std::error_code ignored;
   for (std::size_t i = 0; i < sources.size(); ++i) fs::remove(folder / object(i), ignored);
-  return Ok{};
 }
 
 }  // namespace
 
 Result<fs::path> build_core_module(const SimulatorFolders& folders) {
-  const auto compiler = Compiler::find("clang++");
-  if (!compiler) return compiler.error();
-  const fs::path root = fs::absolute(folders.source);
-  const auto sources = sources_of(root);
-  if (!sources) return sources.error();
-  const auto generated = tables::cpp_headers(tables::compiled_sizes());
-  const auto hash = hash_of(root, *sources, generated, {compiler->identity});
-  if (!hash) return hash.error();
-  const fs::path parent = fs::absolute(folders.cache) / "live", folder = parent / ("core-" + *hash);
-  if (!fs::exists(folder)) {
-    auto fresh = TemporaryFolder::make(parent);
-    if (!fresh) return fresh.error();
-    if (Status compiled = compile(*compiler, root, *sources, generated, fresh->path()); !compiled)
-      return compiled.error();
-    if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-  }
-  return folder / c_module_name;
+  return caught([&] {
+    const Compiler compiler = must(Compiler::find("clang++"));
+    const fs::path root = fs::absolute(folders.source);
+    const std::vector<std::string> sources = sources_of(root);
+    const auto generated = tables::cpp_headers(tables::compiled_sizes());
+    const std::string hash = hash_of(root, sources, generated, {compiler.identity});
+    const fs::path parent = fs::absolute(folders.cache) / "live", folder = parent / ("core-" + hash);
+    if (!fs::exists(folder)) {
+      TemporaryFolder fresh = must(TemporaryFolder::make(parent));
+      compile(compiler, root, sources, generated, fresh.path());
+      must(fresh.move_to(folder));
+    }
+    return folder / c_module_name;
+  });
 }
 
 }  // namespace halfway

@@ -22,6 +22,7 @@
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/shared_library.hpp"
 #include "sim/system/threads.hpp"
 
@@ -34,12 +35,11 @@ constexpr std::array c_presets = {Preset::exact, Preset::published};
 constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 // Scenes as a mesh file makes them: one with the default material, one with a colour.
-Result<std::vector<Scene>> mesh_scenes() {
-  const auto grey = read_scene("mesh.obj", c_mesh, 1.0);
-  if (!grey) return grey.error();
-  Scene coloured = *grey;
+std::vector<Scene> mesh_scenes() {
+  const auto grey = must(read_scene("mesh.obj", c_mesh, 1.0));
+  Scene coloured = grey;
   coloured.materials.front().colour = {0.8, 0.4, 0.2};
-  return std::vector<Scene>{*grey, std::move(coloured)};
+  return std::vector<Scene>{grey, std::move(coloured)};
 }
 
 // Sizes of the cosine tables that are built into the program, the preset's own first.
@@ -62,14 +62,11 @@ Json names_of(const Enumerators& enumerators) {
 }
 
 // The module, compressed, in base64. `-n` omits name and time, so that equal modules give equal pages.
-Result<std::string> packed(const std::filesystem::path& module) {
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  const std::filesystem::path file = scratch->path() / "module.gz";
-  const auto done =
-      run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
-               "apt-get install gzip", module.filename().string());
-  if (!done) return done.error();
+std::string packed(const std::filesystem::path& module) {
+  const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path file = scratch.path() / "module.gz";
+  must(run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
+                "apt-get install gzip", module.filename().string()));
   return report::base64_of(file);
 }
 
@@ -79,46 +76,33 @@ struct Hardware {
   std::optional<double> mhz;
 };
 
-Result<std::map<std::string, Hardware>> build_hardware(const std::vector<HardwareKey>& keys,
-                                                       const LiveSettings& settings) {
+std::map<std::string, Hardware> build_hardware(const std::vector<HardwareKey>& keys,
+                                               const LiveSettings& settings) {
   std::map<std::string, Hardware> built;
   std::mutex mutex;
   std::size_t begun = 0;
-  const Status done = for_each_on_threads(settings.threads, keys.size(), [&](std::size_t i) -> Status {
+  must_for_each(settings.threads, keys.size(), [&](std::size_t i) {
     const std::string name = keys[i].name();
     {
       const std::lock_guard lock(mutex);
       settings.on_progress(fmt::format("hardware {} of {}: {}", ++begun, keys.size(), name));
     }
-    const auto module = build_hardware_module(keys[i], settings.folders);
-    if (!module) return module.error();
-    auto text = packed(*module);
-    if (!text) return text.error();
+    std::string text = packed(must(build_hardware_module(keys[i], settings.folders)));
     const auto figures =
-        study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders);
-    if (!figures) return figures.error();
+        must(study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders));
     const std::lock_guard lock(mutex);
-    built.emplace(name, Hardware{std::move(*text), figures->mhz});
-    return Ok{};
+    built.emplace(name, Hardware{std::move(text), figures.mhz});
   });
-  if (!done) return done.error();
   return built;
 }
 
 // The hardware of the page, each key once, sorted by name. A shader that cannot draw a scene has no key for
 // it.
-Result<std::vector<HardwareKey>> live_keys(const LiveSettings& settings) {
+std::vector<HardwareKey> live_keys(const LiveSettings& settings) {
   std::vector<Scene> drawn;
-  if (settings.meshes) {
-    auto meshes = mesh_scenes();
-    if (!meshes) return meshes.error();
-    drawn = std::move(*meshes);
-  }
-  for (const std::string& name : settings.scenes) {
-    auto scene = load_scene(name, settings.folders.source / "sim/scenes");
-    if (!scene) return scene.error();
-    drawn.push_back(std::move(*scene));
-  }
+  if (settings.meshes) drawn = mesh_scenes();
+  for (const std::string& name : settings.scenes)
+    drawn.push_back(must(load_scene(name, settings.folders.source / "sim/scenes")));
   std::map<std::string, HardwareKey> keys;
   for (const Scene& scene : drawn)
     for (const Shader shader : c_shaders)
@@ -135,17 +119,12 @@ Result<std::vector<HardwareKey>> live_keys(const LiveSettings& settings) {
 
 }  // namespace
 
-Result<LivePage> write_live(const LiveSettings& settings) {
+LivePage write_live(const LiveSettings& settings) {
   const std::filesystem::path sources = settings.folders.source / "sim", here = sources / "live";
   const auto keys = live_keys(settings);
-  if (!keys) return keys.error();
   settings.on_progress("core");
-  const auto core = build_core_module(settings.folders);
-  if (!core) return core.error();
-  auto packed_core = packed(*core);
-  if (!packed_core) return packed_core.error();
-  const auto hardware = build_hardware(*keys, settings);
-  if (!hardware) return hardware.error();
+  std::string packed_core = packed(must(build_core_module(settings.folders)));
+  const auto hardware = build_hardware(keys, settings);
 
   // Collect the page's data.
   Json data = {{"clocks", Json::object()},
@@ -158,39 +137,29 @@ Result<LivePage> write_live(const LiveSettings& settings) {
   for (const Preset preset : c_presets)
     for (const TableSize size : table_sizes(preset))
       data["tables"][to_string(preset)].push_back(fmt::format("{}x{}", size.address_bits, size.data_bits));
-  Json modules = {{{"name", "core"}, {"text", std::move(*packed_core)}}};
-  for (const auto& [name, built] : *hardware) {
+  Json modules = {{{"name", "core"}, {"text", std::move(packed_core)}}};
+  for (const auto& [name, built] : hardware) {
     modules.push_back({{"name", name}, {"text", built.module}});
     if (built.mhz) data["clocks"][name] = *built.mhz;
   }
-  for (const std::string& name : settings.scenes) {
-    const auto text = read_file(sources / "scenes" / (name + ".toml"));
-    if (!text) return text.error();
-    data["scenes"].push_back({{"name", name + ".toml"}, {"text", *text}});
-  }
+  for (const std::string& name : settings.scenes)
+    data["scenes"].push_back(
+        {{"name", name + ".toml"}, {"text", must(read_file(sources / "scenes" / (name + ".toml")))}});
 
   // Fill the template.
   Json view = {{"commit", report::commit_of(settings.folders.source)},
                {"data", report::script_safe(data.dump())},
                {"modules", std::move(modules)}};
-  const auto still =
-      report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
-  if (!still) return still.error();
-  view["still"] = *still;
+  view["still"] = report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
   for (const auto& [file, name] : {std::pair{sources / "report/page.css", "style"},
                                    {here / "page.css", "style"},
                                    {here / "page.js", "script"},
-                                   {here / "worker.js", "worker"}}) {
-    const auto text = read_file(file);
-    if (!text) return text.error();
-    view[name] = view.value(name, "") + *text;
-  }
-  const auto text = filled_template(here / "page.html.mustache", view, Escape::html);
-  if (!text) return text.error();
-  if (const auto folder = settings.page.parent_path(); !folder.empty())
-    if (Status made = make_folders(folder); !made) return made.error();
-  if (Status written = write_file(settings.page, *text); !written) return written.error();
-  return LivePage{text->size(), keys->size()};
+                                   {here / "worker.js", "worker"}})
+    view[name] = view.value(name, "") + must(read_file(file));
+  const auto text = must(filled_template(here / "page.html.mustache", view, Escape::html));
+  if (const auto folder = settings.page.parent_path(); !folder.empty()) must(make_folders(folder));
+  must(write_file(settings.page, text));
+  return LivePage{text.size(), keys.size()};
 }
 
 }  // namespace halfway::live

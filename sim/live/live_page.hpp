@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway::live {
@@ -31,6 +30,6 @@ struct LivePage {
 
 /// Build the modules, which takes minutes if the cache has none, and write the page atomically. The page has
 /// the hardware of the scenes, and of a mesh file, grey or coloured, by all shaders in both presets.
-Result<LivePage> write_live(const LiveSettings& settings);
+LivePage write_live(const LiveSettings& settings);
 
 }  // namespace halfway::live

@@ -25,36 +25,34 @@ std::string words_of(const Json& json, const char* key) {
 }
 
 // Width and height, so that the page reserves the space while a picture loads.
-Result<std::pair<int, int>> size_of(const std::filesystem::path& picture) {
+std::pair<int, int> size_of(const std::filesystem::path& picture) {
   if (picture.extension() != ".svg") {
-    const auto frame = read_png(picture);
-    if (!frame) return frame.error();
-    return std::pair(static_cast<int>(frame->size.width), static_cast<int>(frame->size.height));
+    const auto frame = must(read_png(picture));
+    return std::pair(static_cast<int>(frame.size.width), static_cast<int>(frame.size.height));
   }
   pugi::xml_document document;
   document.load_file(picture.c_str());
   double width = 0.0, height = 0.0;
   if (std::sscanf(document.child("svg").attribute("viewBox").value(), "%*f %*f %lf %lf", &width, &height) !=
       2)
-    return bad_input(picture.string() + ": not an SVG with a viewBox; run make figures again");
+    throw Failure{bad_input(picture.string() + ": not an SVG with a viewBox; run make figures again")};
   return std::pair(to_integer<int>(std::round(width)), to_integer<int>(std::round(height)));
 }
 
 }  // namespace
 
-Status add_figures(Page& page) {
+void add_figures(Page& page) {
   const std::filesystem::path file = page.settings.figures / "figures.json";
   Json& view = page.view["figures"] = {{"missing", Json::array()}, {"table", nullptr}};
   if (!std::filesystem::exists(file)) {
     view["missing"].push_back(page.lacks("The papers' figures", "make figures"));
-    return Ok{};
+    return;
   }
   page.settings.on_progress("figures");
-  const auto text = read_file(file);
-  if (!text) return text.error();
+  const auto text = must(read_file(file));
   Json& shown = view["table"]["figures"] = Json::array();
   try {
-    for (const Json& figure : Json::parse(*text)) {
+    for (const Json& figure : Json::parse(text)) {
       Json& of = shown.emplace_back(Json{
           {"id", figure.at("id").get<std::string>()},
           {"name", figure.at("paper").get<std::string>() + ", " + figure.at("number").get<std::string>()},
@@ -65,12 +63,10 @@ Status add_figures(Page& page) {
       for (const Json& picture : figure.at("pictures")) {
         const std::filesystem::path path = page.settings.figures / picture.at("file").get<std::string>();
         const auto uri = data_uri(path, path.extension() == ".svg" ? "image/svg+xml" : "image/png");
-        if (!uri) return uri.error();
         const auto size = size_of(path);
-        if (!size) return size.error();
-        of["pictures"].push_back({{"uri", *uri},
-                                  {"width", size->first},
-                                  {"height", size->second},
+        of["pictures"].push_back({{"uri", uri},
+                                  {"width", size.first},
+                                  {"height", size.second},
                                   {"alt", picture.at("alt").get<std::string>()}});
       }
       for (const Json& row : figure.at("rows")) {
@@ -81,9 +77,8 @@ Status add_figures(Page& page) {
       ++page.report.figures;
     }
   } catch (const Json::exception& bad) {
-    return bad_input(fmt::format("{}: {}; run make figures again", file.string(), bad.what()));
+    throw Failure{bad_input(fmt::format("{}: {}; run make figures again", file.string(), bad.what()))};
   }
-  return Ok{};
 }
 
 }  // namespace halfway::report

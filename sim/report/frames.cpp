@@ -40,11 +40,10 @@ struct Images {
   Json uris = Json::array();
   std::map<std::string, std::size_t> numbers;  // equal files are stored once
 
-  Result<std::size_t> add(const std::filesystem::path& file) {
+  std::size_t add(const std::filesystem::path& file) {
     auto uri = data_uri(file, "image/png");
-    if (!uri) return uri.error();
-    const auto [it, is_new] = numbers.emplace(*uri, uris.size());
-    if (is_new) uris.push_back(std::move(*uri));
+    const auto [it, is_new] = numbers.emplace(uri, uris.size());
+    if (is_new) uris.push_back(std::move(uri));
     return it->second;
   }
 };
@@ -70,17 +69,16 @@ Json run_of(const std::string& scene, const std::string& shader, const Json& sum
 }
 
 // The plan's decision for each effect, and the units used, as a column of the scene's table.
-Status add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCounter& counter) {
+void add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCounter& counter) {
   table["plans"].push_back({{"shader", shader}, {"key", plan.key.name()}});
   for (std::size_t e = 0; e < c_effects; ++e) {
     const PlannedEffect& effect = plan.effects[e];
     Json& row = table["rows"][e];
     if (row.is_null())
       row = {{"effect", to_string(effect.effect)}, {"called_for", effect.called_for}, {"why", effect.why}};
-    const auto counted = counter.count(plan.key, effect);
-    if (!counted) return counted.error();
+    const auto counted = must(counter.count(plan.key, effect));
     std::vector<std::string> units;
-    for (const auto& [unit, count] : *counted) units.push_back(fmt::format("{}\u00a0{}", count, unit));
+    for (const auto& [unit, count] : counted) units.push_back(fmt::format("{}\u00a0{}", count, unit));
     std::string text = effect.by == DoneBy::hardware ? "hardware"
                        : effect.by == DoneBy::host   ? "host"
                                                      : "none";
@@ -91,7 +89,6 @@ Status add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCo
       row["by"].back()["units"] =
           (effect.elaborated ? "" : "left out: ") + fmt::format("{}", fmt::join(units, ", "));
   }
-  return Ok{};
 }
 
 // List the scenes that a shader has no complete frame of.
@@ -110,7 +107,7 @@ void add_gaps(Page& page, Json& missing) {
 
 }  // namespace
 
-Status add_frames(Page& page) {
+void add_frames(Page& page) {
   Images images;
   Json frames = Json::array(), runs = Json::array(), effects = Json::array();
   std::optional<UnitCounter> counter;
@@ -121,21 +118,20 @@ Status add_frames(Page& page) {
       const ResultFiles files{folder};
       if (!std::filesystem::exists(files.summary())) continue;  // a run that did not finish
       page.settings.on_progress("frames: " + scene_name);
-      const auto text = read_file(files.summary());
-      if (!text) return text.error();
-      const Json summary = Json::parse(*text, nullptr, false);
+      const auto text = must(read_file(files.summary()));
+      const Json summary = Json::parse(text, nullptr, false);
       const std::string shader = folder.filename().string();
       try {
         runs.push_back(run_of(scene_name, shader, summary));
       } catch (const Json::exception& bad) {
-        return bad_input(fmt::format("{}: {}; run make sim again", files.summary().string(), bad.what()));
+        throw Failure{
+            bad_input(fmt::format("{}: {}; run make sim again", files.summary().string(), bad.what()))};
       }
       Json layers = Json::array();
       for (const auto& [file, name] : c_layers) {
         if (!std::filesystem::exists(files.frame(file))) continue;
         const auto image = images.add(files.frame(file));
-        if (!image) return image.error();
-        layers.push_back({{"id", file}, {"name", name}, {"image", *image}});
+        layers.push_back({{"id", file}, {"name", name}, {"image", image}});
       }
       frames.push_back({{"scene", scene_name}, {"shader", shader}, {"layers", std::move(layers)}});
       ++page.report.frames;
@@ -146,14 +142,9 @@ Status add_frames(Page& page) {
           summary["preset"] == to_string(Preset::published) ? Preset::published : Preset::exact;
       const auto scene = load_scene(scene_name, page.settings.folders.source / "sim" / "scenes");
       if (!scene) continue;  // a mesh from another place: the name alone does not identify it
-      const auto plan = plan_scene(*scene, {.shader = *it, .preset = preset});
-      if (!plan) return plan.error();
-      if (!counter) {
-        auto opened = UnitCounter::open(page.settings.folders);
-        if (!opened) return opened.error();
-        counter = std::move(*opened);
-      }
-      if (Status added = add_plan(table, shader, *plan, *counter); !added) return added;
+      const auto plan = must(plan_scene(*scene, {.shader = *it, .preset = preset}));
+      if (!counter) counter = must(UnitCounter::open(page.settings.folders));
+      add_plan(table, shader, plan, *counter);
     }
     if (table.is_null()) continue;
     table["scene"] = scene_name;
@@ -171,7 +162,6 @@ Status add_frames(Page& page) {
   page.view["frames"] = {{"table", nullptr}, {"missing", std::move(no_frames)}};
   if (!runs.empty()) page.view["frames"]["table"]["runs"] = std::move(runs);
   page.view["effects"] = {{"scenes", std::move(effects)}, {"missing", std::move(no_effects)}};
-  return Ok{};
 }
 
 }  // namespace halfway::report

@@ -12,6 +12,7 @@
 
 #include "sim/study/front.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {
@@ -95,18 +96,18 @@ Table front_of(const Table& study) {
   return front;
 }
 
-Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch) {
+std::string draw_front(const Table& front, const std::filesystem::path& scratch) {
   const Plot plot = front_plot(front);
-  if (plot.points.empty()) return bad_input("front: no design has both a cost and an error to plot");
+  if (plot.points.empty()) throw Failure{bad_input("front: no design has both a cost and an error to plot")};
   return draw_plot(plot, scratch);
 }
 
-Result<std::string> page_front(const Table& front) {
+std::string page_front(const Table& front) {
   const Plot plot = front_plot(front);
   for (const PlotPoint& point : plot.points)
     if (!front.number(point.number, c_cells))
-      return bad_input("front: not all cells are counted; install Yosys");
-  if (plot.front.size() < 2) return bad_input("front: no two designs to join");
+      throw Failure{bad_input("front: not all cells are counted; install Yosys")};
+  if (plot.front.size() < 2) throw Failure{bad_input("front: no two designs to join")};
   const auto name = [&](const PlotPoint& point) {
     const std::string& text = front.text(point.number, "point");
     return text.substr(0, text.find(fmt::format(", {}x{}", front.text(point.number, "width"),
@@ -143,17 +144,15 @@ Result<std::string> page_front(const Table& front) {
       hidden.empty() ? "" : fmt::format("\nEqual in both figures: {}.", fmt::join(hidden, "; ")));
 }
 
-Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
-                                const std::filesystem::path& scratch) {
+std::size_t write_front(const Table& study, const std::filesystem::path& folder,
+                        const std::filesystem::path& scratch) {
   const Table front = front_of(study);
   const std::size_t designs = front_plot(front).points.size();
   if (designs == 0) return designs;
   const auto svg = draw_front(front, scratch);
-  if (!svg) return svg.error();
-  if (!folder.empty())
-    if (Status made = make_folders(folder); !made) return made.error();
-  if (Status written = write_file(folder / "front.csv", to_csv(front)); !written) return written.error();
-  if (Status written = write_file(folder / "front.svg", *svg); !written) return written.error();
+  if (!folder.empty()) must(make_folders(folder));
+  must(write_file(folder / "front.csv", to_csv(front)));
+  must(write_file(folder / "front.svg", svg));
   return designs;
 }
 

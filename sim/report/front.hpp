@@ -30,12 +30,12 @@ std::string commonest_picture(const Table& study);
 Table front_of(const Table& study);
 /// Error against cells (against clocks if cells were not counted), as an SVG. Bad input if there is nothing
 /// to plot.
-Result<std::string> draw_front(const Table& front, const std::filesystem::path& scratch);
+std::string draw_front(const Table& front, const std::filesystem::path& scratch);
 /// The part "front" of docs/accuracy.md: the picture and the designs on its line, in words. Bad input if a
 /// cost is missing.
-Result<std::string> page_front(const Table& front);
+std::string page_front(const Table& front);
 /// Writes front.csv and front.svg, or nothing if there is nothing to plot. Returns the number of designs.
-Result<std::size_t> write_front(const Table& study, const std::filesystem::path& folder,
-                                const std::filesystem::path& scratch);
+std::size_t write_front(const Table& study, const std::filesystem::path& folder,
+                        const std::filesystem::path& scratch);
 
 }  // namespace halfway::report

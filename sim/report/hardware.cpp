@@ -23,43 +23,39 @@ constexpr std::array c_parts = {
 };
 
 // The text from a second-level heading to the next.
-Result<std::string> under(const std::string& markdown, const std::string& heading,
-                          const std::filesystem::path& file) {
+std::string under(const std::string& markdown, const std::string& heading,
+                  const std::filesystem::path& file) {
   const std::string mark = "\n## " + heading + "\n";
   const std::size_t at = markdown.find(mark);
   if (at == std::string::npos)
-    return bad_input(fmt::format("{}: has no heading '## {}'", file.string(), heading));
+    throw Failure{bad_input(fmt::format("{}: has no heading '## {}'", file.string(), heading))};
   const std::size_t begin = at + mark.size();
   return markdown.substr(begin, markdown.find("\n## ", begin) - begin);
 }
 
 }  // namespace
 
-Status add_hardware(Page& page) {
+void add_hardware(Page& page) {
   const std::filesystem::path rtl = page.settings.folders.source / "rtl";
   Json& shaders = page.view["hardware"] = Json::array();
   for (const ShaderPart& part : c_parts) {
     const std::string name = to_string(part.shader);
-    const auto diagram = read_file(rtl / "diagrams" / (name + ".svg"));
-    if (!diagram) return diagram.error();
-    const auto svg = inline_svg(*diagram, name + "-",
+    const auto diagram = must(read_file(rtl / "diagrams" / (name + ".svg")));
+    const auto svg = inline_svg(diagram, name + "-",
                                 fmt::format("{}: its entities, and what goes between them", part.title));
-    if (!svg) return svg.error();
     const std::filesystem::path file = page.settings.folders.source / "docs/rtl" / (name + ".md");
-    const auto text = read_file(file);
-    if (!text) return text.error();
-    const auto words = under(*text, part.heading, file);
-    if (!words) return words.error();
+    const auto text = must(read_file(file));
+    const auto words = under(text, part.heading, file);
     Json& shader = shaders.emplace_back(Json{{"name", name},
                                              {"title", part.title},
-                                             {"diagram", *svg},
-                                             {"words", from_markdown(*words, part.title)},
+                                             {"diagram", svg},
+                                             {"words", from_markdown(words, part.title)},
                                              {"timing", nullptr}});
     if (!page.settings.timing) continue;
     page.settings.on_progress("timing: " + name);
-    const auto timing = draw_shader_timing(part.shader, page.settings.folders);
+    const auto timing = caught([&] { return draw_shader_timing(part.shader, page.settings.folders); });
     if (!timing) {
-      if (timing.error().code != ExitCode::tool_failed) return timing.error();
+      if (timing.error().code != ExitCode::tool_failed) throw Failure{timing.error()};
       page.report.notes.push_back(fmt::format("no timing diagram of {}: {}", name, timing.error().message));
       continue;
     }
@@ -69,11 +65,9 @@ Status add_hardware(Page& page) {
                                                      timing->key, timing->words)
                                        : "The clocks that follow";
       auto row = inline_svg(timing->svgs[n], fmt::format("{}-timing-{}-", name, n), label);
-      if (!row) return row.error();
-      shader["timing"]["svgs"].push_back(std::move(*row));
+      shader["timing"]["svgs"].push_back(std::move(row));
     }
   }
-  return Ok{};
 }
 
 }  // namespace halfway::report

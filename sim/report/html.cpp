@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::report {
@@ -56,16 +57,14 @@ void adapt(cmark_node* document) {
 
 }  // namespace
 
-Result<std::string> base64_of(const std::filesystem::path& file) {
-  const auto bytes = read_file(file);
-  if (!bytes) return bytes.error();
-  return OIIO::Strutil::base64_encode(*bytes);
+std::string base64_of(const std::filesystem::path& file) {
+  const auto bytes = must(read_file(file));
+  return OIIO::Strutil::base64_encode(bytes);
 }
 
-Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type) {
+std::string data_uri(const std::filesystem::path& file, std::string_view media_type) {
   const auto text = base64_of(file);
-  if (!text) return text.error();
-  return fmt::format("data:{};base64,{}", media_type, *text);
+  return fmt::format("data:{};base64,{}", media_type, text);
 }
 
 nlohmann::ordered_json commit_of(const std::filesystem::path& source) {
@@ -100,12 +99,12 @@ std::string from_markdown(std::string_view markdown, std::string_view name) {
   return text;
 }
 
-Result<std::string> inline_svg(const std::string& svg, const std::string& prefix, const std::string& label,
-                               const char* role) {
+std::string inline_svg(const std::string& svg, const std::string& prefix, const std::string& label,
+                       const char* role) {
   pugi::xml_document document;
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
   pugi::xml_node root = document.child("svg");
-  if (!parsed || !root) return bad_input(prefix + ": not an SVG: " + parsed.description());
+  if (!parsed || !root) throw Failure{bad_input(prefix + ": not an SVG: " + parsed.description())};
   for (const pugi::xpath_node& found : root.select_nodes("descendant-or-self::*/@*")) {
     pugi::xml_attribute attribute = found.attribute();
     const std::string_view key = attribute.name();

@@ -12,10 +12,10 @@
 namespace halfway::report {
 
 /// The file's bytes in base64.
-Result<std::string> base64_of(const std::filesystem::path& file);
+std::string base64_of(const std::filesystem::path& file);
 
 /// The file as a `data:` URI.
-Result<std::string> data_uri(const std::filesystem::path& file, std::string_view media_type);
+std::string data_uri(const std::filesystem::path& file, std::string_view media_type);
 
 /// The commit of a checkout; null if unknown, for example without Git.
 nlohmann::ordered_json commit_of(const std::filesystem::path& source);
@@ -31,7 +31,7 @@ std::string from_markdown(std::string_view markdown, std::string_view name);
 /// An SVG file as an HTML element, without declaration and doctype, with `role` and a label. All ids and
 /// their references are prefixed with `prefix`, so that a page can contain several. Black becomes the page's
 /// text colour, white its background.
-Result<std::string> inline_svg(const std::string& svg, const std::string& prefix, const std::string& label,
-                               const char* role = "img");
+std::string inline_svg(const std::string& svg, const std::string& prefix, const std::string& label,
+                       const char* role = "img");
 
 }  // namespace halfway::report

@@ -24,21 +24,19 @@ constexpr std::array c_pages = {
 
 }  // namespace
 
-Status add_pages(Page& page) {
+void add_pages(Page& page) {
   Json& pages = page.view["pages"] = Json::array();
   for (const OtherPage& other : c_pages) {
     const std::filesystem::path file = page.settings.folders.source / other.file;
     if (!std::filesystem::exists(file)) continue;
     page.settings.on_progress(other.file);
-    const auto text = read_file(file);
-    if (!text) return text.error();
+    const auto text = must(read_file(file));
     pages.push_back({{"id", other.id},
                      {"title", other.title},
                      {"command", other.command},
                      {"file", other.file},
-                     {"html", from_markdown(*text, other.title)}});
+                     {"html", from_markdown(text, other.title)}});
   }
-  return Ok{};
 }
 
 }  // namespace halfway::report

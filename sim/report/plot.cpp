@@ -11,35 +11,25 @@
 #include <sstream>
 
 #include "sim/pages/gnuplot.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {
 
-// Colours of medium lightness, for white and dark backgrounds. Shapes distinguish the series without colours.
-constexpr std::array c_colours = {"#767676", "#b8860b", "#0072b2", "#2a9df4", "#009e73", "#d55e00",
-                                  "#cc5fa0", "#8a63d2", "#7a9a01", "#c0392b", "#17a2b8", "#a0522d"};
+// Shapes distinguish the series without colours.
 constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10, 3, 14, 15};
 
-// Width and height in gnuplot's form. A long legend takes more room.
-std::string size_of(const Plot& plot) {
+// A long legend takes more room.
+std::string style_of(const Plot& plot) {
   constexpr std::size_t c_lines = 12, c_line = 35;
-  if (plot.legend.empty()) return "520,390";
-  if (plot.legend.size() <= c_lines) return "800,420";
-  return fmt::format("920,{}", c_line * plot.legend.size());
+  if (plot.legend.empty()) return plot_style(520, 390) + "unset key\n";
+  const bool is_long = plot.legend.size() > c_lines;
+  return plot_style(is_long ? 920 : 800, is_long ? static_cast<double>(c_line * plot.legend.size()) : 420) +
+         "set key outside right center Left reverse spacing 1.4\n";
 }
 
 // Length of the arrow of a least value, as a factor on the logarithmic axis.
 constexpr double c_arrow = 1.2;
-
-// A double-quoted string of a gnuplot script.
-std::string quoted(const std::string& text) {
-  std::string safe = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') safe += '\\';
-    safe += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return safe + '"';
-}
 
 std::string tick_label(double tick) {
   return tick < 1e6 ? fmt::format("{:g}", tick) : fmt::format("{:g} M", tick / 1e6);
@@ -106,10 +96,10 @@ std::size_t series_number(Plot& plot, const std::string& name) {
 }
 
 PointLook look_of(std::size_t series) {
-  return {c_colours[series % c_colours.size()], c_shapes[series % c_shapes.size()]};
+  return {c_plot_colours[series % c_plot_colours.size()], c_shapes[series % c_shapes.size()]};
 }
 
-Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
+std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
   Axis x, y;
   for (const PlotPoint& point : plot.points) {
     x.add(point.x * (point.least_x ? c_arrow : 1.0));
@@ -118,16 +108,12 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
   for (const PlotLevel& level : plot.levels) y.add(level.y);
   x.close();
   y.close();
-  std::string script = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {} dynamic noenhanced font \"sans-serif,14\" background \"#ffffff\"\n"
-      ""
-      "set xlabel {}\nset ylabel {}\n"
-      "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
-      "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\nset border 3\nset tics nomirror\n{}\n",
-      size_of(plot), quoted(plot.x_label), quoted(plot.y_label), x.begin() / 1.15, x.most * 1.15,
-      y.begin() / 1.5, y.most * 1.5,
-      plot.legend.empty() ? "unset key" : "set key outside right center Left reverse spacing 1.4");
+  std::string script = style_of(plot);
+  script += fmt::format(
+      "set xlabel {}\nset ylabel {}\nset logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
+      "set grid linecolor rgb \"#8a8a8a\" linewidth 0.3\n",
+      gnuplot_text(plot.x_label), gnuplot_text(plot.y_label), x.begin() / 1.15, x.most * 1.15,
+      y.begin() / 1.5, y.most * 1.5);
   script += x.ticks("x") + y.ticks("y");
   constexpr const char* c_gap = "nohead linecolor rgb \"#8a8a8a\" linewidth 1";
   if (x.has_zero) script += fmt::format("set arrow from {0}, graph 0 to {0}, graph 1 {1}\n", x.gap(), c_gap);
@@ -137,7 +123,7 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
     script += fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead dashtype 3 linecolor rgb \"{1}\"\n"
         "set label {2} at graph 1, first {0} right offset 0, 0.5 textcolor rgb \"{1}\"\n",
-        y.place(level.y), "#767676", quoted(level.name));
+        y.place(level.y), "#767676", gnuplot_text(level.name));
   // Draw the front's line before the marks: the element drawn last receives the pointer. Sort the marks by
   // series.
   std::vector<PlotPoint> points = plot.points;
@@ -156,26 +142,27 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
     blocks += fmt::format("{} {} {} 0x{}\n", x.place(point_x), y.place(point_y), look.shape, look.colour + 1);
     if (series < plot.legend.size() && (at == 0 || points[at - 1].series != series))
       legend += fmt::format(", NaN with points pointtype {} pointsize 0.8 linecolor rgb \"{}\" title {}",
-                            look.shape, look.colour, quoted(plot.legend[series]));
+                            look.shape, look.colour, gnuplot_text(plot.legend[series]));
   }
   const auto svg = run_gnuplot(
       script + blocks +
-          "END\nplot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2 notitle, $points using "
-          "1:2:3:4 with points pointtype variable pointsize 0.8 linecolor rgb variable notitle" +
+          "END\nplot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2, $points using "
+          "1:2:3:4 with points pointtype variable pointsize 0.8 linecolor rgb variable" +
           legend + "\n",
       scratch, "plot");
-  if (!svg) return svg.error();
 
   pugi::xml_document document;
-  if (const auto parsed = document.load_string(svg->c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
+  if (const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
       !parsed)
-    return tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description());
+    throw Failure{
+        tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description())};
   // Titles of curves would appear as tooltips.
   for (const pugi::xpath_node& title : document.select_nodes("//g/title"))
     title.parent().remove_child(title.node());
   const pugi::xpath_node_set marks = document.select_nodes("//g[@id='gnuplot_plot_2']//use");
   if (marks.size() != points.size())
-    return tool_failed(fmt::format("gnuplot: drew {} marks for {} points", marks.size(), points.size()));
+    throw Failure{
+        tool_failed(fmt::format("gnuplot: drew {} marks for {} points", marks.size(), points.size()))};
   for (std::size_t at = 0; at < points.size(); ++at) {
     const pugi::xml_node mark = marks[at].node();
     pugi::xml_node link = mark.parent().insert_child_before("a", mark);
@@ -196,61 +183,6 @@ Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scr
   std::ostringstream out;
   document.print(out, "", pugi::format_raw);
   return out.str();
-}
-
-Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t first_cycle,
-                                const std::filesystem::path& scratch) {
-  const std::size_t cycles = lanes.empty() ? 0 : lanes.front().values.size();
-  constexpr double c_names = 150, c_clock = 23;  // widths in the drawing
-  const double width = c_names + c_clock * static_cast<double>(cycles);
-  std::string wires = "$wires << END\n", boxes = "$boxes << END\n", texts = "$texts << END\n", labels;
-  for (std::size_t n = 0; n < lanes.size(); ++n) {
-    const Lane& lane = lanes[n];
-    const double y = static_cast<double>(lanes.size() - n);
-    labels += fmt::format("set label {} {} at graph -0.01, first {} right\n", n + 1, quoted(lane.name), y);
-    for (std::size_t begin = 0; begin < cycles;) {
-      std::size_t end = begin + 1;
-      while (end < cycles && lane.values[end] == lane.values[begin]) ++end;
-      const std::string& value = lane.values[begin];
-      if (lane.wire) {
-        const double level = y + (value == "1" ? 0.3 : -0.3);
-        wires += fmt::format("{} {}\n{} {}\n", begin, level, end, level);
-      } else if (!value.empty()) {
-        boxes += fmt::format("{} {} {} {} {} {}\n", static_cast<double>(begin + end) / 2, y, begin, end,
-                             y - 0.33, y + 0.33);
-        // Print the value only if it fits into its box.
-        if (const std::size_t room = 3 * (end - begin); value.size() <= room)
-          texts += fmt::format("{} {} {}\n", static_cast<double>(begin + end) / 2, y, value);
-      }
-      begin = end;
-    }
-    if (lane.wire) wires += "\n";
-  }
-  const std::string script = fmt::format(
-      "set encoding utf8\n"
-      "set terminal svg size {},{} dynamic noenhanced font \"sans-serif,13\" background \"#ffffff\"\n"
-      ""
-      "set lmargin at screen {}\nset rmargin at screen 0.995\nset tmargin at screen 0.99\n"
-      "set bmargin at screen {}\n"
-      "set xrange [0:{}]\nset yrange [0.4:{}]\nunset key\nunset ytics\nset border 1\n"
-      "set xtics ({}) nomirror scale 0.5\nset xlabel \"clock\" offset 0, 0.5\n"
-      "set for [i = 1:{}] arrow from i, 0.4 to i, {} nohead linecolor rgb \"#8a8a8a\" linewidth 0.3 back\n",
-      width, 60 + 26 * lanes.size(), c_names / width, 50.0 / static_cast<double>(60 + 26 * lanes.size()),
-      cycles, static_cast<double>(lanes.size()) + 0.6,
-      [&] {
-        std::string tics;
-        for (std::size_t i = 0; i < cycles; i += 2)
-          tics +=
-              fmt::format("{}\"{}\" {}", i == 0 ? "" : ", ", first_cycle + i, static_cast<double>(i) + 0.5);
-        return tics;
-      }(),
-      cycles, static_cast<double>(lanes.size()) + 0.6);
-  return run_gnuplot(script + labels + wires + "END\n" + boxes + "END\n" + texts + "END\n" +
-                         "plot $boxes using 1:2:3:4:5:6 with boxxyerror fillstyle transparent solid 0.18 "
-                         "border linecolor rgb \"#0072b2\" fillcolor rgb \"#0072b2\", $wires using 1:2 with "
-                         "lines linewidth 1.6 linecolor rgb \"#2a9d5c\", "
-                         "$texts using 1:2:3 with labels font \",11\"\n",
-                     scratch, "plot");
 }
 
 }  // namespace halfway::report

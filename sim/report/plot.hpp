@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// SVG plots made by gnuplot: scatter plots whose points are links, and timing diagrams.
+// SVG plots made by gnuplot: scatter plots whose points are links.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "common/result.hpp"
 
 namespace halfway::report {
 
@@ -47,16 +44,6 @@ PointLook look_of(std::size_t series);
 
 /// A complete SVG. Each point is an `a` element with a name, in the order of `points`. `scratch` is a folder
 /// for gnuplot's files.
-Result<std::string> draw_plot(const Plot& plot, const std::filesystem::path& scratch);
-
-/// A signal over several clocks, with one value per clock.
-struct Lane {
-  std::string name;
-  bool wire = false;  ///< one bit, drawn as a level
-  std::vector<std::string> values;
-};
-/// All lanes must have equal length. An empty value of a bus means invalid.
-Result<std::string> draw_timing(const std::vector<Lane>& lanes, std::uint64_t first_cycle,
-                                const std::filesystem::path& scratch);
+std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch);
 
 }  // namespace halfway::report

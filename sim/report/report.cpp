@@ -15,26 +15,19 @@ Json Page::lacks(const std::string& what, const std::string& command) {
   return {{"what", what}, {"command", command}};
 }
 
-Result<Report> write_report(const ReportSettings& settings) {
+Report write_report(const ReportSettings& settings) {
   const std::filesystem::path here = settings.folders.source / "sim" / "report";
-  if (const auto folder = settings.page.parent_path(); !folder.empty())
-    if (Status made = make_folders(folder); !made) return made.error();
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  Page page{settings, {}, Json::object(), Json::object(), scratch->path()};
-  for (const auto& [file, name] : {std::pair{"page.css", "style"}, std::pair{"page.js", "script"}}) {
-    const auto text = read_file(here / file);
-    if (!text) return text.error();
-    page.view[name] = *text;
-  }
-  for (const auto add : {add_frames, add_study, add_figures, add_hardware, add_pages})
-    if (Status added = add(page); !added) return added.error();
+  if (const auto folder = settings.page.parent_path(); !folder.empty()) must(make_folders(folder));
+  const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  Page page{settings, {}, Json::object(), Json::object(), scratch.path()};
+  for (const auto& [file, name] : {std::pair{"page.css", "style"}, std::pair{"page.js", "script"}})
+    page.view[name] = must(read_file(here / file));
+  for (const auto add : {add_frames, add_study, add_figures, add_hardware, add_pages}) add(page);
   page.view["commit"] = commit_of(settings.folders.source);
   page.view["data"] = script_safe(page.data.dump());
-  const auto text = filled_template(here / "page.html.mustache", page.view, Escape::html);
-  if (!text) return text.error();
-  if (Status written = write_file(settings.page, *text); !written) return written.error();
-  page.report.bytes = text->size();
+  const auto text = must(filled_template(here / "page.html.mustache", page.view, Escape::html));
+  must(write_file(settings.page, text));
+  page.report.bytes = text.size();
   return page.report;
 }
 

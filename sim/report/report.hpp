@@ -31,6 +31,6 @@ struct Report {
 };
 
 /// Write the page atomically. Missing results are noted on the page; damaged results are an error.
-Result<Report> write_report(const ReportSettings& settings);
+Report write_report(const ReportSettings& settings);
 
 }  // namespace halfway::report

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sim/report/report.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 
@@ -24,10 +25,10 @@ struct Page {
 };
 
 // Each function adds the section of its name.
-Status add_frames(Page& page);  ///< and "effects"
-Status add_study(Page& page);
-Status add_figures(Page& page);
-Status add_hardware(Page& page);
-Status add_pages(Page& page);  ///< stability, proofs, mutants and others
+void add_frames(Page& page);  ///< and "effects"
+void add_study(Page& page);
+void add_figures(Page& page);
+void add_hardware(Page& page);
+void add_pages(Page& page);  ///< stability, proofs, mutants and others
 
 }  // namespace halfway::report

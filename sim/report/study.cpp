@@ -189,130 +189,150 @@ Json unusual(Page& page, const Table& points) {
   return note;
 }
 
+// The panels of all points: values, frame, and the point with the reference of its picture.
+Json points_of(Page& page, const Table& points) {
+  std::map<std::string, std::size_t> phong;  // the reference row of each picture
+  for (std::size_t row = 0; row < points.rows.size(); ++row)
+    if (points.text(row, "method") == "phong") phong.emplace(picture_of(points, row), row);
+  Json all = Json::array();
+  for (std::size_t row = 0; row < points.rows.size(); ++row) {
+    page.settings.on_progress(fmt::format("points: {} of {}", row + 1, points.rows.size()));
+    Json& point = all.emplace_back(Json{{"name", points.text(row, "point")}, {"values", Json::array()}});
+    for (const auto& [column, words] : c_told)
+      if (const std::string value = text_of(points, row, column); !value.empty())
+        point["values"].push_back(Json::array({words, value}));
+    const std::filesystem::path picture =
+        page.settings.study / "points" / (points.text(row, "record") + ".png");
+    if (std::filesystem::exists(picture)) point["image"] = data_uri(picture, "image/png");
+    if (const auto reference = phong.find(picture_of(points, row)); reference != phong.end())
+      point["reference"] = reference->second;
+    ++page.report.points;
+  }
+  return all;
+}
+
+// The plot of these axes, and the points that are not on it.
+struct StudyPlot {
+  Plot plot;
+  // Points without an x value per series; points that do not fit the device are counted separately.
+  std::map<std::string, std::size_t> missing{}, too_large{};
+};
+
+StudyPlot plotted(const Table& points, const Measure& along, const Measure& error,
+                  const std::vector<std::string>& series, const std::string& picture) {
+  StudyPlot made{{.x_label = along.words, .y_label = error.words}};
+  for (std::size_t row = 0; row < points.rows.size(); ++row) {
+    const auto x = points.number(row, along.column), y = points.number(row, error.column);
+    const std::string name = series_of(points, row);
+    if (!y) continue;
+    if (!in_hardware(points, row)) {
+      if (picture_of(points, row) == picture) made.plot.levels.push_back({*y, name});
+    } else if (!x) {
+      const std::string& clock = points.text(row, "clock");
+      const bool has_no_room =
+          along.column == c_time.column && !clock.empty() && clock != study::c_not_placed;
+      ++(has_no_room ? made.too_large : made.missing)[name];
+    } else {
+      const auto s = static_cast<std::size_t>(std::ranges::find(series, name) - series.begin());
+      made.plot.points.push_back({*x, *y, s, row,
+                                  fmt::format("{}: {} {}, {} {}", points.text(row, "point"), along.words,
+                                              shown(*x), error.words, shown(*y)),
+                                  picture_of(points, row) != picture});
+    }
+  }
+  made.plot.front = lower_left(made.plot.points);
+  return made;
+}
+
+Json plots_of(Page& page, const Table& points, const std::vector<std::string>& series,
+              const std::string& picture) {
+  Json drawn = Json::array();
+  const bool timed = has_any(points, c_time.column);
+  for (const Axes& axes : c_axes) {
+    if (!timed && axes.x.column == c_clocks.column) continue;  // already drawn
+    const Measure& along = axes.x.column == c_time.column && !timed ? c_clocks : axes.x;
+    const StudyPlot made = plotted(points, along, axes.y, series, picture);
+    if (made.plot.points.empty()) continue;
+    page.settings.on_progress(fmt::format("plot: {}", axes.id));
+    const std::string title = fmt::format("{}, against {}", axes.y.words, along.words);
+    Json& of = drawn.emplace_back(
+        Json{{"id", axes.id},
+             {"title", title},
+             {"svg",
+              inline_svg(draw_plot(made.plot, page.scratch), fmt::format("{}-", axes.id),
+                         fmt::format("{}; {} points, each a link", title, made.plot.points.size()), "group")},
+             {"missing", Json::array()}});
+    add_missing(of, made.missing,
+                along.column == c_time.column
+                    ? "no clock of their hardware is known, which <code>make study PLACE=1</code> finds"
+                    : "this was not measured of them");
+    add_missing(of, made.too_large, "their hardware does not fit the device");
+  }
+  return drawn;
+}
+
+// The table of all points.
+Json rows_of(const Table& points) {
+  Json rows = Json::array();
+  for (std::size_t row = 0; row < points.rows.size(); ++row) {
+    Json cells = Json::array();
+    for (const auto& [column, words] : c_shown_columns) {
+      const std::string text = text_of(points, row, column);
+      cells.push_back(text.empty() ? "–" : text);
+    }
+    rows.push_back({{"number", row}, {"name", points.text(row, "point")}, {"cells", std::move(cells)}});
+  }
+  return rows;
+}
+
+// The picture in words, if some points have another one.
+Json unless_common(const Table& points, const std::string& picture) {
+  std::size_t last = 0, count = 0;
+  for (std::size_t row = 0; row < points.rows.size(); ++row)
+    if (picture_of(points, row) == picture) last = row, ++count;
+  return count == points.rows.size() ? Json() : Json(told_picture(points, last));
+}
+
 }  // namespace
 
-Status add_study(Page& page) {
+void add_study(Page& page) {
   const std::filesystem::path file = page.settings.study / "study.csv";
-  Json& all = page.data["points"] = Json::array();
+  page.data["points"] = Json::array();
   Json& view = page.view["study"] = {
       {"missing", Json::array()}, {"of", nullptr}, {"unusual", nullptr}, {"plots", nullptr}};
   if (!std::filesystem::exists(file)) {
     view["missing"].push_back(page.lacks("Accuracy against time", "make study"));
-    return Ok{};
+    return;
   }
-  const auto points = read_csv(file);
-  if (!points) return points.error();
-  if (!points->rows.empty()) {
-    view["of"] = study_of(page, *points, file);
-    view["unusual"] = unusual(page, *points);
+  const Table points = must(read_csv(file));
+  if (!points.rows.empty()) {
+    view["of"] = study_of(page, points, file);
+    view["unusual"] = unusual(page, points);
   }
-
   std::vector<std::string> series;
   std::set<std::string> hardware_series;
-  std::map<std::string, std::size_t> phong;  // the reference row of each picture
-  for (std::size_t row = 0; row < points->rows.size(); ++row) {
-    page.settings.on_progress(fmt::format("points: {} of {}", row + 1, points->rows.size()));
-    if (points->text(row, "method") == "phong") phong.emplace(picture_of(*points, row), row);
-    const std::string of = series_of(*points, row);
+  for (std::size_t row = 0; row < points.rows.size(); ++row) {
+    const std::string of = series_of(points, row);
     if (std::ranges::find(series, of) == series.end()) series.push_back(of);
-    if (in_hardware(*points, row)) hardware_series.insert(of);
-    Json& point = all.emplace_back(Json{{"name", points->text(row, "point")}, {"values", Json::array()}});
-    for (const auto& [column, words] : c_told)
-      if (const std::string value = text_of(*points, row, column); !value.empty())
-        point["values"].push_back(Json::array({words, value}));
-    const std::filesystem::path picture =
-        page.settings.study / "points" / (points->text(row, "record") + ".png");
-    if (std::filesystem::exists(picture)) {
-      const auto uri = data_uri(picture, "image/png");
-      if (!uri) return uri.error();
-      point["image"] = *uri;
-    }
-    ++page.report.points;
+    if (in_hardware(points, row)) hardware_series.insert(of);
   }
-  for (std::size_t row = 0; row < points->rows.size(); ++row)
-    if (const auto reference = phong.find(picture_of(*points, row)); reference != phong.end())
-      all[row]["reference"] = reference->second;
-
-  const std::string picture = commonest_picture(*points);
-  Json drawn = Json::array();
-  const bool timed = has_any(*points, c_time.column);
-  for (const Axes& axes : c_axes) {
-    const bool of_time = axes.x.column == c_time.column;
-    if (!timed && axes.x.column == c_clocks.column) continue;  // already drawn
-    const Measure& along = of_time && !timed ? c_clocks : axes.x;
-    Plot plot{.x_label = along.words, .y_label = axes.y.words};
-    // Points without an x value per series; points that do not fit the device are counted separately.
-    std::map<std::string, std::size_t> missing, too_large;
-    for (std::size_t row = 0; row < points->rows.size(); ++row) {
-      const auto x = points->number(row, along.column), y = points->number(row, axes.y.column);
-      const std::string name = series_of(*points, row);
-      if (!y) continue;
-      if (!in_hardware(*points, row)) {
-        if (picture_of(*points, row) == picture) plot.levels.push_back({*y, name});
-        continue;
-      }
-      if (!x) {
-        const std::string& clock = points->text(row, "clock");
-        const bool has_no_room =
-            along.column == c_time.column && !clock.empty() && clock != study::c_not_placed;
-        ++(has_no_room ? too_large : missing)[name];
-        continue;
-      }
-      const auto s = static_cast<std::size_t>(std::ranges::find(series, name) - series.begin());
-      plot.points.push_back({*x, *y, s, row,
-                             fmt::format("{}: {} {}, {} {}", points->text(row, "point"), along.words,
-                                         shown(*x), axes.y.words, shown(*y)),
-                             picture_of(*points, row) != picture});
-    }
-    if (plot.points.empty()) continue;
-    page.settings.on_progress(fmt::format("plot: {}", axes.id));
-    plot.front = lower_left(plot.points);
-    const auto raw = draw_plot(plot, page.scratch);
-    if (!raw) return raw.error();
-    const std::string title = fmt::format("{}, against {}", axes.y.words, along.words);
-    const auto svg =
-        inline_svg(*raw, fmt::format("{}-", axes.id),
-                   fmt::format("{}; {} points, each a link", title, plot.points.size()), "group");
-    if (!svg) return svg.error();
-    Json& of = drawn.emplace_back(
-        Json{{"id", axes.id}, {"title", title}, {"svg", *svg}, {"missing", Json::array()}});
-    add_missing(of, missing,
-                along.column == c_time.column
-                    ? "no clock of their hardware is known, which <code>make study PLACE=1</code> finds"
-                    : "this was not measured of them");
-    add_missing(of, too_large, "their hardware does not fit the device");
-  }
-  Json legend = Json::array(), columns = Json::array(), rows = Json::array();
+  Json legend = Json::array(), columns = Json::array();
   for (std::size_t s = 0; s < series.size(); ++s) {
     if (!hardware_series.contains(series[s])) continue;  // drawn as a line across
     const PointLook look = look_of(s);
     legend.push_back({{"shape", look.shape - 1}, {"colour", look.colour}, {"name", series[s]}});
   }
   for (const auto& [column, words] : c_shown_columns) columns.push_back(words);
-  bool others = false;
-  std::size_t of = 0;  // the last row with the picture
-  for (std::size_t row = 0; row < points->rows.size(); ++row) {
-    if (picture_of(*points, row) == picture)
-      of = row;
-    else
-      others = true;
-    Json cells = Json::array();
-    for (const auto& [column, words] : c_shown_columns) {
-      const std::string text = text_of(*points, row, column);
-      cells.push_back(text.empty() ? "–" : text);
-    }
-    rows.push_back({{"number", row}, {"name", points->text(row, "point")}, {"cells", std::move(cells)}});
-  }
+  page.data["points"] = points_of(page, points);
+  const std::string picture = commonest_picture(points);
+  Json drawn = plots_of(page, points, series, picture);
   view["plots"] = {{"first", drawn.empty() ? Json() : drawn[0]["id"]},  // the legend uses this plot's marks
                    {"legend", std::move(legend)},
-                   {"picture", nullptr},
+                   {"picture", unless_common(points, picture)},
                    {"drawn", std::move(drawn)},
                    {"columns", std::move(columns)},
-                   {"rows", std::move(rows)}};
-  if (others) view["plots"]["picture"] = told_picture(*points, of);
-  const auto front = write_front(*points, page.settings.page.parent_path(), page.scratch);
-  if (!front) return front.error();
-  return Ok{};
+                   {"rows", rows_of(points)}};
+  write_front(points, page.settings.page.parent_path(), page.scratch);
 }
 
 }  // namespace halfway::report

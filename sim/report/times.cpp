@@ -10,6 +10,7 @@
 #include "sim/report/plot.hpp"
 #include "sim/study/front.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {
@@ -159,19 +160,19 @@ std::string plot_name(const Table& picture) {
   return fmt::format("times-{}x{}.svg", picture.text(0, "width"), picture.text(0, "height"));
 }
 
-Result<std::string> draw_times(const Table& picture, const std::filesystem::path& scratch) {
+std::string draw_times(const Table& picture, const std::filesystem::path& scratch) {
   return draw_plot(times_plot(picture), scratch);
 }
 
-Result<std::string> readme_times(const Table& times) {
+std::string readme_times(const Table& times) {
   const std::vector<Table> pictures = pictures_of(times);
-  if (pictures.empty()) return bad_input("times: no design has a known time");
+  if (pictures.empty()) throw Failure{bad_input("times: no design has a known time")};
   const Table& picture = pictures.front();
   const std::vector<std::size_t> front = front_rows(picture);
   std::vector<std::size_t> hardware;
   std::ranges::copy_if(front, std::back_inserter(hardware),
                        [&](std::size_t row) { return is_hardware(picture, row); });
-  if (hardware.size() < 2) return bad_input("times: fewer than two designs of hardware to compare");
+  if (hardware.size() < 2) throw Failure{bad_input("times: fewer than two designs of hardware to compare")};
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
@@ -193,25 +194,24 @@ Result<std::string> readme_times(const Table& times) {
   return text + "\n" + sentences(picture, front, hardware);
 }
 
-Result<std::string> page_times(const Table& times) {
+std::string page_times(const Table& times) {
   std::string text;
   for (const Table& picture : pictures_of(times))
     text += fmt::format("{0}![Rms error against milliseconds per frame at {1}](results/gallery/{2})\n\n{3}",
                         text.empty() ? "" : "\n", size_of(picture), plot_name(picture),
                         table_of(picture, by_time(picture)));
-  if (text.empty()) return bad_input("times: no design has a known time");
+  if (text.empty()) throw Failure{bad_input("times: no design has a known time")};
   return text;
 }
 
-Result<std::size_t> write_times(const Table& times, const std::filesystem::path& folder,
-                                const std::filesystem::path& scratch) {
-  if (Status made = make_folders(folder); !made) return made.error();
+std::size_t write_times(const Table& times, const std::filesystem::path& folder,
+                        const std::filesystem::path& scratch) {
+  must(make_folders(folder));
   for (const Table& picture : pictures_of(times)) {
     const auto svg = draw_times(picture, scratch);
-    if (!svg) return svg.error();
-    if (Status written = write_file(folder / plot_name(picture), *svg); !written) return written.error();
+    must(write_file(folder / plot_name(picture), svg));
   }
-  if (Status written = write_file(folder / "times.csv", to_csv(times)); !written) return written.error();
+  must(write_file(folder / "times.csv", to_csv(times)));
   return times.rows.size();
 }
 

@@ -17,16 +17,16 @@ std::vector<Table> pictures_of(const Table& times);
 /// Name of a picture's plot, such as times-640x480.svg.
 std::string plot_name(const Table& picture);
 /// rms error against milliseconds per frame, host and hardware overlapped, as an SVG.
-Result<std::string> draw_times(const Table& picture, const std::filesystem::path& scratch);
+std::string draw_times(const Table& picture, const std::filesystem::path& scratch);
 
 /// README's part "times": plot, front and sentences for the first picture. Bad input with fewer than two
 /// designs of hardware on the front.
-Result<std::string> readme_times(const Table& times);
+std::string readme_times(const Table& times);
 /// The part "times" of docs/accuracy.md: every design of every picture, the quickest first.
-Result<std::string> page_times(const Table& times);
+std::string page_times(const Table& times);
 
 /// Writes times.csv and the plots. Returns the number of designs.
-Result<std::size_t> write_times(const Table& times, const std::filesystem::path& folder,
-                                const std::filesystem::path& scratch);
+std::size_t write_times(const Table& times, const std::filesystem::path& folder,
+                        const std::filesystem::path& scratch);
 
 }  // namespace halfway::report

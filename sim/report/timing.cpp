@@ -5,15 +5,19 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include "plan/plan.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/ghdl/vcd.hpp"
-#include "sim/report/plot.hpp"
+#include "sim/pages/gnuplot.hpp"
+#include "sim/pages/timing_diagram.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stream_files/init_file.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {
@@ -21,9 +25,10 @@ namespace {
 constexpr FrameSize c_size{16, 12};
 constexpr std::size_t c_fragments = 24;  // number of fragments after which the diagram ends
 constexpr std::size_t c_row = 50;        // number of clocks that fit the page's width
+constexpr double c_clock = 23;           // pixels
 constexpr std::size_t c_read = 200;      // clocks read to find the first vector
 
-enum class Shown { wire, decimal, hexadecimal };
+enum class Shown { wire, decimal };
 struct ShownSignal {
   const char* label;
   std::string path;  // in the testbench's hierarchy
@@ -75,39 +80,33 @@ std::string shown(const std::string& bits, Shown as) {
     if (bit != '0' && bit != '1') return as == Shown::wire ? "0" : "?";
     word = word << 1 | (bit == '1' ? 1U : 0U);
   }
-  return as == Shown::hexadecimal ? fmt::format("{:x}", word) : fmt::format("{}", word);
+  return std::to_string(word);
 }
 
 // Write the scene's init vectors for the hardware.
-Status write_vectors(const Scene& scene, const HardwareKey& key, const std::filesystem::path& path) {
+void write_vectors(const Scene& scene, const HardwareKey& key, const std::filesystem::path& path) {
   // No subdivision: two triangles with the same number of fragments in each shader.
   SetupOptions options;
   options.quadratic.test = HighlightTest::none;
   const std::unique_ptr<Setup> setup = make_setup(scene, c_size, key, options);
-  auto file = InitFileWriter::open(path, key.name(), setup->init_bits());
-  if (!file) return file.error();
+  auto file = must(InitFileWriter::open(path, key.name(), setup->init_bits()));
   SceneStream stream(*setup, key, 1);
-  for (Batch batch; stream.next(batch);) file->write(batch.init_words);
-  return file->commit();
+  for (Batch batch; stream.next(batch);) file.write(batch.init_words);
+  must(file.commit());
 }
 
 }  // namespace
 
-Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& folders) {
-  const auto scene = load_scene((folders.source / "sim/report/timing.toml").string(), {});
-  if (!scene) return scene.error();
-  const auto plan = plan_scene(*scene, {.shader = shader});
-  if (!plan) return plan.error();
-  const HardwareKey& key = plan->key;
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  const std::filesystem::path init = scratch->path() / "init.txt";
-  if (Status written = write_vectors(*scene, key, init); !written) return written.error();
-  const auto runner = GhdlRunner::open(key, folders);
-  if (!runner) return runner.error();
-  const std::filesystem::path trace = scratch->path() / "trace.vcd";
-  if (const auto run = runner->run(init, scratch->path() / "trace", {.wave_file = trace}); !run)
-    return run.error();
+ShaderTiming draw_shader_timing(Shader shader, const SimulatorFolders& folders) {
+  const auto scene = must(load_scene((folders.source / "sim/report/timing.toml").string(), {}));
+  const auto plan = must(plan_scene(scene, {.shader = shader}));
+  const HardwareKey& key = plan.key;
+  const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path init = scratch.path() / "init.txt";
+  write_vectors(scene, key, init);
+  const auto runner = must(GhdlRunner::open(key, folders));
+  const std::filesystem::path trace = scratch.path() / "trace.vcd";
+  must(runner.run(init, scratch.path() / "trace", {.wave_file = trace}));
 
   const auto signals = signals_of(shader);
   std::vector<std::string> paths;
@@ -117,55 +116,60 @@ Result<TimingDiagram> draw_shader_timing(Shader shader, const SimulatorFolders& 
   }
   std::ranges::sort(paths);
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
-  const auto sampled = sample_vcd(trace, "frame_tb/clk", paths, c_read);
-  if (!sampled) return sampled.error();
+  const auto sampled = must(sample_vcd(trace, "frame_tb/clk", paths, c_read));
   // Cycle 0 is the edge that takes the first vector.
-  const auto& offered = sampled->values.at("frame_tb/init_valid");
-  const auto& ready = sampled->values.at("frame_tb/init_ready");
+  const auto& offered = sampled.values.at("frame_tb/init_valid");
+  const auto& ready = sampled.values.at("frame_tb/init_ready");
   std::size_t first = 0;
-  while (first < sampled->edges && !(offered[first] == "1" && ready[first] == "1")) ++first;
-  if (first == sampled->edges) return tool_failed(trace.string() + ": no vector is taken");
-  const auto& drawn = sampled->values.at("frame_tb/fragment_valid");
+  while (first < sampled.edges && !(offered[first] == "1" && ready[first] == "1")) ++first;
+  if (first == sampled.edges) throw Failure{tool_failed(trace.string() + ": no vector is taken")};
+  const auto& drawn = sampled.values.at("frame_tb/fragment_valid");
   std::size_t last = first;
-  for (std::size_t fragments = 0; last < sampled->edges && fragments < c_fragments; ++last)
+  for (std::size_t fragments = 0; last < sampled.edges && fragments < c_fragments; ++last)
     fragments += drawn[last] == "1" ? 1 : 0;
 
-  std::vector<Lane> lanes;
-  for (const ShownSignal& signal : signals) {
-    Lane lane{signal.label, signal.as == Shown::wire, {}};
-    const auto& values = sampled->values.at(in_testbench(signal.path));
-    for (std::size_t edge = first; edge < last; ++edge) {
-      const bool counts = signal.valid.empty() || sampled->values.at(in_testbench(signal.valid))[edge] == "1";
-      lane.values.push_back(counts ? shown(values[edge], signal.as) : "");
-    }
-    lanes.push_back(std::move(lane));
-  }
-  TimingDiagram diagram{.key = key.name()};
+  // The value at an edge; std::nullopt: it is invalid.
+  const auto value_at = [&](const ShownSignal& signal, std::size_t edge) -> std::optional<std::string> {
+    if (!signal.valid.empty() && sampled.values.at(in_testbench(signal.valid))[edge] != "1")
+      return std::nullopt;
+    return shown(sampled.values.at(in_testbench(signal.path))[edge], signal.as);
+  };
+  ShaderTiming timing{.key = key.name()};
   const std::size_t clocks = last - first, rows = (clocks + c_row - 1) / c_row;
   // even, because every second clock has a tick
   const std::size_t in_row = ((clocks + rows - 1) / rows + 1) / 2 * 2;
-  for (std::size_t begin = 0; begin < clocks; begin += in_row) {
-    std::vector<Lane> part = lanes;
-    for (Lane& lane : part)
-      lane.values = {lane.values.begin() + static_cast<std::ptrdiff_t>(begin),
-                     lane.values.begin() + static_cast<std::ptrdiff_t>(std::min(clocks, begin + in_row))};
-    auto svg = draw_timing(part, begin, scratch->path());
-    if (!svg) return svg.error();
-    diagram.svgs.push_back(std::move(*svg));
+  for (std::size_t begin = first; begin < last; begin += in_row) {
+    const std::size_t end = std::min(last, begin + in_row);
+    const auto at = [&](std::size_t edge) { return static_cast<double>(edge - begin); };
+    TimingDiagram diagram{.end = at(end), .width = c_clock * at(end), .axis = "clock"};
+    for (std::size_t edge = begin; edge < end; ++edge) {
+      diagram.lines.push_back(at(edge) + 1.0);
+      if ((edge - begin) % 2 == 0) diagram.ticks.emplace_back(at(edge) + 0.5, std::to_string(edge - first));
+    }
+    for (const ShownSignal& signal : signals) {
+      TimingLane& lane = diagram.lanes.emplace_back(TimingLane{signal.label});
+      for (std::size_t from = begin, until = begin; from < end; from = until) {
+        const auto value = value_at(signal, from);
+        while (until < end && value_at(signal, until) == value) ++until;
+        if (signal.as == Shown::wire)
+          lane.levels.push_back({at(from), at(until), value == "1"});
+        else if (value)
+          lane.boxes.push_back({at(from), at(until), *value});
+      }
+    }
+    timing.svgs.push_back(run_gnuplot(timing_script(diagram), scratch.path(), "timing"));
   }
 
-  const auto lane_of = [&](const char* name) -> const Lane& {
-    return *std::ranges::find(lanes, name, &Lane::name);
+  const auto named = [&](const char* label, std::size_t edge) {
+    return value_at(*std::ranges::find(signals, std::string_view(label), &ShownSignal::label), edge)
+        .value_or("");
   };
-  std::string& words = diagram.words;
-  for (std::size_t edge = 0, named = 0; edge < last - first && named < 4; ++edge)
-    if (lane_of("fragment_valid").values[edge] == "1") {
-      words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", named == 0 ? "" : "; ", edge,
-                           lane_of("fragment_x").values[edge], lane_of("fragment_y").values[edge],
-                           lane_of("fragment_red").values[edge]);
-      ++named;
-    }
-  return diagram;
+  std::string& words = timing.words;
+  for (std::size_t edge = first, count = 0; edge < last && count < 4; ++edge)
+    if (drawn[edge] == "1")
+      words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", count++ == 0 ? "" : "; ", edge - first,
+                           named("fragment_x", edge), named("fragment_y", edge), named("fragment_red", edge));
+  return timing;
 }
 
 }  // namespace halfway::report

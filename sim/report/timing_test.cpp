@@ -27,7 +27,7 @@ TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
   for (const char* program : {"ghdl", "gnuplot"})
     ASSERT_FALSE(find_program(program).empty()) << "no " << program << " here";
   const SimulatorFolders folders{c_source, c_source / "build" / "cache"};
-  const auto timing = must(draw_shader_timing(GetParam(), folders));
+  const ShaderTiming timing = draw_shader_timing(GetParam(), folders);
 
   const auto scene = must(load_scene((c_source / "sim/report/timing.toml").string(), {}));
   WhySettings why;

@@ -62,8 +62,8 @@ void measure_browser(Json& speed) {
   }
   const std::filesystem::path page = c_scratch / "live.html";
   fmt::print(stderr, "building the page of make live\n");
-  must(live::write_live(
-      {.page = page, .scenes = {c_browser_scene}, .meshes = false, .folders = c_folders, .threads = 2}));
+  live::write_live(
+      {.page = page, .scenes = {c_browser_scene}, .meshes = false, .folders = c_folders, .threads = 2});
   Json rows = Json::array();
   for (const Shader shader : c_shaders) {
     PageTimes times;
