@@ -22,6 +22,7 @@
 #include "sim/synth/synthesis.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/interruption.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::cli {
@@ -56,24 +57,23 @@ struct StudyPlan {
   std::string space;
 };
 
-Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
+StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   const std::filesystem::path studies = folders.source / "sim" / "studies";
   StudyPlan plan;
-  auto demand = study::read_demand(command.error, command.psnr, command.time);
-  if (!demand) return demand.error();
-  plan.demand = *demand;
-  if (command.clock_mhz && !(*command.clock_mhz > 0)) return bad_input("--clock: takes MHz above 0");
+  plan.demand = must(study::read_demand(command.error, command.psnr, command.time));
+  if (command.clock_mhz && !(*command.clock_mhz > 0)) throw Failure{bad_input("--clock: takes MHz above 0")};
   if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
-    return tool_failed(fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}",
-                                   synth::c_install_tools));
+    throw Failure{tool_failed(fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}",
+                                          synth::c_install_tools))};
   if (command.executor != "local" && command.executor != "slurm")
-    return bad_input("--executor: '" + command.executor + "' is not an executor; take local or slurm");
+    throw Failure{
+        bad_input("--executor: '" + command.executor + "' is not an executor; take local or slurm")};
   study::StudySettings& settings = plan.settings;
   if (!command.part.empty() &&
       (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
        settings.part >= settings.parts))
-    return bad_input("--part: '" + command.part + "' is not a part; take I/N, I from 0 to N - 1");
-  if (command.parts == 0) return bad_input("--parts: takes 1 or more");
+    throw Failure{bad_input("--part: '" + command.part + "' is not a part; take I/N, I from 0 to N - 1")};
+  if (command.parts == 0) throw Failure{bad_input("--parts: takes 1 or more")};
   settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
   settings.out = command.out;
   settings.threads =
@@ -83,39 +83,35 @@ Result<StudyPlan> checked(const StudyCommand& command, const Folders& folders) {
   plan.space = !command.space.empty()
                    ? command.space
                    : (studies / (plan.demand.any() ? "designs.toml" : "small.toml")).string();
-  auto points = study::read_space(plan.space);
-  if (!points) return points.error();
+  auto points = must(study::read_space(plan.space));
   if (!command.size.empty()) {
-    const auto size = checked_size(command.size);
-    if (!size) return size.error();
-    for (study::DesignPoint& point : *points) point.size = *size;
+    const FrameSize size = must(checked_size(command.size));
+    for (study::DesignPoint& point : points) point.size = size;
   }
   if (!command.tile.empty()) {
-    const auto tile = checked_size(command.tile, "--tile");
-    if (!tile) return tile.error();
-    if (std::min(tile->width, tile->height) < study::c_least_tile)
-      return bad_input(fmt::format("--tile: {} is too small; width and height are {} pixels at least",
-                                   command.tile, study::c_least_tile));
-    for (study::DesignPoint& point : *points) point.tile = *tile;
+    const FrameSize tile = must(checked_size(command.tile, "--tile"));
+    if (std::min(tile.width, tile.height) < study::c_least_tile)
+      throw Failure{bad_input(fmt::format("--tile: {} is too small; width and height are {} pixels at least",
+                                          command.tile, study::c_least_tile))};
+    for (study::DesignPoint& point : points) point.tile = tile;
   }
-  settings.points = study::ordered(std::move(*points));
+  settings.points = study::ordered(std::move(points));
   return plan;
 }
 
 // Remove the points that cannot draw the scene. `place`: include placements as pieces.
-Status leave_out(study::StudySettings& settings, const std::string& space, bool place) {
-  if (const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes"); !scene)
-    return scene.error();
+void leave_out(study::StudySettings& settings, const std::string& space, bool place) {
+  must(load_scene(settings.scene, settings.folders.source / "sim" / "scenes"));
   study::Drawable drawable = study::drawable(settings.points, settings.scene, settings.folders);
   settings.points = std::move(drawable.points);
   if (place) settings.placed = std::move(drawable.hardware);
   if (settings.points.empty())
-    return bad_input(fmt::format("{}: no point of it can be drawn: {}", space, drawable.reasons.front()));
+    throw Failure{
+        bad_input(fmt::format("{}: no point of it can be drawn: {}", space, drawable.reasons.front()))};
   if (drawable.left_out > 0 && settings.parts == 1) {
     say(fmt::format("{} points are left out:", drawable.left_out));
     for (const std::string& reason : drawable.reasons) say("  " + reason);
   }
-  return Ok{};
 }
 
 std::string absolute_path(const std::filesystem::path& path) {
@@ -139,29 +135,25 @@ std::vector<std::string> worker_of(const Folders& folders, const StudyCommand& c
 }
 
 // Make the init vectors of points; Callgrind counts the instructions.
-int set_up(const study::StudySettings& settings, const std::string& names) {
+void set_up(const study::StudySettings& settings, const std::string& names) {
   const std::filesystem::path scenes = settings.folders.source / "sim" / "scenes";
   // Load the scene once before all points, so that each point finds the same state of the process.
-  if (const auto scene = load_scene(settings.scene, scenes); !scene) return report(scene.error());
-  const Status done = study::in_processes(names, [&](const std::string& name) -> Status {
+  must(load_scene(settings.scene, scenes));
+  study::in_processes(names, [&](const std::string& name) {
     const auto point = std::ranges::find(settings.points, name, &study::DesignPoint::name);
     if (point == settings.points.end())
-      return bad_input("--set-up: '" + name + "' is not a point of the space");
-    const auto scene = study::drawn_scene(settings.scene, scenes, *point);
-    if (!scene) return scene.error();
-    const auto hardware = study::drawing_hardware_of(*point, *scene, settings.folders);
-    if (!hardware) return hardware.error();
-    study::set_up_frame(*scene, point->size, hardware->key, study::frame_setup(*point, *scene),
-                        hardware->formats.get());
-    return Ok{};
+      throw Failure{bad_input("--set-up: '" + name + "' is not a point of the space")};
+    const Scene scene = study::drawn_scene(settings.scene, scenes, *point);
+    const auto hardware = must(study::drawing_hardware_of(*point, scene, settings.folders));
+    study::set_up_frame(scene, point->size, hardware.key, study::frame_setup(*point, scene),
+                        hardware.formats.get());
   });
-  return done ? 0 : report(done.error());
 }
 
 // Measure all missing pieces in job arrays; the caller then assembles the points. In the first array, a task
 // may end before other tasks have drawn the tiles that it should assemble. A second array assembles them.
-Status run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
-                    const std::string& space) {
+void run_on_slurm(study::StudySettings settings, const Folders& folders, const StudyCommand& command,
+                  const std::string& space) {
   settings.parts = std::clamp<std::size_t>(command.parts, 1, study::most_parts(settings));
   study::JobArray array{.worker = worker_of(folders, command, space),
                         .parts = settings.parts,
@@ -175,15 +167,10 @@ Status run_on_slurm(study::StudySettings settings, const Folders& folders, const
   std::vector<std::filesystem::path> rounds = {logs};
   if (any_tiles) rounds.push_back(logs / "gathering");
   for (const std::filesystem::path& folder : rounds) {
-    auto open = study::open_parts(settings);
-    if (!open) return open.error();
-    array.open = std::move(*open);
+    array.open = study::open_parts(settings);
     array.folder = absolute_path(folder);
-    const Status ran = study::run_job_array(array);
-    for (const std::string& note : study::notes_of(array)) say(note);
-    if (!ran) return ran;
+    study::run_job_array(array);
   }
-  return Ok{};
 }
 
 // Write the table. Print the answer for each picture, or without a demand the front of the main picture.
@@ -193,14 +180,12 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
   const std::string csv = study::to_csv(made.provenance, made.records, hardware, markets);
   const std::filesystem::path table =
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
-  if (Status written = write_file(table, csv); !written) return report(written.error());
+  must(write_file(table, csv));
   fmt::print("{}: {} points, {} measured in this run\n", table.string(), made.records.size(), made.measured);
   const auto times = study::frame_times_of(made.records, hardware, clock);
   if (!plan.demand.any())
-    if (Status written = write_file(plan.settings.out / c_times_table,
-                                    study::times_csv(made.provenance, made.records, times));
-        !written)
-      return report(written.error());
+    must(write_file(plan.settings.out / c_times_table,
+                    study::times_csv(made.provenance, made.records, times)));
   if (plan.demand.any() && markets.empty()) {
     fmt::print("nothing meets it: none of the points is hardware\n");
     return static_cast<int>(ExitCode::differs);
@@ -222,53 +207,50 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
 }
 
 int run(const Folders& folders, const StudyCommand& command) {
-  auto plan = checked(command, folders);
-  if (!plan) return report(plan.error());
-  study::StudySettings& settings = plan->settings;
-  if (!command.set_up.empty()) return set_up(settings, command.set_up);
-  settings.set_up = worker_of(folders, command, plan->space);
+  StudyPlan plan = checked(command, folders);
+  study::StudySettings& settings = plan.settings;
+  if (!command.set_up.empty()) {
+    set_up(settings, command.set_up);
+    return 0;
+  }
+  settings.set_up = worker_of(folders, command, plan.space);
   settings.host_times = command.part.empty();
   const bool on_slurm = command.executor == "slurm";
   // A run without parts places after the measurement, when it is known which hardware can fit; this saves
   // synthesis.
-  const bool place = command.place && (on_slurm || !command.part.empty());
-  if (const Status left = leave_out(settings, plan->space, place); !left) return report(left.error());
-  if (on_slurm)
-    if (const Status ran = run_on_slurm(settings, folders, command, plan->space); !ran)
-      return report(ran.error());
+  leave_out(settings, plan.space, command.place && (on_slurm || !command.part.empty()));
+  if (on_slurm) run_on_slurm(settings, folders, command, plan.space);
   Progress progress("study");
   settings.on_progress = [&](const std::string& text) { progress.show(text); };
-  settings.on_note = [&](const std::string& note) {
-    progress.clear();
-    say(fmt::format("{}{}", study::c_note, note));
-  };
   std::optional<Interruption> interruption;
   if (command.part.empty())
     interruption.emplace([&] {
       say(fmt::format("\ninterrupted; finished measurements are kept in {}; the same command continues there",
                       (settings.out / "points").string()));
     });
-  const auto study = study::run_study(settings);
-  // Not acquired after a signal: the interrupted work must not be reported as an error.
+  // Work that a signal interrupts must not be reported as an error: after a signal the gate stays closed.
   std::shared_lock<std::shared_timed_mutex> writing;
-  if (interruption) writing = interruption->writing();
-  progress.clear();
-  if (!study) return report(study.error());
+  const auto finished = [&](const auto& work) {
+    auto made = caught(work);
+    if (interruption) writing = interruption->writing();
+    progress.clear();
+    return must(std::move(made));
+  };
+  const study::Study study = finished([&] { return study::run_study(settings); });
   if (writing) writing.unlock();
   if (!command.part.empty()) {
     fmt::print("part {}: {} points, {} measured in this run, {} tiles drawn, {} placements\n", command.part,
-               study->records.size(), study->measured, study->drawn_tiles, study->placements);
+               study.records.size(), study.measured, study.drawn_tiles, study.placements);
     return 0;
   }
-  const auto hardware = study::hardware_figures(
-      settings.scene, study->records, settings.folders,
-      {.threads = settings.threads, .place = command.place, .on_progress = [&](const std::string& text) {
-         progress.show(text);
-       }});
-  if (interruption) writing.lock();
-  progress.clear();
-  if (!hardware) return report(hardware.error());
-  return conclude(*plan, *study, *hardware, {command.clock_mhz});
+  const study::HardwareTable hardware = finished([&] {
+    return must(study::hardware_figures(
+        settings.scene, study.records, settings.folders,
+        {.threads = settings.threads, .place = command.place, .on_progress = [&](const std::string& text) {
+           progress.show(text);
+         }}));
+  });
+  return conclude(plan, study, hardware, {command.clock_mhz});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr double c_ms = 1e-6;  // ns to ms
 using TimeLine = std::vector<std::pair<const char*, std::string>>;
 
 TimeLine line_of(const Provenance& provenance, const Record& record, const FrameTime& time) {
-  const auto& [p, m, picture] = record;
+  const auto& [p, m] = record;
   const bool has_hardware = time.hardware_ns.has_value();
   const auto of_hardware = [&](const auto& value) {
     return has_hardware ? fmt::format("{}", value) : std::string();
@@ -71,7 +71,7 @@ std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const 
                                          Clock clock) {
   std::vector<PictureTimes> pictures;
   for (std::size_t at = 0; at < records.size(); ++at) {
-    const auto& [point, measured, file] = records[at];
+    const auto& [point, measured] = records[at];
     if (!measured.host_time) continue;
     const std::string name = point.picture();
     auto picture = std::ranges::find(pictures, name, &PictureTimes::picture);

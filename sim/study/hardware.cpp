@@ -210,7 +210,7 @@ std::vector<HardwareSource> sources_of(const std::string& scene, std::span<const
   std::set<std::string> names;
   for (const DesignPoint& point : points) {
     if (!in_hardware(point.method)) continue;
-    const Scene drawn = must(drawn_scene(scene, folders.source / "sim" / "scenes", point));
+    const Scene drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
     auto hardware = hardware_of(point, drawn);
     if (!hardware || !names.insert(hardware->key.name()).second) continue;
     sources.push_back({std::move(*hardware), must(rtl_of(point, drawn, folders))});

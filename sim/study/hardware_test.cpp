@@ -52,7 +52,7 @@ echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critica
 class HardwareFiguresTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folders_ = {folder_->path() / "source", folder_->path() / "cache"};
+    folders_ = {folder_.path() / "source", folder_.path() / "cache"};
     // This tree has its own stored clocks.
     for (const char* name : {"docs/results", "sim"}) ASSERT_TRUE(make_folders(folders_.source / name));
     fs::create_directory_symlink(c_source_folder / "rtl", folders_.source / "rtl");
@@ -64,11 +64,7 @@ class HardwareFiguresTest : public ::testing::Test {
     ASSERT_TRUE(make_folders(c_source_folder / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source_folder / "build/cache/ghdl", folders_.cache / "ghdl");
     put_tools("4", "30", "40");
-    const auto scene = drawn_scene(scene_, c_source_folder / "sim/scenes", point_);
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto hardware = hardware_of(point_, *scene);
-    ASSERT_TRUE(hardware) << hardware.error().message;
-    key_ = hardware->key;
+    key_ = must(hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_))).key;
     Record record{point_, {}};
     record.measured.hardware = key_.name();
     records_ = {record};
@@ -86,7 +82,7 @@ class HardwareFiguresTest : public ::testing::Test {
   }
   void put_tools(const std::string& flip_flops, const std::string& luts, const std::string& packed) {
     using Words = std::vector<std::pair<std::string, std::string>>;
-    const fs::path bin = folder_->path() / "bin";
+    const fs::path bin = folder_.path() / "bin";
     ASSERT_TRUE(make_folders(bin));
     const auto put = [&](const char* name, std::string text, const Words& words) {
       for (const auto& [what, by] : words) {
@@ -101,21 +97,19 @@ class HardwareFiguresTest : public ::testing::Test {
     put("nextpnr-ice40", c_nextpnr, {{"LOG", log().string()}, {"PACKED", packed}});
     ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
   }
-  fs::path log() const { return folder_->path() / "placements"; }
+  fs::path log() const { return folder_.path() / "placements"; }
   std::size_t placements() const {
     const auto text = read_file(log());
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
   }
   HardwareFigures figures(bool place) const {
-    const auto table = hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place});
-    EXPECT_TRUE(table) << table.error().message;
-    return table ? table->at(key_.name()) : HardwareFigures{};
+    return must(hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place})).at(key_.name());
   }
 
   const std::string path_ = std::getenv("PATH");
   const std::string scene_ = c_source_folder / "sim/studies/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
-  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(fs::temp_directory_path());
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
   SimulatorFolders folders_;
   HardwareKey key_;
   std::vector<Record> records_;
@@ -199,20 +193,17 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 
 // The stored clocks must be of the netlists of the current RTL.
 TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
-  const auto points = read_space((c_source_folder / "sim/studies/small.toml").string());
-  ASSERT_TRUE(points) << points.error().message;
+  const auto points = must(read_space((c_source_folder / "sim/studies/small.toml").string()));
   std::size_t clocks = 0;
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
-  const auto hardware = hardware_of_space(c_source_folder / "sim/studies/sphere.toml", *points, folders);
-  ASSERT_TRUE(hardware) << hardware.error().message;
-  for (const HardwareSource& source : *hardware) {
+  const std::string scene = c_source_folder / "sim/studies/sphere.toml";
+  for (const HardwareSource& source : must(hardware_of_space(scene, points, folders))) {
     if (source.hardware.key.shader == Shader::processors) continue;
-    const auto figures = stored_figures(source, folders);
-    ASSERT_TRUE(figures) << figures.error().message;
-    EXPECT_EQ(figures->clock == c_stored, figures->mhz.has_value());
-    EXPECT_NE(figures->clock, c_not_placed)
+    const auto figures = must(stored_figures(source, folders));
+    EXPECT_EQ(figures.clock == c_stored, figures.mhz.has_value());
+    EXPECT_NE(figures.clock, c_not_placed)
         << source.design().name << ": its clock is not stored; make evidence PAGE=clocks places it";
-    clocks += figures->mhz ? 1 : 0;
+    clocks += figures.mhz ? 1 : 0;
   }
   EXPECT_GT(clocks, 18U);
 }
@@ -221,27 +212,19 @@ TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
 TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   StudySettings settings{.scene = scene_,
                          .points = {{.method = Method::gouraud, .size = {32, 24}}},
-                         .out = folder_->path() / "out",
+                         .out = folder_.path() / "out",
                          .parts = synth::c_seeds,
                          .folders = folders_,
                          .placed = {point_}};
   EXPECT_EQ(most_parts(settings), synth::c_seeds);
-  const auto open = [&] {
-    const auto parts = open_parts(settings);
-    EXPECT_TRUE(parts) << parts.error().message;
-    return parts ? *parts : std::vector<std::size_t>();
-  };
+  const auto open = [&] { return open_parts(settings); };
   const auto run = [&](std::size_t part) {
     settings.part = part;
-    const auto made = run_study(settings);
-    EXPECT_TRUE(made) << made.error().message;
-    return made ? made->placements : 0;
+    return run_study(settings).placements;
   };
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
   EXPECT_EQ(run(1), 1U);
-  const auto seeds = read_file(log());
-  ASSERT_TRUE(seeds) << seeds.error().message;
-  EXPECT_EQ(*seeds, "2\n");
+  EXPECT_EQ(must(read_file(log())), "2\n");
   EXPECT_THAT(open(), ElementsAre(0U, 2U));
   EXPECT_EQ(run(1), 0U);
   EXPECT_EQ(run(2) + run(0), 2U);
@@ -261,14 +244,10 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   put_tools("4", "7681", "40");
   const StudySettings settings{
-      .scene = scene_, .out = folder_->path() / "out", .folders = folders_, .placed = {point_}};
-  const auto made = run_study(settings);
-  ASSERT_TRUE(made) << made.error().message;
-  EXPECT_EQ(made->placements, synth::c_seeds);
+      .scene = scene_, .out = folder_.path() / "out", .folders = folders_, .placed = {point_}};
+  EXPECT_EQ(run_study(settings).placements, synth::c_seeds);
   EXPECT_EQ(placements(), 0U);
-  const auto parts = open_parts(settings);
-  ASSERT_TRUE(parts) << parts.error().message;
-  EXPECT_TRUE(parts->empty());
+  EXPECT_TRUE(open_parts(settings).empty());
 }
 
 }  // namespace

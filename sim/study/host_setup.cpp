@@ -27,6 +27,7 @@
 #include "sim/study/hardware.hpp"
 #include "sim/study/pictures.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/sanitizers.hpp"
 #include "sim/system/subprocess.hpp"
 
@@ -87,49 +88,39 @@ SetupOptions frame_setup(const DesignPoint& point, const Scene& scene) {
   return options;
 }
 
-Result<HostTime> host_time(const DesignPoint& point, const std::string& scene_name,
-                           const SimulatorFolders& folders) {
+HostTime host_time(const DesignPoint& point, const std::string& scene_name, const SimulatorFolders& folders) {
   if (point.method == Method::phong_mesa) {
     MesaRequest request = mesa_request(point, scene_name);
     request.repetitions = c_mesa_runs;
-    const auto picture = draw_by_mesa(request, folders.source);
-    if (!picture) return picture.error();
-    return HostTime{.ns = 1e9 * picture->seconds, .words = 0};
+    return {.ns = 1e9 * must(draw_by_mesa(request, folders.source)).seconds, .words = 0};
   }
-  const auto drawn = drawn_scene(scene_name, folders.source / "sim" / "scenes", point);
-  if (!drawn) return drawn.error();
-  const Scene& scene = *drawn;
+  const Scene scene = drawn_scene(scene_name, folders.source / "sim" / "scenes", point);
   if (in_hardware(point.method)) {
-    const auto hardware = drawing_hardware_of(point, scene, folders);
-    if (!hardware) return hardware.error();
+    const PointHardware hardware = must(drawing_hardware_of(point, scene, folders));
     const SetupOptions options = frame_setup(point, scene);
     HostTime time;
     time.ns = quickest_ns([&] {
-      time.words = set_up_frame(scene, point.size, hardware->key, options, hardware->formats.get()).words;
+      time.words = set_up_frame(scene, point.size, hardware.key, options, hardware.formats.get()).words;
     });
     return time;
   }
   const RenderOptions options{.frame = point.size, .subpixel_bits = 4};
   const auto draw = point.method == Method::gouraud ? render_gouraud : render_reference;
-  return HostTime{.ns = quickest_ns([&] {
-                    const auto triangles = Projector(scene, point.size, {}).project_all();
-                    draw(scene, triangles, options);
-                  }),
-                  .words = 0};
+  return {.ns = quickest_ns([&] { draw(scene, Projector(scene, point.size, {}).project_all(), options); }),
+          .words = 0};
 }
 
-Status in_processes(const std::filesystem::path& names,
-                    const std::function<Status(const std::string&)>& each) {
+void in_processes(const std::filesystem::path& names, const std::function<void(const std::string&)>& each) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(names.c_str(), "r"), &std::fclose);
-  if (!file) return bad_input(fmt::format("{}: {}", names.string(), std::strerror(errno)));
+  if (!file) throw Failure{bad_input(fmt::format("{}: {}", names.string(), std::strerror(errno)))};
   std::array<char, c_longest_name> line{};
   // This process allocates nothing from here on.
   while (std::fgets(line.data(), static_cast<int>(line.size()), file.get()) != nullptr) {
     line[std::strcspn(line.data(), "\n")] = '\0';
     const pid_t child = fork();
-    if (child < 0) return tool_failed(fmt::format("fork: {}", std::strerror(errno)));
+    if (child < 0) throw Failure{tool_failed(fmt::format("fork: {}", std::strerror(errno)))};
     if (child == 0) {
-      const Status done = each(line.data());
+      const Status done = caught([&] { each(line.data()); });
       if (!done) fmt::print(stderr, "{}\n", done.error().message);
       std::fflush(nullptr);
       std::_Exit(done ? 0 : 1);
@@ -137,57 +128,49 @@ Status in_processes(const std::filesystem::path& names,
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (status != 0) return tool_failed(std::string(line.data()) + ": could not be set up");
+    if (status != 0) throw Failure{tool_failed(std::string(line.data()) + ": could not be set up")};
     dprintf(STDOUT_FILENO, "%d %s\n", child, line.data());
   }
-  return Ok{};
 }
 
-Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<std::string> worker,
-                                                                    const std::vector<std::string>& names,
-                                                                    const std::filesystem::path& scratch) {
-  std::optional<std::vector<std::uint64_t>> counted;
-  if (c_sanitized || find_program("valgrind").empty()) return counted;
-  auto folder = TemporaryFolder::make(scratch);
-  if (!folder) return folder.error();
+std::optional<std::vector<std::uint64_t>> host_instructions(std::vector<std::string> worker,
+                                                            const std::vector<std::string>& names,
+                                                            const std::filesystem::path& scratch) {
+  if (c_sanitized || find_program("valgrind").empty()) return std::nullopt;
+  const TemporaryFolder folder = must(TemporaryFolder::make(scratch));
   // LD_BIND_NOW: otherwise the first call of a library function would cost more instructions than later
   // calls.
   Command command{.arguments = {"valgrind", "--tool=callgrind", "--quiet", "--toggle-collect=*set_up_frame*",
-                                fmt::format("--callgrind-out-file={}/%p", folder->path().string())},
-                  .standard_output = folder->path() / "processes",
+                                fmt::format("--callgrind-out-file={}/%p", folder.path().string())},
+                  .standard_output = folder.path() / "processes",
                   .environment = {{"LD_BIND_NOW", "1"}},
                   .timeout = c_longest};
-  const std::filesystem::path list = folder->path() / "names";
-  if (Status written = write_file(list, fmt::format("{}\n", fmt::join(names, "\n"))); !written)
-    return written.error();
+  const std::filesystem::path list = folder.path() / "names";
+  must(write_file(list, fmt::format("{}\n", fmt::join(names, "\n"))));
   // The program stores this file name, and its length shifts the heap. /dev/stdin has the same length on
   // every machine.
   worker.insert(worker.end(), {"--set-up", "/dev/stdin"});
   command.arguments.insert(command.arguments.end(), worker.begin(), worker.end());
   command.standard_input = ::open(list.c_str(), O_RDONLY | O_CLOEXEC);
   if (command.standard_input < 0)
-    return tool_failed(fmt::format("{}: {}", list.string(), std::strerror(errno)));
-  const auto end = run_process(command, c_install_valgrind);
-  if (!end) return end.error();
+    throw Failure{tool_failed(fmt::format("{}: {}", list.string(), std::strerror(errno)))};
+  const ProcessEnd end = must(run_process(command, c_install_valgrind));
   const auto failed = [&](const std::string& what) {
-    return tool_failed(fmt::format("valgrind: {}\n  while running: {}", what, to_string(command)));
+    return Failure{tool_failed(fmt::format("valgrind: {}\n  while running: {}", what, to_string(command)))};
   };
-  if (!end->succeeded()) return failed(end->how() + ": " + end->output);
-  const auto processes = read_file(command.standard_output);
-  if (!processes) return processes.error();
-  std::istringstream lines(*processes);
-  counted.emplace();
+  if (!end.succeeded()) throw failed(end.how() + ": " + end.output);
+  std::istringstream lines(must(read_file(command.standard_output)));
+  std::vector<std::uint64_t> counted;
   std::string line;
   for (const std::string& name : names) {
     const std::size_t space = std::getline(lines, line) ? line.find(' ') : std::string::npos;
-    if (space == std::string::npos || line.substr(space + 1) != name) return failed("no process of " + name);
-    const auto text = read_file(folder->path() / line.substr(0, space));
-    if (!text) return failed(text.error().message);
+    if (space == std::string::npos || line.substr(space + 1) != name) throw failed("no process of " + name);
+    const std::string text = must(read_file(folder.path() / line.substr(0, space)));
     std::uint64_t instructions = 0;
-    if (const std::size_t at = text->find(c_totals); at != std::string::npos)
-      std::from_chars(text->data() + at + c_totals.size(), text->data() + text->size(), instructions);
-    if (instructions == 0) return failed("no instructions of set_up_frame counted for " + name);
-    counted->push_back(instructions);
+    if (const std::size_t at = text.find(c_totals); at != std::string::npos)
+      std::from_chars(text.data() + at + c_totals.size(), text.data() + text.size(), instructions);
+    if (instructions == 0) throw failed("no instructions of set_up_frame counted for " + name);
+    counted.push_back(instructions);
   }
   return counted;
 }

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
@@ -38,19 +37,17 @@ SetupOptions frame_setup(const DesignPoint& point, const Scene& scene);
 /// The host's time for one frame of the point on one core of this machine: processor time of the thread,
 /// the quickest of several runs. In hardware: set_up_frame. In software: from the scene to the picture.
 /// `scene` as for load_scene.
-Result<HostTime> host_time(const DesignPoint& point, const std::string& scene,
-                           const SimulatorFolders& folders);
+HostTime host_time(const DesignPoint& point, const std::string& scene, const SimulatorFolders& folders);
 
 /// For each line of the file, a name: call `each` in a new process, then print the process id and the name on
 /// standard output. All processes start with the same heap, for any names, because the allocator's
 /// instructions depend on its history.
-Status in_processes(const std::filesystem::path& names,
-                    const std::function<Status(const std::string&)>& each);
+void in_processes(const std::filesystem::path& names, const std::function<void(const std::string&)>& each);
 
 /// Instructions of set_up_frame for each of the points, given by name. `worker` is a command that calls
 /// in_processes; the names are passed to it with `--set-up`. std::nullopt without Valgrind.
-Result<std::optional<std::vector<std::uint64_t>>> host_instructions(std::vector<std::string> worker,
-                                                                    const std::vector<std::string>& names,
-                                                                    const std::filesystem::path& scratch);
+std::optional<std::vector<std::uint64_t>> host_instructions(std::vector<std::string> worker,
+                                                            const std::vector<std::string>& names,
+                                                            const std::filesystem::path& scratch);
 
 }  // namespace halfway::study

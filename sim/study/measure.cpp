@@ -8,22 +8,19 @@
 #include "sim/pictures/perception.hpp"
 #include "sim/run/verilator_frame.hpp"
 #include "sim/study/hardware.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {
 
-Result<Drawing> draw_in_hardware(const DesignPoint& point, const Scene& scene,
-                                 const SimulatorFolders& folders, const std::optional<Tile>& tile) {
-  const auto hardware = drawing_hardware_of(point, scene, folders);
-  if (!hardware) return hardware.error();
-  const auto rtl_folders = rtl_of(point, scene, folders);
-  if (!rtl_folders) return rtl_folders.error();
-  const HardwareKey& key = hardware->key;
-  auto drawn = draw_in_verilator(scene, point.size, key, point.setup(), *rtl_folders, 1, tile,
-                                 hardware->formats.get());
-  if (!drawn) return drawn.error();
-  return Drawing{std::move(drawn->frame), std::move(drawn->mask), key.name(),
-                 drawn->fragments,        drawn->cycles,          drawn->counts};
+Drawing draw_in_hardware(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders,
+                         const std::optional<Tile>& tile) {
+  const PointHardware hardware = must(drawing_hardware_of(point, scene, folders));
+  const SimulatorFolders rtl_folders = must(rtl_of(point, scene, folders));
+  auto drawn = must(draw_in_verilator(scene, point.size, hardware.key, point.setup(), rtl_folders, 1, tile,
+                                      hardware.formats.get()));
+  return {std::move(drawn.frame), std::move(drawn.mask), hardware.key.name(),
+          drawn.fragments,        drawn.cycles,          drawn.counts};
 }
 
 // The pixels of another colour than the background.
@@ -51,14 +48,13 @@ MesaRequest mesa_request(const DesignPoint& point, const std::string& scene) {
   return {.scene = scene, .size = point.size, .tessellation = point.tessellation, .exponent = point.exponent};
 }
 
-Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const SimulatorFolders& folders,
-                     const std::optional<Tile>& tile) {
+Drawing draw(const DesignPoint& point, const Subject& subject, const SimulatorFolders& folders,
+             const std::optional<Tile>& tile) {
   if (in_hardware(point.method)) return draw_in_hardware(point, subject.scene, folders, tile);
   Drawing drawing;
   if (point.method == Method::phong_mesa) {
-    auto picture = draw_by_mesa(mesa_request(point, subject.name), folders.source);
-    if (!picture) return picture.error();
-    drawing.frame = tile ? cut_tile(picture->frame, *tile) : std::move(picture->frame);
+    MesaPicture picture = must(draw_by_mesa(mesa_request(point, subject.name), folders.source));
+    drawing.frame = tile ? cut_tile(picture.frame, *tile) : std::move(picture.frame);
     drawing.mask = mask_of(drawing.frame, subject.scene);
     return drawing;
   }
@@ -68,7 +64,7 @@ Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const Sim
   return drawing;
 }
 
-Result<Measurement> measure(const Pictures& pictures, std::optional<Drawing> drawing) {
+Measurement measure(const Pictures& pictures, std::optional<Drawing> drawing) {
   Measurement m;
   const auto& [name, scene, triangles] = *pictures.subject;
   const Frame& reference = pictures.reference.image.frame;
@@ -84,18 +80,10 @@ Result<Measurement> measure(const Pictures& pictures, std::optional<Drawing> dra
   } else {
     m.frame = reference;
   }
-  const auto picture = frame_distance(m.frame, reference, mask);
-  if (!picture) return picture.error();
-  m.picture = *picture;
-  const auto highlight = frame_distance(m.frame, reference, pictures.reference.highlight);
-  if (!highlight) return highlight.error();
-  m.highlight = *highlight;
-  const auto perceived = perceived_pixels(m.frame, reference);
-  if (!perceived) return perceived.error();
-  m.perceived = *perceived;
-  const auto bands = mach_bands(m.frame, reference, scene, triangles);
-  if (!bands) return bands.error();
-  m.mach_bands = *bands;
+  m.picture = must(frame_distance(m.frame, reference, mask));
+  m.highlight = must(frame_distance(m.frame, reference, pictures.reference.highlight));
+  m.perceived = must(perceived_pixels(m.frame, reference));
+  m.mach_bands = must(mach_bands(m.frame, reference, scene, triangles));
   return m;
 }
 

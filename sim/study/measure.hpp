@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "frame/metrics.hpp"
 #include "setup/setup.hpp"
@@ -56,12 +55,12 @@ struct Measurement {
 MesaRequest mesa_request(const DesignPoint& point, const std::string& scene);
 
 /// Draw the frame or a tile. Hardware is drawn by the RTL in Verilator. If a fragment differs from the golden
-/// model's, the error has the exit code `differs`. The point must be drawn (is_drawn).
-Result<Drawing> draw(const DesignPoint& point, const Subject& subject, const SimulatorFolders& folders,
-                     const std::optional<Tile>& tile = {});
+/// model's, throws Failure with the exit code `differs`. The point must be drawn (is_drawn).
+Drawing draw(const DesignPoint& point, const Subject& subject, const SimulatorFolders& folders,
+             const std::optional<Tile>& tile = {});
 
 /// Compare the drawing of the whole frame with the reference. Without a drawing, the reference is compared
 /// with itself.
-Result<Measurement> measure(const Pictures& pictures, std::optional<Drawing> drawing);
+Measurement measure(const Pictures& pictures, std::optional<Drawing> drawing);
 
 }  // namespace halfway::study

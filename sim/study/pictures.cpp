@@ -5,6 +5,7 @@
 
 #include "setup/project.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -23,11 +24,11 @@ std::vector<std::uint8_t> highlight_mask(const Subject& subject, const RenderOpt
 
 }  // namespace
 
-Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
-                          const DesignPoint& point) {
-  auto drawn = load_scene(scene, scenes_folder, {.tessellation = point.tessellation});
-  if (drawn && point.exponent)
-    for (Material& material : drawn->materials) material.exponent = *point.exponent;
+Scene drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                  const DesignPoint& point) {
+  Scene drawn = must(load_scene(scene, scenes_folder, {.tessellation = point.tessellation}));
+  if (point.exponent)
+    for (Material& material : drawn.materials) material.exponent = *point.exponent;
   return drawn;
 }
 
@@ -39,26 +40,21 @@ Reference render(const Subject& subject, FrameSize frame, const std::optional<Ti
   return reference;
 }
 
-Result<std::shared_ptr<const Subject>> PictureShelf::subject(const DesignPoint& point) {
-  return subjects_.of(point.picture(), [&]() -> Result<std::shared_ptr<const Subject>> {
-    auto scene = drawn_scene(scene_, scenes_folder_, point);
-    if (!scene) return scene.error();
+std::shared_ptr<const Subject> PictureShelf::subject(const DesignPoint& point) {
+  return subjects_.of(point.picture(), [&] {
     auto made = std::make_shared<Subject>();
     made->name = scene_;
-    made->scene = std::move(*scene);
+    made->scene = drawn_scene(scene_, scenes_folder_, point);
     made->triangles = Projector(made->scene, point.size, {}).project_all();
-    return std::shared_ptr<const Subject>(std::move(made));
+    return made;
   });
 }
 
-Result<std::shared_ptr<const Pictures>> PictureShelf::of(const DesignPoint& point,
-                                                         const MakeReference& reference) {
-  return pictures_.of(point.picture(), [&]() -> Result<std::shared_ptr<const Pictures>> {
+std::shared_ptr<const Pictures> PictureShelf::of(const DesignPoint& point, const MakeReference& reference) {
+  return pictures_.of(point.picture(), [&] {
     const auto drawn = subject(point);
-    if (!drawn) return drawn.error();
-    auto made = reference ? reference() : render(**drawn, point.size);
-    if (!made) return made.error();
-    return std::make_shared<const Pictures>(Pictures{*drawn, std::move(*made)});
+    return std::make_shared<const Pictures>(
+        Pictures{drawn, reference ? reference() : render(*drawn, point.size)});
   });
 }
 

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "reference/renderer.hpp"
 #include "scene/scene.hpp"
 #include "setup/screen_triangle.hpp"
@@ -43,8 +42,8 @@ struct Pictures {
 };
 
 /// The scene with the point's tessellation and exponent.
-Result<Scene> drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
-                          const DesignPoint& point);
+Scene drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                  const DesignPoint& point);
 
 Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile = {});
 
@@ -55,9 +54,9 @@ class Shelf {
  public:
   using Shared = std::shared_ptr<const Value>;
 
-  /// `make` returns a Result<Shared>.
+  /// `make` returns a Shared, or throws; then the next caller makes the value.
   template <class Make>
-  Result<Shared> of(const std::string& name, const Make& make) {
+  Shared of(const std::string& name, const Make& make) {
     std::shared_ptr<Thing> thing;
     {
       const std::scoped_lock lock(mutex_);
@@ -68,14 +67,14 @@ class Shelf {
       if (kept_.size() > c_most_kept) kept_.pop_front();
     }
     std::call_once(thing->once, [&] { thing->made = make(); });
-    return *thing->made;
+    return thing->made;
   }
 
  private:
   static constexpr std::size_t c_most_kept = 8;
   struct Thing {
     std::once_flag once;
-    std::optional<Result<Shared>> made;
+    Shared made;
   };
   std::mutex mutex_;
   std::deque<std::pair<std::string, std::shared_ptr<Thing>>> kept_;
@@ -85,13 +84,13 @@ class Shelf {
 class PictureShelf {
  public:
   /// Makes the reference of a picture; empty: render it.
-  using MakeReference = std::function<Result<Reference>()>;
+  using MakeReference = std::function<Reference()>;
 
   PictureShelf(std::string scene, std::filesystem::path scenes_folder)
       : scene_(std::move(scene)), scenes_folder_(std::move(scenes_folder)) {}
 
-  Result<std::shared_ptr<const Subject>> subject(const DesignPoint& point);
-  Result<std::shared_ptr<const Pictures>> of(const DesignPoint& point, const MakeReference& reference = {});
+  std::shared_ptr<const Subject> subject(const DesignPoint& point);
+  std::shared_ptr<const Pictures> of(const DesignPoint& point, const MakeReference& reference = {});
 
  private:
   std::string scene_;

@@ -18,8 +18,8 @@
 #include "sim/pictures/image_library.hpp"
 #include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
-#include "sim/study/sealed.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/shared_library.hpp"
 #include "sim/system/subprocess.hpp"
 
@@ -63,10 +63,8 @@ std::string first_line(const std::string& text) {
   return text.substr(0, text.find('\n'));
 }
 
-Result<std::string> version_of(const char* program, const char* install) {
-  const auto said = ask({program, "--version"}, install);
-  if (!said) return said.error();
-  return first_line(*said);
+std::string version_of(const char* program, const char* install) {
+  return first_line(must(ask({program, "--version"}, install)));
 }
 
 template <class Numbers>
@@ -82,15 +80,10 @@ void add_vector(ContentHash& hash, const glm::dvec3& v) {
 }
 
 // Hash every file of the folder, by name.
-Result<std::string> hash_of(const std::filesystem::path& folder) {
-  const auto files = files_below(folder);
-  if (!files) return files.error();
+std::string hash_of(const std::filesystem::path& folder) {
   ContentHash hash;
-  for (const std::filesystem::path& file : *files) {
-    const auto text = read_file(folder / file);
-    if (!text) return text.error();
-    hash.add(file.string()).add(*text);
-  }
+  for (const std::filesystem::path& file : must(files_below(folder)))
+    hash.add(file.string()).add(must(read_file(folder / file)));
   return hash.hex();
 }
 
@@ -123,35 +116,16 @@ std::string scene_hash(const Scene& scene) {
   return hash.hex();
 }
 
-Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders) {
-  const auto program = read_file("/proc/self/exe");
-  if (!program) return program.error();
-  const auto images = read_file(image_library_file());
-  if (!images) return images.error();
-  const auto rtl = hash_of(folders.source / "rtl");
-  if (!rtl) return rtl.error();
-  const auto ghdl = version_of("ghdl", c_install_ghdl);
-  if (!ghdl) return ghdl.error();
-  const auto verilator = version_of("verilator", c_install_verilator);
-  if (!verilator) return verilator.error();
-  const auto image_functions = image_library();
-  if (!image_functions) return image_functions.error();
+Provenance provenance_of(const Scene& scene, const SimulatorFolders& folders) {
   std::string image_versions;
-  image_functions->versions(image_versions);
-  std::string tools = *ghdl + ", " + *verilator + ", " + image_versions;
-  if (!find_program("valgrind").empty()) {
-    const auto valgrind = version_of("valgrind", c_install_valgrind);
-    if (!valgrind) return valgrind.error();
-    tools += ", " + *valgrind;
-  }
+  must(image_library()).versions(image_versions);
+  std::string tools = fmt::format("{}, {}, {}", version_of("ghdl", c_install_ghdl),
+                                  version_of("verilator", c_install_verilator), image_versions);
+  if (!find_program("valgrind").empty()) tools += ", " + version_of("valgrind", c_install_valgrind);
   ContentHash programs;
-  programs.add(*program).add(*images);
-  if (mesa_lacks(folders.source).empty()) {
-    const auto mesa = read_file(mesa_program(folders.source));
-    if (!mesa) return mesa.error();
-    programs.add(*mesa);
-  }
-  return Provenance{scene.name, scene_hash(scene), programs.hex(), *rtl, tools};
+  programs.add(must(read_file("/proc/self/exe"))).add(must(read_file(image_library_file())));
+  if (mesa_lacks(folders.source).empty()) programs.add(must(read_file(mesa_program(folders.source))));
+  return {scene.name, scene_hash(scene), programs.hex(), hash_of(folders.source / "rtl"), tools};
 }
 
 std::string record_name(const Provenance& provenance, const std::string& name) {
@@ -172,46 +146,38 @@ std::filesystem::path Records::picture(const DesignPoint& point) const {
   return folder_ / (record_name(provenance_, point) + ".png");
 }
 
-Result<std::optional<Record>> Records::find(const DesignPoint& point) const {
+std::optional<Record> Records::find(const DesignPoint& point) const {
   const auto text = read_file(file(point));
-  if (!text || !std::filesystem::exists(picture(point))) return std::optional<Record>();
-  const auto damaged = [](const std::filesystem::path& path) {
-    return bad_input(path.string() + ": damaged; the point is measured again");
-  };
-  const std::optional<Json> json = unsealed(*text);
-  if (!json) return damaged(file(point));
+  if (!text || !std::filesystem::exists(picture(point))) return std::nullopt;
   Record record{point, {}};
   try {
+    const Json json = Json::parse(*text);
     for_each_figure(record.measured,
-                    [&](const char* name, auto& value) { take(json->at("figures").at(name), value); });
-    json->at("picture").get_to(record.picture);
-    if (const Json& time = json->at("host_time"); !time.is_null())
+                    [&](const char* name, auto& value) { take(json.at("figures").at(name), value); });
+    if (const Json& time = json.at("host_time"); !time.is_null())
       record.measured.host_time = {time.at("ns").get<double>(), time.at("words").get<std::uint64_t>()};
   } catch (const Json::exception&) {
-    return damaged(file(point));
+    return std::nullopt;
   }
-  const auto is = checksum_of(picture(point));
-  if (!is || *is != record.picture) return damaged(picture(point));
-  return std::optional(std::move(record));
+  return record;
 }
 
-Result<std::string> Records::add_frame(const DesignPoint& point, const Frame& frame) const {
-  if (Status written = write_png(picture(point), frame); !written) return written.error();
-  return checksum_of(picture(point));
+void Records::add_frame(const DesignPoint& point, const Frame& frame) const {
+  must(write_png(picture(point), frame));
 }
 
-Status Records::add(const Record& record) const {
+void Records::add(const Record& record) const {
   Json figures;
   for_each_figure(record.measured,
                   [&](const char* name, const auto& value) { figures[name] = json_of(value); });
   Json time;
   if (record.measured.host_time)
     time = {{"ns", record.measured.host_time->ns}, {"words", record.measured.host_time->words}};
-  return write_file(file(record.point), sealed({{"point", record.point.name()},
-                                                {"provenance", json_of(provenance_)},
-                                                {"figures", figures},
-                                                {"host_time", time},
-                                                {"picture", record.picture}}));
+  const Json json = {{"point", record.point.name()},
+                     {"provenance", json_of(provenance_)},
+                     {"figures", figures},
+                     {"host_time", time}};
+  must(write_file(file(record.point), json.dump(2) + "\n"));
 }
 
 }  // namespace halfway::study

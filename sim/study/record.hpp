@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stored results of a point: its frame as PNG, and a JSON file with checksums of both. Each is written
+// Stored results of a point: its frame as PNG, and its figures as JSON, written last. Each file is written
 // atomically.
 #pragma once
 
@@ -27,13 +27,12 @@ struct Provenance {
 std::string scene_hash(const Scene& scene);
 
 /// `scene` must have tessellation 1.
-Result<Provenance> provenance_of(const Scene& scene, const SimulatorFolders& folders);
+Provenance provenance_of(const Scene& scene, const SimulatorFolders& folders);
 
 /// Results without the frame.
 struct Record {
   DesignPoint point;
   Measurement measured;
-  std::string picture{};  ///< checksum of the frame's file
 };
 
 /// Base name, without extension, of the files of the object called `name`, for example a point.
@@ -46,11 +45,11 @@ class Records {
   Records(std::filesystem::path folder, Provenance provenance)
       : folder_(std::move(folder)), provenance_(std::move(provenance)) {}
 
-  /// std::nullopt if no record and frame of this provenance exist. An error if one of them is damaged.
-  Result<std::optional<Record>> find(const DesignPoint& point) const;
-  Status add(const Record& record) const;
-  /// Store the frame of a point before its record. Returns the value for Record::picture.
-  Result<std::string> add_frame(const DesignPoint& point, const Frame& frame) const;
+  /// std::nullopt if there is no readable record, or no frame, of this provenance.
+  std::optional<Record> find(const DesignPoint& point) const;
+  void add(const Record& record) const;
+  /// Store the frame of a point before its record.
+  void add_frame(const DesignPoint& point, const Frame& frame) const;
   std::filesystem::path file(const DesignPoint& point) const;
   std::filesystem::path picture(const DesignPoint& point) const;
 

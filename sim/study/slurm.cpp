@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
-
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::study {
@@ -37,24 +36,23 @@ std::string job_script(const JobArray& array) {
       command, array.parts, array.retries);
 }
 
-Status run_job_array(const JobArray& array) {
-  if (array.open.empty()) return Ok{};
+void run_job_array(const JobArray& array) {
+  if (array.open.empty()) return;
   for (const std::size_t part : array.open) {
     std::error_code ignored;
     std::filesystem::remove(task_log(array, part), ignored);
   }
-  if (Status made = make_folders(array.folder); !made) return made;
+  must(make_folders(array.folder));
   const std::filesystem::path script = array.folder / "job.sh";
-  if (Status written = write_file(script, job_script(array)); !written) return written;
+  must(write_file(script, job_script(array)));
   Command submit{.arguments = {"sbatch", "--wait", "--requeue", "--job-name=halfway-study",
                                fmt::format("--array={}", fmt::join(array.open, ",")),
                                "--output=" + (array.folder / "task-%a.log").string(), "--open-mode=append"}};
   submit.arguments.insert(submit.arguments.end(), array.options.begin(), array.options.end());
   submit.arguments.push_back(script.string());
-  const auto end = run_process(submit, c_install);
-  if (!end) return end.error();
-  if (end->succeeded()) return Ok{};
-  std::string what = fmt::format("sbatch: {}: {}", end->how(), end->output);
+  const ProcessEnd end = must(run_process(submit, c_install));
+  if (end.succeeded()) return;
+  std::string what = fmt::format("sbatch: {}: {}", end.how(), end.output);
   for (const std::size_t part : array.open) {
     const auto said = read_file(task_log(array, part));
     if (!said || said->find("exit status ") == std::string::npos) continue;
@@ -62,17 +60,7 @@ Status run_job_array(const JobArray& array) {
                         said->size() > c_shown ? said->substr(said->size() - c_shown) : *said);
     break;
   }
-  return tool_failed(what);
-}
-
-std::vector<std::string> notes_of(const JobArray& array) {
-  std::vector<std::string> notes;
-  for (const std::size_t part : array.open) {
-    std::ifstream log(task_log(array, part));
-    for (std::string line; std::getline(log, line);)
-      if (line.starts_with(c_note)) notes.push_back(line);
-  }
-  return notes;
+  throw Failure{tool_failed(what)};
 }
 
 }  // namespace halfway::study

@@ -5,10 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
-
-#include "common/result.hpp"
 
 namespace halfway::study {
 
@@ -27,12 +24,7 @@ struct JobArray {
 /// The batch script.
 std::string job_script(const JobArray& array);
 
-/// Submit the array and wait for its end. If a task fails finally, the error contains the end of its output.
-Status run_job_array(const JobArray& array);
-
-/// Prefix of the output lines of a worker that are passed on to the process that submitted the array.
-inline constexpr std::string_view c_note = "note: ";
-/// Such lines of all tasks that ran, also if the array failed.
-std::vector<std::string> notes_of(const JobArray& array);
+/// Submit the array and wait for its end. If a task fails finally, throws Failure with the end of its output.
+void run_job_array(const JobArray& array);
 
 }  // namespace halfway::study

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -18,6 +17,7 @@
 #include "sim/study/pieces.hpp"
 #include "sim/study/tile_record.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/threads.hpp"
 
@@ -46,26 +46,21 @@ bool is_point(const Piece& piece) {
 struct Made {
   std::optional<Record> record{};  // of a point; only figures stay in memory
   std::size_t tiles = 0;           // tiles drawn
-  std::vector<std::string> notes{};
 };
 
 // Makes pieces and finds those that are stored.
 class Bench {
  public:
-  static Result<Bench> open(const StudySettings& settings) {
-    const auto scene = load_scene(settings.scene, settings.folders.source / "sim" / "scenes");
-    if (!scene) return scene.error();
-    auto provenance = provenance_of(*scene, settings.folders);
-    if (!provenance) return provenance.error();
-    const std::filesystem::path folder = settings.out / "points";
-    if (Status made = make_folders(folder); !made) return made.error();
-    Bench bench(settings, *provenance, folder);
-    if (!settings.placed.empty()) {
-      auto placements = Placements::open(settings.scene, settings.placed, settings.folders, provenance->rtl);
-      if (!placements) return placements.error();
-      bench.placements_ = std::move(*placements);
-    }
-    return bench;
+  explicit Bench(const StudySettings& settings)
+      : settings_(settings),
+        provenance_(provenance_of(must(load_scene(settings.scene, scenes())), settings.folders)),
+        kept_(points(), provenance_),
+        tiles_(points(), provenance_),
+        shelf_(settings.scene, scenes()) {
+    must(make_folders(points()));
+    if (!settings.placed.empty())
+      placements_ =
+          must(Placements::open(settings.scene, settings.placed, settings.folders, provenance_.rtl));
   }
 
   const Provenance& provenance() const { return provenance_; }
@@ -73,81 +68,51 @@ class Bench {
   const std::optional<Placements>& placements() const { return placements_; }
   std::size_t placement_count() const { return placements_ ? placements_->count() : 0; }
 
-  // A point's record; an error if it is damaged.
-  Result<std::optional<Record>> find(const Piece& piece) const {
-    return is_point(piece) ? kept_.find(point_of(piece)) : std::optional<Record>();
+  // A point's record.
+  std::optional<Record> find(const Piece& piece) const {
+    return is_point(piece) ? kept_.find(point_of(piece)) : std::nullopt;
   }
   // A tile is also done when all its points are done.
   bool is_done(const Piece& piece) const {
-    const DesignPoint& point = point_of(piece);
-    if (!is_point(piece) && tiles_.has(point, piece.kind, piece.tile)) return true;
+    if (!is_point(piece) && tiles_.has(point_of(piece), piece.kind, piece.tile)) return true;
     return std::ranges::all_of(std::span(settings_.points).subspan(piece.point, piece.points),
-                               [&](const DesignPoint& each) {
-                                 const auto found = kept_.find(each);
-                                 return found && *found;
-                               });
+                               [&](const DesignPoint& each) { return kept_.find(each).has_value(); });
   }
   bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
 
-  Status make(const Piece& piece, Made& made) const {
-    const DesignPoint& point = point_of(piece);
-    return is_point(piece) ? make_point(point, piece.kind == PieceKind::gathering, made)
-                           : make_tile(point, piece.kind, piece.tile, made);
+  Made make(const Piece& piece) {
+    if (is_point(piece)) return {.record = make_point(point_of(piece), piece.kind == PieceKind::gathering)};
+    make_tile(point_of(piece), piece.kind, piece.tile);
+    return {.tiles = 1};
   }
 
  private:
-  Bench(const StudySettings& settings, const Provenance& provenance, const std::filesystem::path& folder)
-      : settings_(settings),
-        provenance_(provenance),
-        kept_(folder, provenance),
-        tiles_(folder, provenance),
-        shelf_(std::make_unique<PictureShelf>(settings.scene, settings.folders.source / "sim" / "scenes")) {}
-
   const DesignPoint& point_of(const Piece& piece) const { return settings_.points[piece.point]; }
+  std::filesystem::path scenes() const { return settings_.folders.source / "sim" / "scenes"; }
+  std::filesystem::path points() const { return settings_.out / "points"; }
 
-  Status make_tile(const DesignPoint& point, PieceKind kind, std::size_t number, Made& made) const {
-    const auto subject = shelf_->subject(point);
-    if (!subject) return subject.error();
+  void make_tile(const DesignPoint& point, PieceKind kind, std::size_t number) {
+    const auto subject = shelf_.subject(point);
     const Tile tile = point.tiles()[number];
-    ++made.tiles;
     if (kind == PieceKind::reference_tile)
-      return tiles_.add_reference(point, number, render(**subject, point.size, tile));
-    const auto drawing = draw(point, **subject, settings_.folders, tile);
-    if (!drawing) return drawing.error();
-    return tiles_.add_drawing(point, number, *drawing);
+      tiles_.add_reference(point, number, render(*subject, point.size, tile));
+    else
+      tiles_.add_drawing(point, number, draw(point, *subject, settings_.folders, tile));
   }
 
-  TileRecords::Redraw redraw(const DesignPoint& point, PieceKind kind, Made& made) const {
-    return [this, &point, kind, &made](std::size_t tile, const std::filesystem::path& damaged) {
-      made.notes.push_back(damaged.string() + ": damaged; the tile is drawn again");
-      return make_tile(point, kind, tile, made);
-    };
-  }
-
-  Status make_point(const DesignPoint& point, bool of_tiles, Made& made) const {
+  Record make_point(const DesignPoint& point, bool of_tiles) {
     PictureShelf::MakeReference reference;
-    if (of_tiles)
-      reference = [&] { return tiles_.reference(point, redraw(point, PieceKind::reference_tile, made)); };
-    const auto pictures = shelf_->of(point, reference);
-    if (!pictures) return pictures.error();
+    if (of_tiles) reference = [&] { return tiles_.reference(point); };
+    const auto pictures = shelf_.of(point, reference);
     std::optional<Drawing> drawing;
-    if (is_drawn(point.method)) {
-      auto drawn = of_tiles ? tiles_.drawing(point, redraw(point, PieceKind::tile, made))
-                            : draw(point, *(*pictures)->subject, settings_.folders);
-      if (!drawn) return drawn.error();
-      drawing = std::move(*drawn);
-    }
-    auto measured = measure(**pictures, std::move(drawing));
-    if (!measured) return measured.error();
-    Record record{point, std::move(*measured)};
-    auto added_frame = kept_.add_frame(point, record.measured.frame);
-    if (!added_frame) return added_frame.error();
-    record.picture = std::move(*added_frame);
+    if (is_drawn(point.method))
+      drawing = of_tiles ? tiles_.drawing(point) : draw(point, *pictures->subject, settings_.folders);
+    Record record{point, measure(*pictures, std::move(drawing))};
+    kept_.add_frame(point, record.measured.frame);
     record.measured.frame = {};
-    if (Status added = kept_.add(record); !added) return added.error();
+    kept_.add(record);
     if (of_tiles) tiles_.remove_drawing(point);
-    made.record = std::move(record);
-    return Ok{};
+    return record;
   }
 
   const StudySettings& settings_;
@@ -155,70 +120,64 @@ class Bench {
   Records kept_;
   TileRecords tiles_;
   std::optional<Placements> placements_;
-  std::unique_ptr<PictureShelf> shelf_;
+  PictureShelf shelf_;
 };
 
 // Make this part's placements.
-Status place(const StudySettings& settings, const Bench& bench, Study& study) {
+void place(const StudySettings& settings, const Bench& bench, Study& study) {
   const Range mine = part_of(bench.placement_count(), settings.part, settings.parts);
   const std::size_t count = mine.end - mine.begin;
   std::size_t done = 0;
   std::mutex mutex;
-  return for_each_on_threads(settings.threads, count, [&](std::size_t at) -> Status {
+  must_for_each(settings.threads, count, [&](std::size_t at) {
     const std::size_t number = mine.begin + at;
     const bool is_new = !bench.placements()->is_done(number);
     if (is_new)
       if (Status made = bench.placements()->make(number); !made)
-        return Error{made.error().code, bench.placements()->name(number) + ": " + made.error().message};
+        throw Failure{{made.error().code, bench.placements()->name(number) + ": " + made.error().message}};
     const std::scoped_lock lock(mutex);
     study.placements += is_new;
     settings.on_progress(fmt::format("{} of {} placements", ++done, count));
-    return Ok{};
   });
 }
 
 // Count the host instructions for the records that lack them.
-Status count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
+void count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
   std::vector<Record*> open;
   for (Record& record : records)
     if (in_hardware(record.point.method) && !record.measured.host_instructions) open.push_back(&record);
-  if (settings.set_up.empty() || find_program("valgrind").empty()) return Ok{};
+  if (settings.set_up.empty() || find_program("valgrind").empty()) return;
   // Batches, because starting Valgrind takes seconds.
   constexpr std::size_t c_batch = 16;
   const std::size_t batches = (open.size() + c_batch - 1) / c_batch;
   std::size_t done = 0;
   std::mutex mutex;
-  return for_each_on_threads(settings.threads, batches, [&](std::size_t number) -> Status {
+  must_for_each(settings.threads, batches, [&](std::size_t number) {
     const std::size_t first = number * c_batch;
     const std::span batch(open.data() + first, std::min(c_batch, open.size() - first));
     std::vector<std::string> names;
     for (const Record* record : batch) names.push_back(record->point.name());
     const auto counted = host_instructions(settings.set_up, names, settings.out / "points");
-    if (!counted) return counted.error();
-    for (std::size_t i = 0; *counted && i < batch.size(); ++i) {
-      batch[i]->measured.host_instructions = (**counted)[i];
-      if (Status added = kept.add(*batch[i]); !added) return added;
+    for (std::size_t i = 0; counted && i < batch.size(); ++i) {
+      batch[i]->measured.host_instructions = (*counted)[i];
+      kept.add(*batch[i]);
     }
     const std::scoped_lock lock(mutex);
     done += batch.size();
     settings.on_progress(fmt::format("the host's instructions of {} of {} points", done, open.size()));
-    return Ok{};
   });
 }
 
 // Measure the host's time for the records that lack it, one after the other, so that they do not disturb each
 // other.
-Status time_hosts(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
+void time_hosts(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
   std::size_t done = 0;
   for (Record& record : records) {
     settings.on_progress(fmt::format("the host's time of {} of {} points", ++done, records.size()));
     if (record.measured.host_time) continue;
-    const auto time = host_time(record.point, settings.scene, settings.folders);
-    if (!time) return time.error();
-    record.measured.host_time = *time;
-    if (Status added = kept.add(record); !added) return added;
+    record.measured.host_time = host_time(record.point, settings.scene, settings.folders);
+    kept.add(record);
   }
-  return Ok{};
 }
 
 // The reason why Mesa does not draw the scene here; empty if it does.
@@ -240,7 +199,7 @@ Drawable drawable(const std::vector<DesignPoint>& points, const std::string& sce
   for (const DesignPoint& point : points) {
     if (picture != point.picture()) {
       picture = point.picture();
-      drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
+      drawn = caught([&] { return drawn_scene(scene, folders.source / "sim" / "scenes", point); });
     }
     std::string reason;
     if (!drawn)
@@ -267,71 +226,61 @@ std::size_t most_parts(const StudySettings& settings) {
   return std::max(pieces_of(settings.points).size(), settings.placed.size() * synth::c_seeds);
 }
 
-Result<std::vector<std::size_t>> open_parts(const StudySettings& settings) {
-  const auto bench = Bench::open(settings);
-  if (!bench) return bench.error();
+std::vector<std::size_t> open_parts(const StudySettings& settings) {
+  const Bench bench(settings);
   const std::vector<Piece> all = pieces_of(settings.points);
   std::vector<std::size_t> open;
   for (std::size_t part = 0; part < settings.parts; ++part) {
-    const Range placements = part_of(bench->placement_count(), part, settings.parts);
+    const Range placements = part_of(bench.placement_count(), part, settings.parts);
     bool done = std::ranges::all_of(part_of(all, part, settings.parts),
-                                    [&](const Piece& piece) { return bench->is_done(piece); });
+                                    [&](const Piece& piece) { return bench.is_done(piece); });
     for (std::size_t number = placements.begin; done && number < placements.end; ++number)
-      done = bench->placements()->is_done(number);
+      done = bench.placements()->is_done(number);
     if (!done) open.push_back(part);
   }
   return open;
 }
 
-Result<Study> run_study(const StudySettings& settings) {
-  auto bench = Bench::open(settings);
-  if (!bench) return bench.error();
+Study run_study(const StudySettings& settings) {
+  Bench bench(settings);
   const std::vector<Piece> all = pieces_of(settings.points);
   const std::span<const Piece> mine = part_of(all, settings.part, settings.parts);
-  Study study{.provenance = bench->provenance()};
+  Study study{.provenance = bench.provenance()};
   std::vector<std::optional<Record>> records(mine.size());
   std::mutex mutex;
   std::size_t done = 0;
-  const auto each = [&](std::size_t at) -> Status {
+  const auto each = [&](std::size_t at) {
     const Piece& piece = mine[at];
-    auto found = bench->find(piece);
-    const bool is_new = is_point(piece) ? !found || !*found : !bench->is_done(piece);
-    Made made;
-    if (!found) made.notes.push_back(found.error().message);
-    if (!is_new) made.record = std::move(*found);
-    const Status worked = is_new ? bench->make(piece, made) : Ok{};
+    Made made{.record = bench.find(piece)};
+    const bool is_new = is_point(piece) ? !made.record : !bench.is_done(piece);
+    if (is_new) try {
+        made = bench.make(piece);
+      } catch (const Failure& failure) {
+        throw Failure{
+            {failure.error.code, settings.points[piece.point].name() + ": " + failure.error.message}};
+      }
     const std::scoped_lock lock(mutex);
-    for (const std::string& note : made.notes) settings.on_note(note);
-    if (!worked)
-      return Error{worked.error().code, settings.points[piece.point].name() + ": " + worked.error().message};
     study.measured += is_new && is_point(piece);
     study.drawn_tiles += made.tiles;
     records[at] = std::move(made.record);
     settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),
                                      all.size() == settings.points.size() ? "points" : "points and tiles"));
-    return Ok{};
   };
   // Assemble points from tiles after all tiles of this part are drawn. If tiles of another part are missing,
   // that part or a later run assembles the point.
   std::vector<std::size_t> drawn, gathered;
   for (std::size_t at = 0; at < mine.size(); ++at)
     (mine[at].kind == PieceKind::gathering ? gathered : drawn).push_back(at);
-  Status worked =
-      for_each_on_threads(settings.threads, drawn.size(), [&](std::size_t i) { return each(drawn[i]); });
-  if (!worked) return worked.error();
+  must_for_each(settings.threads, drawn.size(), [&](std::size_t i) { each(drawn[i]); });
   if (settings.parts > 1)
-    std::erase_if(gathered, [&](std::size_t at) { return !bench->can_gather(mine[at]); });
-  worked = for_each_on_threads(std::min(settings.threads, c_most_gathering), gathered.size(),
-                               [&](std::size_t i) { return each(gathered[i]); });
-  if (!worked) return worked.error();
-  worked = place(settings, *bench, study);
-  if (!worked) return worked.error();
+    std::erase_if(gathered, [&](std::size_t at) { return !bench.can_gather(mine[at]); });
+  must_for_each(std::min(settings.threads, c_most_gathering), gathered.size(),
+                [&](std::size_t i) { each(gathered[i]); });
+  place(settings, bench, study);
   for (std::optional<Record>& record : records)
     if (record) study.records.push_back(std::move(*record));
-  if (Status counted = count_instructions(settings, bench->kept(), study.records); !counted)
-    return counted.error();
-  if (settings.host_times)
-    if (Status timed = time_hosts(settings, bench->kept(), study.records); !timed) return timed.error();
+  count_instructions(settings, bench.kept(), study.records);
+  if (settings.host_times) time_hosts(settings, bench.kept(), study.records);
   return study;
 }
 

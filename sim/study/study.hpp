@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/record.hpp"
@@ -30,8 +29,6 @@ struct StudySettings {
   bool host_times = false;  ///< also measure Measurement::host_time; only in a run of all parts
   /// Called after each piece. Points measured earlier count as done.
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
-  /// Called at once for each damaged file, with the file and the piece that is measured again.
-  std::function<void(const std::string&)> on_note = [](const std::string&) {};
 };
 
 struct Study {
@@ -57,11 +54,11 @@ Drawable drawable(const std::vector<DesignPoint>& points, const std::string& sce
 std::size_t most_parts(const StudySettings& settings);
 
 /// The parts that have pieces without a stored result.
-Result<std::vector<std::size_t>> open_parts(const StudySettings& settings);
+std::vector<std::size_t> open_parts(const StudySettings& settings);
 
 /// Measure all points without a stored result, on all threads. Each record is written as soon as it is
 /// complete, so that an interrupted run can be continued. The first failing piece ends the study. In a run of
 /// one part, points that need missing tiles of other parts are not assembled.
-Result<Study> run_study(const StudySettings& settings);
+Study run_study(const StudySettings& settings);
 
 }  // namespace halfway::study

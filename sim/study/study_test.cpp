@@ -39,19 +39,14 @@ class StudyTest : public ::testing::Test {
     settings_.scene = c_source_folder / "sim/studies/sphere.toml";
     settings_.out = folder_.path();
     settings_.threads = 2;
-    settings_.on_note = [this](const std::string& note) { notes_.push_back(note); };
     settings_.folders = {c_source_folder, c_source_folder / "build" / "cache"};
     for (const Method method : {Method::phong, Method::gouraud, Method::quadratic, Method::adaptive})
       settings_.points.push_back(
           {.method = method, .tessellation = 0.5, .exponent = 50.0, .size = {160, 120}});
   }
-  Study study() const {
-    notes_.clear();
-    return must(run_study(settings_));
-  }
+  Study study() const { return run_study(settings_); }
   const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   StudySettings settings_;
-  mutable std::vector<std::string> notes_;  // notes of the last study
 };
 
 TEST_F(StudyTest, MeasuresEachMethod) {
@@ -92,21 +87,14 @@ TEST_F(StudyTest, ContinuesAfterAnInterruption) {
   EXPECT_EQ(table_of(again), first);
 }
 
-TEST_F(StudyTest, MeasuresDamagedPointsAndOtherScenesAgain) {
+TEST_F(StudyTest, MeasuresUnreadablePointsAndOtherScenesAgain) {
   const std::string table = table_of(study());
-  const std::string stem = folder_.path() / "points" / record_name(study().provenance, settings_.points[0]);
-  for (const char* ending : {".json", ".png"}) {
-    const std::string file = stem + ending;
-    auto text = must(read_file(file));
-    text[text.size() / 2] ^= 1;
-    ASSERT_TRUE(write_file(file, text));
-    const Study again = study();
-    EXPECT_EQ(again.measured, 1U);
-    EXPECT_THAT(notes_, ::testing::ElementsAre(file + ": damaged; the point is measured again"));
-    EXPECT_EQ(table_of(again), table);
-    study();
-    EXPECT_TRUE(notes_.empty());
-  }
+  const std::string file =
+      folder_.path() / "points" / (record_name(study().provenance, settings_.points[0]) + ".json");
+  ASSERT_TRUE(write_file(file, "{"));
+  const Study again = study();
+  EXPECT_EQ(again.measured, 1U);
+  EXPECT_EQ(table_of(again), table);
   settings_.scene = "matte";
   EXPECT_EQ(study().measured, 4U);
 }
@@ -119,12 +107,11 @@ TEST_F(StudyTest, PartsTogetherEqualTheWhole) {
   std::vector<std::string> all;
   for (const DesignPoint& point : settings_.points) all.push_back(point.name());
   EXPECT_EQ(names, all);
-  const auto open = must(open_parts(settings_));
-  EXPECT_TRUE(open.empty());
+  EXPECT_TRUE(open_parts(settings_).empty());
   std::filesystem::remove_all(folder_.path() / "points");
   settings_.part = 1;
   study();
-  EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 2U));
+  EXPECT_THAT(open_parts(settings_), ::testing::ElementsAre(0U, 2U));
 }
 
 // Drawing in tiles gives the same figures as drawing the whole frame, except for the clocks of the hardware.
@@ -154,10 +141,8 @@ class TiledStudyTest : public StudyTest {
     }
   }
   std::vector<std::uint8_t> picture(const Study& of, std::size_t point) const {
-    const auto frame =
-        read_png(folder_.path() / "points" / (record_name(of.provenance, of.records[point].point) + ".png"));
-    EXPECT_TRUE(frame) << frame.error().message;
-    return frame ? frame->rgb : std::vector<std::uint8_t>();
+    const std::string name = record_name(of.provenance, of.records[point].point) + ".png";
+    return must(read_png(folder_.path() / "points" / name)).rgb;
   }
   Study whole_;
 };
@@ -234,35 +219,6 @@ TEST_F(InterruptedStudyTest, KeepsOnlyTheReferencesTiles) {
   EXPECT_EQ(table_of(again), table_);
 }
 
-// A changed byte, another tile or a file that is no picture: assembling the point draws the tile again.
-TEST_F(InterruptedStudyTest, DrawsADamagedTileAgain) {
-  const auto flipped = [&](const char* ending) {
-    std::string whole = must(read_file(file(drawing_, ending)));
-    whole[whole.size() / 2] ^= 1;
-    return whole;
-  };
-  const auto other = [&](const char* ending) { return must(read_file(file(drawing_, ending))); };
-  const std::vector<std::pair<std::filesystem::path, std::string>> damages = {
-      {file(drawing_, "-tile-0.png"), flipped("-tile-0.png")},
-      {file(drawing_, "-tile-1-mask.png"), flipped("-tile-1-mask.png")},
-      {file(drawing_, "-tile-2.json"), flipped("-tile-2.json")},
-      {file(drawing_, "-tile-3.png"), other("-tile-1.png")},
-      {file(drawing_, "-tile-3.json"), other("-tile-1.json")},
-      {file(drawing_, "-tile-3.json"), "{\"tile\": 3}\n"},
-      {file(reference_, "-tile-0.png"), ""},
-      {file(reference_, "-tile-2-mask.png"), "no picture"}};
-  for (const auto& [path, text] : damages) {
-    restore();
-    ASSERT_TRUE(write_file(path, text));
-    const Study again = study();
-    EXPECT_EQ(again.drawn_tiles, 1U) << path;
-    EXPECT_EQ(again.measured, 4U) << path;
-    EXPECT_THAT(notes_, ::testing::ElementsAre(path.string() + ": damaged; the tile is drawn again"));
-    EXPECT_EQ(table_of(again), table_);
-    expect_whole(again);
-  }
-}
-
 TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
   settings_.parts = 5;
   std::size_t drawn = 0;
@@ -278,14 +234,14 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
   };
   // Run the parts backwards. The reference comes last, so no point can be assembled before.
   EXPECT_EQ(run_parts({1, 2, 3, 4}), 0U);
-  EXPECT_THAT(*open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
+  EXPECT_THAT(open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
   run_parts({0});
   EXPECT_EQ(drawn, 4U * 4U);
-  const auto open = must(open_parts(settings_));
+  const std::vector<std::size_t> open = open_parts(settings_);
   EXPECT_FALSE(open.empty());
   run_parts(open);
   EXPECT_EQ(drawn, 4U * 4U);
-  EXPECT_TRUE(open_parts(settings_)->empty());
+  EXPECT_TRUE(open_parts(settings_).empty());
   settings_.part = 0;
   settings_.parts = 1;
   const Study all = study();
@@ -296,11 +252,9 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
 TEST_F(StudyTest, ReportsThePointThatFails) {
   settings_.scene = "lights";
   settings_.points = {{.method = Method::processors_1, .preset = Preset::published}};
-  const auto made = run_study(settings_);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().code, ExitCode::bad_input);
-  EXPECT_THAT(made.error().message, HasSubstr("processors-1 published"));
-  EXPECT_THAT(made.error().message, HasSubstr("version II"));
+  const auto made = caught([&] { return study(); });
+  EXPECT_TRUE(is_error(made, ExitCode::bad_input, "processors-1 published"));
+  EXPECT_TRUE(is_error(made, ExitCode::bad_input, "version II"));
 }
 
 // Draw with table sizes that are not compiled in, in RTL and golden model. measure() compares each fragment.
@@ -351,7 +305,8 @@ TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   ASSERT_TRUE(write_file(package, text.replace(entry, 2, "14")));
   settings_.folders.cache = folder_.path();
   settings_.points = {point};
-  EXPECT_TRUE(is_error(run_study(settings_), ExitCode::differs, "the RTL differs from the golden model"));
+  EXPECT_TRUE(
+      is_error(caught([&] { return study(); }), ExitCode::differs, "the RTL differs from the golden model"));
 }
 
 TEST_F(StudyTest, OmitsPointsThatCannotDrawTheScene) {
@@ -390,8 +345,7 @@ TEST_F(StudyTest, MesaDrawsThePicture) {
     EXPECT_GT(m.highlight.pixels, 100U);
   }
   EXPECT_EQ(made.records[0].measured.picture.rms, made.records[1].measured.picture.rms);
-  const auto time = must(host_time(settings_.points[0], settings_.scene, settings_.folders));
-  EXPECT_GT(time.ns, 0);
+  EXPECT_GT(host_time(settings_.points[0], settings_.scene, settings_.folders).ns, 0);
   // Scenes that it does not draw are left out.
   const Drawable shadows = drawable({point}, "shadows", settings_.folders);
   EXPECT_EQ(shadows.left_out, 1U);
@@ -453,10 +407,9 @@ TEST_F(StudyTest, CountsTheHostsInstructions) {
   // The counts do not depend on the order of the points.
   const auto again =
       host_instructions(settings_.set_up, {points.at(1).name(), points.at(0).name()}, folder_.path());
-  ASSERT_TRUE(again) << again.error().message;
-  EXPECT_EQ((*again)->at(0), of(made.records[1]));
-  EXPECT_EQ((*again)->at(1), of(made.records[0]));
-  EXPECT_FALSE(host_instructions(settings_.set_up, {"no such point"}, folder_.path()));
+  EXPECT_EQ(again->at(0), of(made.records[1]));
+  EXPECT_EQ(again->at(1), of(made.records[0]));
+  EXPECT_THROW(host_instructions(settings_.set_up, {"no such point"}, folder_.path()), Failure);
   // The count is stored with the record.
   settings_.set_up.clear();
   EXPECT_EQ(of(study().records[1]), of(made.records[1]));

@@ -53,7 +53,7 @@ using Line = std::vector<Column>;
 
 Line line_of(const Provenance& provenance, const Record& record, const HardwareFigures* known,
              const std::optional<bool>& on_front) {
-  const auto& [p, m, picture] = record;
+  const auto& [p, m] = record;
   const HardwareFigures hardware = known != nullptr ? *known : HardwareFigures{};
   const std::optional<Cells>& cells = hardware.cells;
   const std::optional<synth::Ice40Cells>& ice40 = hardware.ice40;
