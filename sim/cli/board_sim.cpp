@@ -12,6 +12,7 @@
 #include "sim/board/board_sources.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -37,20 +38,15 @@ constexpr const char* c_small_scene = "sim/board/small.toml";
 
 /// Without scenes: all built-in ones in Verilator, the small one in GHDL. GHDL draws other scenes only if it
 /// is named.
-Result<std::vector<BoardSimulation>> simulations(const BoardSimCommand& command, const Folders& folders) {
+std::vector<BoardSimulation> simulations(const BoardSimCommand& command, const Folders& folders) {
   constexpr EngineKind c_known[] = {EngineKind::ghdl, EngineKind::verilator};
-  auto simulators = checked_simulators(command.simulators, c_known);
-  if (!simulators) return simulators.error();
-  if (command.simulators.empty() && !command.scenes.empty()) *simulators = {EngineKind::verilator};
+  auto simulators = must(checked_simulators(command.simulators, c_known));
+  if (command.simulators.empty() && !command.scenes.empty()) simulators = {EngineKind::verilator};
   std::vector<BoardSimulation> list;
-  for (const EngineKind simulator : *simulators) {
+  for (const EngineKind simulator : simulators) {
     std::vector<std::string> scenes = command.scenes;
     if (scenes.empty() && simulator == EngineKind::ghdl) scenes = {(folders.source / c_small_scene).string()};
-    if (scenes.empty()) {
-      auto builtin = builtin_scenes(folders);
-      if (!builtin) return builtin.error();
-      scenes = std::move(*builtin);
-    }
+    if (scenes.empty()) scenes = must(builtin_scenes(folders));
     for (const std::string& scene : scenes) {
       // A run in GHDL takes minutes, and the unreliable host also sends good packets.
       if (simulator != EngineKind::ghdl) list.push_back({scene, simulator, Host::steady});
@@ -60,12 +56,11 @@ Result<std::vector<BoardSimulation>> simulations(const BoardSimCommand& command,
   return list;
 }
 
-Status simulate_board(const BoardSimulation& simulation, const BoardSimCommand& command,
-                      const Folders& folders) {
-  const auto scene = load_scene(simulation.scene, folders.scenes());
-  if (!scene) return scene.error();
-  for (const std::string& note : scene->notes) say(note);
-  if (const auto plan = plan_scene(*scene, {.degree = board::board_key().degree}); !plan) return plan.error();
+void simulate_board(const BoardSimulation& simulation, const BoardSimCommand& command,
+                    const Folders& folders) {
+  const auto scene = must(load_scene(simulation.scene, folders.scenes()));
+  for (const std::string& note : scene.notes) say(note);
+  must(plan_scene(scene, {.degree = board::board_key().degree}));
   const std::string host = simulation.host == Host::steady ? "steady" : "unreliable";
   board::BoardCheckOptions options;
   options.host = simulation.host;
@@ -77,27 +72,25 @@ Status simulate_board(const BoardSimulation& simulation, const BoardSimCommand& 
   if (options.ghdl) options.setup.quadratic.test = HighlightTest::none;
   Progress progress("board-sim");
   progress.show(fmt::format("{} in {}, {} host", simulation.scene, to_string(simulation.simulator), host));
-  const auto check = board::check_board(*scene, options, {folders.source, folders.cache()});
+  const auto check = must(board::check_board(scene, options, {folders.source, folders.cache()}));
   progress.clear();
-  if (!check) return check.error();
-  const board::HostReport& report = check->run.report;
+  const board::HostReport& report = check.run.report;
   fmt::print(
       "{:<10} {:<9} {:<10}  {} vectors, {} fragments | {} packets, {} dropped, {} clocks | {} pictures equal "
       "| {} pixels "
       "by 16 bits of depth\n",
-      scene->name, to_string(simulation.simulator), host, check->vectors, check->fragments, report.packets,
-      report.errors, check->run.clocks, check->pictures, check->depth_pixels);
+      scene.name, to_string(simulation.simulator), host, check.vectors, check.fragments, report.packets,
+      report.errors, check.run.clocks, check.pictures, check.depth_pixels);
   std::fflush(stdout);
-  return Ok{};
 }
 
 /// Simulates the board for another program.
 int serve(const Folders& folders, const BoardSimCommand& command) {
-  const auto report_of = board::serve_board(command.socket, command.out, {folders.source, folders.cache()});
-  if (!report_of) return report(report_of.error());
+  const auto report_of =
+      must(board::serve_board(command.socket, command.out, {folders.source, folders.cache()}));
   fmt::print(
       "{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
-      command.socket, report_of->packets, report_of->vectors, report_of->clocks, report_of->pictures);
+      command.socket, report_of.packets, report_of.vectors, report_of.clocks, report_of.pictures);
   return 0;
 }
 
@@ -105,11 +98,8 @@ int run(const Folders& folders, const BoardSimCommand& command) {
   if (!command.socket.empty()) return serve(folders, command);
   if (!(command.threshold > 0.0))
     return report(bad_input(fmt::format("--threshold: {} is not above 0", command.threshold)));
-  const auto list = simulations(command, folders);
-  if (!list) return report(list.error());
-  for (const BoardSimulation& simulation : *list)
-    if (const Status status = simulate_board(simulation, command, folders); !status)
-      return report(status.error());
+  for (const BoardSimulation& simulation : simulations(command, folders))
+    simulate_board(simulation, command, folders);
   return 0;
 }
 

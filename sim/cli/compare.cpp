@@ -16,6 +16,7 @@
 #include "sim/stream_files/trace_pair.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/folder_lock.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -28,19 +29,15 @@ struct CompareCommand {
 };
 
 // Feed two traces to a comparator. Return the name of the hardware key.
-Result<std::string> compare_traces(const std::filesystem::path& golden_path,
-                                   const std::filesystem::path& rtl_path, StreamComparator& comparator) {
-  auto golden = TraceReader::open(golden_path, {});
-  if (!golden) return golden.error();
-  auto rtl = TraceReader::open(rtl_path, golden->key_name());
-  if (!rtl) return rtl.error();
-  if (const Status status = read_side_by_side(
-          *golden, &*rtl, [&](auto fragments) { comparator.add_golden(fragments); },
-          [&](auto fragments) { comparator.add_rtl(fragments); });
-      !status)
-    return status.error();
+std::string compare_traces(const std::filesystem::path& golden_path, const std::filesystem::path& rtl_path,
+                           StreamComparator& comparator) {
+  auto golden = must(TraceReader::open(golden_path, {}));
+  auto rtl = must(TraceReader::open(rtl_path, golden.key_name()));
+  must(read_side_by_side(
+      golden, &rtl, [&](auto fragments) { comparator.add_golden(fragments); },
+      [&](auto fragments) { comparator.add_rtl(fragments); }));
   comparator.finish();
-  return golden->key_name();
+  return golden.key_name();
 }
 
 // Contents of a run's summary, which is the last file written.
@@ -50,19 +47,18 @@ struct LeftSummary {
   std::uint64_t reference_pixels = 0;         ///< pixels covered by the reference or the golden model
 };
 
-Result<LeftSummary> read_summary(const std::filesystem::path& summary) {
-  const auto text = read_file(summary);
-  if (!text) return text.error();
+LeftSummary read_summary(const std::filesystem::path& summary) {
+  const auto text = must(read_file(summary));
   LeftSummary left;
   try {
-    const auto json = nlohmann::json::parse(*text);
+    const auto json = nlohmann::json::parse(text);
     for (const auto& run : json.at("runs"))
       left.faults[run.at("simulator").get<std::string>()] = run.value("fault", "");
     const auto& setup = json.at("setup");
     left.in_view = setup.at("on_screen").get<std::uint64_t>() + setup.at("degenerate").get<std::uint64_t>();
     left.reference_pixels = json.at("accuracy").at("pixels").get<std::uint64_t>();
   } catch (const nlohmann::json::exception& error) {
-    return bad_input(fmt::format("{}: not a summary: {}", summary.string(), error.what()));
+    throw Failure{bad_input(fmt::format("{}: not a summary: {}", summary.string(), error.what()))};
   }
   return left;
 }
@@ -77,29 +73,27 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
 }
 
 // Compare all results of a scene. False if something differs or nothing was drawn.
-Result<bool> compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
+bool compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
-    return bad_input(fmt::format("'{}' is not the name of a scene", scene));
+    throw Failure{bad_input(fmt::format("'{}' is not the name of a scene", scene))};
   const ResultFiles files = ResultFiles::of(command.out, result_name(scene),
                                             {.shader = shader, .all_effects = command.all_effects});
-  const auto none = [&](const char* what) {
-    return bad_input(
-        fmt::format("{}: {}; run `{}` first", files.folder.string(), what, make_sim(scene, command)));
+  const auto none = [&](const std::string& what) {
+    return Failure{bad_input(
+        fmt::format("{}: {}; run `{}` first", files.folder.string(), what, make_sim(scene, command)))};
   };
   std::error_code error;
-  if (!std::filesystem::is_directory(files.folder, error)) return none("no results here");
-  const auto lock = FolderLock::take(files.folder, [&] { say_waiting(files.folder); });
-  if (!lock) return lock.error();
+  if (!std::filesystem::is_directory(files.folder, error)) throw none("no results here");
+  const auto lock = must(FolderLock::take(files.folder, [&] { say_waiting(files.folder); }));
   if (!std::filesystem::exists(files.summary(), error))
-    return none("the run was interrupted, or has not reached this scene yet");
+    throw none("the run was interrupted, or has not reached this scene yet");
   const auto left = read_summary(files.summary());
-  if (!left) return left.error();
 
   bool equal = true;
   std::uint64_t compared = 0;  // number of fragments
   for (const std::string simulator : {"ghdl", "verilator", "lanes"}) {
-    const auto fault = left->faults.find(simulator);
-    if (fault == left->faults.end()) {
+    const auto fault = left.faults.find(simulator);
+    if (fault == left.faults.end()) {
       if (simulator == "lanes") continue;
       fmt::print("{:<12} {:<10} not compared: it was not run\n", result_name(scene), simulator);
       continue;
@@ -109,49 +103,35 @@ Result<bool> compare_scene(const std::string& scene, const CompareCommand& comma
       equal = false;
       continue;
     }
-    if (!std::filesystem::exists(files.trace(simulator), error))
-      return none(fmt::format("{}.trace is gone", simulator).c_str());
+    if (!std::filesystem::exists(files.trace(simulator), error)) throw none(simulator + ".trace is gone");
     StreamComparator comparator;
     const auto key = compare_traces(files.trace("golden"), files.trace(simulator), comparator);
-    if (!key) return key.error();
-    const auto golden = read_png(files.frame("golden")), rtl = read_png(files.frame(simulator));
-    if (!golden) return golden.error();
-    if (!rtl) return rtl.error();
-    const auto distance = frame_distance(*golden, *rtl);
-    if (!distance) return distance.error();
-    equal = equal && comparator.mismatches() == 0 && distance->differing == 0;
+    const Frame golden = must(read_png(files.frame("golden"))), rtl = must(read_png(files.frame(simulator)));
+    const FrameDistance distance = must(frame_distance(golden, rtl));
+    equal = equal && comparator.mismatches() == 0 && distance.differing == 0;
     compared += comparator.golden_count();
     const std::string mismatches = comparator.golden_count() == 0 && comparator.mismatches() == 0
                                        ? "nothing compared"
                                        : fmt::format("{} mismatches", comparator.mismatches());
     fmt::print("{:<12} {:<10} {} {}x{} {:>9} fragments, {}; frame: {} of {} pixels differ\n",
-               result_name(scene), simulator, *key, golden->size.width, golden->size.height,
-               comparator.golden_count(), mismatches, distance->differing, distance->pixels);
+               result_name(scene), simulator, key, golden.size.width, golden.size.height,
+               comparator.golden_count(), mismatches, distance.differing, distance.pixels);
     if (comparator.mismatches() != 0) fmt::print(stderr, "{}", comparator.describe(simulator));
   }
   if (!equal) return false;
-  const auto nothing = left->faults.empty()
+  const auto nothing = left.faults.empty()
                            ? "nothing was compared: no simulator drew; run `" + make_sim(scene, command) + "`"
-                           : nothing_compared(compared, left->in_view, left->reference_pixels);
+                           : nothing_compared(compared, left.in_view, left.reference_pixels);
   if (nothing) say(fmt::format("{}: {}", result_name(scene), *nothing));
   return !nothing;
 }
 
 int run(const Folders& folders, const CompareCommand& command) {
-  const auto shader = checked_shader(command.shader);
-  if (!shader) return report(shader.error());
+  const auto shader = must(checked_shader(command.shader));
   std::vector<std::string> scenes = command.scenes;
-  if (scenes.empty()) {
-    auto builtin = builtin_scenes(folders);
-    if (!builtin) return report(builtin.error());
-    scenes = std::move(*builtin);
-  }
+  if (scenes.empty()) scenes = must(builtin_scenes(folders));
   bool equal = true;
-  for (const std::string& scene : scenes) {
-    const auto same = compare_scene(scene, command, *shader);
-    if (!same) return report(same.error());
-    equal = *same && equal;
-  }
+  for (const std::string& scene : scenes) equal = compare_scene(scene, command, shader) && equal;
   return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
 }
 

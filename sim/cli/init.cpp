@@ -8,6 +8,7 @@
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stream_files/init_file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -19,35 +20,30 @@ struct InitCommand {
 };
 
 int run(const Folders& folders, const InitCommand& command) {
-  const auto draw = checked(command.draw);
-  if (!draw) return report(draw.error());
-  const auto scene = load_scene(command.scene, folders.scenes());
-  if (!scene) return report(scene.error());
-  for (const std::string& note : scene->notes) say(note);
-  const auto plan = plan_scene(*scene, draw->plan);
-  if (!plan) return report(plan.error());
-  const HardwareKey& key = plan->key;
-  const std::unique_ptr<Setup> setup = make_setup(*scene, draw->size, key, draw->setup);
-  auto file = InitFileWriter::open(command.file, key.name(), setup->init_bits());
-  if (!file) return report(file.error());
-  Progress progress(scene->name);
-  SceneStream stream(*setup, key, draw->threads);
+  const auto draw = must(checked(command.draw));
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  for (const std::string& note : scene.notes) say(note);
+  const auto plan = must(plan_scene(scene, draw.plan));
+  const HardwareKey& key = plan.key;
+  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, key, draw.setup);
+  auto file = must(InitFileWriter::open(command.file, key.name(), setup->init_bits()));
+  Progress progress(scene.name);
+  SceneStream stream(*setup, key, draw.threads);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
-    if (const Status status = check_shadow_counts(*scene, stream.counts(), stream.fault()); !status)
-      return report(status.error());
-    file->write(batch.init_words);
+    must(check_shadow_counts(scene, stream.counts(), stream.fault()));
+    file.write(batch.init_words);
   }
   progress.clear();
-  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene->name, note));
-  if (const Status status = file->commit(); !status) return report(status.error());
+  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene.name, note));
+  must(file.commit());
   const SetupCounts& n = stream.counts();
   fmt::print("{}: {} init vectors and {} line records, of {} bits, for {}\n", command.file, n.vectors,
              n.records, setup->init_bits(), key.name());
   fmt::print(
       "  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them {}: "
       "{} pieces in all, in {} init vectors and {} line records; {} points {}\n",
-      scene->triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
+      scene.triangles.size(), n.projection.back_facing, n.projection.outside + n.projection.behind_near,
       n.projection.degenerate, n.triangles, n.subdivided,
       key.shader == Shader::quadratic ? "split in four" : "cut into strips", n.leaves, n.vectors, n.records,
       n.shaded, key.shader == Shader::quadratic ? "shaded" : "where vectors were computed");

@@ -18,6 +18,7 @@
 #include "sim/pictures/image.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/threads.hpp"
 
 namespace halfway::cli {
@@ -33,19 +34,17 @@ struct RenderCommand {
   std::string file;
 };
 
-Result<Frame> golden_frame(const Scene& scene, const DrawSettings& draw) {
-  const auto plan = plan_scene(scene, draw.plan);
-  if (!plan) return plan.error();
-  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan->key, draw.setup);
+Frame golden_frame(const Scene& scene, const DrawSettings& draw) {
+  const auto plan = must(plan_scene(scene, draw.plan));
+  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan.key, draw.setup);
   for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene.name, note));
-  SceneStream stream(*setup, plan->key, draw.threads);
+  SceneStream stream(*setup, plan.key, draw.threads);
   FrameAssembler assembler(draw.size, scene.background);
   Progress progress(scene.name);
   for (Batch batch; stream.next(batch);) {
     progress.show(batch.done);
-    if (const Status status = check_shadow_counts(scene, stream.counts(), stream.fault()); !status)
-      return status.error();
-    if (const Status status = assembler.add(batch.golden); !status) return status.error();
+    must(check_shadow_counts(scene, stream.counts(), stream.fault()));
+    must(assembler.add(batch.golden));
   }
   return assembler.frame();
 }
@@ -55,38 +54,33 @@ int run(const Folders& folders, const RenderCommand& command) {
   DrawOptions options_given = command.draw;
   // these methods take the options of the spherical shader
   if (spherical) options_given.shader = to_string(Shader::spherical);
-  const auto draw = checked(options_given);
-  if (!draw) return report(draw.error());
+  const auto draw = must(checked(options_given));
   if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
     return report(bad_input(
         fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "))));
-  const auto scene = load_scene(command.scene, folders.scenes());
-  if (!scene) return report(scene.error());
-  for (const std::string& note : scene->notes) say(note);
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  for (const std::string& note : scene.notes) say(note);
 
-  const std::vector<ScreenTriangle> triangles = Projector(*scene, draw->size, {}).project_all();
-  const RenderOptions options{.frame = draw->size, .subpixel_bits = 4, .workers = on_threads(draw->threads)};
-  const ReferenceImage reference = render_reference(*scene, triangles, options);
+  const std::vector<ScreenTriangle> triangles = Projector(scene, draw.size, {}).project_all();
+  const RenderOptions options{.frame = draw.size, .subpixel_bits = 4, .workers = on_threads(draw.threads)};
+  const ReferenceImage reference = render_reference(scene, triangles, options);
   Frame frame = reference.frame;
-  if (command.method == "gouraud") frame = render_gouraud(*scene, triangles, options).frame;
+  if (command.method == "gouraud") frame = render_gouraud(scene, triangles, options).frame;
   if (spherical) {
     const SphericalMethod method{
         command.method == "spherical-fixed" ? VectorScheme::one_fixed : VectorScheme::both_interpolated,
-        draw->setup.spherical.ends};
-    frame = render_spherical(*scene, triangles, options, method).frame;
+        draw.setup.spherical.ends};
+    frame = render_spherical(scene, triangles, options, method).frame;
   }
   if (command.method == "golden") {
-    auto drawn = golden_frame(*scene, *draw);
-    if (!drawn) return report(drawn.error());
-    frame = std::move(*drawn);
+    frame = golden_frame(scene, draw);
   }
   const std::string file =
-      command.file.empty() ? fmt::format("{}-{}.png", scene->name, command.method) : command.file;
-  if (const Status status = write_png(file, frame); !status) return report(status.error());
-  const auto distance = frame_distance(frame, reference.frame, reference.mask);
-  if (!distance) return report(distance.error());
+      command.file.empty() ? fmt::format("{}-{}.png", scene.name, command.method) : command.file;
+  must(write_png(file, frame));
+  const auto distance = must(frame_distance(frame, reference.frame, reference.mask));
   fmt::print("{}: {} against the reference: PSNR {:.2f} dB, largest error {}/255\n", file, command.method,
-             distance->psnr_db, distance->max_lsb);
+             distance.psnr_db, distance.max_lsb);
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "sim/program/printable.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::cli {
@@ -40,16 +41,10 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
   return ports;
 }
 
-Result<std::string> netlist_of_top(const HardwareKey& key, const std::string& top, const Folders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache());
-  if (!library) return library.error();
-  const auto netlist = library->synthesize(top, key.generics());
-  if (!netlist) return netlist.error();
-  return mend_netlist(*netlist);
+std::string netlist_of_top(const HardwareKey& key, const std::string& top, const Folders& folders) {
+  const GhdlLibrary library = must(GhdlLibrary::for_synthesis(
+      must(GhdlTool::find()), must(read_rtl_sources(folders.source)), folders.cache()));
+  return must(mend_netlist(must(library.synthesize(top, key.generics()))));
 }
 
 // The options that select the hardware, as on the command line.
@@ -80,26 +75,21 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
 }
 
 int run(const Folders& folders, const VerilogCommand& command, const std::string& version) {
-  const auto draw = checked(command.draw);
-  if (!draw) return report(draw.error());
-  const auto scene = load_scene(command.scene, folders.scenes());
-  if (!scene) return report(scene.error());
-  const auto plan = plan_scene(*scene, draw->plan);
-  if (!plan) return report(plan.error());
-  const HardwareKey& key = plan->key;
+  const auto draw = must(checked(command.draw));
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  const auto plan = must(plan_scene(scene, draw.plan));
+  const HardwareKey& key = plan.key;
   const std::string top = command.axi ? fmt::format("{}_axi", to_string(key.shader)) : key.entity();
   const auto netlist = netlist_of_top(key, top, folders);
-  if (!netlist) return report(netlist.error());
-  const std::vector<Port> ports = ports_of(*netlist, top);
+  const std::vector<Port> ports = ports_of(netlist, top);
   if (ports.empty())
     return report(tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), top)));
 
-  const std::filesystem::path folder = draw->out / key.name();
+  const std::filesystem::path folder = draw.out / key.name();
   const std::filesystem::path file = folder / (top + ".v"), list = folder / (top + ".f");
-  if (const Status made = make_folders(folder); !made) return report(made.error());
-  if (const Status written = write_file(file, header(command, key, top, ports, version) + *netlist); !written)
-    return report(written.error());
-  if (const Status written = write_file(list, top + ".v\n"); !written) return report(written.error());
+  must(make_folders(folder));
+  must(write_file(file, header(command, key, top, ports, version) + netlist));
+  must(write_file(list, top + ".v\n"));
   fmt::print("{}: module {} with {} ports\n{}: the list of files\n", file.string(), top, ports.size(),
              list.string());
   return static_cast<int>(ExitCode::equal);

@@ -11,6 +11,7 @@
 #include "sim/cli/options.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -75,60 +76,56 @@ void print_stage(const StageState& stage, const Widths& widths) {
 }
 
 int run(const Folders& folders, const WhyCommand& command) {
-  const auto draw = checked(command.draw);
-  if (!draw) return report(draw.error());
+  const auto draw = must(checked(command.draw));
   const auto pixel = parse_pixel(command.pixel);
   if (!pixel)
     return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
-  if (pixel->x >= draw->size.width || pixel->y >= draw->size.height)
+  if (pixel->x >= draw.size.width || pixel->y >= draw.size.height)
     return report(bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
-                                        draw->size.width, draw->size.height)));
-  const auto scene = load_scene(command.scene, folders.scenes());
-  if (!scene) return report(scene.error());
-  Progress progress(scene->name);
+                                        draw.size.width, draw.size.height)));
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  Progress progress(scene.name);
   WhySettings settings;
-  settings.plan = draw->plan;
-  settings.size = draw->size;
-  settings.setup = draw->setup;
-  settings.threads = draw->threads;
+  settings.plan = draw.plan;
+  settings.size = draw.size;
+  settings.setup = draw.setup;
+  settings.threads = draw.threads;
   settings.pixel = *pixel;
   settings.folders = {folders.source, folders.cache()};
   settings.on_progress = [&](double done) { progress.show(done); };
-  const auto why = explain_pixel(*scene, settings);
+  const auto why = must(explain_pixel(scene, settings));
   progress.clear();
-  if (!why) return report(why.error());
 
-  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene->name, settings.pixel.x,
-             settings.pixel.y, settings.size.width, settings.size.height, why->key.name(),
-             why->stories.size());
-  const Widths widths = widths_of(*why);
-  for (const PixelStory& story : why->stories) {
+  fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene.name, settings.pixel.x,
+             settings.pixel.y, settings.size.width, settings.size.height, why.key.name(), why.stories.size());
+  const Widths widths = widths_of(why);
+  for (const PixelStory& story : why.stories) {
     fmt::print("\ntriangle {}, init vector {}\n", story.triangle, story.vector);
     print_given("init vector", story.init, widths);
     print_given("its line's record", story.record, widths);
     for (const StageState& stage : story.stages) print_stage(stage, widths);
   }
-  if (!why->fault.empty()) fmt::print("\n{}\n", why->fault);
-  if (why->first) {
-    fmt::print("\nfirst difference in the frame: {}\n", why->first->text());
+  if (!why.fault.empty()) fmt::print("\n{}\n", why.fault);
+  if (why.first) {
+    fmt::print("\nfirst difference in the frame: {}\n", why.first->text());
     return static_cast<int>(ExitCode::differs);
   }
-  if (why->fragments == 0 && !why->frame_difference && why->fault.empty()) {
-    const auto nothing = nothing_compared(why->fragments, why->in_view, 0);
-    say(fmt::format("{}: {}", scene->name, nothing.value_or("nothing was compared: no triangle is in view")));
+  if (why.fragments == 0 && !why.frame_difference && why.fault.empty()) {
+    const auto nothing = nothing_compared(why.fragments, why.in_view, 0);
+    say(fmt::format("{}: {}", scene.name, nothing.value_or("nothing was compared: no triangle is in view")));
     return static_cast<int>(ExitCode::differs);
   }
-  if (why->frame_difference)
+  if (why.frame_difference)
     fmt::print(
         "\nin Verilator's frame the first fragment that differs is number {}; in GHDL golden model and RTL "
         "agree at "
         "every\nstage of its triangle: what differs is the netlist, or comes from triangles long before\n",
-        why->frame_difference->index);
-  else if (why->fault.empty())
+        why.frame_difference->index);
+  else if (why.fault.empty())
     fmt::print(
         "\ngolden model and RTL agree at every stage of these triangles, as GHDL simulates them,\n"
         "and in every fragment of the frame, as Verilator does\n");
-  return static_cast<int>(why->fault.empty() && !why->frame_difference ? ExitCode::equal : ExitCode::differs);
+  return static_cast<int>(why.fault.empty() && !why.frame_difference ? ExitCode::equal : ExitCode::differs);
 }
 
 }  // namespace
