@@ -300,7 +300,7 @@ Sum cast_all(Trial& trial, unsigned seed, Make&& make, bool with_published = tru
              int subpixel_bits = c_subpixel_bits) {
   RandomSolids random(seed);
   Sum sum;
-  for (int i = 0; i < trial.rounds(3, 20); ++i)
+  for (int i = 0; i < trial.rounds(5, 20); ++i)
     cast(trial, make(random, i), fmt::format("scene {}", i), sum, with_published, subpixel_bits);
   finish(trial, sum);
   return sum;
@@ -343,7 +343,7 @@ void volumes(Trial& trial) {
   cast_all(trial, 12, sphere, false);
 }
 
-// The eye inside of volumes, and near planes that cut them.
+// The eye inside of volumes and of solids, and near planes that cut them.
 void eye_and_near_plane(Trial& trial) {
   cast_on_floors(trial, 8, [](RandomSolids& random, Scene& scene, int i) {
     const LightPoint light =
@@ -353,6 +353,12 @@ void eye_and_near_plane(Trial& trial) {
                              random.within(1e-4, 0.3) * random.unit();
     scene.camera.eye_world.y = std::max(scene.camera.eye_world.y, -1.2);
     scene.camera.target_world = random.cube(1.0);
+  });
+  cast_on_floors(trial, 14, [](RandomSolids& random, Scene& scene, int) {
+    const CornersWorld c = corners_world(scene, scene.triangles[0]);
+    scene.camera.eye_world =
+        (c[0] + c[1] + c[2]) / 3.0 - 0.05 * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+    scene.camera.target_world = random.cube(2.0);
   });
   cast_on_floors(trial, 9, [](RandomSolids& random, Scene& scene, int) {
     scene.camera.eye_world = 3.0 * random.unit();
