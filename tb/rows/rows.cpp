@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <cstring>
 #include <regex>
 #include <vector>
@@ -104,6 +105,7 @@ class Writer {
       : entity_(std::move(entity)), table_(table), interface_(std::move(interface)) {}
 
   std::string text() {
+    check_keys();
     put("-- Made by halfway_row_testbenches from tb/rows.toml and the entity's ports.");
     put(interface_.context);
     for (const std::string& package : words(value("use") + " tb_pkg")) put("use work.{}.all;", package);
@@ -123,6 +125,16 @@ class Writer {
   }
 
  private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw Failure{bad_input(fmt::format("tb/rows.toml: {}: {}", entity_, what))};
+  }
+  void check_keys() const {
+    const Texts known =
+        words("generics forms files file for if latency reset drive check late use declare connect");
+    for (const auto& [key, node] : table_)
+      if (std::ranges::find(known, key.str()) == known.end()) fail(fmt::format("unknown key {}", key.str()));
+    if (value("drive").empty() || value("check").empty()) fail("needs drive and check");
+  }
   bool has(const char* key) const { return table_.contains(key); }
   std::string value(const char* key) const { return table_[key].value_or(std::string()); }
   template <class... Values>
@@ -150,8 +162,7 @@ class Writer {
 
   void put_form(std::size_t form, const Texts& generics, const Texts& values) {
     if (generics.size() != values.size())
-      throw Failure{bad_input(
-          fmt::format("tb/rows.toml: {}: a form does not have {} values", entity_, generics.size()))};
+      fail(fmt::format("a form does not have {} values", generics.size()));
     put("form_{} : block is", form);
     if (!generics.empty()) {
       Texts map;
