@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "text.hpp"
@@ -25,31 +26,56 @@ std::string connected_to_dut(std::string_view name, std::string_view value) {
   return fmt::format("  (* hierconn *) wire [{}:0] {};\n  assign {} = {};\n", bits - 1, inside, name, inside);
 }
 
+// In a netlist with a reset, properties are checked from the second clock on, and the first one is a reset,
+// unless the unit has an assumption `starts` of its own.
+std::string statements_of(const std::vector<std::string>& asserts, const std::vector<std::string>& assumes,
+                          bool has_reset, bool is_top) {
+  std::string text;
+  if (has_reset) text += "  reg proof_started = 0;\n  always @(posedge clk) proof_started <= 1;\n";
+  const bool has_start =
+      std::ranges::any_of(assumes, [](const std::string& line) { return contains(line, "_starts: "); });
+  if (has_reset && is_top && !has_start) text += "  always @* assume (proof_started || reset);\n";
+  for (const std::string& line : assumes) text += line;
+  for (const std::string& line : asserts) text += line;
+  return text;
+}
+
 // GHDL writes an assertion as $fatal and an assumption as VHDL. Yosys reads assert and assume:
 //   always @*                                    always @* x: assert (n1_o);
 //     if (!n1_o)
 //       $fatal(1, "assertion failure x");
 //   x: assert n1_o = '1' severity warning; --  assume       always @* x: assume (n1_o);
-FormalVerilog with_properties(std::string_view netlist) {
+FormalVerilog with_properties(std::string_view netlist, std::string_view top) {
   const std::vector<std::string_view> lines = lines_of(netlist);
+  const bool has_reset = contains(netlist, "input  reset");
+  const std::string top_line = fmt::format("module {}", top);
+  bool is_top = false;
+  std::vector<std::string> asserts, assumes;  // of the module
   FormalVerilog result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::string_view line = lines[i];
     if (i + 2 < lines.size() && contains(lines[i + 2], "$fatal(") &&
         without_leading_spaces(line) == "always @*") {
-      result.text += fmt::format("  always @* {}: assert ({});\n", between(lines[i + 2], "failure ", "\""),
-                                 between(lines[i + 1], "if (!", ")"));
+      asserts.push_back(
+          fmt::format("  always @* {}: assert ({}{});\n", between(lines[i + 2], "failure ", "\""),
+                      has_reset ? "!proof_started || " : "", between(lines[i + 1], "if (!", ")")));
       ++result.counts.asserts;
       i += 2;
     } else if (line.ends_with("--  assume")) {
-      result.text += fmt::format("  always @* {}: assume ({});\n", between(line, "  ", ":"),
-                                 between(line, "assert ", " ="));
+      assumes.push_back(fmt::format("  always @* {}: assume ({});\n", between(line, "  ", ":"),
+                                    between(line, "assert ", " =")));
       ++result.counts.assumes;
     } else if (contains(line, "'bX; // (signal)")) {
       // Drop the driver of a signal that the unit leaves free: Yosys makes it an arbitrary value.
       if (const auto name = between(line, "assign ", " "); name.starts_with(c_dut))
         result.text += connected_to_dut(name, between(line, "= ", "'"));
     } else {
+      if (line.starts_with("module ")) is_top = line == top_line;
+      if (line == "endmodule" && !(asserts.empty() && assumes.empty())) {
+        result.text += statements_of(asserts, assumes, has_reset, is_top);
+        asserts.clear();
+        assumes.clear();
+      }
       result.text.append(line).push_back('\n');
     }
   }
@@ -87,8 +113,8 @@ int count_statements(std::string_view unit, std::string_view keyword) {
 
 }  // namespace
 
-Result<FormalVerilog> formal_verilog(std::string_view netlist) {
-  FormalVerilog formal = with_properties(netlist);
+Result<FormalVerilog> formal_verilog(std::string_view netlist, std::string_view top) {
+  FormalVerilog formal = with_properties(netlist, top);
   if (contains(formal.text, "$fatal"))
     return tool_failed("GHDL wrote an assertion in a form that is not known; rewrite the assertion");
   auto text = with_numbers(formal.text);

@@ -21,8 +21,9 @@ struct FormalVerilog {
   PropertyCounts counts;
 };
 
-/// Fails if GHDL has changed the meaning: a negative wide constant, or an assertion of an unknown form.
-Result<FormalVerilog> formal_verilog(std::string_view netlist);
+/// A module `top` with a reset starts with it, and its properties are checked from the second clock on. Fails
+/// if GHDL has changed the meaning: a negative wide constant, or an assertion of an unknown form.
+Result<FormalVerilog> formal_verilog(std::string_view netlist, std::string_view top);
 
 /// The labelled statements `: assert ` and `: assume ` of a unit, outside comments.
 PropertyCounts count_properties(std::string_view unit);

@@ -17,6 +17,7 @@
 #include "proof_files.hpp"
 #include "prover.hpp"
 #include "sim/program/program.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 #include "text.hpp"
@@ -50,9 +51,10 @@ bool is_selected(const Options& options, const Proof& proof) {
          (contains(proof.unit, options.name) || contains(proof.name, options.name));
 }
 
-Result<std::vector<Proof>> select_proofs(const Options& options, std::vector<Proof> proofs) {
+std::vector<Proof> select_proofs(const Options& options, std::vector<Proof> proofs) {
   std::erase_if(proofs, [&](const Proof& proof) { return !is_selected(options, proof); });
-  if (proofs.empty()) return bad_input(fmt::format("{}: no proof has this in its name", options.name));
+  if (proofs.empty())
+    throw Failure{bad_input(fmt::format("{}: no proof has this in its name", options.name))};
   for (Proof& proof : proofs) {
     if (!options.faults) proof.faults.clear();
     if (options.quick) keep_few(proof.faults);
@@ -60,14 +62,11 @@ Result<std::vector<Proof>> select_proofs(const Options& options, std::vector<Pro
   return proofs;
 }
 
-Status check_faults(const Options& options, const std::vector<Proof>& proofs) {
+void check_faults(const Options& options, const std::vector<Proof>& proofs) {
   for (const Proof& proof : proofs) {
     const auto rtl = read_sources(options.folders, proof);
-    if (!rtl) return rtl.error();
-    for (const Fault& fault : proof.faults)
-      if (const auto text = text_with_fault(*rtl, fault); !text) return text.error();
+    for (const Fault& fault : proof.faults) text_with_fault(rtl, fault);
   }
-  return Ok{};
 }
 
 // ---- Running them
@@ -124,7 +123,7 @@ void record(const Proof& proof, const Job& job, const Result<Answer>& answer, do
   std::fflush(stdout);
 }
 
-// Calls `done` with the number of each proof after its last job.
+// Calls `done` for each proof after its last job.
 template <class Done>
 Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs, const Done& done) {
   const std::vector<Job> jobs = jobs_of(proofs);
@@ -138,12 +137,12 @@ Outcomes run_jobs(const Folders& folders, const std::vector<Proof>& proofs, cons
       const Job& job = jobs[at];
       const Proof& proof = proofs[job.proof];
       const auto began = std::chrono::steady_clock::now();
-      const auto answer = prove(folders, proof, job.fault);
+      const auto answer = caught([&] { return prove(folders, proof, job.fault); });
       const double seconds = seconds_since(began);
       const std::lock_guard lock(mutex);
       fmt::print("{} ", countdown.next());
       record(proof, job, answer, seconds, outcomes);
-      if (--outcomes.proofs[job.proof].remaining == 0) done(job.proof, outcomes.proofs[job.proof]);
+      if (--outcomes.proofs[job.proof].remaining == 0) done(proof, outcomes.proofs[job.proof]);
     }
   });
   return outcomes;
@@ -178,45 +177,38 @@ page::Row row_of(const Proof& proof, const Outcome& outcome) {
                      {"faults refuted", fmt::format("{} of {}", outcome.refuted, proof.faults.size())}}};
 }
 
-Result<page::Measured> open_page(const Options& options, const std::vector<Proof>& proofs) {
+page::Measured open_page(const Options& options, const std::vector<Proof>& proofs) {
   std::vector<std::string> rows;
   for (const Proof& proof : proofs) rows.push_back(proof.name);
-  return page::Measured::open({.name = "proofs",
-                               .root = options.folders.source,
-                               .file = "docs/results/proofs.md",
-                               .tools = {"ghdl", "yosys", "cvc5", "gappa"},
-                               .rows = std::move(rows)});
+  return must(page::Measured::open({.name = "proofs",
+                                    .root = options.folders.source,
+                                    .file = "docs/results/proofs.md",
+                                    .tools = {"ghdl", "yosys", "cvc5", "gappa"},
+                                    .rows = std::move(rows)}));
 }
 
 // ---- The program
 
-Result<ExitCode> prove_all(const Options& options) {
-  const auto all = read_proofs(options.folders.source);
-  if (!all) return all.error();
-  auto proofs = select_proofs(options, *all);
-  if (!proofs) return proofs.error();
-  if (auto checked = check_faults(options, *proofs); !checked) return checked.error();
-  if (auto found = find_tools(); !found) return found.error();
+ExitCode prove_all(const Options& options) {
+  const std::vector<Proof> all = read_proofs(options.folders.source);
+  std::vector<Proof> proofs = select_proofs(options, all);
+  check_faults(options, proofs);
+  find_tools();
   std::optional<page::Measured> measured;
   if (options.evidence) {
-    auto opened = open_page(options, *all);
-    if (!opened) return opened.error();
-    measured = std::move(*opened);
-    std::erase_if(*proofs, [&](const Proof& proof) { return measured->has(proof.name); });
+    measured = open_page(options, all);
+    std::erase_if(proofs, [&](const Proof& proof) { return measured->has(proof.name); });
   }
-  Status stored = Ok{};
-  const Outcomes outcomes = run_jobs(options.folders, *proofs, [&](std::size_t i, const Outcome& outcome) {
-    const Proof& proof = (*proofs)[i];
-    if (!measured || !outcome.holds || static_cast<std::size_t>(outcome.refuted) < proof.faults.size())
-      return;
-    if (Status done = measured->put(row_of(proof, outcome)); !done) stored = done;
-  });
+  const auto store = [&](const Proof& proof, const Outcome& outcome) {
+    if (measured && outcome.holds && static_cast<std::size_t>(outcome.refuted) == proof.faults.size())
+      must(measured->put(row_of(proof, outcome)));
+  };
+  const Outcomes outcomes = run_jobs(options.folders, proofs, store);
   fmt::print("\n{} of {} not proved, {} faults not refuted, {} could not be run\n", outcomes.not_proved,
-             proofs->size(), outcomes.not_refuted, outcomes.broken);
-  if (!stored) return stored.error();
+             proofs.size(), outcomes.not_refuted, outcomes.broken);
   if (outcomes.not_proved + outcomes.not_refuted > 0) return ExitCode::differs;
   if (outcomes.broken > 0) return ExitCode::tool_failed;
-  return measured ? measured->finish() : ExitCode::equal;
+  return measured ? must(measured->finish()) : ExitCode::equal;
 }
 
 }  // namespace
@@ -241,8 +233,7 @@ int main(int argc, char** argv) {
   app.callback([&] {
     options.folders.source = std::filesystem::absolute(options.folders.source);
     options.folders.scratch = std::filesystem::absolute(options.folders.scratch);
-    const auto end = proofs::prove_all(options);
-    exit_code = end ? static_cast<int>(*end) : cli::report(end.error());
+    exit_code = static_cast<int>(proofs::prove_all(options));
   });
   return cli::run_program(app, argc, argv, exit_code);
 }

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <string>
 
 #include "prover.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/test/source_folder.hpp"
 
@@ -21,9 +21,7 @@ using testing::HasSubstr;
 class ProofProgram : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
+    find_tools();
     std::filesystem::create_directories(source() / "tb");
     constexpr auto c_all = std::filesystem::copy_options::recursive;
     std::filesystem::copy(c_source_folder / "rtl", source() / "rtl", c_all);
@@ -31,24 +29,20 @@ class ProofProgram : public ::testing::Test {
     std::filesystem::create_directories(source() / "docs/results");
     std::filesystem::copy(c_source_folder / "docs/results/proofs.md", page());
   }
-  std::filesystem::path source() const { return folder_->path() / "source"; }
+  std::filesystem::path source() const { return folder_.path() / "source"; }
 
   std::string page() const { return source() / "docs/results/proofs.md"; }
 
   void replace(const std::string& file, const std::string& from, const std::string& to) const {
-    auto text = read_file(source() / file);
-    ASSERT_TRUE(text) << text.error().message;
-    const std::size_t at = text->find(from);
+    std::string text = must(read_file(source() / file));
+    const std::size_t at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
-    text->replace(at, from.size(), to);
-    ASSERT_TRUE(write_file(source() / file, *text));
+    must(write_file(source() / file, text.replace(at, from.size(), to)));
   }
 
   // Removes the units and descriptions of all other proofs.
   void keep_only(const std::set<std::string>& proofs) const {
-    const auto files = files_below(source() / "tb/proofs");
-    ASSERT_TRUE(files) << files.error().message;
-    for (const auto& file : *files)
+    for (const auto& file : must(files_below(source() / "tb/proofs")))
       if (file.has_parent_path() && !proofs.contains(file.stem()))
         std::filesystem::remove(source() / "tb/proofs" / file);
   }
@@ -56,10 +50,10 @@ class ProofProgram : public ::testing::Test {
   void commit() const {
     const auto git = [&](std::vector<std::string> arguments) {
       arguments.insert(arguments.begin(), {"git", "-c", "user.name=n", "-c", "user.email=e"});
-      const auto end = run_process({.arguments = arguments, .working_folder = source()}, "");
-      ASSERT_TRUE(end && end->succeeded()) << (end ? end->output : end.error().message);
+      const auto end = must(run_process({.arguments = arguments, .working_folder = source()}, ""));
+      ASSERT_TRUE(end.succeeded()) << end.output;
     };
-    ASSERT_TRUE(write_file(source() / ".gitignore", "build\n"));
+    must(write_file(source() / ".gitignore", "build\n"));
     git({"init"});
     git({"add", "."});
     git({"commit", "-m", "x"});
@@ -75,21 +69,19 @@ class ProofProgram : public ::testing::Test {
     command.arguments = {HALFWAY_PROOFS};
     command.arguments.insert(command.arguments.end(), options.begin(), options.end());
     command.arguments.insert(command.arguments.end(),
-                             {source().string(), (folder_->path() / "scratch").string()});
+                             {source().string(), (folder_.path() / "scratch").string()});
     if (!name.empty()) command.arguments.push_back(name);
-    command.working_folder = folder_->path();
+    command.working_folder = folder_.path();
     command.environment = std::move(environment);
     command.timeout = std::chrono::minutes(60);
-    const auto end = run_process(command, "");
-    if (!end) return {-1, end.error().message};
-    return {end->exit_status, end->output};
+    const auto end = must(run_process(command, ""));
+    return {end.exit_status, end.output};
   }
 
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(ProofProgram, EndsWithOneWhenAPropertyIsFalse) {
-  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   EXPECT_EQ(run({}, "parameter_register").exit_code, 0);
   replace("rtl/stream/parameter_register.vhd", "value <= start;", "value <= not start;");
   const Outcome outcome = run({"--no-faults"}, "parameter_register");
@@ -98,7 +90,6 @@ TEST_F(ProofProgram, EndsWithOneWhenAPropertyIsFalse) {
 }
 
 TEST_F(ProofProgram, EndsWithOneWhenAFaultIsNotRefuted) {
-  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   replace("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = value");
   const Outcome outcome = run({}, "parameter_register");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
@@ -106,7 +97,6 @@ TEST_F(ProofProgram, EndsWithOneWhenAFaultIsNotRefuted) {
 }
 
 TEST_F(ProofProgram, EndsWithThreeWhenAUnitDoesNotCompile) {
-  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   replace("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = ghost_words");
   EXPECT_EQ(run({"--no-faults"}, "parameter_register").exit_code, 3);
 }
@@ -137,22 +127,20 @@ TEST_F(ProofProgram, EndsWithTwoWhenTheRtlHasNotTheTextOfAFault) {
 }
 
 TEST_F(ProofProgram, WritesItsPage) {
-  ASSERT_TRUE(find_tools()) << find_tools().error().message;
   keep_only({"parameter_register"});
   commit();
   const Outcome outcome = run({"--evidence"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  const auto text = read_file(page());
-  ASSERT_TRUE(text) << text.error().message;
-  EXPECT_THAT(*text, HasSubstr("\nMeasured by `make evidence PAGE=proofs` at commit `"));
-  EXPECT_THAT(*text, testing::MatchesRegex("# Proofs: results\n.*\n\\| property .*\n\\| --- .*\n"
-                                           "\\| [^\n]* \\| `stream/parameter_register` \\| induction \\| 1 "
-                                           "\\| [0-9.]+ \\| 2 of 2 \\|\n"));
+  const std::string text = must(read_file(page()));
+  EXPECT_THAT(text, HasSubstr("\nMeasured by `make evidence PAGE=proofs` at commit `"));
+  EXPECT_THAT(text, testing::MatchesRegex("# Proofs: results\n.*\n\\| property .*\n\\| --- .*\n"
+                                          "\\| [^\n]* \\| `stream/parameter_register` \\| induction \\| 1 "
+                                          "\\| [0-9.]+ \\| 2 of 2 \\|\n"));
   // A proof that fails has no row, and the page stays.
   replace("rtl/stream/parameter_register.vhd", "value <= start;", "value <= not start;");
   commit();
   EXPECT_EQ(run({"--evidence"}).exit_code, 1);
-  EXPECT_EQ(*read_file(page()), *text);
+  EXPECT_EQ(must(read_file(page())), text);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
 
 #include "golden_table.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "tables/formats.hpp"
 
 namespace halfway::proofs {
@@ -44,23 +44,21 @@ bool is_format(std::string_view name) {
   return std::ranges::any_of(preset.formats, [&](const tables::Format& f) { return f.name == name; });
 }
 
-// Reads one file. The first error is kept; values that are read after it have no meaning.
+// Reads one file. Throws Failure with file and line.
 class ProofFile {
  public:
   // `name` is relative to tb/proofs.
   ProofFile(const std::filesystem::path& source, const std::filesystem::path& name)
       : source_(source), name_(name), file_((c_folder / name).string()) {}
 
-  Result<std::vector<Proof>> read() {
-    const auto text = read_file(source_ / c_folder / name_);
-    if (!text) return text.error();
+  std::vector<Proof> read() {
     try {
-      root_ = toml::parse(*text, file_);
+      root_ = toml::parse(must(read_file(source_ / c_folder / name_)), file_);
     } catch (const toml::parse_error& error) {
-      return bad_input(fmt::format("{}:{}: bad TOML: {}; correct it", file_, error.source().begin.line,
-                                   error.description()));
+      throw Failure{bad_input(fmt::format("{}:{}: bad TOML: {}; correct it", file_, error.source().begin.line,
+                                          error.description()))};
     }
-    check_keys(root_, with_shared_keys({"entity", "shared_faults", "proof"}));
+    check_keys(root_, with_shared_keys({"entity", "unit", "shared_faults", "proof"}));
     read_entity();
     read_unit();
     read_shared_faults();
@@ -68,7 +66,6 @@ class ProofFile {
     for (const auto& [list, faults] : shared_faults_)
       if (!used_lists_.contains(list))
         fail(root_["shared_faults"].node(), "no proof refutes '{}'; name it in faults, or remove it", list);
-    if (error_) return *error_;
     return proofs;
   }
 
@@ -82,10 +79,9 @@ class ProofFile {
   }
 
   template <class... Values>
-  void fail(Where where, fmt::format_string<Values...> message, Values&&... values) {
-    if (error_) return;
-    error_ =
-        bad_input(fmt::format("{}: {}", place(where), fmt::format(message, std::forward<Values>(values)...)));
+  [[noreturn]] void fail(Where where, fmt::format_string<Values...> message, Values&&... values) const {
+    throw Failure{bad_input(
+        fmt::format("{}: {}", place(where), fmt::format(message, std::forward<Values>(values)...)))};
   }
 
   void check_keys(const toml::table& table, const std::vector<std::string_view>& known) {
@@ -96,46 +92,41 @@ class ProofFile {
 
   // ---- Values
 
-  std::string text(Where node, std::string_view key) {
+  std::string text(Where node, std::string_view key) const {
     const auto value = node->value_exact<std::string>();
     if (!value || value->empty()) fail(node, "{} must be a text in quotes", key);
-    return value.value_or("");
+    return *value;
   }
 
-  int number(Where node, std::string_view key, int least) {
+  int number(Where node, std::string_view key, int least) const {
     const auto value = node->value_exact<std::int64_t>();
-    if (!value || *value < least || *value > c_most_clocks) {
+    if (!value || *value < least || *value > c_most_clocks)
       fail(node, "{} must be a whole number from {} to {}", key, least, c_most_clocks);
-      return least;
-    }
     return static_cast<int>(*value);
   }
 
-  bool flag(Where node, std::string_view key) {
+  bool flag(Where node, std::string_view key) const {
     const auto value = node->value_exact<bool>();
     if (!value) fail(node, "{} must be true or false", key);
-    return value.value_or(false);
+    return *value;
   }
 
-  const toml::table& table(Where node, std::string_view key) {
-    static const toml::table c_empty;
-    if (node->is_table()) return *node->as_table();
-    fail(node, "{} must be a table", key);
-    return c_empty;
+  const toml::table& table(Where node, std::string_view key) const {
+    if (!node->is_table()) fail(node, "{} must be a table", key);
+    return *node->as_table();
   }
 
-  const toml::array& list(Where node, std::string_view key) {
-    static const toml::array c_empty;
-    if (node->is_array() && !node->as_array()->empty()) return *node->as_array();
-    fail(node, "{} must be a list with one element or more", key);
-    return c_empty;
+  const toml::array& list(Where node, std::string_view key) const {
+    if (!node->is_array() || node->as_array()->empty())
+      fail(node, "{} must be a list with one element or more", key);
+    return *node->as_array();
   }
 
   // ---- The file
 
   void read_entity() {
     Where node = root_.get("entity");
-    if (node == nullptr) return fail(nullptr, "has no entity; name the one in rtl/{}", folder());
+    if (node == nullptr) fail(nullptr, "has no entity; name the one in rtl/{}", folder());
     entity_ = (name_.parent_path() / text(node, "entity")).string();
     if (!std::filesystem::exists(source_ / "rtl" / (entity_ + ".vhd")))
       fail(node, "rtl/{}.vhd does not exist; name an entity of rtl/{}", entity_, folder());
@@ -143,18 +134,24 @@ class ProofFile {
 
   std::string folder() const { return name_.parent_path().string(); }
 
+  // The unit next to the file, or the one that it names.
   void read_unit() {
     std::vector<std::string> units;
+    if (Where node = root_.get("unit")) {
+      unit_ = name_.parent_path() / text(node, "unit");
+      if (!std::filesystem::exists(source_ / c_folder / unit_))
+        fail(node, "{}/{} does not exist", c_folder, unit_);
+      return;
+    }
     for (const char* extension : {".psl", ".gappa"}) {
       auto unit = name_;
       unit.replace_extension(extension);
       if (std::filesystem::exists(source_ / c_folder / unit)) units.push_back(unit.string());
     }
-    if (units.size() == 1)
-      unit_ = units.front();
-    else
-      fail(nullptr, "{} next to it; one must be there: {}.psl or {}.gappa",
-           units.empty() ? "no unit" : "two units", name_.stem().string(), name_.stem().string());
+    if (units.size() != 1)
+      fail(nullptr, "{0} next to it; one must be there: {1}.psl or {1}.gappa",
+           units.empty() ? "no unit" : "two units", name_.stem().string());
+    unit_ = units.front();
   }
 
   void read_shared_faults() {
@@ -169,10 +166,8 @@ class ProofFile {
     const toml::table& table = this->table(node, "a fault");
     check_keys(table, c_fault_keys);
     for (const char* key : {"old", "new"})
-      if (!table.contains(key)) {
+      if (!table.contains(key))
         fail(node, "a fault has no '{}'; a fault is {{ old = \"text of the RTL\", new = \"another\" }}", key);
-        return {};
-      }
     Fault fault{.file = entity_ + ".vhd",
                 .old_text = text(table.get("old"), "old"),
                 .new_text = text(table.get("new"), "new"),
@@ -188,10 +183,7 @@ class ProofFile {
   std::vector<Proof> read_proofs() {
     std::vector<Proof> proofs;
     Where node = root_.get("proof");
-    if (node == nullptr) {
-      fail(nullptr, "has no proof; add a [[proof]]");
-      return proofs;
-    }
+    if (node == nullptr) fail(nullptr, "has no proof; add a [[proof]]");
     for (const toml::node& proof : list(node, "proof")) proofs.push_back(read_proof(table(&proof, "proof")));
     return proofs;
   }
@@ -201,10 +193,10 @@ class ProofFile {
     Proof proof;
     proof.entity = entity_;
     proof.unit = unit_;
-    if (Where node = required(table, "property")) proof.property = text(node, "property");
-    if (Where node = required(table, "method")) proof.method = read_method(node);
-    if (Where node = required(table, "quick")) proof.quick = flag(node, "quick");
-    if (Where node = required(table, "faults")) proof.faults = read_faults(node);
+    proof.property = text(required(table, "property"), "property");
+    proof.method = read_method(required(table, "method"));
+    proof.quick = flag(required(table, "quick"), "quick");
+    proof.faults = read_faults(required(table, "faults"));
     if (Where node = find(table, "generics")) proof.generics = read_generics(node);
     if (Where node = find(table, "any_products")) proof.any_products = flag(node, "any_products");
     if (Where node = find(table, "contracts")) proof.contracts = read_contracts(node);
@@ -229,10 +221,8 @@ class ProofFile {
   Method read_method(Where node) {
     const std::string name = text(node, "method");
     const auto at = std::ranges::find(c_methods, name);
-    if (at == c_methods.end()) {
+    if (at == c_methods.end())
       fail(node, "method is '{}', but must be one of {}", name, fmt::join(c_methods, ", "));
-      return {};
-    }
     const auto method = static_cast<Method>(at - c_methods.begin());
     if ((method == Method::gappa) != unit_.ends_with(".gappa"))
       fail(node, "method '{}' does not fit {}; gappa is for units named .gappa", name, unit_);
@@ -241,7 +231,7 @@ class ProofFile {
 
   void read_clocks(const toml::table& table, Proof& proof) {
     if (has_clocks(proof.method)) {
-      if (Where node = required(table, "clocks")) proof.clocks = number(node, "clocks", 1);
+      proof.clocks = number(required(table, "clocks"), "clocks", 1);
     } else if (Where node = find(table, "clocks")) {
       fail(node, "this method takes no clocks; remove them, or give fault_clocks");
     }
@@ -269,10 +259,8 @@ class ProofFile {
       const std::string name(key.str());
       if (!is_format(name)) fail(&value, "formats_pkg has no format '{}'", name);
       const toml::array& bits = list(&value, name);
-      if (bits.size() != 2)
-        fail(&value, "{} must be two numbers: integer bits and fraction bits", name);
-      else
-        formats.push_back({name, number(bits.get(0), name, 0), number(bits.get(1), name, 0)});
+      if (bits.size() != 2) fail(&value, "{} must be two numbers: integer bits and fraction bits", name);
+      formats.push_back({name, number(bits.get(0), name, 0), number(bits.get(1), name, 0)});
     }
     return formats;
   }
@@ -299,7 +287,7 @@ class ProofFile {
 
   void read_golden_table(Where node, Proof& proof) {
     const auto table = golden_table(text(node, "golden_table"), proof.generics);
-    if (!table) return fail(node, "golden_table: {}", table.error().message);
+    if (!table) fail(node, "golden_table: {}", table.error().message);
     proof.table = table->entries;
     proof.table_bits = table->entry_bits;
   }
@@ -314,10 +302,7 @@ class ProofFile {
       }
       const std::string name = text(&item, "faults");
       const auto shared = shared_faults_.find(name);
-      if (shared == shared_faults_.end()) {
-        fail(&item, "[shared_faults] has no list '{}'", name);
-        continue;
-      }
+      if (shared == shared_faults_.end()) fail(&item, "[shared_faults] has no list '{}'", name);
       used_lists_.insert(name);
       faults.insert(faults.end(), shared->second.begin(), shared->second.end());
     }
@@ -330,45 +315,37 @@ class ProofFile {
   std::string entity_, unit_;
   std::map<std::string, std::vector<Fault>> shared_faults_;
   std::set<std::string> used_lists_;
-  std::optional<Error> error_;
 };
 
-bool is_unit(const std::filesystem::path& file) {
-  return file.extension() == ".psl" || file.extension() == ".gappa";
-}
-
 // Every unit is proved, or is a contract of a proof.
-Status check_units(const std::vector<std::filesystem::path>& files, const std::vector<Proof>& proofs) {
+void check_units(const std::vector<std::filesystem::path>& files, const std::vector<Proof>& proofs) {
   std::set<std::string> used;
   for (const Proof& proof : proofs) {
     used.insert(proof.unit);
     used.insert(proof.contracts.begin(), proof.contracts.end());
   }
   for (const auto& file : files)
-    if (is_unit(file) && !used.contains(file.string()))
-      return bad_input(
-          fmt::format("{0}/{1}: no proof uses it; describe it in {2}.toml next to it, or remove it", c_folder,
-                      file.string(), file.stem().string()));
-  return Ok{};
+    if ((file.extension() == ".psl" || file.extension() == ".gappa") && !used.contains(file.string()))
+      throw Failure{
+          bad_input(fmt::format("{0}/{1}: no proof uses it; describe it in {2}.toml next to it, or remove it",
+                                c_folder, file.string(), file.stem().string()))};
 }
 
 }  // namespace
 
-Result<std::vector<Proof>> read_proofs(const std::filesystem::path& source) {
-  const auto files = files_below(source / c_folder);
-  if (!files) return files.error();
+std::vector<Proof> read_proofs(const std::filesystem::path& source) {
+  const auto files = must(files_below(source / c_folder));
   std::vector<Proof> proofs;
-  for (const auto& file : *files) {
+  for (const auto& file : files) {
     if (file.extension() != ".toml") continue;
-    auto read = ProofFile(source, file).read();
-    if (!read) return read.error();
-    for (std::size_t i = 0; i < read->size(); ++i) {
+    std::vector<Proof> read = ProofFile(source, file).read();
+    for (std::size_t i = 0; i < read.size(); ++i) {
       const std::string name = std::filesystem::path(file).replace_extension();
-      (*read)[i].name = read->size() == 1 ? name : fmt::format("{} {}", name, i + 1);
+      read[i].name = read.size() == 1 ? name : fmt::format("{} {}", name, i + 1);
     }
-    std::ranges::move(*read, std::back_inserter(proofs));
+    std::ranges::move(read, std::back_inserter(proofs));
   }
-  if (const auto checked = check_units(*files, proofs); !checked) return checked.error();
+  check_units(files, proofs);
   return proofs;
 }
 

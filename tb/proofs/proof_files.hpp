@@ -5,13 +5,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "common/result.hpp"
 #include "proof.hpp"
 
 namespace halfway::proofs {
 
 /// The proofs of every file below tb/proofs of the project at `source`, by path. An unknown key, a value of
-/// the wrong kind, a file without a unit and a unit without a file are errors.
-Result<std::vector<Proof>> read_proofs(const std::filesystem::path& source);
+/// the wrong kind, a file without a unit and a unit without a file throw Failure.
+std::vector<Proof> read_proofs(const std::filesystem::path& source);
 
 }  // namespace halfway::proofs

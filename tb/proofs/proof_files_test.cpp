@@ -4,12 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <string>
 
 #include "golden/cosine_tables.hpp"
 #include "prover.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway::proofs {
 namespace {
@@ -33,30 +33,26 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 class ProofFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-    ASSERT_TRUE(folder) << folder.error().message;
-    folder_.emplace(std::move(*folder));
+  ProofFiles() {
     write("rtl/raster/box.vhd", "");
     write("tb/proofs/raster/box.psl", "");
   }
 
   void write(const std::string& name, const std::string& text) const {
-    const auto written = write_file(folder_->path() / name, text);
-    ASSERT_TRUE(written) << written.error().message;
+    must(write_file(folder_.path() / name, text));
   }
 
-  Result<std::vector<Proof>> read(const std::string& toml) const {
+  std::vector<Proof> read(const std::string& toml) const {
     write("tb/proofs/raster/box.toml", toml);
-    return read_proofs(folder_->path());
+    return read_proofs(folder_.path());
   }
 
   std::string error(const std::string& toml) const {
-    const auto proofs = read(toml);
+    const auto proofs = caught([&] { return read(toml); });
     return proofs ? "no error" : proofs.error().message;
   }
 
-  std::optional<TemporaryFolder> folder_;
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(ProofFiles, ReadsEveryKey) {
@@ -69,9 +65,8 @@ TEST_F(ProofFiles, ReadsEveryKey) {
       "contracts = [\"raster/any.psl\"]\n"
       "faults = [\n{ old = \"a\", new = \"b\" },\n{ file = \"x/y.vhd\", occurs = 2, old = \"c\", new = \"d\" "
       "}]\n");
-  ASSERT_TRUE(proofs) << proofs.error().message;
-  ASSERT_EQ(proofs->size(), 1U);
-  const Proof& proof = proofs->front();
+  ASSERT_EQ(proofs.size(), 1U);
+  const Proof& proof = proofs.front();
   EXPECT_EQ(proof.entity, "raster/box");
   EXPECT_EQ(proof.unit, "raster/box.psl");
   EXPECT_EQ(proof.property, "It holds");
@@ -103,32 +98,28 @@ TEST_F(ProofFiles, TakesValuesOfTheFileUnlessAProofHasItsOwn) {
       "[shared_faults]\nboth = [{ old = \"a\", new = \"b\" }]\n"
       "[[proof]]\nproperty = \"One\"\n"
       "[[proof]]\nproperty = \"Two\"\nquick = true\nfaults = [{ old = \"c\", new = \"d\" }, \"both\"]\n");
-  ASSERT_TRUE(proofs) << proofs.error().message;
-  ASSERT_EQ(proofs->size(), 2U);
-  EXPECT_FALSE((*proofs)[0].quick);
-  EXPECT_TRUE((*proofs)[1].quick);
-  EXPECT_EQ((*proofs)[1].method, Method::pdr);
-  ASSERT_EQ((*proofs)[0].faults.size(), 1U);
-  EXPECT_EQ((*proofs)[0].faults[0].old_text, "a");
-  ASSERT_EQ((*proofs)[1].faults.size(), 2U);
-  EXPECT_EQ((*proofs)[1].faults[0].old_text, "c");
-  EXPECT_EQ((*proofs)[1].faults[1].old_text, "a");
+  ASSERT_EQ(proofs.size(), 2U);
+  EXPECT_FALSE(proofs[0].quick);
+  EXPECT_TRUE(proofs[1].quick);
+  EXPECT_EQ(proofs[1].method, Method::pdr);
+  ASSERT_EQ(proofs[0].faults.size(), 1U);
+  EXPECT_EQ(proofs[0].faults[0].old_text, "a");
+  ASSERT_EQ(proofs[1].faults.size(), 2U);
+  EXPECT_EQ(proofs[1].faults[0].old_text, "c");
+  EXPECT_EQ(proofs[1].faults[1].old_text, "a");
 }
 
 TEST_F(ProofFiles, LooksForFaultsInTenClocksOrAllOfTheProof) {
   const auto few = read(c_proof);
-  ASSERT_TRUE(few) << few.error().message;
-  EXPECT_EQ(few->front().fault_clocks, 10);
+  EXPECT_EQ(few.front().fault_clocks, 10);
   const auto many = read(replaced(c_proof, "clocks = 3", "clocks = 30"));
-  ASSERT_TRUE(many) << many.error().message;
-  EXPECT_EQ(many->front().fault_clocks, 30);
+  EXPECT_EQ(many.front().fault_clocks, 30);
 }
 
 TEST_F(ProofFiles, NarrowsFormatsForFaultsAlone) {
   const auto proofs = read(std::string(c_proof) + "fault_formats = { depth = [4, 2] }\n");
-  ASSERT_TRUE(proofs) << proofs.error().message;
-  EXPECT_TRUE(proofs->front().formats.empty());
-  EXPECT_EQ(proofs->front().fault_formats.size(), 1U);
+  EXPECT_TRUE(proofs.front().formats.empty());
+  EXPECT_EQ(proofs.front().fault_formats.size(), 1U);
 }
 
 TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
@@ -179,12 +170,21 @@ TEST_F(ProofFiles, RefusesAFileWithoutAUnitAndAUnitWithoutAFile) {
   write("tb/proofs/raster/lost.psl", "");
   EXPECT_THAT(error(c_proof), StartsWith("tb/proofs/raster/lost.psl: no proof uses it; "));
   EXPECT_EQ(error(std::string(c_proof) + "contracts = [\"raster/lost.psl\"]\n"), "no error");
-  std::filesystem::rename(folder_->path() / "tb/proofs/raster/lost.psl",
-                          folder_->path() / "tb/proofs/raster/box.gappa");
+  std::filesystem::rename(folder_.path() / "tb/proofs/raster/lost.psl",
+                          folder_.path() / "tb/proofs/raster/box.gappa");
   EXPECT_THAT(error(c_proof), HasSubstr("box.toml: two units next to it; "));
-  std::filesystem::remove(folder_->path() / "tb/proofs/raster/box.gappa");
-  std::filesystem::remove(folder_->path() / "tb/proofs/raster/box.psl");
+  std::filesystem::remove(folder_.path() / "tb/proofs/raster/box.gappa");
+  std::filesystem::remove(folder_.path() / "tb/proofs/raster/box.psl");
   EXPECT_THAT(error(c_proof), HasSubstr("box.toml: no unit next to it; "));
+}
+
+TEST_F(ProofFiles, TakesTheUnitThatItNames) {
+  write("tb/proofs/raster/both.psl", "");
+  EXPECT_THAT(error(c_proof), HasSubstr("both.psl: no proof uses it"));
+  write("tb/proofs/raster/bax.toml", std::string("unit = \"box.psl\"\n") + c_proof);
+  EXPECT_EQ(read(std::string("unit = \"both.psl\"\n") + c_proof).back().unit, "raster/both.psl");
+  EXPECT_THAT(error(std::string("unit = \"none.psl\"\n") + c_proof),
+              StartsWith("tb/proofs/raster/box.toml:1: tb/proofs/raster/none.psl does not exist"));
 }
 
 TEST_F(ProofFiles, GivesTheEntriesOfAGoldenTable) {
@@ -192,26 +192,21 @@ TEST_F(ProofFiles, GivesTheEntriesOfAGoldenTable) {
       read(std::string(c_proof) +
            "golden_table = \"cosine\"\n"
            "generics = { g_exact = false, g_power = 2, g_address_bits = 6, g_data_bits = 6 }\n");
-  ASSERT_TRUE(proofs) << proofs.error().message;
   const auto& entries = golden::c_published_cosine_2_6_6;
-  EXPECT_THAT(proofs->front().table, testing::ElementsAreArray(entries.begin(), entries.end()));
-  EXPECT_EQ(proofs->front().table_bits, 6);
+  EXPECT_THAT(proofs.front().table, testing::ElementsAreArray(entries.begin(), entries.end()));
+  EXPECT_EQ(proofs.front().table_bits, 6);
 }
 
 TEST(TextWithFault, ReplacesATextThatOccursAsOftenAsStated) {
   const std::vector<VhdlSource> rtl = {{"rtl/raster/box.vhd", "one two one"}};
-  const auto once = text_with_fault(rtl, {"raster/box.vhd", "two", "three"});
-  ASSERT_TRUE(once) << once.error().message;
-  EXPECT_EQ(*once, "one three one");
-  const auto first = text_with_fault(rtl, {"raster/box.vhd", "one", "four", 2});
-  ASSERT_TRUE(first) << first.error().message;
-  EXPECT_EQ(*first, "four two one");
+  EXPECT_EQ(text_with_fault(rtl, {"raster/box.vhd", "two", "three"}), "one three one");
+  EXPECT_EQ(text_with_fault(rtl, {"raster/box.vhd", "one", "four", 2}), "four two one");
 }
 
 TEST(TextWithFault, RefusesAnyOther) {
   const std::vector<VhdlSource> rtl = {{"rtl/raster/box.vhd", "one two one"}};
   const auto error = [&](const Fault& fault) {
-    const auto text = text_with_fault(rtl, fault);
+    const auto text = caught([&] { return text_with_fault(rtl, fault); });
     return text ? *text : text.error().message;
   };
   EXPECT_THAT(error({"raster/box.vhd", "one", "four", 1, "f.toml:3"}),

@@ -12,6 +12,7 @@
 #include "proof_files.hpp"
 #include "prover.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
 
 namespace halfway::proofs {
@@ -54,31 +55,19 @@ std::string assertions(const std::string& unit) {
 
 class ProofList : public ::testing::Test {
  protected:
-  void SetUp() override {
-    auto rtl = read_rtl_sources(c_source_folder);
-    ASSERT_TRUE(rtl) << rtl.error().message;
-    rtl_ = std::move(*rtl);
-    auto proofs = read_proofs(c_source_folder);
-    ASSERT_TRUE(proofs) << proofs.error().message;
-    proofs_ = std::move(*proofs);
-  }
-
   // The units of an entity, without comments.
   std::string units_of(const std::string& entity) const {
     std::set<std::string> names;
     for (const Proof& proof : proofs_)
       if (proof.entity == entity) names.insert(proof.unit);
     std::string units;
-    for (const std::string& name : names) {
-      const auto unit = read_file(c_source_folder / "tb/proofs" / name);
-      EXPECT_TRUE(unit) << unit.error().message;
-      if (unit) units += without_comments(*unit);
-    }
+    for (const std::string& name : names)
+      units += without_comments(must(read_file(c_source_folder / "tb/proofs" / name)));
     return units;
   }
 
-  std::vector<VhdlSource> rtl_;
-  std::vector<Proof> proofs_;
+  const std::vector<VhdlSource> rtl_ = must(read_rtl_sources(c_source_folder));
+  const std::vector<Proof> proofs_ = read_proofs(c_source_folder);
 };
 
 // A port that is connected to axi_adapter's port of the same name is asserted in that entity's proof.
@@ -119,11 +108,7 @@ TEST(StreamPorts, AreFoundInTheEntity) {
 TEST_F(ProofList, HasFaultsThatOccurInTheRtl) {
   for (const Proof& proof : proofs_) {
     const auto rtl = read_sources({.source = c_source_folder, .scratch = {}}, proof);
-    ASSERT_TRUE(rtl) << rtl.error().message;
-    for (const Fault& fault : proof.faults) {
-      const auto text = text_with_fault(*rtl, fault);
-      EXPECT_TRUE(text) << text.error().message;
-    }
+    for (const Fault& fault : proof.faults) EXPECT_NO_THROW(text_with_fault(rtl, fault)) << fault.where;
   }
 }
 

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <regex>
 
 #include "formal_verilog.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "tables/formats.hpp"
 #include "text.hpp"
@@ -23,26 +23,25 @@ constexpr std::chrono::minutes c_timeout{60};
 constexpr const char* c_timed_out = "no answer within 10 minutes";
 constexpr const char* c_formats = "rtl/tables/formats_pkg.vhd";
 
-Result<std::string> read_unit(const Folders& folders, const std::string& name) {
-  auto text = read_file(folders.source / "tb/proofs" / name);
-  if (!text) return tool_failed(text.error().message);
-  return text;
+std::string read_unit(const Folders& folders, const std::string& name) {
+  return must(read_file(folders.source / "tb/proofs" / name));
 }
 
-Result<ProcessEnd> run(const std::filesystem::path& folder, std::vector<std::string> arguments,
-                       const std::filesystem::path& standard_output = {}) {
-  return run_process({.arguments = std::move(arguments),
-                      .working_folder = folder,
-                      .standard_output = standard_output,
-                      .timeout = c_timeout},
-                     c_install);
+ProcessEnd run(const std::filesystem::path& folder, std::vector<std::string> arguments,
+               const std::filesystem::path& standard_output = {}) {
+  return must(run_process({.arguments = std::move(arguments),
+                           .working_folder = folder,
+                           .standard_output = standard_output,
+                           .timeout = c_timeout},
+                          c_install));
 }
 
 // Prints only the tool's first message, because the others follow from it.
-Error no_verdict(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
+Failure no_verdict(const Proof& proof, std::string_view tool, const ProcessEnd& end) {
   constexpr std::size_t c_most_characters = 1000;
-  return tool_failed(fmt::format("{}: {} gave no verdict ({}):\n{}", proof.unit, tool, end.how(),
-                                 end.output.substr(0, std::min(end.output.find("\n\n"), c_most_characters))));
+  return Failure{
+      tool_failed(fmt::format("{}: {} gave no verdict ({}):\n{}", proof.unit, tool, end.how(),
+                              end.output.substr(0, std::min(end.output.find("\n\n"), c_most_characters))))};
 }
 
 std::string last_line_with(std::string_view text, std::string_view part) {
@@ -74,33 +73,24 @@ VhdlSource* find_source(std::vector<VhdlSource>& rtl, std::string_view name) {
   return at == rtl.end() ? nullptr : &*at;
 }
 
-// The RTL with the formats of the proof, or of its faults.
-Result<std::vector<VhdlSource>> read_formatted_rtl(const Folders& folders, const Proof& proof,
-                                                   const Fault* fault) {
-  auto rtl = read_sources(folders, proof);
-  if (!rtl) return rtl;
+// The RTL with the formats of the proof, or with those of its faults and the fault.
+std::vector<VhdlSource> read_rtl(const Folders& folders, const Proof& proof, const Fault* fault) {
+  std::vector<VhdlSource> rtl = read_sources(folders, proof);
   if (const auto& formats = formats_of(proof, fault); !formats.empty())
-    if (VhdlSource* package = find_source(*rtl, c_formats)) package->content = formats_package(formats);
-  return rtl;
-}
-
-Result<std::vector<VhdlSource>> read_rtl(const Folders& folders, const Proof& proof, const Fault* fault) {
-  auto rtl = read_formatted_rtl(folders, proof, fault);
-  if (!rtl) return rtl;
-  if (fault != nullptr) {
-    auto text = text_with_fault(*rtl, *fault);
-    if (!text) return text.error();
-    find_source(*rtl, "rtl/" + fault->file)->content = std::move(*text);
-  }
+    if (VhdlSource* package = find_source(rtl, c_formats)) package->content = formats_package(formats);
+  if (fault != nullptr) find_source(rtl, "rtl/" + fault->file)->content = text_with_fault(rtl, *fault);
   return rtl;
 }
 
 // ---- The unit
 
+std::string entity_of(const Proof& proof) {
+  return std::filesystem::path(proof.entity).filename();
+}
+
 // The top is the entity, to which a unit is bound, or an entity of the unit's own around it.
 std::string top_of(const Proof& proof, std::string_view unit) {
-  const std::string entity = std::filesystem::path(proof.entity).filename();
-  return contains(unit, "\nentity ") ? entity + "_proof" : entity;
+  return entity_of(proof) + (contains(unit, "\nentity ") ? "_proof" : "");
 }
 
 // VHDL for `$entries`: `entry` is the table's entry at `address`. Each bit of the entries is one constant.
@@ -117,31 +107,37 @@ std::string vhdl_of_table(const Proof& proof) {
   return fmt::format("{}  begin\n{}", constants, assignments);
 }
 
+// The unit in which every property is of the rising edge of `clk`.
+std::string with_clock(std::string text) {
+  if (!contains(text, " always ")) return text;
+  static const std::regex c_start(R"(\n(vunit [^{]*\{|architecture \w+ of \w+ is))");
+  return std::regex_replace(text, c_start, "$& default clock is rising_edge(clk);",
+                            std::regex_constants::format_first_only);
+}
+
 struct Unit {
   std::string text;
   std::string top;
   PropertyCounts counts;
 };
 
+void replace(std::string& text, std::string_view part, std::string_view by) {
+  if (const std::size_t at = text.find(part); at != std::string::npos) text.replace(at, part.size(), by);
+}
+
 // The unit, with the table and the contracts that the proof needs.
-Result<Unit> make_unit(const Folders& folders, const Proof& proof) {
-  auto text = read_unit(folders, proof.unit);
-  if (!text) return text.error();
-  constexpr std::string_view c_entries = "$entries\n";
-  if (const std::size_t at = text->find("\n$entries\n"); at != std::string::npos)
-    text->replace(at + 1, c_entries.size(), vhdl_of_table(proof));
-  if (contains(*text, " case "))
-    return bad_input(
+Unit make_unit(const Folders& folders, const Proof& proof) {
+  std::string text = read_unit(folders, proof.unit);
+  replace(text, "$entity", entity_of(proof));
+  replace(text, "$entries\n", vhdl_of_table(proof));
+  if (contains(text, " case "))
+    throw Failure{bad_input(
         fmt::format("tb/proofs/{}: GHDL drops what follows `when others`; write if and elsif instead of case",
-                    proof.unit));
-  Unit unit{.text = {}, .top = top_of(proof, *text), .counts = {}};
+                    proof.unit))};
+  Unit unit{.text = {}, .top = top_of(proof, text), .counts = {}};
   // GHDL takes the architecture that it analyses last.
-  for (const std::string& contract : proof.contracts) {
-    const auto architecture = read_unit(folders, contract);
-    if (!architecture) return architecture.error();
-    unit.text += *architecture;
-  }
-  unit.text += *text;
+  for (const std::string& contract : proof.contracts) unit.text += with_clock(read_unit(folders, contract));
+  unit.text += with_clock(std::move(text));
   unit.counts = count_properties(unit.text);
   return unit;
 }
@@ -149,34 +145,30 @@ Result<Unit> make_unit(const Folders& folders, const Proof& proof) {
 // ---- The netlist
 
 // Synthesizes the RTL with the unit to netlist.v.
-Status synthesize(const std::filesystem::path& folder, const Proof& proof, const std::vector<VhdlSource>& rtl,
-                  const Unit& unit) {
+void synthesize(const std::filesystem::path& folder, const Proof& proof, const std::vector<VhdlSource>& rtl,
+                const Unit& unit) {
   std::vector<std::string> command = {"ghdl", "--synth", "--std=08", "--no-assert-cover", "--out=verilog"};
   for (const auto& [name, value] : proof.generics) command.push_back("-g" + name + '=' + value);
   for (const VhdlSource& source : rtl) {
-    if (auto written = write_file(folder / source.name, source.content); !written) return written;
+    must(write_file(folder / source.name, source.content));
     command.push_back(source.name);
   }
-  if (auto written = write_file(folder / "unit.psl", unit.text); !written) return written;
+  must(write_file(folder / "unit.psl", unit.text));
   command.insert(command.end(), {"unit.psl", "-e", unit.top});
-  const auto end = run(folder, command, folder / "netlist.v");
-  if (!end) return end.error();
-  if (!end->succeeded()) return no_verdict(proof, "ghdl", *end);
-  return Ok{};
+  const ProcessEnd end = run(folder, command, folder / "netlist.v");
+  if (!end.succeeded()) throw no_verdict(proof, "ghdl", end);
 }
 
 // Writes formal.v. All properties of the unit must be in it, and no others: the RTL's own assertions are of
 // constants.
-Status write_formal_verilog(const std::filesystem::path& folder, const Proof& proof, const Unit& unit) {
-  const auto netlist = read_file(folder / "netlist.v");
-  if (!netlist) return netlist.error();
-  const auto formal = formal_verilog(*netlist);
-  if (!formal) return tool_failed(fmt::format("{}: {}", proof.unit, formal.error().message));
+void write_formal_verilog(const std::filesystem::path& folder, const Proof& proof, const Unit& unit) {
+  const auto formal = formal_verilog(must(read_file(folder / "netlist.v")), unit.top);
+  if (!formal) throw Failure{tool_failed(fmt::format("{}: {}", proof.unit, formal.error().message))};
   if (formal->counts != unit.counts || unit.counts.asserts == 0)
-    return tool_failed(fmt::format(
+    throw Failure{tool_failed(fmt::format(
         "{}: the unit has {} assertions and {} assumptions, but GHDL's netlist has {} and {}", proof.unit,
-        unit.counts.asserts, unit.counts.assumes, formal->counts.asserts, formal->counts.assumes));
-  return write_file(folder / "formal.v", formal->text);
+        unit.counts.asserts, unit.counts.assumes, formal->counts.asserts, formal->counts.assumes))};
+  must(write_file(folder / "formal.v", formal->text));
 }
 
 // ---- Solvers
@@ -203,150 +195,125 @@ std::string yosys_script(const Proof& proof, const Fault* fault, std::string_vie
 }
 
 // `induction_step`: from any state; otherwise from reset.
-Result<Answer> run_cvc5(const std::filesystem::path& folder, const Proof& proof, int clocks,
-                        bool induction_step) {
+Answer run_cvc5(const std::filesystem::path& folder, const Proof& proof, int clocks, bool induction_step) {
   std::vector<std::string> command = {"yosys-smtbmc", "-s", "cvc5",
                                       "--noprogress", "-t", std::to_string(clocks)};
   if (induction_step) command.push_back("-i");
   command.push_back("model.smt2");
-  const auto end = run(folder, command);
-  if (!end) return end.error();
-  if (end->timed_out) return Answer{Verdict::open, c_timed_out};
-  if (end->succeeded() && contains(end->output, "Status: PASSED")) return Answer{Verdict::holds};
-  if (end->exit_status != 1 || !contains(end->output, "Status: FAILED"))
-    return no_verdict(proof, "yosys-smtbmc", *end);
-  const std::string reason = last_line_with(end->output, "Assert failed");
-  if (induction_step) return Answer{Verdict::open, "the induction step fails: " + reason};
-  if (reason.empty()) return no_verdict(proof, "yosys-smtbmc", *end);
-  return Answer{Verdict::refuted, reason};
+  const ProcessEnd end = run(folder, command);
+  if (end.timed_out) return {Verdict::open, c_timed_out};
+  if (end.succeeded() && contains(end.output, "Status: PASSED")) return {Verdict::holds};
+  const std::string reason = last_line_with(end.output, "Assert failed");
+  if (end.exit_status != 1 || !contains(end.output, "Status: FAILED") || (reason.empty() && !induction_step))
+    throw no_verdict(proof, "yosys-smtbmc", end);
+  if (induction_step) return {Verdict::open, "the induction step fails: " + reason};
+  return {Verdict::refuted, reason};
 }
 
-Result<Answer> run_abc(const std::filesystem::path& folder, const Proof& proof, const std::string& engine) {
-  const auto end = run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; orpos; " + engine});
-  if (!end) return end.error();
-  if (end->timed_out) return Answer{Verdict::open, c_timed_out};
-  if (contains(end->output, "Property proved.") || contains(end->output, "No output asserted in"))
-    return Answer{Verdict::holds};
-  if (contains(end->output, "was asserted in frame"))
-    return Answer{Verdict::refuted, last_line_with(end->output, "was asserted")};
-  return no_verdict(proof, "yosys-abc", *end);
+Answer run_abc(const std::filesystem::path& folder, const Proof& proof, const std::string& engine) {
+  const ProcessEnd end =
+      run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; orpos; " + engine});
+  if (end.timed_out) return {Verdict::open, c_timed_out};
+  if (contains(end.output, "Property proved.") || contains(end.output, "No output asserted in"))
+    return {Verdict::holds};
+  if (contains(end.output, "was asserted in frame"))
+    return {Verdict::refuted, last_line_with(end.output, "was asserted")};
+  throw no_verdict(proof, "yosys-abc", end);
 }
 
-Result<Answer> solve(const std::filesystem::path& folder, const Proof& proof, const Fault* fault) {
+Answer solve(const std::filesystem::path& folder, const Proof& proof, const Fault* fault) {
   const int clocks = fault == nullptr ? proof.clocks : proof.fault_clocks;
   if (uses_abc(proof, fault)) {
     const bool unbounded = proof.method == Method::pdr && fault == nullptr;
     return run_abc(folder, proof, unbounded ? "pdr" : fmt::format("bmc3 -F {}", clocks));
   }
-  const auto from_reset = run_cvc5(folder, proof, clocks, false);
+  const Answer from_reset = run_cvc5(folder, proof, clocks, false);
   const bool needs_step = proof.method == Method::induction && fault == nullptr;
-  if (!needs_step || !from_reset || from_reset->verdict != Verdict::holds) return from_reset;
+  if (!needs_step || from_reset.verdict != Verdict::holds) return from_reset;
   return run_cvc5(folder, proof, clocks, true);
 }
 
-Result<Answer> prove_unit(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
-                          const Fault* fault) {
-  const auto rtl = read_rtl(folders, proof, fault);
-  if (!rtl) return rtl.error();
-  const auto unit = make_unit(folders, proof);
-  if (!unit) return unit.error();
-  if (auto done = synthesize(folder, proof, *rtl, *unit); !done) return done.error();
-  if (auto done = write_formal_verilog(folder, proof, *unit); !done) return done.error();
-  const auto end = run(folder, {"yosys", "-q", "-p", yosys_script(proof, fault, unit->top)});
-  if (!end) return end.error();
-  if (!end->succeeded()) return no_verdict(proof, "yosys", *end);
+Answer prove_unit(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
+                  const Fault* fault) {
+  const Unit unit = make_unit(folders, proof);
+  synthesize(folder, proof, read_rtl(folders, proof, fault), unit);
+  write_formal_verilog(folder, proof, unit);
+  const ProcessEnd end = run(folder, {"yosys", "-q", "-p", yosys_script(proof, fault, unit.top)});
+  if (!end.succeeded()) throw no_verdict(proof, "yosys", end);
   return solve(folder, proof, fault);
 }
 
 // ---- Gappa
 
 // Replaces `$name.bits` and `$name.fraction` by the numbers of preset exact, the first in the package.
-Result<std::string> with_formats(std::string text, std::string_view package) {
-  for (std::size_t at; (at = text.find('$')) != std::string::npos;) {
-    std::size_t dot = at + 1;
-    while (dot < text.size() &&
-           (std::isalnum(static_cast<unsigned char>(text[dot])) != 0 || text[dot] == '_'))
-      ++dot;
-    const std::string name = text.substr(at + 1, dot - at - 1);
-    const bool is_fraction = text.compare(dot, 9, ".fraction") == 0;
-    if (!is_fraction && text.compare(dot, 5, ".bits") != 0)
-      return bad_input(fmt::format("${}: write .bits or .fraction after it", name));
+std::string with_formats(std::string text, std::string_view package, const std::string& unit) {
+  static const std::regex c_number(R"(\$(\w*)(\.bits|\.fraction)?)");
+  for (std::smatch found; std::regex_search(text, found, c_number);) {
+    const std::string name = found[1];
     const std::string_view format = between(package, fmt::format("    {} => (", name), ")");
     const std::size_t comma = format.find(", ");
-    if (comma == std::string_view::npos)
-      return bad_input(fmt::format("${}: formats_pkg has no such format", name));
-    text.replace(at, dot - at + (is_fraction ? 9 : 5),
+    if (!found[2].matched || comma == std::string_view::npos)
+      throw Failure{bad_input(fmt::format(
+          "tb/proofs/{}: ${}: {}", unit, name,
+          found[2].matched ? "formats_pkg has no such format" : "write .bits or .fraction after it"))};
+    const bool is_fraction = found[2] == ".fraction";
+    text.replace(static_cast<std::size_t>(found.position()), static_cast<std::size_t>(found.length()),
                  is_fraction ? format.substr(comma + 2) : format.substr(0, comma));
   }
   return text;
 }
 
-Result<std::string> gappa_text(const Folders& folders, const Proof& proof, const Fault* fault) {
-  auto rtl = read_rtl(folders, proof, fault);
-  if (!rtl) return rtl.error();
-  const auto unit = read_unit(folders, proof.unit);
-  if (!unit) return unit.error();
-  const VhdlSource* package = find_source(*rtl, c_formats);
-  if (package == nullptr) return bad_input(fmt::format("{}: is not in rtl/files.f; add it", c_formats));
-  auto text = with_formats(*unit, package->content);
-  if (!text) return bad_input(fmt::format("tb/proofs/{}: {}", proof.unit, text.error().message));
-  return text;
-}
-
-Result<Answer> prove_by_gappa(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
-                              const Fault* fault) {
-  const auto text = gappa_text(folders, proof, fault);
-  if (!text) return text.error();
-  if (auto written = write_file(folder / "unit.gappa", *text); !written) return written.error();
-  const auto end = run(folder, {"gappa", "unit.gappa"});
-  if (!end) return end.error();
-  if (end->succeeded()) return Answer{Verdict::holds};
-  if (contains(end->output, "some enclosures were not satisfied") ||
-      contains(end->output, "some properties were not satisfied"))
-    return Answer{Verdict::refuted, end->output};
-  return no_verdict(proof, "gappa", *end);
+Answer prove_by_gappa(const Folders& folders, const std::filesystem::path& folder, const Proof& proof,
+                      const Fault* fault) {
+  std::vector<VhdlSource> rtl = read_rtl(folders, proof, fault);
+  const VhdlSource* package = find_source(rtl, c_formats);
+  if (package == nullptr)
+    throw Failure{bad_input(fmt::format("{}: is not in rtl/files.f; add it", c_formats))};
+  must(write_file(folder / "unit.gappa",
+                  with_formats(read_unit(folders, proof.unit), package->content, proof.unit)));
+  const ProcessEnd end = run(folder, {"gappa", "unit.gappa"});
+  if (end.succeeded()) return {Verdict::holds};
+  if (contains(end.output, "some enclosures were not satisfied") ||
+      contains(end.output, "some properties were not satisfied"))
+    return {Verdict::refuted, end.output};
+  throw no_verdict(proof, "gappa", end);
 }
 
 }  // namespace
 
-Status find_tools() {
-  for (const char* tool : {"ghdl", "yosys", "yosys-smtbmc", "yosys-abc", "cvc5", "gappa"}) {
-    if (!find_program(tool).empty()) continue;
-    return tool_failed(fmt::format("{}: is missing; install it with: {}", tool,
-                                   std::string_view(tool) == "ghdl" ? c_install_ghdl : c_install));
-  }
-  return Ok{};
+void find_tools() {
+  for (const char* tool : {"ghdl", "yosys", "yosys-smtbmc", "yosys-abc", "cvc5", "gappa"})
+    if (find_program(tool).empty())
+      throw Failure{tool_failed(fmt::format("{}: is missing; install it with: {}", tool,
+                                            std::string_view(tool) == "ghdl" ? c_install_ghdl : c_install))};
 }
 
-Result<std::vector<VhdlSource>> read_sources(const Folders& folders, const Proof& proof) {
-  auto rtl = read_rtl_sources(folders.source);
-  if (!rtl || !proof.entity.starts_with("board/")) return rtl;
-  const auto board = read_rtl_sources(folders.source, "rtl/board");
-  if (!board) return board.error();
-  rtl->insert(rtl->end(), board->begin(), board->end());
+std::vector<VhdlSource> read_sources(const Folders& folders, const Proof& proof) {
+  std::vector<VhdlSource> rtl = must(read_rtl_sources(folders.source));
+  if (proof.entity.starts_with("board/"))
+    std::ranges::move(must(read_rtl_sources(folders.source, "rtl/board")), std::back_inserter(rtl));
   return rtl;
 }
 
-Result<std::string> text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault) {
+std::string text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault) {
   const auto source = std::ranges::find(rtl, "rtl/" + fault.file, &VhdlSource::name);
   if (source == rtl.end())
-    return bad_input(
-        fmt::format("{}: rtl/{} is not in rtl/files.f; name a file that is", fault.where, fault.file));
+    throw Failure{bad_input(
+        fmt::format("{}: rtl/{} is not in rtl/files.f; name a file that is", fault.where, fault.file))};
   const int count = count_of(source->content, fault.old_text);
   if (count != fault.occurrences)
-    return bad_input(
-        fmt::format("{}: `{}` occurs {} times in rtl/{}, but must occur {}; correct the fault", fault.where,
-                    fault.old_text, count, fault.file,
-                    fault.occurrences == 1 ? "once" : fmt::format("{} times", fault.occurrences)));
+    throw Failure{
+        bad_input(fmt::format("{}: `{}` occurs {} times in rtl/{}, but must occur {}; correct the fault",
+                              fault.where, fault.old_text, count, fault.file,
+                              fault.occurrences == 1 ? "once" : fmt::format("{} times", fault.occurrences)))};
   std::string text = source->content;
   return text.replace(text.find(fault.old_text), fault.old_text.size(), fault.new_text);
 }
 
-Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fault) {
-  const auto scratch = TemporaryFolder::make(folders.scratch);
-  if (!scratch) return scratch.error();
-  return proof.method == Method::gappa ? prove_by_gappa(folders, scratch->path(), proof, fault)
-                                       : prove_unit(folders, scratch->path(), proof, fault);
+Answer prove(const Folders& folders, const Proof& proof, const Fault* fault) {
+  const TemporaryFolder scratch = must(TemporaryFolder::make(folders.scratch));
+  return proof.method == Method::gappa ? prove_by_gappa(folders, scratch.path(), proof, fault)
+                                       : prove_unit(folders, scratch.path(), proof, fault);
 }
 
 }  // namespace halfway::proofs

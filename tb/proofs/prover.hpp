@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/result.hpp"
 #include "proof.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
@@ -18,15 +17,17 @@ struct Folders {
   std::filesystem::path scratch;  ///< for temporary files
 };
 
+// These functions throw Failure.
+
 /// Fails if a program that proofs call is missing; the error names the package to install.
-Status find_tools();
+void find_tools();
 
 /// The RTL of a proof: rtl/, and for an entity of the board also rtl/board.
-Result<std::vector<VhdlSource>> read_sources(const Folders& folders, const Proof& proof);
+std::vector<VhdlSource> read_sources(const Folders& folders, const Proof& proof);
 
 /// The text of the fault's file with the fault in it. Fails if the old text does not occur as often as it
 /// must.
-Result<std::string> text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault);
+std::string text_with_fault(const std::vector<VhdlSource>& rtl, const Fault& fault);
 
 enum class Verdict { holds, refuted, open };
 
@@ -36,6 +37,6 @@ struct Answer {
 };
 
 /// Proves the property on the RTL, or looks for a refutation on the RTL with `fault`, if it is not null.
-Result<Answer> prove(const Folders& folders, const Proof& proof, const Fault* fault);
+Answer prove(const Folders& folders, const Proof& proof, const Fault* fault);
 
 }  // namespace halfway::proofs
