@@ -245,7 +245,7 @@ const Placement* Clock::median() const {
 }
 
 Synthesizer Synthesizer::open(const SimulatorFolders& folders, bool place,
-                              const std::vector<std::string>& more, std::chrono::seconds place_time) {
+                              const std::vector<std::string>& more) {
   const Folder cache = std::filesystem::absolute(folders.cache) / "synth";
   Yosys yosys = Yosys::find(cache);
   const GhdlTool ghdl = must(GhdlTool::find());
@@ -259,7 +259,6 @@ Synthesizer Synthesizer::open(const SimulatorFolders& folders, bool place,
     synthesizer.nextpnr_ = version_of("nextpnr-ice40", "--version");
     synthesizer.versions_ += ", nextpnr-ice40 " + number_of(synthesizer.nextpnr_);
   }
-  synthesizer.place_time_ = place_time;
   return synthesizer;
 }
 
@@ -369,7 +368,7 @@ Placement Synthesizer::place(const Design& design, unsigned seed) const {
   // Limit the processor time by the shell's ulimit, because elapsed time depends on the machine's load. A
   // soft limit, so that the process ends with SIGXCPU.
   std::vector<std::string> arguments = {"sh", "-c", "ulimit -c 0 && ulimit -S -t \"$0\" && exec \"$@\"",
-                                        std::to_string(place_time_.count())};
+                                        std::to_string(c_place_time.count())};
   for (const std::string& argument : nextpnr_arguments()) arguments.push_back(argument);
   arguments.insert(arguments.end(),
                    {"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet", "--report", c_report});

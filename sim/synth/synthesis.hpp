@@ -26,7 +26,7 @@ inline constexpr std::uint64_t c_device_rams = 32;
 inline constexpr unsigned c_seeds = 3;
 
 /// Limit of nextpnr's processor time over all its threads, independent of the machine's load. A successful
-/// placement takes a tenth of it.
+/// placement takes a tenth of it. A placement that exceeds it counts as not ended.
 inline constexpr std::chrono::seconds c_place_time{20 * 60};
 
 /// An entity to synthesize: of rtl/ or of the additional sources given to `open`.
@@ -98,10 +98,9 @@ class Synthesizer {
  public:
   /// If a tool is missing, the error (exit code tool_failed) names the command that installs it. Without
   /// `place`, nextpnr is not needed. `more`: VHDL sources in addition to those of rtl/, relative to the
-  /// project's root. A placement that exceeds `place_time` counts as not ended.
+  /// project's root.
   static Synthesizer open(const SimulatorFolders& folders, bool place,
-                          const std::vector<std::string>& more = {},
-                          std::chrono::seconds place_time = c_place_time);
+                          const std::vector<std::string>& more = {});
 
   /// Versions of GHDL, Yosys and nextpnr.
   const std::string& versions() const { return versions_; }
@@ -141,7 +140,6 @@ class Synthesizer {
   Yosys yosys_;
   Folder cache_;
   std::string nextpnr_, versions_;
-  std::chrono::seconds place_time_ = c_place_time;
 };
 
 }  // namespace halfway::synth

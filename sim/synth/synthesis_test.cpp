@@ -84,6 +84,13 @@ TEST(SynthPlacement, RefusesWhatItCannotRead) {
   EXPECT_THROW(read_placement(c_report, "{}", 1), Failure);
 }
 
+TEST(SynthCells, HaveTheReasonWhyTheyDoNotFit) {
+  EXPECT_EQ(does_not_fit({.luts = 7680, .flip_flops = 7680, .rams = 32}), "");
+  EXPECT_EQ(does_not_fit({.luts = 7681}), "does not fit the HX8K: 7681 LUTs of 7680");
+  EXPECT_EQ(does_not_fit({.flip_flops = 7681}), "does not fit the HX8K: 7681 flip-flops of 7680");
+  EXPECT_EQ(does_not_fit({.rams = 33}), "does not fit the HX8K: 33 RAMs of 32");
+}
+
 TEST(SynthPacking, ReadsNextpnrsOutput) {
   const Packing packing = read_packing(
       "Info: Packing..\nInfo: Device utilisation:\nInfo: \t         ICESTORM_LC:  2814/ 7680    36%\nInfo: "

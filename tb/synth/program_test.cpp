@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exit codes and messages of halfway_synth, with stand-ins for Yosys and nextpnr.
+// The exit codes and messages of halfway_synth, and its cache, with stand-ins for Yosys and nextpnr. GHDL is
+// the real one.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +9,8 @@
 #include <string>
 
 #include "designs.hpp"
-#include "sim/synth/stand_ins_test.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway::synth {
@@ -30,47 +31,64 @@ esac
 echo >mapped.il
 echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 )";
-// Seed 2 does not end; a limit of processor time then stops the real program.
-constexpr const char* c_nextpnr = R"(#!/bin/sh
+// Seed 2 does not end: the limit of processor time stops it.
+constexpr const char* c_nextpnr = R"sh(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
 case "$*" in
-  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  40/ 7680    1%' ; exit ;;
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  CELLS/ 7680    1%' ; exit ;;
+esac
+[ "$(ulimit -S -t)" = LIMIT ] || exit 1
+echo 1 >>"${0%/*}/placed"
+case "$*" in
   *'--seed 2 '*) kill -XCPU $$ ;;
 esac
 echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "fmax": {"clk": {"achieved": 90}},
   "critical_paths": [{"from": "posedge clk", "to": "posedge clk", "path": [
   {"type": "routing", "delay": 1.0, "from": {"cell": "a", "port": "O"}, "to": {"cell": "b", "port": "I0"}}]}]}' >report.json
-)";
+)sh";
 
-class SynthProgram : public StandInTools {
+class SynthProgram : public ::testing::Test {
  protected:
   void SetUp() override {
-    StandInTools::SetUp();
-    for (const char* name : {"tb/synth", "build/cache"}) ASSERT_TRUE(make_folders(root() / name));
+    for (const char* name : {"bin", "tb/synth", "build/cache"}) must(make_folders(root() / name));
     fs::create_directory_symlink(c_source / "rtl", root() / "rtl");
     fs::create_symlink(c_source / c_accumulator, root() / c_accumulator);
     // GHDL itself checks the VHDL, which takes most of the time.
     ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source / "build/cache/ghdl", root() / "build/cache/ghdl");
     put("yosys", c_yosys);
-    put("nextpnr-ice40", c_nextpnr);
-    ASSERT_TRUE(
-        write_file(root() / "tb/thresholds.toml",
-                   "[cells]\ncolumns = [\"LUTs\", \"flip-flops\", \"RAMs\"]\n"
-                   "rules = [\"within 3 % or 3\", \"equal\", \"equal\"]\naccumulator_24 = [21, 24, 0]\n"
-                   "accumulator_32 = [20, 24, 0]\n[clocks]\nrule = \"within 8 %\"\n"
-                   "accumulator_24 = 97.0\naccumulator_32 = 98.0\n"));
+    put_nextpnr("40");
+    must(write_file(root() / "tb/thresholds.toml",
+                    "[cells]\ncolumns = [\"LUTs\", \"flip-flops\", \"RAMs\"]\n"
+                    "rules = [\"within 3 % or 3\", \"equal\", \"equal\"]\naccumulator_24 = [21, 24, 0]\n"
+                    "accumulator_32 = [20, 24, 0]\n[clocks]\nrule = \"within 8 %\"\n"
+                    "accumulator_24 = 97.0\naccumulator_32 = 98.0\n"));
+  }
+  fs::path root() const { return folder_.path(); }
+  void put(const char* name, const std::string& text) const {
+    must(write_file(root() / "bin" / name, text));
+    fs::permissions(root() / "bin" / name, fs::perms::all);
+  }
+  void put_nextpnr(const std::string& cells) const {
+    std::string text = c_nextpnr;
+    text.replace(text.find("CELLS"), 5, cells);
+    put("nextpnr-ice40", text.replace(text.find("LIMIT"), 5, std::to_string(c_place_time.count())));
   }
   // Expects the exit code. Returns what the program prints.
   std::string run(int code, std::vector<std::string> arguments) const {
     arguments.insert(arguments.begin(), HALFWAY_SYNTH);
     arguments.insert(arguments.end(), {"--source", root().string()});
-    const auto end = run_process(
-        {.arguments = arguments, .environment = {{"PATH", path_before(std::getenv("PATH"))}}}, "");
+    const auto end =
+        run_process({.arguments = arguments,
+                     .environment = {{"PATH", (root() / "bin").string() + ":" + std::getenv("PATH")}}},
+                    "");
     EXPECT_TRUE(end);
     EXPECT_EQ(end->exit_status, code) << end->output;
     return end->output;
   }
+
+ private:
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
 };
 
 TEST_F(SynthProgram, ComparesCellsWithThresholds) {
@@ -80,9 +98,22 @@ TEST_F(SynthProgram, ComparesCellsWithThresholds) {
 }
 
 TEST_F(SynthProgram, ComparesClocksWithThresholds) {
-  EXPECT_THAT(run(0, {"clocks", "accumulator_24"}),
-              HasSubstr("| `accumulator_24` | 90.0 | 90 to 90 of 2; nextpnr does not end: 1 | 11.1 | – | `"));
+  // Also a placement that does not end is cached.
+  for (int time = 0; time < 2; ++time)
+    EXPECT_THAT(
+        run(0, {"clocks", "accumulator_24"}),
+        HasSubstr("| `accumulator_24` | 90.0 | 90 to 90 of 2; nextpnr does not end: 1 | 11.1 | – | `"));
+  EXPECT_EQ(must(read_file(root() / "bin/placed")), "1\n1\n1\n");
   EXPECT_THAT(run(1, {"clocks", "--seeds", "1", "accumulator_32"}), HasSubstr("accumulator_32: "));
+}
+
+TEST_F(SynthProgram, PlacesNoDesignThatFillsTheDevice) {
+  put_nextpnr("6912");
+  EXPECT_THAT(run(0, {"clocks", "--seeds", "1", "accumulator_24"}), HasSubstr("| 90.0 |"));
+  put_nextpnr("6913");
+  fs::remove_all(root() / "build/cache/synth");
+  EXPECT_THAT(run(0, {"clocks", "--seeds", "1", "accumulator_24"}),
+              HasSubstr("not placed: too full: 6913 of the HX8K's 7680 logic cells"));
 }
 
 TEST_F(SynthProgram, RefusesAnUnknownDesignAndABrokenTool) {
