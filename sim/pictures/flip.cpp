@@ -260,4 +260,12 @@ Result<std::vector<double>> flip_errors(const Frame& reference, const Frame& tes
   return errors;
 }
 
+Result<std::uint64_t> perceived_pixels(const Frame& a, const Frame& b) {
+  const auto errors = flip_errors(a, b);
+  if (!errors) return errors.error();
+  const double threshold = flip_error_of_distance(1.0);
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(*errors, [threshold](double error) { return error > threshold; }));
+}
+
 }  // namespace halfway

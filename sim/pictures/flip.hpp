@@ -3,6 +3,7 @@
 // and Fairchild, *FLIP: A Difference Evaluator for Alternating Images*, 2020), for pictures of 8 bits.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "common/result.hpp"
@@ -22,5 +23,9 @@ double flat_flip_error(const double (&reference)[3], const double (&test)[3]);
 
 /// The error of two flat pictures whose distance in CIELAB is `distance` (section 4.1.4 of the paper).
 double flip_error_of_distance(double distance);
+
+/// Number of pixels with a visible difference: their error is above 0.0575, that of flat patches one unit of
+/// CIELAB's lightness apart, two to three steps of 1/255 of a grey. The frames must have the same size.
+Result<std::uint64_t> perceived_pixels(const Frame& a, const Frame& b);
 
 }  // namespace halfway

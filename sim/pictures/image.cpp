@@ -3,13 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/pictures/image_library.hpp"
@@ -19,57 +19,39 @@ namespace halfway {
 namespace {
 
 Error cannot_open(const std::string& path, int error) {
-  const std::string message =
+  return bad_input(
       fmt::format("{}: cannot be opened for writing ({}); name a folder that exists and may be written", path,
-                  std::strerror(error));
-  return error == ENOSPC || error == EIO || error == EDQUOT ? tool_failed(message) : bad_input(message);
-}
-
-Error cannot_write(const std::string& path, int error) {
-  return tool_failed(
-      fmt::format("{}: writing failed ({}), the file is left as it was; make room and try again", path,
                   std::strerror(error)));
 }
 
-/// Write all bytes and close the file (a full disk may be reported only then). Return 0 or errno.
-int write_and_close(int file, std::span<const unsigned char> bytes) {
+/// Write to a pipe or a device. A full device may be reported only when it is closed.
+Status write_directly(const std::string& path, std::string_view bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return cannot_open(path, errno);
   int error = 0;
   while (!bytes.empty() && error == 0) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
     if (written > 0)
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
+      bytes.remove_prefix(static_cast<std::size_t>(written));
     else if (written == 0 || errno != EINTR)
       error = written == 0 ? EIO : errno;
   }
-  struct stat status {};
-  if (error == 0 && ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && ::fsync(file) != 0)
-    error = errno;
   if (::close(file) != 0 && error == 0) error = errno;
-  return error;
+  if (error == 0) return Ok{};
+  return tool_failed(fmt::format("{}: writing failed ({}); try again", path, std::strerror(error)));
 }
 
-Status write_whole(const std::string& path, std::span<const unsigned char> bytes) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) return cannot_open(path, errno);
-    if (const int error = write_and_close(file, bytes); error != 0) return cannot_write(path, error);
-    return Ok{};
+Status write_whole(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  std::error_code error;
+  const auto type = std::filesystem::status(path, error).type();
+  if (type == std::filesystem::file_type::not_found) {
+    if (path.has_parent_path() && !std::filesystem::is_directory(path.parent_path()))
+      return cannot_open(path, ENOENT);
+  } else if (type != std::filesystem::file_type::regular) {
+    return write_directly(path, text);
   }
-  remove_stale_parts(path);
-  std::string temporary;
-  int file = -1;
-  for (int attempt = 0; file < 0; ++attempt) {
-    temporary = fmt::format("{}.part-{}-{}", path, ::getpid(), attempt);
-    file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file < 0 && (errno != EEXIST || attempt == 1000)) return cannot_open(path, errno);
-  }
-  mark_in_use(file);
-  int error = write_and_close(file, bytes);
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
-  if (error == 0) return Ok{};
-  ::unlink(temporary.c_str());
-  return cannot_write(path, error);
+  return write_file(path, text);
 }
 
 Status check_picture(const std::string& path, const Frame& frame) {
@@ -90,7 +72,7 @@ Status write_png(const std::filesystem::path& path, const Frame& frame, Compress
   Result<std::vector<unsigned char>> bytes = std::vector<unsigned char>{};
   library->encode_png(path.string(), frame, compression == Compression::quick, bytes);
   if (!bytes) return bytes.error();
-  return write_whole(path.string(), *bytes);
+  return write_whole(path, *bytes);
 }
 
 Status write_ppm(const std::filesystem::path& path, const Frame& frame) {
@@ -98,7 +80,7 @@ Status write_ppm(const std::filesystem::path& path, const Frame& frame) {
   const std::string header = fmt::format("P6\n{} {}\n255\n", frame.size.width, frame.size.height);
   std::vector<unsigned char> bytes(header.begin(), header.end());
   bytes.insert(bytes.end(), frame.rgb.begin(), frame.rgb.end());
-  return write_whole(path.string(), bytes);
+  return write_whole(path, bytes);
 }
 
 Result<Frame> read_png(const std::filesystem::path& path) {

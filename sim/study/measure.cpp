@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "sim/pictures/perception.hpp"
+#include "sim/pictures/flip.hpp"
 #include "sim/run/verilator_frame.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/system/must.hpp"
