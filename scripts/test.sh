@@ -37,7 +37,7 @@ else
   keep_output text "$(hash_of_files '')"
   keep_output code "$(hash_of_files '/^ *--/d')"
   outputs='build/passed/text build/passed/code'
-  readers='^(format|tables|vhdl_text|(rtl_lint|pages|proofs|mutants|arrows)_test|tb\.mutants|prove\.faults\..*|evidence.*)$'
+  readers='^(format|tables|vhdl_text|(rtl_lint|pages|proofs|mutants)_test|tb\.mutants|prove\.faults\..*|evidence.*)$'
   passed=$({ passed_in text && passed_in code | grep -Ev "$readers"; } | sort -u)
   if [ -n "$passed" ]; then
     echo "$(echo "$passed" | wc -l) tests have passed on these files; to run them again, remove build/passed"
