@@ -1,10 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs studies on a real Slurm: starts and stops munged, slurmctld and slurmd on this machine. Checks that the table of
-# a job array equals that of a local run byte for byte, that Slurm repeats a killed task, and that a killed study
-# continues with the results that it has. Three kinds of studies: one point per task; placements, with replacements for
-# Yosys and nextpnr; and frames in tiles, whose assembled pictures must equal those of the local run and of frames in one
-# piece.
+# Runs studies on a real Slurm: starts and stops munged, slurmctld and slurmd on this machine. The table of each job array
+# must equal that of a local run byte for byte. Three kinds of studies:
+# - points: a killed study continues with the results that it has;
+# - placements, with replacements for Yosys and nextpnr: each seed is placed once;
+# - frames in tiles: Slurm repeats a killed task, and the pictures equal those of frames in one piece.
 #
 #   tb/slurm/slurm.sh HALFWAY CHECKOUT SCRATCH
 #
@@ -28,6 +28,14 @@ fail() {
   failed=1
 }
 note() { echo "$(($(date +%s) - begun)) s: $*"; }
+until_true() { # tries, tenths of a second between them, command...
+  local tries=$1 tenths=$2
+  shift 2
+  while ! "$@"; do
+    ((tries-- > 0)) || return 1
+    sleep "$((tenths / 10)).$((tenths % 10))"
+  done
+}
 
 for tool in munged slurmctld slurmd sbatch squeue scontrol scancel; do
   command -v $tool >/dev/null || {
@@ -45,18 +53,13 @@ ours() { # pattern
     { tr '\0' ' ' <"$process/cmdline"; } 2>/dev/null | grep -q -- "$1" && echo "${process#/proc/}"
   done
 }
+daemons_ended() { for process in "${daemons[@]}"; do ! kill -0 "$process" 2>/dev/null || return 1; done; }
 finish() {
   [ -n "${SLURM_CONF-}" ] && timeout 10 scancel --user "$(id -un)" --quiet 2>/dev/null
   # Job steps continue after slurmd's end. Their command lines contain the worker and its folder.
   for id in $(ours "$scratch/.*--part"); do kill -KILL "$id" 2>/dev/null; done
-  for ((i = ${#daemons[@]} - 1; i >= 0; i--)); do kill -TERM "${daemons[i]}" 2>/dev/null; done
-  for ((i = ${#daemons[@]} - 1; i >= 0; i--)); do
-    for ((tries = 0; tries < 50; tries++)); do
-      kill -0 "${daemons[i]}" 2>/dev/null || break
-      sleep 0.1
-    done
-    kill -KILL "${daemons[i]}" 2>/dev/null
-  done
+  [ ${#daemons[@]} = 0 ] || kill -TERM "${daemons[@]}" 2>/dev/null
+  until_true 50 1 daemons_ended || kill -KILL "${daemons[@]}" 2>/dev/null
   # slurmstepd changes its command line, but its environment still names the configuration.
   for process in /proc/[0-9]*; do
     if grep -qs '^slurmstepd' "$process/comm" &&
@@ -68,11 +71,12 @@ finish() {
 trap finish EXIT
 trap 'exit 1' INT TERM
 
+is_free() { ! (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; }
 free_port() {
   local port
   for ((tries = 0; tries < 100; tries++)); do
     port=$((20000 + RANDOM % 20000))
-    (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null || { echo $port && return; }
+    is_free $port && echo $port && return
   done
   return 1
 }
@@ -122,101 +126,76 @@ start() { # name command...
 }
 start munged munged --foreground --key-file "$scratch/munge/key" --socket "$scratch/munge/socket" \
   --pid-file "$scratch/munge/pid" --log-file "$scratch/munge/log" --seed-file "$scratch/munge/seed"
-for ((tries = 0; tries < 50; tries++)); do [ -S "$scratch/munge/socket" ] && break || sleep 0.1; done
-[ -S "$scratch/munge/socket" ] || skip "munged does not run here: $(tail -n 1 "$scratch/munged.out")"
+until_true 50 1 [ -S "$scratch/munge/socket" ] || skip "munged does not run here: $(tail -n 1 "$scratch/munged.out")"
 start slurmctld slurmctld -D -i
 start slurmd slurmd -D -N "$node"
-for ((tries = 0; tries < 150; tries++)); do
-  [ "$(timeout 5 sinfo --noheader --format=%t 2>/dev/null)" = idle ] && break || sleep 0.2
-done
-[ "$(timeout 5 sinfo --noheader --format=%t 2>/dev/null)" = idle ] ||
+is_idle() { [ "$(timeout 5 sinfo --noheader --format=%t 2>/dev/null)" = idle ]; }
+until_true 150 2 is_idle ||
   skip "Slurm does not run here: $(tail -qn 1 "$scratch/slurmctld.log" "$scratch/slurmd.log" 2>/dev/null)"
 note "$(slurmctld -V): the node is idle"
 
 # ---- Steps common to the studies
 
-run_local() { # name, arguments of the study...
+run() { # name, arguments of the study...
   local name=$1
   shift
-  "$halfway" "$@" --threads 2 --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
-    fail "the local run: $(cat "$scratch/$name.log")"
-  note "local: $(cat "$scratch/$name.log")"
+  "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
+    fail "$name: exit code $?: $(cat "$scratch/$name.log")"
+  note "$name: $(tail -n 1 "$scratch/$name.log")"
 }
-
+says() { # name, words of its output
+  grep -qF -- "$2" "$scratch/$1.log" || fail "$1 does not say '$2': $(cat "$scratch/$1.log")"
+}
 same_table() { # name, name of the local run
   cmp "$scratch/$2/study.csv" "$scratch/$1/study.csv" || fail "$1: another table than the local run's"
 }
 
-# Wait until the process has stopped. False if it has ended before.
-stopped() { # process
-  local state
-  while state=$(sed -n 's/^State:[[:space:]]*\(.\).*/\1/p' "/proc/$1/status" 2>/dev/null); do
+# Stop the first running task, which then cannot end, and kill it. False if no task is there, or if it has ended.
+kill_a_task() { # name
+  local task state
+  task=$(ours "^$halfway .*--out $scratch/$1 .*--part" | head -n 1)
+  [ -n "$task" ] && kill -STOP "$task" 2>/dev/null || return 1
+  while state=$(sed -n 's/^State:[[:space:]]*\(.\).*/\1/p' "/proc/$task/status" 2>/dev/null); do
     case $state in
-      T) return 0 ;;
+      T) kill -KILL "$task" && return ;;
       '' | Z | X) return 1 ;;
     esac
     sleep 0.01
   done
   return 1
 }
-
-# Start the study and kill its first running task.
 run_with_a_task_killed() { # name, arguments of the study...
-  local name=$1 run killed='' task tries retried
-  shift
-  "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 &
-  run=$!
-  for ((tries = 0; tries < 300; tries++)); do
-    task=$(ours "^$halfway .*--out $scratch/$name .*--part" | head -n 1)
-    # A task that ends by itself can be killed, too, without effect. A stopped one cannot end.
-    [ -n "$task" ] && kill -STOP "$task" 2>/dev/null && stopped "$task" && kill -KILL "$task" && killed=$task && break
-    sleep 0.05
-  done
-  [ -n "$killed" ] || fail "$name: no task to kill"
-  wait $run || fail "$name: exit code $?: $(cat "$scratch/$name.log")"
+  local name=$1 retried process
+  (run "$@" && exit "$failed") &
+  process=$!
+  until_true 300 1 kill_a_task "$name" || fail "$name: no task to kill"
+  wait $process || failed=1
   retried=$(grep -l 'exit status 137; tried again' "$scratch/$name"/slurm/task-*.log | wc -l)
   [ "$retried" = 1 ] || fail "$name: $retried tasks were tried again after one was killed"
 }
 
-# Start the study. Kill it and its tasks when some, but not all, of these records are written.
-run_until_killed() { # name, how many, ending of their names, arguments of the study...
-  local name=$1 most=$2 ending=$3 run tries
-  shift 3
+records() { find "$scratch/$1/points" -regex '.*/[0-9a-f]*\.json' 2>/dev/null | wc -l; }
+has_records() { [ "$(records "$1")" -ge 2 ]; }
+queue_is_empty() { [ -z "$(squeue --noheader)" ]; }
+# Kill the study and its tasks when some, but not all, points are measured, and continue it.
+run_killed_and_continued() { # name, number of points, arguments of the study...
+  local name=$1 most=$2 process before added
+  shift 2
   "$halfway" "$@" --out "$scratch/$name" >"$scratch/killed.log" 2>&1 &
-  run=$!
-  for ((tries = 0; tries < 1200; tries++)); do
-    [ "$(kept "$name" "$ending" | wc -l)" -ge 2 ] && break
-    sleep 0.05
-  done
-  kill -KILL $run 2>/dev/null
-  wait $run 2>/dev/null
+  process=$!
+  until_true 600 1 has_records "$name"
+  kill -KILL $process 2>/dev/null
+  wait $process 2>/dev/null
   scancel --user "$user" --quiet
-  for ((tries = 0; tries < 100; tries++)); do [ -z "$(squeue --noheader)" ] && break || sleep 0.2; done
-  before=$(kept "$name" "$ending" | wc -l)
+  until_true 100 2 queue_is_empty
+  before=$(records "$name")
   [ "$before" -ge 2 ] && [ "$before" -lt "$most" ] ||
-    fail "$name: $before of $most records when the study was killed"
+    fail "$name: $before of $most points when the study was killed"
   touch "$scratch/moment"
-}
-
-# Records whose names have this regular expression after the hash.
-kept() { # name, ending
-  find "$scratch/$1/points" -regex ".*/[0-9a-f]*$2\.json" 2>/dev/null
-}
-
-# The number in the messages of the tasks that ran since the kill.
-said() { # name, what
-  find "$scratch/$1/slurm" -name 'task-*.log' -newer "$scratch/moment" -exec grep -ho "[0-9]* $2" {} + |
-    awk '{ count += $1 } END { print count + 0 }'
-}
-
-go_on() { # name, how many, what, arguments of the study...
-  local name=$1 most=$2 what=$3 added
-  shift 3
-  "$halfway" "$@" --out "$scratch/$name" >"$scratch/$name.log" 2>&1 ||
-    fail "$name, which goes on: exit code $?: $(cat "$scratch/$name.log")"
-  added=$(said "$name" "$what")
-  [ "$added" = $((most - before)) ] || fail "$name: $added $what, with $before there"
-  note "$name: killed with $before records, $added $what when it went on"
+  run "$name" "$@"
+  added=$(find "$scratch/$name/slurm" -name 'task-*.log' -newer "$scratch/moment" \
+    -exec grep -ho '[0-9]* measured in this run' {} + | awk '{ count += $1 } END { print count + 0 }')
+  [ "$added" = $((most - before)) ] || fail "$name: $added points measured, with $before there"
 }
 
 # ---- Points: hardware, and software frames that need a task one or two seconds each
@@ -232,14 +211,10 @@ size = "160x120"
 END
 study=(--source "$checkout" study --space "$scratch/space.toml")
 on_slurm=("${study[@]}" --executor slurm --parts 3)
-run_local local "${study[@]}"
-run_with_a_task_killed array "${on_slurm[@]}"
-grep -q '6 points, 0 measured in this run' "$scratch/array.log" || fail "what tasks measured was not gathered: $(cat "$scratch/array.log")"
-same_table array local
-note "job array, a task killed and tried again by Slurm: $(cat "$scratch/array.log")"
-run_until_killed resumed 6 '' "${on_slurm[@]}"
-go_on resumed 6 'measured in this run' "${on_slurm[@]}"
-same_table resumed local
+run local "${study[@]}" --threads 2
+run_killed_and_continued points 6 "${on_slurm[@]}"
+says points '6 points, 0 measured in this run'
+same_table points local
 
 # ---- Placements: one seed per task, of which one was placed by an earlier part
 
@@ -286,17 +261,15 @@ path=$PATH
 export PATH=$scratch/bin:$PATH PLACED
 for name in placed-local placed-array; do checkout_without_clocks $name; done
 PLACED=$scratch/placed-local.seeds
-run_local placed-local --source "$scratch/checkout-placed-local" "${study[@]}"
+run placed-local --source "$scratch/checkout-placed-local" "${study[@]}" --threads 2
 grep -q ',"placed",' "$scratch/placed-local/study.csv" || fail "no clock in $scratch/placed-local/study.csv"
 PLACED=$scratch/placed-array.seeds
-study=(--source "$scratch/checkout-placed-array" "${study[@]}" --out "$scratch/placed-array")
-"$halfway" "${study[@]}" --part 1/3 >"$scratch/placed-array.log" 2>&1 &&
-  "$halfway" "${study[@]}" --executor slurm --parts 3 >>"$scratch/placed-array.log" 2>&1 ||
-  fail "placements as a job array: exit code $?: $(cat "$scratch/placed-array.log")"
+study=(--source "$scratch/checkout-placed-array" "${study[@]}")
+run placed-array "${study[@]}" --part 1/3
+run placed-array "${study[@]}" --executor slurm --parts 3
 [ "$(sort "$scratch/placed-array.seeds" | tr '\n' ',')" = '1 0,2 none,3 2,' ] ||
   fail "seeds and the tasks that placed them: $(cat "$scratch/placed-array.seeds")"
 same_table placed-array placed-local
-note "placements as a job array: $(tail -n 1 "$scratch/placed-array.log")"
 PATH=$path
 
 # ---- Tiles: 6 for each of three pictures, and 6 for the reference
@@ -308,9 +281,8 @@ size = "1000x700"
 END
 whole=(--source "$checkout" study --space "$scratch/tiles.toml")
 study=("${whole[@]}" --tile 400x360)
-on_slurm=("${study[@]}" --executor slurm --parts 5)
-run_local whole "${whole[@]}"
-run_local tiles "${study[@]}"
+run whole "${whole[@]}" --threads 2
+run tiles "${study[@]}" --threads 2
 
 # The frames of points, in the table's order.
 frames() { # name
@@ -324,20 +296,10 @@ same_frames() { # name, name
 }
 same_frames tiles whole
 
-run_with_a_task_killed tiles-array "${on_slurm[@]}"
-grep -q '4 points, 0 measured in this run' "$scratch/tiles-array.log" ||
-  fail "what tasks drew was not put together by tasks: $(cat "$scratch/tiles-array.log")"
+run_with_a_task_killed tiles-array "${study[@]}" --executor slurm --parts 5
+says tiles-array '4 points, 0 measured in this run'
 same_table tiles-array tiles
 same_frames tiles-array whole
-note "tiles as a job array, a task killed and tried again by Slurm: $(cat "$scratch/tiles-array.log")"
-run_until_killed tiles-resumed 24 '-tile-[0-9]*' "${on_slurm[@]}"
-# The tiles of an assembled point are removed: add 6 for each, except for Phong's point, which is the reference.
-for record in $(kept tiles-resumed ''); do
-  grep -q '"point": "phong' "$record" || before=$((before + 6))
-done
-go_on tiles-resumed 24 'tiles drawn' "${on_slurm[@]}"
-same_table tiles-resumed tiles
-same_frames tiles-resumed whole
 
 [ "$failed" = 0 ] || tail -n 20 "$scratch/slurmctld.log" >&2
 exit "$failed"
