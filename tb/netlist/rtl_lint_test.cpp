@@ -7,7 +7,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,36 +21,21 @@
 namespace halfway {
 namespace {
 
-bool is_word(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 /// The line in lower case, without comments, strings and character literals.
-std::string code_of(std::string_view line) {
-  std::string code;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '-' && i + 1 < line.size() && line[i + 1] == '-') break;
-    if (line[i] == '\'' && i + 2 < line.size() && line[i + 2] == '\'') {
-      i += 2;
-      continue;
-    }
-    if (line[i] == '"') {
-      i = std::min(line.find('"', i + 1), line.size());
-      code += ' ';
-      continue;
-    }
-    code += static_cast<char>(line[i] >= 'A' && line[i] <= 'Z' ? line[i] - 'A' + 'a' : line[i]);
-  }
+std::string code_of(const std::string& line) {
+  static const std::regex c_no_code("--.*|'.'|\"[^\"]*\"?");
+  std::string code = std::regex_replace(line, c_no_code, " ");
+  std::ranges::transform(code, code.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return code;
 }
 
-bool has_word(std::string_view code, std::string_view word) {
-  for (std::size_t at = code.find(word); at != std::string_view::npos; at = code.find(word, at + 1)) {
-    const bool begins = at == 0 || !is_word(code[at - 1]);
-    const bool ends = at + word.size() == code.size() || !is_word(code[at + word.size()]);
-    if (begins && ends) return true;
-  }
-  return false;
+/// Call `found` with each whole word of the code that is in the list.
+template <class Found>
+void find_words(const std::string& code, const std::set<std::string>& words, const Found& found) {
+  static const std::regex c_word("[a-z0-9_]+");
+  for (std::sregex_iterator at(code.begin(), code.end(), c_word), end; at != end; ++at)
+    if (words.contains(at->str())) found(at->str());
 }
 
 /// All constructs are allowed above the architecture and inside a package: GHDL folds these constants, and
@@ -55,9 +44,11 @@ constexpr std::string_view c_elaboration_only = "-- evaluated at elaboration";
 /// Comments that make a synthesizer skip text. GHDL simulates exactly the text that is synthesized.
 constexpr std::array<std::string_view, 3> c_directives = {"translate_off", "synthesis_off", "pragma"};
 
-std::vector<std::string> faults_in(const std::string& name, std::string_view text) {
+std::vector<std::string> faults_in(const std::string& name, const std::string& text) {
+  static const std::set<std::string> c_miscompiled = {"sra",     "srl", "abs", "minimum",
+                                                      "maximum", "mod", "rem"};
   // Reserved in Verilog or SystemVerilog, but not in VHDL. GHDL writes them unchanged.
-  constexpr std::array<std::string_view, 96> c_verilog_words = {
+  static const std::set<std::string> c_verilog_words = {
       "always",   "and2",    "assume",   "automatic", "bind",    "bins",      "bit_",     "bufif0",
       "byte",     "casex",   "casez",    "cell",      "chandle", "checker",   "class",    "clocking",
       "cmos",     "config",  "const",    "cover",     "cross",   "deassign",  "defparam", "design",
@@ -71,40 +62,32 @@ std::vector<std::string> faults_in(const std::string& name, std::string_view tex
       "struct",   "super",   "table",    "task",      "this",    "tran",      "tri",      "union",
       "unique",   "var",     "virtual",  "void",      "weak",    "wildcard",  "wire",     "within"};
   std::vector<std::string> faults;
-  std::size_t number = 0;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    ++number;
+  std::istringstream lines(text);
+  std::string line;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
     const auto fault = [&](std::string_view what) {
       faults.push_back(fmt::format("{}:{}: {}", name, number, what));
     };
     for (const std::string_view directive : c_directives)
-      if (line.find(directive) != std::string_view::npos)
+      if (line.find(directive) != std::string::npos)
         fault(fmt::format("{}: write one text for simulation and synthesis", directive));
     const std::string code = code_of(line);
-    if (line.find(c_elaboration_only) == std::string_view::npos) {
-      if (has_word(code, "shift_right") && code.find("shift_right(unsigned(") == std::string::npos) {
-        fault("shift_right: concatenate the sign's bits and a slice");
-      }
-      for (const std::string_view word : {"sra", "srl", "abs", "minimum", "maximum", "mod", "rem"}) {
-        if (has_word(code, word)) fault(fmt::format("{}: GHDL's netlist is wrong; write it out", word));
-      }
-      for (std::size_t at = code.find('/'); at != std::string::npos; at = code.find('/', at + 1)) {
-        if (at + 1 < code.size() && code[at + 1] == '=') continue;
-        fault("division: GHDL prints a signed one as unsigned");
-      }
+    if (line.find(c_elaboration_only) == std::string::npos) {
+      static const std::regex c_shift(R"(\bshift_right\b(?!\(unsigned\())"), c_division("/(?!=)");
+      if (std::regex_search(code, c_shift)) fault("shift_right: concatenate the sign's bits and a slice");
+      if (std::regex_search(code, c_division)) fault("division: GHDL prints a signed one as unsigned");
+      find_words(code, c_miscompiled, [&](const std::string& word) {
+        fault(fmt::format("{}: GHDL's netlist is wrong; write it out", word));
+      });
     }
-    // A declaration names hardware: signal, port, entity, instance, record field.
-    const std::size_t colon = code.find(':');
-    // Functions and their parameters have no names in the netlist.
-    if (colon != std::string::npos && code.substr(colon, 2) != ":=" && !has_word(code, "function")) {
-      std::string_view names = std::string_view(code).substr(0, colon);
-      for (const std::string_view word : c_verilog_words) {
-        if (has_word(names, word)) fault(fmt::format("{}: a word of Verilog's as a name", word));
-      }
-    }
+    // A declaration names hardware: signal, port, entity, instance, record field. Functions and their
+    // parameters have no names in the netlist.
+    static const std::regex c_declaration("^([^:]*):(?!=)");
+    std::smatch declaration;
+    if (std::regex_search(code, declaration, c_declaration) && code.find("function") == std::string::npos)
+      find_words(declaration[1], c_verilog_words, [&](const std::string& word) {
+        fault(fmt::format("{}: a word of Verilog's as a name", word));
+      });
   }
   return faults;
 }
