@@ -69,7 +69,7 @@ std::string shown(const FrameDistance& distance);
 inline constexpr FrameSize c_compared_size{640, 480};
 
 /// Visual similarity of two pictures: percentage of the mask's pixels with a visible difference in brightness
-/// (perception.hpp), and the distance.
+/// (flip.hpp), and the distance.
 struct Likeness {
   double seen_percent = 0.0;
   FrameDistance distance;
