@@ -40,13 +40,13 @@ constexpr const char* c_small_scene = "sim/board/small.toml";
 /// is named.
 std::vector<BoardSimulation> simulations(const BoardSimCommand& command, const Folders& folders) {
   constexpr EngineKind c_known[] = {EngineKind::ghdl, EngineKind::verilator};
-  auto simulators = must(checked_simulators(command.simulators, c_known));
+  auto simulators = checked_simulators(command.simulators, c_known);
   if (command.simulators.empty() && !command.scenes.empty()) simulators = {EngineKind::verilator};
   std::vector<BoardSimulation> list;
   for (const EngineKind simulator : simulators) {
     std::vector<std::string> scenes = command.scenes;
     if (scenes.empty() && simulator == EngineKind::ghdl) scenes = {(folders.source / c_small_scene).string()};
-    if (scenes.empty()) scenes = must(builtin_scenes(folders));
+    if (scenes.empty()) scenes = builtin_scenes(folders);
     for (const std::string& scene : scenes) {
       // A run in GHDL takes minutes, and the unreliable host also sends good packets.
       if (simulator != EngineKind::ghdl) list.push_back({scene, simulator, Host::steady});

@@ -377,8 +377,7 @@ TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
   EXPECT_EQ(missing.exit_code, 3) << missing.output;
   EXPECT_THAT(missing.output, HasSubstr("apt-get install ghdl"));
 
-  ASSERT_TRUE(write_file(fake / "ghdl", "#!/bin/sh\nkill -SEGV $$\n"));
-  std::filesystem::permissions(fake / "ghdl", std::filesystem::perms::all);
+  put_program(fake / "ghdl", "#!/bin/sh\nkill -SEGV $$\n");
   EXPECT_THAT(run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"},
                   {{"PATH", fake.string() + ":/usr/bin:/bin"}}),
               Ends(3, HasSubstr("ghdl")));
@@ -467,13 +466,7 @@ class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
   /// Changes the first `from` after `after` in a file of rtl/.
   void change(const std::string& file, const std::string& after, const std::string& from,
               const std::string& to) const {
-    ASSERT_EQ(copy_checkout(), copy());
-    const auto text = must(read_file(copy() / "rtl" / file));
-    const std::size_t at = text.find(from, text.find(after));
-    ASSERT_NE(at, std::string::npos) << "mend this test's list: '" << from << "' is not in " << file;
-    std::string changed = text;
-    changed.replace(at, from.size(), to);
-    ASSERT_TRUE(write_file(copy() / "rtl" / file, changed));
+    replace_in(copy_checkout() / "rtl" / file, from, to, after);
   }
   Outcome sim(const std::string& shader, const std::string& simulator) const {
     return run({"--source", copy(), "sim", "spheres", "--shader", shader, "--size", "96x72", "--simulator",
@@ -483,7 +476,7 @@ class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
 
 TEST_P(WrongRtl, IsCaughtAndLocated) {
   const Fault& fault = GetParam();
-  ASSERT_NO_FATAL_FAILURE(change(fault.file, "", fault.from, fault.to));
+  change(fault.file, "", fault.from, fault.to);
   EXPECT_THAT(sim(fault.shader, "ghdl"), Ends(1, HasSubstr("ghdl differs from the golden model")));
   EXPECT_THAT(run({"--source", copy(), "why", "spheres", "--shader", fault.shader, "--pixel", "20,20",
                    "--size", "96x72"}),
@@ -493,7 +486,7 @@ TEST_P(WrongRtl, IsCaughtAndLocated) {
 using WrongTable = WrongRtl;
 
 TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
-  ASSERT_NO_FATAL_FAILURE(change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,"));
+  change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,");
   EXPECT_THAT(sim("spherical", "verilator"),
               Ends(1, AllOf(HasSubstr("verilator differs from the golden model"),
                             ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator"))));
@@ -502,7 +495,7 @@ TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
 // If the hardware does not stop, GHDL's testbench ends the run and reports no cycles.
 using RunawayRtl = WrongRtl;
 TEST_F(RunawayRtl, UncountedCyclesAreNull) {
-  ASSERT_NO_FATAL_FAILURE(change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;"));
+  change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;");
   EXPECT_THAT(sim("quadratic", "ghdl"),
               Ends(1, AllOf(ContainsRegex("\\| ghdl: [0-9]+ mismatches \\| "), Not(HasSubstr("cycles,")))));
   const auto text = must(read_file(out() / "spheres" / "quadratic" / "summary.json"));

@@ -11,9 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
+#include "sim/system/test/test_files.hpp"
 
 namespace halfway {
 

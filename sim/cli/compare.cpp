@@ -127,9 +127,9 @@ bool compare_scene(const std::string& scene, const CompareCommand& command, Shad
 }
 
 int run(const Folders& folders, const CompareCommand& command) {
-  const auto shader = must(checked_shader(command.shader));
+  const auto shader = checked_shader(command.shader);
   std::vector<std::string> scenes = command.scenes;
-  if (scenes.empty()) scenes = must(builtin_scenes(folders));
+  if (scenes.empty()) scenes = builtin_scenes(folders);
   bool equal = true;
   for (const std::string& scene : scenes) equal = compare_scene(scene, command, shader) && equal;
   return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);

@@ -20,7 +20,7 @@ struct InitCommand {
 };
 
 int run(const Folders& folders, const InitCommand& command) {
-  const auto draw = must(checked(command.draw));
+  const auto draw = checked(command.draw);
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   for (const std::string& note : scene.notes) say(note);
   const auto plan = must(plan_scene(scene, draw.plan));

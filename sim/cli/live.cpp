@@ -23,7 +23,7 @@ void run(const Folders& folders, const LiveCommand& command) {
   Progress progress("live");
   const live::LivePage made = live::write_live(
       {.page = command.out,
-       .scenes = command.scenes.empty() ? must(builtin_scenes(folders)) : command.scenes,
+       .scenes = command.scenes.empty() ? builtin_scenes(folders) : command.scenes,
        .meshes = command.scenes.empty(),
        .folders = {folders.source, folders.cache()},
        .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()),

@@ -16,6 +16,7 @@
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
+#include "sim/system/must.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway::cli {
@@ -36,7 +37,7 @@ std::string name_of(const Hardware& hardware) {
 }
 
 // An option for other hardware would be ignored, so refuse it.
-Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
+void check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
   struct Option {
     const char* name;
     bool given;
@@ -60,23 +61,21 @@ Status check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
     std::vector<std::string> names;
     std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
     const std::string owners = fmt::format("{}", fmt::join(names, " and "));
-    return bad_input(
-        fmt::format("{} in preset {}", of_other_hardware(option.name, owners, shader), to_string(preset)));
+    throw Failure{bad_input(
+        fmt::format("{} in preset {}", of_other_hardware(option.name, owners, shader), to_string(preset)))};
   }
-  return Ok{};
 }
 
-Status check_table_size(const DrawOptions& o) {
+void check_table_size(const DrawOptions& o) {
   for (const auto& [name, given, bits] :
        {std::tuple{"--address-bits", o.address_bits, &tables::CosineSize::address_bits},
         std::tuple{"--data-bits", o.data_bits, &tables::CosineSize::data_bits}}) {
     const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
     if (given && (*given < smallest || *given > largest))
-      return bad_input(fmt::format("{}: {} is not {} to {}", name, *given, smallest, largest));
+      throw Failure{bad_input(fmt::format("{}: {} is not {} to {}", name, *given, smallest, largest))};
   }
   if (o.address_bits.has_value() != o.data_bits.has_value())
-    return bad_input("--address-bits and --data-bits go together; give both");
-  return Ok{};
+    throw Failure{bad_input("--address-bits and --data-bits go together; give both")};
 }
 
 }  // namespace
@@ -131,52 +130,51 @@ void DrawOptions::add_to(CLI::App& command) {
       ->capture_default_str();
 }
 
-Result<Shader> checked_shader(const std::string& name) {
+Shader checked_shader(const std::string& name) {
   for (const Shader shader : c_shaders)
     if (name == to_string(shader)) return shader;
-  return bad_input(
-      fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names));
+  throw Failure{bad_input(
+      fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names))};
 }
 
-Result<FrameSize> checked_size(const std::string& text, const char* option) {
+FrameSize checked_size(const std::string& text, const char* option) {
   const std::optional<FrameSize> size = parse_frame_size(text);
   if (!size)
-    return bad_input(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", option, text));
+    throw Failure{
+        bad_input(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", option, text))};
   if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
       size->height > c_max_frame_side)
-    return bad_input(fmt::format("{}: {} is out of range; width and height are 1 to {} pixels", option, text,
-                                 c_max_frame_side));
+    throw Failure{bad_input(fmt::format("{}: {} is out of range; width and height are 1 to {} pixels", option,
+                                        text, c_max_frame_side))};
   return *size;
 }
 
-Result<DrawSettings> checked(const DrawOptions& o) {
+DrawSettings checked(const DrawOptions& o) {
   DrawSettings s;
-  const auto shader = checked_shader(o.shader);
-  if (!shader) return shader.error();
-  s.plan.shader = *shader;
+  s.plan.shader = checked_shader(o.shader);
   if (o.preset != "exact" && o.preset != "published")
-    return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
+    throw Failure{
+        bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset))};
   s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
-  if (const Status status = check_hardware(o, s.plan.shader, s.plan.preset); !status) return status.error();
-  if (const Status status = check_table_size(o); !status) return status.error();
+  check_hardware(o, s.plan.shader, s.plan.preset);
+  check_table_size(o);
   if (o.address_bits) s.plan.tables = TableSize{*o.address_bits, *o.data_bits};
   s.plan.all_effects = o.all_effects;
   if (o.form == "folded")
     s.plan.form = ProcessorForm::folded;
   else if (o.form && o.form != "unrolled")
-    return bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form));
+    throw Failure{bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form))};
   if (o.degree && *o.degree != 1 && *o.degree != 2)
-    return bad_input(fmt::format("--degree: {} is not 1 or 2", *o.degree));
+    throw Failure{bad_input(fmt::format("--degree: {} is not 1 or 2", *o.degree))};
   s.plan.degree = o.degree;
-  if (o.lights && !o.all_effects) return bad_input("--lights goes with --all-effects; give both");
+  if (o.lights && !o.all_effects) throw Failure{bad_input("--lights goes with --all-effects; give both")};
   s.plan.lights = o.lights;
   if (o.span_ends == "slerp")
     s.setup.spherical.ends = SpanEnds::slerped_along_edges;
   else if (o.span_ends && o.span_ends != "surface")
-    return bad_input(fmt::format("--span-ends: '{}' is not a way; take surface or slerp", *o.span_ends));
-  const auto size = checked_size(o.size);
-  if (!size) return size.error();
-  s.size = *size;
+    throw Failure{
+        bad_input(fmt::format("--span-ends: '{}' is not a way; take surface or slerp", *o.span_ends))};
+  s.size = checked_size(o.size);
   s.setup.quadratic.test =
       s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
   if (o.highlight_test == "none")
@@ -186,31 +184,31 @@ Result<DrawSettings> checked(const DrawOptions& o) {
   else if (o.highlight_test == "conservative")
     s.setup.quadratic.test = HighlightTest::conservative;
   else if (o.highlight_test)
-    return bad_input(fmt::format("--highlight-test: '{}' is not a test; take none, centroid or conservative",
-                                 *o.highlight_test));
+    throw Failure{bad_input(fmt::format(
+        "--highlight-test: '{}' is not a test; take none, centroid or conservative", *o.highlight_test))};
   if (o.threshold) {
     if (!(*o.threshold > 0.0) || !std::isfinite(*o.threshold))
-      return bad_input(fmt::format("--threshold: {} is not above 0", *o.threshold));
+      throw Failure{bad_input(fmt::format("--threshold: {} is not above 0", *o.threshold))};
     if (s.plan.shader == Shader::spherical && s.setup.spherical.ends == SpanEnds::slerped_along_edges)
-      return bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut");
+      throw Failure{bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut")};
     s.setup.quadratic.threshold = s.setup.spherical.threshold = *o.threshold;
   }
   if (o.max_level) {
     if (*o.max_level < 0 || *o.max_level > c_most_levels)
-      return bad_input(fmt::format("--max-level: {} is not 0 to {}", *o.max_level, c_most_levels));
+      throw Failure{bad_input(fmt::format("--max-level: {} is not 0 to {}", *o.max_level, c_most_levels))};
     s.setup.quadratic.max_level = *o.max_level;
   }
-  if (o.threads > 1024) return bad_input(fmt::format("--threads: {} is more than 1024", o.threads));
+  if (o.threads > 1024) throw Failure{bad_input(fmt::format("--threads: {} is more than 1024", o.threads))};
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  if (o.out.empty()) return bad_input("--out: the folder has no name");
+  if (o.out.empty()) throw Failure{bad_input("--out: the folder has no name")};
   if (std::ranges::any_of(o.out, [](unsigned char c) { return std::iscntrl(c); }))
-    return bad_input("--out: the folder's name holds a control character");
+    throw Failure{bad_input("--out: the folder's name holds a control character")};
   s.out = o.out;
   return s;
 }
 
-Result<std::vector<EngineKind>> checked_simulators(const std::vector<std::string>& names,
-                                                   std::span<const EngineKind> known) {
+std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names,
+                                           std::span<const EngineKind> known) {
   if (names.empty()) return std::vector{EngineKind::ghdl, EngineKind::verilator};
   std::vector<EngineKind> chosen;
   std::vector<std::string> known_names;
@@ -220,20 +218,20 @@ Result<std::vector<EngineKind>> checked_simulators(const std::vector<std::string
   }
   for (const std::string& name : names)
     if (std::ranges::find(known_names, name) == known_names.end())
-      return bad_input(fmt::format("--simulator: '{}' is not a simulator; take {} or {}", name,
-                                   fmt::join(known_names.begin(), known_names.end() - 1, ", "),
-                                   known_names.back()));
+      throw Failure{bad_input(fmt::format("--simulator: '{}' is not a simulator; take {} or {}", name,
+                                          fmt::join(known_names.begin(), known_names.end() - 1, ", "),
+                                          known_names.back()))};
   return chosen;
 }
 
-Result<std::vector<std::string>> builtin_scenes(const Folders& folders) {
+std::vector<std::string> builtin_scenes(const Folders& folders) {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folders.scenes(), error))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   if (error || names.empty())
-    return bad_input(
-        fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()));
+    throw Failure{bad_input(
+        fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()))};
   std::ranges::sort(names);
   return names;
 }

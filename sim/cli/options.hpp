@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/engine/engine.hpp"
@@ -47,24 +46,24 @@ struct DrawSettings {
   std::filesystem::path out;
 };
 
-Result<DrawSettings> checked(const DrawOptions& options);
+DrawSettings checked(const DrawOptions& options);
 
 /// Parses WIDTHxHEIGHT, the form of the option.
-Result<FrameSize> checked_size(const std::string& text, const char* option = "--size");
+FrameSize checked_size(const std::string& text, const char* option = "--size");
 
 /// For help texts.
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
 /// Finds a shader by its name.
-Result<Shader> checked_shader(const std::string& name);
+Shader checked_shader(const std::string& name);
 /// The message for an option that belongs to another shader; `owners`: such as "the quadratic shader".
 std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
 /// Finds simulators by name. All must be in `known`; the result has its order. Default: GHDL and Verilator.
-Result<std::vector<EngineKind>> checked_simulators(const std::vector<std::string>& names,
-                                                   std::span<const EngineKind> known = c_engine_kinds);
+std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names,
+                                           std::span<const EngineKind> known = c_engine_kinds);
 
 /// The built-in scenes' names, in alphabetical order.
-Result<std::vector<std::string>> builtin_scenes(const Folders& folders);
+std::vector<std::string> builtin_scenes(const Folders& folders);
 
 /// Name of the folder with a scene's results: the scene's name or file without folder and extension.
 std::string result_name(const std::string& scene);

@@ -30,6 +30,7 @@
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/threads.hpp"
 #include "sim/verilator/shader_netlist.hpp"
 
@@ -55,19 +56,12 @@ struct PlanUnits {
   std::vector<UnitCounts> effects;  // in the plan's order
 };
 
-Result<PlanUnits> count_units(const Plan& plan, UnitCounter& counter) {
-  PlanUnits units;
-  for (const auto& [key, counts] :
-       {std::pair{&plan.called_for, &units.called_for}, {&plan.everything, &units.everything}}) {
-    const auto counted = counter.count(*key);
-    if (!counted) return counted.error();
-    *counts = *counted;
-  }
-  for (const PlannedEffect& effect : plan.effects) {
-    const auto counted = counter.count(plan.key, effect);
-    if (!counted) return counted.error();
-    units.effects.push_back(*counted);
-  }
+PlanUnits count_units(const Plan& plan, UnitCounter& counter) {
+  PlanUnits units{.called_for = must(counter.count(plan.called_for)),
+                  .everything = must(counter.count(plan.everything)),
+                  .effects = {}};
+  for (const PlannedEffect& effect : plan.effects)
+    units.effects.push_back(must(counter.count(plan.key, effect)));
   return units;
 }
 
@@ -145,8 +139,8 @@ HardwareKey of_degree(HardwareKey key, int degree) {
 }
 
 // Counts the cells of all keys in parallel: each takes seconds, or minutes for many lights.
-Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, unsigned threads,
-                             Progress& progress) {
+CellsByKey count_all(const Plan& plan, const SimulatorFolders& folders, unsigned threads,
+                     Progress& progress) {
   std::vector<HardwareKey> keys;
   std::set<std::string> names;
   const auto add = [&](const HardwareKey& key) {
@@ -159,19 +153,15 @@ Result<CellsByKey> count_all(const Plan& plan, const SimulatorFolders& folders, 
   if (plan.key.shader == Shader::quadratic)
     for (const int degree : {1, 2}) add(of_degree(plan.key, degree));
 
-  const auto counter = CellCounter::open(folders);
-  if (!counter) return counter.error();
+  const CellCounter counter(folders);
   progress.show(fmt::format("Yosys synthesizes {} netlists", keys.size()));
   std::mutex mutex;
   CellsByKey cells;
-  Status all = for_each_on_threads(threads, keys.size(), [&](std::size_t i) -> Status {
-    const auto counted = counter->count(keys[i]);
-    if (!counted) return counted.error();
+  must_for_each(threads, keys.size(), [&](std::size_t i) {
+    const Cells counted = counter.count(keys[i]);
     const std::scoped_lock lock(mutex);
-    cells[keys[i].name()] = *counted;
-    return Ok{};
+    cells[keys[i].name()] = counted;
   });
-  if (!all) return all.error();
   return cells;
 }
 
@@ -274,8 +264,8 @@ struct DegreeFrame {
   SetupCounts counts;
   FrameDistance error{};  // from the reference, over the pixels that either covers
 };
-Result<DegreeFrame> draw_degree(const Scene& scene, const ReferenceImage& reference, const HardwareKey& key,
-                                const QuadraticSetupOptions& options) {
+DegreeFrame draw_degree(const Scene& scene, const ReferenceImage& reference, const HardwareKey& key,
+                        const QuadraticSetupOptions& options) {
   DegreeFrame drawn;
   const FrameSize size = reference.frame.size;
   const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {.quadratic = options});
@@ -286,13 +276,11 @@ Result<DegreeFrame> draw_degree(const Scene& scene, const ReferenceImage& refere
   for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
     words.clear();
     worker->append(unit, words, drawn.counts);
-    if (Status added = assembler.add(golden->draw(words)); !added) return added.error();
+    must(assembler.add(golden->draw(words)));
   }
   std::vector<std::uint8_t> mask = assembler.mask();
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= reference.mask[i];
-  const auto error = frame_distance(assembler.frame(), reference.frame, mask);
-  if (!error) return error.error();
-  drawn.error = *error;
+  drawn.error = must(frame_distance(assembler.frame(), reference.frame, mask));
   return drawn;
 }
 
@@ -306,15 +294,17 @@ void print_errors(const std::string& which, const FrameDistance& planes, const F
 // The stored clocks, without placement.
 void print_clocks(const HardwareKey& planes, const HardwareKey& quadratics, const SimulatorFolders& folders) {
   const auto text = [&](const HardwareKey& key) -> std::string {
-    const auto figures = study::stored_figures({{.key = key, .tables = {}}, folders}, folders);
+    const auto figures = caught([&] {
+      return study::stored_figures({{.key = key, .tables = {}}, folders}, folders);
+    });
     return figures && figures->mhz ? fmt::format("{:.1f}", *figures->mhz) : "-";
   };
   print_row("clock, MHz on an iCE40 HX8K, as stored", text(planes), text(quadratics), "");
 }
 
 // Quadratics and planes: for which triangles a plane is enough, what either costs, and their errors.
-Status print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
-                     const CellsByKey& cells, const SimulatorFolders& folders) {
+void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
+                   const CellsByKey& cells, const SimulatorFolders& folders) {
   QuadraticSetupOptions options = draw.setup.quadratic, whole = options;
   if (options.test == HighlightTest::none) options.max_level = 0;
   whole.test = options.test = HighlightTest::conservative;
@@ -322,14 +312,13 @@ Status print_degrees(const Scene& scene, const DrawSettings& draw, const Hardwar
   const HardwareKey planes = of_degree(key, 1), quadratics = of_degree(key, 2);
   const ReferenceImage reference = render_reference(scene, Projector(scene, draw.size, {}).project_all(),
                                                     {.frame = draw.size, .subpixel_bits = 4});
-  const auto whole_planes = draw_degree(scene, reference, planes, whole),
-             whole_quadratics = draw_degree(scene, reference, quadratics, whole),
-             split_planes = draw_degree(scene, reference, planes, options),
-             split_quadratics = draw_degree(scene, reference, quadratics, options);
-  for (const auto* drawn : {&whole_planes, &whole_quadratics, &split_planes, &split_quadratics})
-    if (!*drawn) return drawn->error();
-  const SetupCounts& unsplit = whole_planes->counts;
-  const SetupCounts &few = split_planes->counts, &all = split_quadratics->counts;
+  const auto draw_by = [&](const HardwareKey& of, const QuadraticSetupOptions& how) {
+    return draw_degree(scene, reference, of, how);
+  };
+  const DegreeFrame whole_planes = draw_by(planes, whole), whole_quadratics = draw_by(quadratics, whole),
+                    split_planes = draw_by(planes, options), split_quadratics = draw_by(quadratics, options);
+  const SetupCounts& unsplit = whole_planes.counts;
+  const SetupCounts &few = split_planes.counts, &all = split_quadratics.counts;
   const std::uint64_t enough = unsplit.leaves - unsplit.unresolved;
   fmt::print(
       "\nplanes (--degree 1, Gouraud's shading) at {}x{}: {} of {} triangles are within {} steps, {}\n",
@@ -344,8 +333,8 @@ Status print_degrees(const Scene& scene, const DrawSettings& draw, const Hardwar
   print_counts("bits of all init vectors", few.vectors * bits(planes), all.vectors * bits(quadratics));
   print_counts("samples shaded", few.shaded, all.shaded);
   print_counts("pieces above the threshold", few.unresolved, all.unresolved);
-  print_errors("never split", whole_planes->error, whole_quadratics->error);
-  print_errors("split", split_planes->error, split_quadratics->error);
+  print_errors("never split", whole_planes.error, whole_quadratics.error);
+  print_errors("split", split_planes.error, split_quadratics.error);
   print_clocks(planes, quadratics, folders);
   const std::uint64_t mixed = enough * bits(planes) + unsplit.unresolved * bits(quadratics);
   fmt::print(
@@ -354,66 +343,48 @@ Status print_degrees(const Scene& scene, const DrawSettings& draw, const Hardwar
       "same samples: the test needs all six. Hardware of degree 2 draws a plane if its second differences\n"
       "are zero.\n",
       saved(static_cast<double>(mixed), static_cast<double>(unsplit.leaves * bits(quadratics))));
-  if (cells.empty()) return Ok{};
+  if (cells.empty()) return;
   print_counts("LUTs of 4 inputs", cells.at(planes.name()).luts, cells.at(quadratics.name()).luts);
   print_counts("flip-flops", cells.at(planes.name()).flip_flops, cells.at(quadratics.name()).flip_flops);
-  return Ok{};
 }
 
 int run(const Folders& folders, const PlanCommand& command) {
-  const auto draw = checked(command.draw);
-  if (!draw) return report(draw.error());
+  const DrawSettings draw = checked(command.draw);
   constexpr EngineKind c_measured[] = {EngineKind::ghdl, EngineKind::verilator};
-  const auto simulators = checked_simulators(command.simulators, c_measured);
-  if (!simulators) return report(simulators.error());
+  const std::vector<EngineKind> simulators = checked_simulators(command.simulators, c_measured);
   for (const auto& [name, given, most] : {std::tuple{"--objects", command.objects, c_most_objects},
                                           std::tuple{"--rate", command.rate, c_most_rate}})
     if (given && (*given < 1 || *given > most))
-      return report(bad_input(fmt::format("{}: {} is not 1 to {}", name, *given, most)));
-  const auto scene = load_scene(command.scene, folders.scenes());
-  if (!scene) return report(scene.error());
-  const auto planned = plan_scene(*scene, draw->plan);
-  if (!planned) return report(planned.error());
-  const Plan& plan = *planned;
+      throw Failure{bad_input(fmt::format("{}: {} is not 1 to {}", name, *given, most))};
+  const Scene scene = must(load_scene(command.scene, folders.scenes()));
+  const Plan plan = must(plan_scene(scene, draw.plan));
   const SimulatorFolders simulator_folders{folders.source, folders.cache()};
   // Without GHDL the plan has no units.
   auto counter = UnitCounter::open(simulator_folders);
   std::optional<PlanUnits> units;
-  if (counter) {
-    auto counted = count_units(plan, *counter);
-    if (!counted) return report(counted.error());
-    units = std::move(*counted);
-  }
+  if (counter) units = count_units(plan, *counter);
 
   CellsByKey cells;
   SimulationCost called_for, everything;
   if (command.measure) {
-    Progress progress(scene->name);
-    auto counted = count_all(plan, simulator_folders, draw->threads, progress);
-    if (!counted) return report(counted.error());
-    cells = std::move(*counted);
-    const CostSettings settings{.size = draw->size,
-                                .setup = draw->setup,
-                                .threads = draw->threads,
-                                .ghdl = std::ranges::count(*simulators, EngineKind::ghdl) != 0,
-                                .verilator = std::ranges::count(*simulators, EngineKind::verilator) != 0,
+    Progress progress(scene.name);
+    cells = count_all(plan, simulator_folders, draw.threads, progress);
+    const CostSettings settings{.size = draw.size,
+                                .setup = draw.setup,
+                                .threads = draw.threads,
+                                .ghdl = std::ranges::count(simulators, EngineKind::ghdl) != 0,
+                                .verilator = std::ranges::count(simulators, EngineKind::verilator) != 0,
                                 .folders = simulator_folders,
                                 .on_progress = [&](const std::string& what) { progress.show(what); }};
-    for (const auto& [key, cost] :
-         {std::pair{&plan.called_for, &called_for}, {&plan.everything, &everything}})
-      *cost = simulation_cost(*scene, *key, settings);
+    called_for = simulation_cost(scene, plan.called_for, settings);
+    everything = simulation_cost(scene, plan.everything, settings);
   }
-
-  if (!command.netlist.empty()) {
-    const auto netlist = netlist_of(plan.key, simulator_folders);
-    if (!netlist) return report(netlist.error());
-    if (const Status written = write_file(command.netlist, *netlist); !written)
-      return report(written.error());
-  }
+  if (!command.netlist.empty())
+    must(write_file(command.netlist, must(netlist_of(plan.key, simulator_folders))));
 
   fmt::print(
       "scene {}, shader {}, preset {}\n  as needed      {}\n  all effects    {}\n  generics      {}\n\n",
-      printable(scene->name), to_string(plan.key.shader), to_string(plan.key.preset), plan.called_for.name(),
+      printable(scene.name), to_string(plan.key.shader), to_string(plan.key.preset), plan.called_for.name(),
       plan.everything.name(), generics_text(plan.key));
   print_effects(plan, units, cells);
   fmt::print("\n");
@@ -424,10 +395,8 @@ int run(const Folders& folders, const PlanCommand& command) {
   const bool same = called_for.frame.rgb == everything.frame.rgb &&
                     (hides_more(plan) || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
-  if (plan.key.shader == Shader::quadratic)
-    if (const Status printed = print_degrees(*scene, *draw, plan.key, cells, simulator_folders); !printed)
-      return report(printed.error());
-  if (command.objects || command.rate) print_processors(*scene, command, draw->size);
+  if (plan.key.shader == Shader::quadratic) print_degrees(scene, draw, plan.key, cells, simulator_folders);
+  if (command.objects || command.rate) print_processors(scene, command, draw.size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }
 

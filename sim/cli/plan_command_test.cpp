@@ -23,12 +23,10 @@ class PlanCommand : public CommandTest {
   /// PATH with a replacement for Yosys that reports one LUT per kilobyte of netlist.
   Environment path_with_yosys() const {
     const auto bin = folder_.path() / "bin";
-    EXPECT_TRUE(make_folders(bin));
-    EXPECT_TRUE(write_file(bin / "yosys",
-                           "#!/bin/sh\n[ $# = 1 ] && { echo stand-in; exit; }\n"
-                           "echo \"{\\\"design\\\": {\\\"num_cells_by_type\\\": {\\\"\\$lut\\\": "
-                           "$(($(wc -c <netlist.v) / 1024)), \\\"\\$_DFF_P_\\\": 5}}}\" >cells.json\n"));
-    std::filesystem::permissions(bin / "yosys", std::filesystem::perms::all);
+    put_program(bin / "yosys",
+                "#!/bin/sh\n[ $# = 1 ] && { echo stand-in; exit; }\n"
+                "echo \"{\\\"design\\\": {\\\"num_cells_by_type\\\": {\\\"\\$lut\\\": "
+                "$(($(wc -c <netlist.v) / 1024)), \\\"\\$_DFF_P_\\\": 5}}}\" >cells.json\n");
     return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
   }
 };
@@ -166,14 +164,8 @@ TEST_F(PlanCommand, MeasuresCellsCyclesAndSeconds) {
 // RTL with a fault that only appears in hardware with all effects: factors that should be zero are not.
 TEST_F(PlanCommand, MeasuringReportsFramesThatDiffer) {
   const std::filesystem::path copy = copy_checkout();
-  const auto slice = copy / "rtl" / "illumination" / "specular_slice.vhd";
-  const auto text = must(read_file(slice));
-  const std::string from = "start => part(part'high downto c_factors_low)";
-  const std::size_t at = text.find(from);
-  ASSERT_NE(at, std::string::npos) << "mend this test";
-  std::string changed = text;
-  changed.replace(at, from.size(), "start => not part(part'high downto c_factors_low)");
-  ASSERT_TRUE(write_file(slice, changed));
+  replace_in(copy / "rtl/illumination/specular_slice.vhd", "start => part(part'high downto c_factors_low)",
+             "start => not part(part'high downto c_factors_low)");
   EXPECT_THAT(run({"--source", copy, "plan", "matte", "--shader", "spherical", "--measure", "--size", "64x48",
                    "--simulator", "verilator"},
                   path_with_yosys()),

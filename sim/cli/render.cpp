@@ -54,7 +54,7 @@ int run(const Folders& folders, const RenderCommand& command) {
   DrawOptions options_given = command.draw;
   // these methods take the options of the spherical shader
   if (spherical) options_given.shader = to_string(Shader::spherical);
-  const auto draw = must(checked(options_given));
+  const auto draw = checked(options_given);
   if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
     return report(bad_input(
         fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "))));

@@ -66,7 +66,7 @@ void run(const Folders& folders, const ReportCommand& command) {
                             .study = command.study,
                             .figures = figures,
                             .folders = {folders.source, folders.cache()},
-                            .scenes = must(builtin_scenes(folders)),
+                            .scenes = builtin_scenes(folders),
                             .timing = !command.no_timing,
                             .on_progress = [&](const std::string& what) { progress.show(what); }});
   progress.clear();

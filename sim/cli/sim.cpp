@@ -19,6 +19,7 @@
 #include "sim/program/printable.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/scene_files/load_scene.hpp"
+#include "sim/system/must.hpp"
 #include "sim/tables/generated_files.hpp"
 
 namespace halfway::cli {
@@ -63,36 +64,29 @@ struct Drawn {
   SceneSummary summary;
   std::vector<std::string> notes;
 };
-using Outcome = Result<Drawn>;
 
 // Preset exact of the spherical shader, with a table for each exponent of the scene: in memory for the golden
 // model, and in a copy of the RTL in the cache.
-Status take_own_tables(const Scene& scene, SimulateSettings& settings,
-                       std::optional<tables::MadeTables>& made) {
-  auto own = own_exponents(scene);
-  if (!own) return own.error();
+void take_own_tables(const Scene& scene, SimulateSettings& settings,
+                     std::optional<tables::MadeTables>& made) {
+  std::vector<double> own = must(own_exponents(scene));
   const TableSize size =
       settings.plan.tables.value_or(TableSize{tables::c_own_size.address_bits, tables::c_own_size.data_bits});
   const tables::CosineSize made_size{size.address_bits, size.data_bits};
-  made.emplace(true, made_size, *own);
-  const auto source =
-      tables::rtl_with(true, made_size, {}, settings.folders.source, settings.folders.cache, *own);
-  if (!source) return source.error();
+  made.emplace(true, made_size, own);
+  settings.folders.source =
+      must(tables::rtl_with(true, made_size, {}, settings.folders.source, settings.folders.cache, own));
   settings.plan.tables = size;
   settings.plan.made_tables = made->tables();
-  settings.plan.own = std::move(*own);
-  settings.folders.source = *source;
-  return Ok{};
+  settings.plan.own = std::move(own);
 }
 
-Outcome draw_scene(const std::string& name, std::size_t number, const Folders& folders,
-                   SimulateSettings settings, bool own_tables, Board& board) {
+Drawn draw_scene(const std::string& name, std::size_t number, const Folders& folders,
+                 SimulateSettings settings, bool own_tables, Board& board) {
   board.show(number, "loading");
-  const auto scene = load_scene(name, folders.scenes());
-  if (!scene) return scene.error();
+  const Scene scene = must(load_scene(name, folders.scenes()));
   std::optional<tables::MadeTables> made;
-  if (own_tables)
-    if (Status status = take_own_tables(*scene, settings, made); !status) return status.error();
+  if (own_tables) take_own_tables(scene, settings, made);
   settings.on_progress = [&](const std::string& what, double done) {
     board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, to_integer<int>(100.0 * done)));
   };
@@ -100,20 +94,23 @@ Outcome draw_scene(const std::string& name, std::size_t number, const Folders& f
     board.clear();
     say_waiting(folder);
   };
-  auto summary = simulate(*scene, settings);
+  auto summary = caught([&] { return simulate(scene, settings); });
   board.show(number, "");
-  if (!summary) return summary.error();
-  return Drawn{std::move(*summary), scene->notes};
+  return {must(std::move(summary)), scene.notes};
 }
 
-Outcome outcome_of(std::promise<Outcome>& promise) {
+// The scene's outcome, when it is drawn. Other exceptions than Failure become one.
+Drawn outcome_of(std::promise<Drawn>& promise) {
   try {
     return promise.get_future().get();
+  } catch (const Failure&) {
+    throw;
   } catch (const std::bad_alloc&) {
-    return tool_failed(
-        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit");
+    throw Failure{tool_failed(
+        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit")};
   } catch (const std::exception& error) {
-    return tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()));
+    throw Failure{
+        tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()))};
   }
 }
 
@@ -136,59 +133,48 @@ bool print(const Drawn& drawn) {
 }
 
 int run(const Folders& folders, const SimOptions& options) {
-  const auto draw = checked(options.draw);
-  if (!draw) return report(draw.error());
-  SimulateSettings settings;
-  settings.plan = draw->plan;
-  if (options.own_tables && (draw->plan.shader != Shader::spherical || draw->plan.preset != Preset::exact))
-    return report(bad_input("--own-tables belongs to the spherical shader in preset exact"));
-  settings.size = draw->size;
-  settings.setup = draw->setup;
-  settings.threads = draw->threads;
-  settings.out = draw->out;
-  settings.stall_seed = options.stall_seed;
-  settings.folders = {folders.source, folders.cache()};
-  const auto simulators = checked_simulators(options.simulators);
-  if (!simulators) return report(simulators.error());
-  settings.engines = *simulators;
-  std::vector<std::string> scenes = options.scenes;
-  if (scenes.empty()) {
-    auto builtin = builtin_scenes(folders);
-    if (!builtin) return report(builtin.error());
-    scenes = std::move(*builtin);
-  }
+  const DrawSettings draw = checked(options.draw);
+  if (options.own_tables && (draw.plan.shader != Shader::spherical || draw.plan.preset != Preset::exact))
+    throw Failure{bad_input("--own-tables belongs to the spherical shader in preset exact")};
+  SimulateSettings settings{.plan = draw.plan,
+                            .size = draw.size,
+                            .setup = draw.setup,
+                            .threads = draw.threads,
+                            .engines = checked_simulators(options.simulators),
+                            .stall_seed = options.stall_seed,
+                            .out = draw.out,
+                            .folders = {folders.source, folders.cache()}};
+  const std::vector<std::string> scenes = options.scenes.empty() ? builtin_scenes(folders) : options.scenes;
 
   // Results are stored under the scene's name, so two scenes must not have the same one.
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (result_name(scenes[i]) == result_name(scenes[j]))
-        return report(
+        throw Failure{
             bad_input(fmt::format("{}: its results would overwrite those of {}; draw them one at a time, or "
                                   "into another --out",
-                                  scenes[i], scenes[j])));
+                                  scenes[i], scenes[j]))};
 
   for (const std::string& scene : scenes) {
     const auto files = ResultFiles::of(settings.out, result_name(scene), settings.plan);
-    if (const Status status = forget_summary(files, [&] { say_waiting(files.folder); }); !status)
-      return report(status.error());
+    forget_summary(files, [&] { say_waiting(files.folder); });
   }
 
   // Run scenes in parallel: GHDL uses one core and takes most of the time.
-  const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw->threads);
-  settings.threads = std::max(1U, draw->threads / workers);
+  const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw.threads);
+  settings.threads = std::max(1U, draw.threads / workers);
   Board board(scenes);
-  std::vector<std::promise<Outcome>> outcomes(scenes.size());
+  std::vector<std::promise<Drawn>> outcomes(scenes.size());
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> stop = false;
   std::vector<std::jthread> pool;
   for (unsigned i = 0; i < workers; ++i)
     pool.emplace_back([&] {
       for (std::size_t n = next++; n < scenes.size(); n = next++) try {
-          outcomes[n].set_value(stop
-                                    ? Outcome(tool_failed("not run"))
-                                    : draw_scene(scenes[n], n, folders, settings, options.own_tables, board));
+          if (stop) return;
+          outcomes[n].set_value(draw_scene(scenes[n], n, folders, settings, options.own_tables, board));
         } catch (...) {
-          outcomes[n].set_exception(std::current_exception());  // such as out of memory
+          outcomes[n].set_exception(std::current_exception());
         }
     });
 
@@ -201,7 +187,7 @@ int run(const Folders& folders, const SimOptions& options) {
     equal = false;
   }
   for (std::size_t n = 0; n < scenes.size(); ++n) {
-    const Outcome outcome = outcome_of(outcomes[n]);
+    const auto outcome = caught([&] { return outcome_of(outcomes[n]); });
     board.clear();
     if (!outcome) {
       stop = true;

@@ -60,7 +60,7 @@ struct StudyPlan {
 StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   const std::filesystem::path studies = folders.source / "sim" / "studies";
   StudyPlan plan;
-  plan.demand = must(study::read_demand(command.error, command.psnr, command.time));
+  plan.demand = study::read_demand(command.error, command.psnr, command.time);
   if (command.clock_mhz && !(*command.clock_mhz > 0)) throw Failure{bad_input("--clock: takes MHz above 0")};
   if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
     throw Failure{tool_failed(fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}",
@@ -83,13 +83,13 @@ StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   plan.space = !command.space.empty()
                    ? command.space
                    : (studies / (plan.demand.any() ? "designs.toml" : "small.toml")).string();
-  auto points = must(study::read_space(plan.space));
+  auto points = study::read_space(plan.space);
   if (!command.size.empty()) {
-    const FrameSize size = must(checked_size(command.size));
+    const FrameSize size = checked_size(command.size);
     for (study::DesignPoint& point : points) point.size = size;
   }
   if (!command.tile.empty()) {
-    const FrameSize tile = must(checked_size(command.tile, "--tile"));
+    const FrameSize tile = checked_size(command.tile, "--tile");
     if (std::min(tile.width, tile.height) < study::c_least_tile)
       throw Failure{bad_input(fmt::format("--tile: {} is too small; width and height are {} pixels at least",
                                           command.tile, study::c_least_tile))};
@@ -144,7 +144,7 @@ void set_up(const study::StudySettings& settings, const std::string& names) {
     if (point == settings.points.end())
       throw Failure{bad_input("--set-up: '" + name + "' is not a point of the space")};
     const Scene scene = study::drawn_scene(settings.scene, scenes, *point);
-    const auto hardware = must(study::drawing_hardware_of(*point, scene, settings.folders));
+    const auto hardware = study::drawing_hardware_of(*point, scene, settings.folders);
     study::set_up_frame(scene, point->size, hardware.key, study::frame_setup(*point, scene),
                         hardware.formats.get());
   });
@@ -244,11 +244,9 @@ int run(const Folders& folders, const StudyCommand& command) {
     return 0;
   }
   const study::HardwareTable hardware = finished([&] {
-    return must(study::hardware_figures(
+    return study::hardware_figures(
         settings.scene, study.records, settings.folders,
-        {.threads = settings.threads, .place = command.place, .on_progress = [&](const std::string& text) {
-           progress.show(text);
-         }}));
+        {.threads = settings.threads, .place = command.place, .on_progress = settings.on_progress});
   });
   return conclude(plan, study, hardware, {command.clock_mhz});
 }

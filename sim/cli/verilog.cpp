@@ -75,7 +75,7 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
 }
 
 int run(const Folders& folders, const VerilogCommand& command, const std::string& version) {
-  const auto draw = must(checked(command.draw));
+  const auto draw = checked(command.draw);
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;

@@ -28,6 +28,7 @@
 #include "sim/system/file.hpp"
 #include "sim/system/folder_lock.hpp"
 #include "sim/system/interruption.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/tables/generated_files.hpp"
 
@@ -77,9 +78,9 @@ struct Outputs {
   }
 };
 
-Status check_range(const char* option, const std::optional<std::int64_t>& value, std::int64_t greatest) {
-  if (!value || (*value >= 1 && *value <= greatest)) return Ok{};
-  return bad_input(fmt::format("{}: {} is not 1 to {}", option, *value, greatest));
+void check_range(const char* option, const std::optional<std::int64_t>& value, std::int64_t greatest) {
+  if (value && (*value < 1 || *value > greatest))
+    throw Failure{bad_input(fmt::format("{}: {} is not 1 to {}", option, *value, greatest))};
 }
 
 TerminalColours colours_of_terminal() {
@@ -88,51 +89,51 @@ TerminalColours colours_of_terminal() {
   return text == "truecolor" || text == "24bit" ? TerminalColours::full : TerminalColours::palette;
 }
 
-Result<Outputs> checked(const ViewCommand& c) {
-  if (Status status = check_range("--frames", c.frames, c_most_view_frames); !status) return status.error();
-  if (Status status = check_range("--rate", c.rate, c_most_rate); !status) return status.error();
-  if (Status status = check_range("--columns", c.columns, c_most_columns); !status) return status.error();
+Outputs checked(const ViewCommand& c) {
+  check_range("--frames", c.frames, c_most_view_frames);
+  check_range("--rate", c.rate, c_most_rate);
+  check_range("--columns", c.columns, c_most_columns);
   Outputs o;
   o.images = c.out_given || (!c.video && !c.terminal);
   if (c.format && !o.images)
-    return bad_input("--format is of images, and none are asked for; give --out as well");
+    throw Failure{bad_input("--format is of images, and none are asked for; give --out as well")};
   if (c.format && *c.format != "png" && *c.format != "ppm")
-    return bad_input(fmt::format("--format: '{}' is not a format; take png or ppm", *c.format));
+    throw Failure{bad_input(fmt::format("--format: '{}' is not a format; take png or ppm", *c.format))};
   o.ppm = c.format == "ppm";
-  if (c.rate && !c.video) return bad_input("--rate goes with --video; give both");
+  if (c.rate && !c.video) throw Failure{bad_input("--rate goes with --video; give both")};
   if (c.rate) o.rate = static_cast<unsigned>(*c.rate);
   if (c.video) {
     o.video = *c.video;
-    if (Status status = VideoWriter::check(*o.video); !status) return status.error();
+    VideoWriter::check(*o.video);
   }
-  if (c.columns && !c.terminal) return bad_input("--columns goes with --terminal; give both");
-  if (c.colours && !c.terminal) return bad_input("--colours goes with --terminal; give both");
+  if (c.columns && !c.terminal) throw Failure{bad_input("--columns goes with --terminal; give both")};
+  if (c.colours && !c.terminal) throw Failure{bad_input("--colours goes with --terminal; give both")};
   o.terminal = c.terminal;
   if (c.columns) o.columns = static_cast<std::uint32_t>(*c.columns);
   if (o.terminal && !o.columns && isatty(STDOUT_FILENO) == 0)
-    return bad_input(
-        "--terminal: standard output is no terminal; with --columns the pictures are still written");
+    throw Failure{bad_input(
+        "--terminal: standard output is no terminal; with --columns the pictures are still written")};
   o.colours = colours_of_terminal();
   if (c.colours == "24bit")
     o.colours = TerminalColours::full;
   else if (c.colours == "256")
     o.colours = TerminalColours::palette;
   else if (c.colours)
-    return bad_input(fmt::format("--colours: '{}' is not a kind; take 24bit or 256", *c.colours));
+    throw Failure{bad_input(fmt::format("--colours: '{}' is not a kind; take 24bit or 256", *c.colours))};
   return o;
 }
 
 // std::nullopt: the fastest available engine.
-Result<std::optional<EngineKind>> checked_engine(const std::string& name) {
+std::optional<EngineKind> checked_engine(const std::string& name) {
   if (name == "auto") return std::optional<EngineKind>();
   for (const EngineKind kind : {EngineKind::verilator, EngineKind::lanes})
     if (name == to_string(kind)) return std::optional(kind);
-  return bad_input(fmt::format("--simulator: '{}' is none of auto, verilator and lanes", name));
+  throw Failure{bad_input(fmt::format("--simulator: '{}' is none of auto, verilator and lanes", name))};
 }
 
 // Removes the frames of an earlier turn, which may have had more frames, and unfinished files of a killed
 // run.
-Status forget_frames(const std::filesystem::path& folder) {
+void forget_frames(const std::filesystem::path& folder) {
   const std::regex ours("frame_[0-9]{4}\\.(png|ppm)(\\.part-.*)?");
   std::error_code error;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;) {
@@ -142,8 +143,8 @@ Status forget_frames(const std::filesystem::path& folder) {
     if (!std::filesystem::remove(path, error) && error) break;
   }
   if (error)
-    return tool_failed(fmt::format("{}: cannot remove old frames: {}", folder.string(), error.message()));
-  return Ok{};
+    throw Failure{
+        tool_failed(fmt::format("{}: cannot remove old frames: {}", folder.string(), error.message()))};
 }
 
 // Half blocks on standard output. On a terminal each picture overwrites the previous one.
@@ -154,7 +155,7 @@ class Screen {
   Screen(const Screen&) = delete;
   Screen& operator=(const Screen&) = delete;
 
-  Status show(const Frame& frame, const std::string& caption) {
+  void show(const Frame& frame, const std::string& caption) {
     std::uint32_t columns = o_.columns.value_or(80), lines = c_most_columns;
     struct winsize window {};
     if (terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col != 0 &&
@@ -170,9 +171,8 @@ class Screen {
       text += fmt::format("\033[K{}\033[J", caption.substr(0, columns));
     else
       text += caption + "\n";
-    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
-      return Ok{};
-    return tool_failed(fmt::format("standard output: {}", std::strerror(errno)));
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+      throw Failure{tool_failed(fmt::format("standard output: {}", std::strerror(errno)))};
   }
   /// Restores the terminal below the last picture.
   void leave() {
@@ -209,15 +209,13 @@ class View {
         screen_(o_),
         progress_("view") {}
 
-  Result<bool> run() {
-    const auto scene = load_scene(c_.scene, folders_.scenes());
-    if (!scene) return scene.error();
-    for (const std::string& note : scene->notes) say(note);
-    const auto lock = prepare_folder(scene->name);
-    if (!lock) return lock.error();
+  /// True if all frames were compared and are equal.
+  bool run() {
+    const auto scene = must(load_scene(c_.scene, folders_.scenes()));
+    for (const std::string& note : scene.notes) say(note);
+    const auto lock = prepare_folder(scene.name);
     // Load the library now: it takes as long as many small frames, and it may be missing.
-    if (o_.images && !o_.ppm)
-      if (const auto library = image_library(); !library) return library.error();
+    if (o_.images && !o_.ppm) must(image_library());
 
     ViewSettings settings;
     settings.plan = draw_.plan;
@@ -232,76 +230,70 @@ class View {
       progress_.show(fmt::format("building {} for {}", key, title(engine)));
     };
     std::optional<Interruption> interruption;
-    settings.on_ready = [&]() -> Status {
+    settings.on_ready = [&] {
       progress_.clear();
       interruption.emplace([this] { tidy(); });
       start_ = Clock::now();
-      if (!o_.video) return Ok{};
+      if (!o_.video) return;
       const auto writing = interruption->writing();
-      auto video = VideoWriter::open(*o_.video, draw_.size, o_.rate);
-      if (!video) return video.error();
-      video_.emplace(std::move(*video));
-      return Ok{};
+      video_.emplace(*o_.video, draw_.size, o_.rate);
     };
     if (o_.images)
       settings.on_drawn = [&](std::uint32_t number, const Frame& frame) {
         const auto writing = interruption->writing();
         const auto path = o_.folder / o_.name_of(number);
-        return o_.ppm ? write_ppm(path, frame) : write_png(path, frame, Compression::quick);
+        must(o_.ppm ? write_ppm(path, frame) : write_png(path, frame, Compression::quick));
       };
     settings.on_next = [&](std::uint32_t number, const Frame& frame) {
       const auto writing = interruption->writing();
-      return next(number, frame);
+      next(number, frame);
     };
 
-    auto summary = view(*scene, settings);
+    auto drawn = caught([&] { return view(scene, settings); });
     // Not acquired after a signal: the interrupted work must not be reported as an error.
     std::shared_lock<std::shared_timed_mutex> writing;
     if (interruption) writing = interruption->writing();
     progress_.clear();
-    if (!summary) return summary.error();
+    const ViewSummary summary = must(std::move(drawn));
     if (o_.terminal) screen_.leave();
-    for (const std::string& note : summary->notes) say(note);
-    fmt::print("{}", printable(to_lines(*summary)));
-    const auto nothing = summary->nothing_compared();
-    if (nothing) say(fmt::format("{}: {}", summary->scene, *nothing));
-    if (summary->difference) {
-      print_difference(*summary);
+    for (const std::string& note : summary.notes) say(note);
+    fmt::print("{}", printable(to_lines(summary)));
+    const auto nothing = summary.nothing_compared();
+    if (nothing) say(fmt::format("{}: {}", summary.scene, *nothing));
+    if (summary.difference) {
+      print_difference(summary);
       video_.reset();
     }
     if (o_.images)
       fmt::print("{} to {}\n", printable((o_.folder / o_.name_of(0)).string()),
-                 o_.name_of(std::max(summary->frames, 1U) - 1));
+                 o_.name_of(std::max(summary.frames, 1U) - 1));
     if (video_) {
-      if (Status status = video_->commit(); !status) return status.error();
+      video_->commit();
       fmt::print("{}: {} frames a second\n", printable(o_.video->string()), o_.rate);
     }
-    return !summary->difference.has_value() && !nothing;
+    return !summary.difference.has_value() && !nothing;
   }
 
  private:
   // Locks the folder while frames are written to it. Without images no folder is locked.
-  Result<std::optional<FolderLock>> prepare_folder(const std::string& scene) {
-    if (!o_.images) return std::optional<FolderLock>();
+  std::optional<FolderLock> prepare_folder(const std::string& scene) {
+    if (!o_.images) return std::nullopt;
     o_.folder = c_.out_given ? draw_.out : ResultFiles::of(draw_.out, scene, draw_.plan).folder / "view";
-    if (const auto writable = TemporaryFolder::make(o_.folder); !writable) return writable.error();
-    auto lock = FolderLock::take(o_.folder, [&] {
+    must(TemporaryFolder::make(o_.folder));
+    auto lock = must(FolderLock::take(o_.folder, [&] {
       say(fmt::format("waiting for {} (another halfway view draws into it)", o_.folder.string()));
-    });
-    if (!lock) return lock.error();
-    if (Status status = forget_frames(o_.folder); !status) return status.error();
-    return std::optional<FolderLock>(std::move(*lock));
+    }));
+    forget_frames(o_.folder);
+    return lock;
   }
 
-  Status next(std::uint32_t number, const Frame& frame) {
+  void next(std::uint32_t number, const Frame& frame) {
     const double seconds = seconds_since(start_);
     const std::string so_far =
         fmt::format("frame {} of {}, {:.1f} frames a second", number + 1, c_.frames, (number + 1) / seconds);
-    if (video_)
-      if (Status status = video_->add(frame); !status) return status;
+    if (video_) video_->add(frame);
     if (o_.terminal) return screen_.show(frame, so_far);
     progress_.show(so_far);
-    return Ok{};
   }
 
   // Called before a signal ends the process.
@@ -322,16 +314,11 @@ class View {
 };
 
 int run(const Folders& folders, const ViewCommand& command) {
-  const auto draw = checked(command.draw);
-  if (!draw) return report(draw.error());
-  const auto engine = checked_engine(command.engine);
-  if (!engine) return report(engine.error());
-  auto outputs = checked(command);
-  if (!outputs) return report(outputs.error());
+  const DrawSettings draw = checked(command.draw);
+  const std::optional<EngineKind> engine = checked_engine(command.engine);
+  Outputs outputs = checked(command);
   keep_freed_memory();
-  const auto equal = View(command, folders, *draw, *engine, std::move(*outputs)).run();
-  if (!equal) return report(equal.error());
-  bool right = *equal;
+  bool right = View(command, folders, draw, engine, std::move(outputs)).run();
   // As in sim.cpp: frames may be equal although a generated file was changed.
   for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
     fmt::print(stderr, "{}\n", message);

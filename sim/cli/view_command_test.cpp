@@ -39,8 +39,7 @@ class ViewCommand : public CommandTest {
   /// PATH with a replacement for ffmpeg.
   Environment path_with_ffmpeg(const std::string& script) const {
     const auto bin = folder_.path() / "bin";
-    EXPECT_TRUE(write_file(bin / "ffmpeg", "#!/bin/sh\n" + script));
-    std::filesystem::permissions(bin / "ffmpeg", std::filesystem::perms::all);
+    put_program(bin / "ffmpeg", "#!/bin/sh\n" + script);
     return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
   }
 
@@ -61,13 +60,6 @@ class ViewCommand : public CommandTest {
                    "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
                    "material = \"m\"\n"));
   }
-  static void spoil(const std::filesystem::path& file, const std::string& from, const std::string& to) {
-    auto text = must(read_file(file));
-    const std::size_t place = text.find(from);
-    ASSERT_NE(place, std::string::npos) << "mend this test";
-    ASSERT_TRUE(write_file(file, text.replace(place, from.size(), to)));
-  }
-
   Frame frame(const std::string& name) const { return must(read_png(at(name))); }
 };
 
@@ -270,7 +262,8 @@ TEST_F(ViewCommand, AnInterruptedRunLeavesNoPartialFile) {
 // Hardware with a fault that is visible in frame 2 only: before it the only triangle is back-facing.
 TEST_F(ViewCommand, ReportsTheFrameWhereTheRtlDiffers) {
   const std::filesystem::path copy = copy_checkout();
-  spoil(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend", "sum_of(value, not addend");
+  replace_in(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend",
+             "sum_of(value, not addend");
   write_averted();
   // Lanes let Verilator find the difference.
   for (const std::string simulator : {"verilator", "lanes"}) {
@@ -299,9 +292,9 @@ TEST_F(ViewCommand, ReportsTheFrameWhereTheRtlDiffers) {
 // Lanes that stop in the middle of frame 0's triangles. Verilator draws the frame without a fault.
 TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
   const std::filesystem::path copy = copy_checkout();
-  spoil(copy / "sim/lanes/lane_runner.hpp", "      const std::uint32_t moved = block();\n",
-        "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
-        "      if (!broken) {\n        broken = true;\n        return halfway_hang;\n      }\n");
+  replace_in(copy / "sim/lanes/lane_runner.hpp", "      const std::uint32_t moved = block();\n",
+             "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
+             "      if (!broken) {\n        broken = true;\n        return halfway_hang;\n      }\n");
   for (const bool compare : {true, false}) {
     std::vector<std::string> arguments = {"--source",  copy,       "view",  "matte",       "--size",
                                           "320x240",   "--frames", "3",     "--simulator", "lanes",

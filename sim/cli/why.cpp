@@ -76,7 +76,7 @@ void print_stage(const StageState& stage, const Widths& widths) {
 }
 
 int run(const Folders& folders, const WhyCommand& command) {
-  const auto draw = must(checked(command.draw));
+  const auto draw = checked(command.draw);
   const auto pixel = parse_pixel(command.pixel);
   if (!pixel)
     return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
@@ -93,7 +93,7 @@ int run(const Folders& folders, const WhyCommand& command) {
   settings.pixel = *pixel;
   settings.folders = {folders.source, folders.cache()};
   settings.on_progress = [&](double done) { progress.show(done); };
-  const auto why = must(explain_pixel(scene, settings));
+  const auto why = explain_pixel(scene, settings);
   progress.clear();
 
   fmt::print("{}: pixel {},{} of {}x{}, hardware {}: {} triangles cover it\n", scene.name, settings.pixel.x,

@@ -96,23 +96,17 @@ std::vector<MultiplierShape> read_multiplier_shapes(const std::string& netlist, 
   return shapes;
 }
 
-Result<CellCounter> CellCounter::open(const SimulatorFolders& folders) {
-  return caught([&] {
-    synth::Yosys yosys = synth::Yosys::find(folders.cache / "yosys");
-    const GhdlTool ghdl = must(GhdlTool::find());
-    return CellCounter(std::move(yosys), must(GhdlLibrary::for_synthesis(
-                                             ghdl, must(read_rtl_sources(folders.source)), folders.cache)));
-  });
-}
+CellCounter::CellCounter(const SimulatorFolders& folders)
+    : yosys_(synth::Yosys::find(folders.cache / "yosys")),
+      library_(must(GhdlLibrary::for_synthesis(must(GhdlTool::find()),
+                                               must(read_rtl_sources(folders.source)), folders.cache))) {}
 
-Result<Cells> CellCounter::count(const HardwareKey& key) const {
-  return caught([&] {
-    const std::string netlist = must(mend_netlist(must(library_.synthesize(key.entity(), key.generics()))));
-    const auto read = [&](const std::filesystem::path& folder) { return read_cells(folder); };
-    return read(yosys_.run(key.name(), yosys_script(key),
-                           {{"netlist.v", netlist}, {fmt::format("{}.v", c_multiplier), c_multiplier_model}},
-                           read));
-  });
+Cells CellCounter::count(const HardwareKey& key) const {
+  const std::string netlist = must(mend_netlist(must(library_.synthesize(key.entity(), key.generics()))));
+  const auto read = [&](const std::filesystem::path& folder) { return read_cells(folder); };
+  return read(yosys_.run(key.name(), yosys_script(key),
+                         {{"netlist.v", netlist}, {fmt::format("{}.v", c_multiplier), c_multiplier_model}},
+                         read));
 }
 
 Cells CellCounter::read_cells(const std::filesystem::path& folder) const {

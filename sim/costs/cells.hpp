@@ -5,10 +5,8 @@
 #include <compare>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/synth/yosys.hpp"
@@ -39,17 +37,15 @@ std::vector<MultiplierShape> read_multiplier_shapes(const std::string& netlist, 
 
 class CellCounter {
  public:
-  /// Without Yosys, returns an error with the command that installs it.
-  static Result<CellCounter> open(const SimulatorFolders& folders);
+  /// Without Yosys, throws Failure with the command that installs it.
+  explicit CellCounter(const SimulatorFolders& folders);
 
   /// Synthesize the flattened netlist, or read its counts from the cache. Thread-safe.
-  Result<Cells> count(const HardwareKey& key) const;
+  Cells count(const HardwareKey& key) const;
   /// Version of Yosys, as Yosys prints it.
   const std::string& version() const { return yosys_.version(); }
 
  private:
-  CellCounter(synth::Yosys yosys, GhdlLibrary library)
-      : yosys_(std::move(yosys)), library_(std::move(library)) {}
   Cells read_cells(const std::filesystem::path& folder) const;
   std::uint64_t luts_of(const MultiplierShape& shape) const;
   synth::Yosys yosys_;

@@ -2,20 +2,17 @@
 #include "sim/costs/cells.hpp"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <set>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "common/test/is_error.hpp"
 #include "sim/system/subprocess.hpp"
+#include "sim/system/test/test_files.hpp"
 
 namespace halfway {
 namespace {
-
-using ::testing::HasSubstr;
 
 class CellsTest : public ::testing::Test {
  protected:
@@ -23,15 +20,11 @@ class CellsTest : public ::testing::Test {
 
   /// Put a replacement for Yosys at the front of PATH.
   void put_yosys(const std::string& script) {
-    ASSERT_TRUE(make_folders(folder_->path() / "bin"));
-    ASSERT_TRUE(write_file(folder_->path() / "bin" / "yosys", "#!/bin/sh\n" + script));
-    std::filesystem::permissions(folder_->path() / "bin" / "yosys", std::filesystem::perms::all);
-    ::setenv("PATH", ((folder_->path() / "bin").string() + ":" + path_).c_str(), 1);
+    put_program(folder_.path() / "bin/yosys", "#!/bin/sh\n" + script);
+    ::setenv("PATH", ((folder_.path() / "bin").string() + ":" + path_).c_str(), 1);
   }
   Result<Cells> count(const HardwareKey& key) const {
-    const auto counter = CellCounter::open(folders_);
-    if (!counter) return counter.error();
-    return counter->count(key);
+    return caught([&] { return CellCounter(folders_).count(key); });
   }
   std::size_t cached() const {
     std::error_code error;
@@ -44,39 +37,31 @@ class CellsTest : public ::testing::Test {
 
   const std::string path_ = std::getenv("PATH");
   const HardwareKey grey_{.channels = 1}, coloured_{.channels = 3};
-  const Result<TemporaryFolder> folder_ = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, folder_->path() / "cache"};
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, folder_.path() / "cache"};
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << synth::c_install_tools;
-  const auto grey = count(grey_), coloured = count(coloured_);
-  ASSERT_TRUE(grey) << grey.error().message;
-  ASSERT_TRUE(coloured) << coloured.error().message;
+  const Cells grey = must(count(grey_)), coloured = must(count(coloured_));
   // A channel has six line interpolators of 40 bits, six constant words, and ten words for each of the
   // waiting triangles.
-  const std::uint64_t flip_flops = coloured->flip_flops - grey->flip_flops;
+  const std::uint64_t flip_flops = coloured.flip_flops - grey.flip_flops;
   EXPECT_GT(flip_flops, 2 * 6 * 40U);
   EXPECT_LT(flip_flops, 2 * 40 * 40U);
-  EXPECT_GT(coloured->luts, grey->luts + 2 * 6 * 40U);  // an adder takes at least one LUT per bit
+  EXPECT_GT(coloured.luts, grey.luts + 2 * 6 * 40U);  // an adder takes at least one LUT per bit
   EXPECT_EQ(cached(), 2U);
 
   // The second count uses the cache. Yosys only reports its version.
-  const auto version = run_process({.arguments = {"yosys", "-V"}}, synth::c_install_tools);
-  ASSERT_TRUE(version);
-  put_yosys("[ $# = 1 ] && printf '" + version->output + "' || exit 9\n");
-  const auto again = count(grey_);
-  ASSERT_TRUE(again) << again.error().message;
-  EXPECT_EQ(*again, *grey);
+  const ProcessEnd version = must(run_process({.arguments = {"yosys", "-V"}}, synth::c_install_tools));
+  put_yosys("[ $# = 1 ] && printf '" + version.output + "' || exit 9\n");
+  EXPECT_EQ(must(count(grey_)), grey);
   EXPECT_FALSE(count({.preset = Preset::published}));
 }
 
 TEST_F(CellsTest, AMissingYosysIsReportedWithItsInstallCommand) {
-  ::setenv("PATH", (folder_->path() / "empty").c_str(), 1);
-  const auto none = count(grey_);
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, ExitCode::tool_failed);
-  EXPECT_THAT(none.error().message, HasSubstr("apt-get install yosys"));
+  ::setenv("PATH", (folder_.path() / "empty").c_str(), 1);
+  EXPECT_TRUE(is_error(count(grey_), ExitCode::tool_failed, "apt-get install yosys"));
 }
 
 // Another netlist is counted again, although the key is the same.
@@ -85,20 +70,14 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
   ASSERT_TRUE(count(grey_));
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 1U);
-  const std::filesystem::path copy = folder_->path() / "source";
+  const std::filesystem::path copy = folder_.path() / "source";
   ASSERT_TRUE(make_folders(copy));
   std::filesystem::copy(folders_.source / "rtl", copy / "rtl", std::filesystem::copy_options::recursive);
   folders_.source = copy;
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 1U);
-  const auto adder = copy / "rtl" / "interpolation" / "part_interpolator.vhd";
-  const auto text = read_file(adder);
-  ASSERT_TRUE(text);
-  const std::string from = "sum_of(value, addend";
-  const std::size_t at = text->find(from);
-  ASSERT_NE(at, std::string::npos) << "mend this test";
-  std::string changed = *text;
-  ASSERT_TRUE(write_file(adder, changed.replace(at, from.size(), "sum_of(value, not addend")));
+  replace_in(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend",
+             "sum_of(value, not addend");
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 2U);
 }
@@ -107,27 +86,25 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
 TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNotLuts) {
   ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << synth::c_install_tools;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
-  const auto ambient = count(key);
-  ASSERT_TRUE(ambient) << ambient.error().message;
+  const Cells ambient = must(count(key));
   // Only k I.
-  EXPECT_EQ(ambient->multipliers, 1U);
+  EXPECT_EQ(ambient.multipliers, 1U);
   const int k_bits = golden::Published::c_coefficient_bits,
             i_bits = golden::Published::c_light_intensity_bits;
-  EXPECT_GE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
-  EXPECT_LE(ambient->product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // sign bits
+  EXPECT_GE(ambient.product_bits, static_cast<std::uint64_t>(k_bits + i_bits));
+  EXPECT_LE(ambient.product_bits, static_cast<std::uint64_t>(k_bits + i_bits + 2));  // sign bits
   key.processors = {.directional = 1, .diffuse = true};
-  const auto lit = count(key);
-  ASSERT_TRUE(lit) << lit.error().message;
+  const Cells lit = must(count(key));
   // N.L has three multipliers; k I and the weighted term have one each.
-  EXPECT_EQ(lit->multipliers, 1 + 3 + 2U);
-  EXPECT_GT(lit->luts, ambient->luts);
-  EXPECT_GT(lit->flip_flops, ambient->flip_flops);
+  EXPECT_EQ(lit.multipliers, 1 + 3 + 2U);
+  EXPECT_GT(lit.luts, ambient.luts);
+  EXPECT_GT(lit.flip_flops, ambient.flip_flops);
   // Each bit product of a multiplier takes one or two LUTs.
-  EXPECT_GT(ambient->multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
-  EXPECT_LT(ambient->multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
-  EXPECT_GT(lit->multiplier_luts, 5 * ambient->multiplier_luts);
+  EXPECT_GT(ambient.multiplier_luts, static_cast<std::uint64_t>(k_bits * i_bits / 2));
+  EXPECT_LT(ambient.multiplier_luts, static_cast<std::uint64_t>(3 * k_bits * i_bits));
+  EXPECT_GT(lit.multiplier_luts, 5 * ambient.multiplier_luts);
   // LUTs are the table and the adders only. The multipliers would double the count.
-  EXPECT_LT(lit->luts, 4000U);
+  EXPECT_LT(lit.luts, 4000U);
 }
 
 // Operands in Yosys's JSON format, lowest bit first: with sign extension, with zero extension, and without
@@ -166,9 +143,7 @@ TEST_F(CellsTest, InvalidCountsAreRefused) {
            "}}}\nEOF\n";
   };
   put_yosys(stat("\"$lut\": 12, \"$_DFF_P_\": 3, \"$_SDFFCE_PP0P_\": 4"));
-  const auto whole = count(coloured_);
-  ASSERT_TRUE(whole) << whole.error().message;
-  EXPECT_EQ(*whole, (Cells{12, 7}));
+  EXPECT_EQ(must(count(coloured_)), (Cells{12, 7}));
   const std::size_t before = cached();
   const std::vector<std::pair<std::string, std::string>> cases = {
       {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
@@ -183,10 +158,7 @@ TEST_F(CellsTest, InvalidCountsAreRefused) {
   };
   for (const auto& [script, message] : cases) {
     put_yosys(script + "\n");
-    const auto refused = count(grey_);
-    ASSERT_FALSE(refused) << script;
-    EXPECT_EQ(refused.error().code, ExitCode::tool_failed);
-    EXPECT_THAT(refused.error().message, HasSubstr(message));
+    EXPECT_TRUE(is_error(count(grey_), ExitCode::tool_failed, message));
     EXPECT_EQ(cached(), before) << script;
   }
 }

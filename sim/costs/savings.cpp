@@ -30,7 +30,7 @@ HardwareCost measure(const SavingsCase& which, bool all, const SimulatorFolders&
   const Scene scene = must(load_scene(which.scene, folders.source / "sim" / "scenes"));
   const auto plan = must(plan_scene(scene, PlanRequest{.shader = which.shader, .preset = which.preset}));
   const HardwareKey& key = all ? plan.everything : plan.called_for;
-  const Cells cells = must(must(CellCounter::open(folders)).count(key));
+  const Cells cells = CellCounter(folders).count(key);
   const FrameSize size = which.shader == Shader::processors ? FrameSize{320, 240} : FrameSize{640, 480};
   return {cells.luts, cells.flip_flops, cells.memory_bits, cells.multipliers,
           simulation_cost(scene, key, {.size = size, .ghdl = false, .folders = folders}).cycles};

@@ -87,7 +87,7 @@ Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize 
     drawn.counts = stream.counts();
     return drawn;
   }
-  auto by_rtl = must(draw_in_verilator(scene, size, drawn.key, options, context.folders, context.threads));
+  auto by_rtl = draw_in_verilator(scene, size, drawn.key, options, context.folders, context.threads);
   drawn.frame = std::move(by_rtl.frame);
   drawn.fragments = by_rtl.fragments;
   drawn.cycles = by_rtl.cycles;

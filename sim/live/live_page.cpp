@@ -89,7 +89,7 @@ std::map<std::string, Hardware> build_hardware(const std::vector<HardwareKey>& k
     }
     std::string text = packed(must(build_hardware_module(keys[i], settings.folders)));
     const auto figures =
-        must(study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders));
+        study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders);
     const std::lock_guard lock(mutex);
     built.emplace(name, Hardware{std::move(text), figures.mhz});
   });

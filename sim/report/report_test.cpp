@@ -165,8 +165,8 @@ TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
   put("build/out/matte/spherical/init.txt", "");
   put("build/study/study.csv", "");
   put("docs/results/figures/figures.json", "");
-  put("build/halfway", "#!/bin/sh\necho \"$@\" >>said\n[ \"$1\" != sim ]\n");  // 1: a difference
-  std::filesystem::permissions(here / "build/halfway", std::filesystem::perms::owner_all);
+  put_program(here / "build/halfway",
+              "#!/bin/sh\necho \"$@\" >>said\n[ \"$1\" != sim ]\n");  // 1: a difference
   const auto made =
       run_process({.arguments = {"make", "-o", "program", "report"}, .working_folder = here}, "");
   ASSERT_TRUE(made && made->succeeded()) << (made ? made->output : made.error().message);

@@ -99,10 +99,6 @@ constexpr std::array c_shown_columns = {
 constexpr std::array c_of_hardware = {"cycles",       "fragments",    "leaves",
                                       "init_vectors", "line_records", "host_evaluations"};
 
-bool in_hardware(const Table& table, std::size_t row) {
-  return !table.text(row, "hardware").empty();
-}
-
 // Print an integer from 1000 on, otherwise four digits; never with an exponent.
 std::string shown(double value) {
   return value >= 1e3 ? fmt::format("{:.0f}", value) : fmt::format("{:.4g}", value);
@@ -111,7 +107,7 @@ std::string shown(double value) {
 // Text of a cell for the page; empty if unknown.
 std::string text_of(const Table& table, std::size_t row, const char* column) {
   const std::string_view name = column;
-  if (!in_hardware(table, row) && std::ranges::find(c_of_hardware, name) != c_of_hardware.end()) return "";
+  if (!is_hardware(table, row) && std::ranges::find(c_of_hardware, name) != c_of_hardware.end()) return "";
   const std::string& text = table.text(row, column);
   if (name == "front") return text.empty() ? "" : text == "1" ? "yes" : "no";
   if (text == "inf") return "∞";
@@ -165,7 +161,7 @@ Json study_of(const Page& page, const Table& points, const std::filesystem::path
   for (const auto& entry :
        std::filesystem::directory_iterator(page.settings.folders.source / "sim/studies", error)) {
     if (entry.path().extension() != ".toml") continue;
-    const auto space = study::read_space(entry.path());
+    const auto space = caught([&] { return study::read_space(entry.path()); });
     if (!space) continue;  // a scene file
     const auto has = [&](const std::string& name) {
       return std::ranges::find(*space, name, &study::DesignPoint::name) != space->end();
@@ -225,7 +221,7 @@ StudyPlot plotted(const Table& points, const Measure& along, const Measure& erro
     const auto x = points.number(row, along.column), y = points.number(row, error.column);
     const std::string name = series_of(points, row);
     if (!y) continue;
-    if (!in_hardware(points, row)) {
+    if (!is_hardware(points, row)) {
       if (picture_of(points, row) == picture) made.plot.levels.push_back({*y, name});
     } else if (!x) {
       const std::string& clock = points.text(row, "clock");
@@ -314,7 +310,7 @@ void add_study(Page& page) {
   for (std::size_t row = 0; row < points.rows.size(); ++row) {
     const std::string of = series_of(points, row);
     if (std::ranges::find(series, of) == series.end()) series.push_back(of);
-    if (in_hardware(points, row)) hardware_series.insert(of);
+    if (is_hardware(points, row)) hardware_series.insert(of);
   }
   Json legend = Json::array(), columns = Json::array();
   for (std::size_t s = 0; s < series.size(); ++s) {

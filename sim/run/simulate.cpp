@@ -24,6 +24,7 @@
 #include "sim/stream_files/trace.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/folder_lock.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 #include "tables/cosine.hpp"
@@ -50,37 +51,31 @@ class Simulation {
     summary_.triangles = scene.triangles.size();
   }
 
-  Result<SceneSummary> run() {
+  SceneSummary run() {
     const Clock::time_point start = Clock::now();
-    auto plan = plan_scene(scene_, s_.plan);
-    if (!plan) return plan.error();
-    summary_.plan = std::move(*plan);
-    if (Status status = make_folders(files_.folder); !status) return status.error();
-    const auto lock = FolderLock::take(files_.folder, [this] { s_.on_wait(files_.folder); });
-    if (!lock) return lock.error();
-    if (Status status = forget_old_results(); !status) return status.error();
+    summary_.plan = must(plan_scene(scene_, s_.plan));
+    must(make_folders(files_.folder));
+    const auto lock = must(FolderLock::take(files_.folder, [this] { s_.on_wait(files_.folder); }));
+    forget_old_results();
     std::future<ReferenceImage> reference =
         std::async(std::launch::async, [this] { return draw_reference(); });
-    if (Status status = open_engines(); !status) return status.error();
-    if (Status status = stream(); !status) return status.error();
+    open_engines();
+    stream();
     // Engines that draw late take longest, so do all other work at the same time.
     for (Drawing& drawing : drawings_)
       drawing.finished = std::async(std::launch::async, [&drawing] { return drawing.frame.finish(); });
     wait_for_threads();
-    if (Status status = count_units(); !status) return status.error();
-    if (Status status = write_png(files_.frame("golden"), golden_.frame()); !status) return status.error();
-    if (Status status = compare_with(reference.get()); !status) return status.error();
-    for (auto drawing = drawings_.rbegin(); drawing != drawings_.rend(); ++drawing) {
-      auto run = keep(*drawing);
-      if (!run) return run.error();
-      summary_.runs.insert(summary_.runs.begin(), std::move(*run));
-    }
+    if (!s_.engines.empty())
+      summary_.units = must(must(UnitCounter::open(s_.folders)).count(summary_.plan.key));
+    must(write_png(files_.frame("golden"), golden_.frame()));
+    compare_with(reference.get());
+    for (auto drawing = drawings_.rbegin(); drawing != drawings_.rend(); ++drawing)
+      summary_.runs.insert(summary_.runs.begin(), keep(*drawing));
     for (SimulatorRun& run : summary_.runs)
-      if (!run.equal())
-        if (Status status = keep_evidence(run); !status) return status.error();
+      if (!run.equal()) keep_evidence(run);
     note_what_is_unusual();
     summary_.seconds = seconds_since(start);
-    if (Status status = write_file(files_.summary(), to_json(summary_)); !status) return status.error();
+    must(write_file(files_.summary(), to_json(summary_)));
     return summary_;
   }
 
@@ -93,43 +88,30 @@ class Simulation {
   };
 
   // Remove old results: if this run is interrupted, they must not be taken for its own.
-  Status forget_old_results() const {
+  void forget_old_results() const {
     std::vector<std::string> drawers{"golden"};
     for (const EngineKind kind : c_engine_kinds) drawers.emplace_back(to_string(kind));
     for (const std::string& who : drawers) {
-      if (Status status = forget(files_.trace(who)); !status) return status;
-      if (Status status = forget(files_.frame(who)); !status) return status;
-      if (Status status = forget(files_.frame(fmt::format("mismatch-{}", who))); !status) return status;
-      if (Status status = forget(files_.folder / fmt::format("mismatch-{}.fst", who)); !status) return status;
+      forget(files_.trace(who));
+      forget(files_.frame(who));
+      forget(files_.frame(fmt::format("mismatch-{}", who)));
+      forget(files_.folder / fmt::format("mismatch-{}.fst", who));
     }
-    for (const char* who : {"reference", "diff"})
-      if (Status status = forget(files_.frame(who)); !status) return status;
-    if (Status status = forget(files_.init()); !status) return status;
+    for (const char* who : {"reference", "diff"}) forget(files_.frame(who));
+    forget(files_.init());
     // Remove unfinished files. The folder is locked, so they are from killed runs.
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(files_.folder, error)) {
       const std::string name = entry.path().filename().string();
-      if (name.find(".part") != std::string::npos || name.starts_with(".halfway-"))
-        if (Status status = forget(entry.path()); !status) return status;
+      if (name.find(".part") != std::string::npos || name.starts_with(".halfway-")) forget(entry.path());
     }
-    return forget(files_.summary());
+    forget(files_.summary());
   }
-  static Status forget(const std::filesystem::path& path) {
+  static void forget(const std::filesystem::path& path) {
     std::error_code error;
     std::filesystem::remove_all(path, error);
-    if (error) return tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
-    return Ok{};
-  }
-
-  // Count the hardware's entities if any hardware is simulated.
-  Status count_units() {
-    if (s_.engines.empty()) return Ok{};
-    auto counter = UnitCounter::open(s_.folders);
-    if (!counter) return counter.error();
-    auto units = counter->count(summary_.plan.key);
-    if (!units) return units.error();
-    summary_.units = std::move(*units);
-    return Ok{};
+    if (error)
+      throw Failure{tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()))};
   }
 
   void note(std::string text) { summary_.notes.push_back(scene_.name + ": " + std::move(text)); }
@@ -218,7 +200,7 @@ class Simulation {
   }
 
   // Open the engines in parallel, because some take long.
-  Status open_engines() {
+  void open_engines() {
     const HardwareKey& key = summary_.plan.key;
     std::vector<std::future<Result<std::shared_ptr<Engine>>>> opening;
     for (const EngineKind kind : s_.engines)
@@ -230,50 +212,43 @@ class Simulation {
       }));
     for (std::size_t i = 0; i < opening.size(); ++i) {
       s_.on_progress(fmt::format("building {} for {}", key.name(), title(s_.engines[i])), -1.0);
-      auto engine = opening[i].get();
-      if (!engine) return engine.error();
-      auto opened = TraceWriter::open(files_.trace(to_string(s_.engines[i])), key.name());
-      if (!opened) return opened.error();
-      const auto trace = std::make_shared<TraceWriter>(std::move(*opened));
+      std::shared_ptr<Engine> engine = must(opening[i].get());
+      const auto trace = std::make_shared<TraceWriter>(
+          must(TraceWriter::open(files_.trace(to_string(s_.engines[i])), key.name())));
       RtlFrameOptions frame{.on_drawn = [trace](std::span<const Fragment> drawn) { trace->write(drawn); }};
-      if ((*engine)->draws_late()) frame.golden_trace = files_.trace("golden");
+      if (engine->draws_late()) frame.golden_trace = files_.trace("golden");
       drawings_.push_back(
-          {RtlFrame(std::move(*engine), s_.size, scene_.background, std::move(frame)), trace, {}});
+          {RtlFrame(std::move(engine), s_.size, scene_.background, std::move(frame)), trace, {}});
     }
-    return Ok{};
   }
 
   // Run setup, golden model and engines, batch by batch. Write init file and traces on the way.
-  Status stream() {
+  void stream() {
     const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, summary_.plan.key, s_.setup);
     const std::string key = summary_.plan.key.name();
     for (const std::string& text : setup->notes()) note(text);
-    auto init_file = InitFileWriter::open(files_.init(), key, setup->init_bits());
-    if (!init_file) return init_file.error();
-    auto golden_trace = TraceWriter::open(files_.trace("golden"), key);
-    if (!golden_trace) return golden_trace.error();
+    auto init_file = must(InitFileWriter::open(files_.init(), key, setup->init_bits()));
+    auto golden_trace = must(TraceWriter::open(files_.trace("golden"), key));
 
     SceneStream stream(*setup, summary_.plan.key, s_.threads);
     for (Batch batch; stream.next(batch);) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
-      if (Status status = check_shadow_counts(scene_, stream.counts(), stream.fault()); !status)
-        return status;
-      init_file->write(batch.init_words);
-      golden_trace->write(batch.golden);
+      must(check_shadow_counts(scene_, stream.counts(), stream.fault()));
+      init_file.write(batch.init_words);
+      golden_trace.write(batch.golden);
       if (Status status = golden_.add(batch.golden); !status)
-        return tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
-                                       scene_.name, status.error().message));
-      for (Drawing& drawing : drawings_)
-        if (Status status = drawing.frame.add(batch.init_words, batch.golden); !status) return status;
+        throw Failure{
+            tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
+                                    scene_.name, status.error().message))};
+      for (Drawing& drawing : drawings_) must(drawing.frame.add(batch.init_words, batch.golden));
     }
-    if (Status status = init_file->commit(); !status) return status;
-    if (Status status = golden_trace->commit(); !status) return status;
+    must(init_file.commit());
+    must(golden_trace.commit());
     summary_.setup = stream.counts();
-    if (Status status = check_projection(scene_, stream.counts()); !status) return status;
+    must(check_projection(scene_, stream.counts()));
     summary_.setup_seconds = stream.setup_seconds();
     summary_.golden_seconds = stream.golden_seconds();
     summary_.fragments = golden_.fragments();
-    return Ok{};
   }
 
   // Show the progress of an engine that draws late: its trace is about as long as the golden one.
@@ -294,52 +269,39 @@ class Simulation {
   }
 
   // Store the results of an engine. A trace is committed only if it is complete.
-  Result<SimulatorRun> keep(Drawing& drawing) const {
-    if (Status status = drawing.finished.get(); !status) return status.error();
+  SimulatorRun keep(Drawing& drawing) const {
+    must(drawing.finished.get());
     SimulatorRun run = drawing.frame.result();
-    if (drawing.frame.alive())
-      if (Status status = drawing.trace->commit(run.cycles); !status) return status.error();
+    if (drawing.frame.alive()) must(drawing.trace->commit(run.cycles));
     const Frame& frame = drawing.frame.assembler().frame();
-    if (Status status = write_png(files_.frame(run.simulator), frame); !status) return status.error();
-    if (Status status = show_difference(run, frame); !status) return status.error();
+    must(write_png(files_.frame(run.simulator), frame));
+    if (run.equal()) return run;
+    run.evidence.push_back(files_.frame(fmt::format("mismatch-{}", run.simulator)));
+    must(write_png(run.evidence.back(), must(difference_image(golden_.frame(), frame))));
     return run;
   }
 
-  Status show_difference(SimulatorRun& run, const Frame& frame) const {
-    if (run.equal()) return Ok{};
-    const auto difference = difference_image(golden_.frame(), frame);
-    if (!difference) return difference.error();
-    const std::filesystem::path path = files_.frame(fmt::format("mismatch-{}", run.simulator));
-    if (Status status = write_png(path, *difference); !status) return status;
-    run.evidence.push_back(path);
-    return Ok{};
-  }
-
-  Status compare_with(const ReferenceImage& reference) {
+  void compare_with(const ReferenceImage& reference) {
     std::vector<std::uint8_t> mask = golden_.mask();
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= reference.mask[i];
-    const auto distance = frame_distance(golden_.frame(), reference.frame, mask);
-    if (!distance) return distance.error();
-    summary_.accuracy = *distance;
-    const auto difference = difference_image(golden_.frame(), reference.frame);
-    if (!difference) return difference.error();
-    if (Status status = write_png(files_.frame("reference"), reference.frame); !status) return status;
-    return write_png(files_.frame("diff"), *difference);
+    summary_.accuracy = must(frame_distance(golden_.frame(), reference.frame, mask));
+    must(write_png(files_.frame("reference"), reference.frame));
+    must(write_png(files_.frame("diff"), must(difference_image(golden_.frame(), reference.frame))));
   }
 
-  Status keep_evidence(SimulatorRun& run) const {
+  void keep_evidence(SimulatorRun& run) const {
     s_.on_progress("waveform", -1.0);
-    auto path = write_mismatch_waveform(
-        summary_.plan.key, s_.folders, files_, run.simulator,
-        run.first.empty() ? std::nullopt : std::optional(run.first.front().index), s_.stall_seed);
+    const auto path = caught([&] {
+      return write_mismatch_waveform(
+          summary_.plan.key, s_.folders, files_, run.simulator,
+          run.first.empty() ? std::nullopt : std::optional(run.first.front().index), s_.stall_seed);
+    });
     // The mismatch must be reported even if the waveform cannot be written.
-    if (!path) {
+    if (path)
+      run.evidence.push_back(*path);
+    else
       run.description +=
           fmt::format("  no waveform: {}\n", path.error().message.substr(0, path.error().message.find('\n')));
-      return Ok{};
-    }
-    run.evidence.push_back(*path);
-    return Ok{};
   }
 
   const Scene& scene_;
@@ -375,18 +337,17 @@ std::optional<std::string> SceneSummary::nothing_compared() const {
   return halfway::nothing_compared(fragments, triangles_in_view(setup), accuracy.pixels);
 }
 
-Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait) {
+void forget_summary(const ResultFiles& files, const std::function<void()>& on_wait) {
   std::error_code error;
-  if (!std::filesystem::exists(files.summary(), error)) return Ok{};
-  const auto lock = FolderLock::take(files.folder, on_wait);
-  if (!lock) return lock.error();
+  if (!std::filesystem::exists(files.summary(), error)) return;
+  const auto lock = must(FolderLock::take(files.folder, on_wait));
   std::filesystem::remove(files.summary(), error);
   if (error)
-    return tool_failed(fmt::format("{}: cannot remove: {}", files.summary().string(), error.message()));
-  return Ok{};
+    throw Failure{
+        tool_failed(fmt::format("{}: cannot remove: {}", files.summary().string(), error.message()))};
 }
 
-Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings) {
+SceneSummary simulate(const Scene& scene, const SimulateSettings& settings) {
   return Simulation(scene, settings).run();
 }
 

@@ -66,11 +66,11 @@ std::optional<std::string> nothing_compared(std::uint64_t fragments, std::uint64
 
 /// Removes the summary of an earlier run: it says that the results are complete, but those of a scene that
 /// this run has not drawn yet are old. Waits while another run has locked the folder.
-Status forget_summary(const ResultFiles& files, const std::function<void()>& on_wait);
+void forget_summary(const ResultFiles& files, const std::function<void()>& on_wait);
 
 /// Results are in ResultFiles::of(out, scene, plan). A difference in the hardware is not an error: see
 /// SceneSummary::equal.
-Result<SceneSummary> simulate(const Scene& scene, const SimulateSettings& settings);
+SceneSummary simulate(const Scene& scene, const SimulateSettings& settings);
 
 /// The text of summary.json.
 std::string to_json(const SceneSummary& summary);

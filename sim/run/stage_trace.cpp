@@ -9,6 +9,7 @@
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/ghdl/vcd.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -45,15 +46,12 @@ class VcdTrace final : public SignalTrace {
 
 }  // namespace
 
-Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stages,
-                                const SimulatorFolders& folders, const InitStream& vectors,
-                                std::uint64_t fragments) {
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  const std::filesystem::path init = scratch->path() / "init.txt", vcd = scratch->path() / "trace.vcd";
-  if (Status written = write_init_file(init, key.name(), vectors); !written) return written.error();
-  const auto runner = GhdlRunner::open(key, folders);
-  if (!runner) return runner.error();
+StageTrace trace_stages(const HardwareKey& key, const ShaderStages& stages, const SimulatorFolders& folders,
+                        const InitStream& vectors, std::uint64_t fragments) {
+  const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path init = scratch.path() / "init.txt", vcd = scratch.path() / "trace.vcd";
+  must(write_init_file(init, key.name(), vectors));
+  const auto runner = must(GhdlRunner::open(key, folders));
   std::vector<std::string> paths;
   for (const TracedPart& part : stages.parts())
     if (const std::string path = in_testbench(part.path); paths.empty() || paths.back() != path)
@@ -64,11 +62,10 @@ Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stag
   options.wave_file = vcd;
   options.wave_signals = paths;
   options.wave_signals.emplace_back(c_clock);
-  const auto run = runner->run(init, scratch->path() / "trace", options);
-  if (!run && run.error().code != ExitCode::differs) return run.error();
-  auto sampled = sample_vcd(vcd, c_clock, paths, SIZE_MAX);
-  if (!sampled) return sampled.error();
-  return StageTrace{stages.read(VcdTrace(std::move(*sampled))), run ? std::string() : run.error().message};
+  const auto run = runner.run(init, scratch.path() / "trace", options);
+  if (!run && run.error().code != ExitCode::differs) throw Failure{run.error()};
+  return {stages.read(VcdTrace(must(sample_vcd(vcd, c_clock, paths, SIZE_MAX)))),
+          run ? std::string() : run.error().message};
 }
 
 }  // namespace halfway

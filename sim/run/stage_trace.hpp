@@ -21,8 +21,7 @@ struct StageTrace {
 };
 
 /// Simulate the vectors of whole triangles in GHDL. `fragments`: number of fragments in the golden model.
-Result<StageTrace> trace_stages(const HardwareKey& key, const ShaderStages& stages,
-                                const SimulatorFolders& folders, const InitStream& vectors,
-                                std::uint64_t fragments);
+StageTrace trace_stages(const HardwareKey& key, const ShaderStages& stages, const SimulatorFolders& folders,
+                        const InitStream& vectors, std::uint64_t fragments);
 
 }  // namespace halfway

@@ -11,29 +11,29 @@
 #include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/tile_setup.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 
-Result<VerilatorFrame> draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
-                                         const SetupOptions& options, const SimulatorFolders& folders,
-                                         unsigned threads, const std::optional<Tile>& tile,
-                                         const MadeFormats* formats) {
-  auto engine = open_engine(EngineKind::verilator, key, folders);
-  if (!engine) return engine.error();
+VerilatorFrame draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
+                                 const SetupOptions& options, const SimulatorFolders& folders,
+                                 unsigned threads, const std::optional<Tile>& tile,
+                                 const MadeFormats* formats) {
+  RtlFrame rtl(must(open_engine(EngineKind::verilator, key, folders)), size, scene.background,
+               {.tile = tile});
   const std::unique_ptr<Setup> frame = make_setup(scene, size, key, options, formats);
   std::optional<TileSetup> part;
   if (tile) part.emplace(*frame, make_golden_model(key, formats), *tile);
   SceneStream stream(part ? static_cast<const Setup&>(*part) : *frame, key, threads,
                      {.ahead = threads > 1, .formats = formats});
-  RtlFrame rtl(std::move(*engine), size, scene.background, {.tile = tile});
-  if (Status status = rtl.draw(scene, stream); !status) return status.error();
+  must(rtl.draw(scene, stream));
   const SimulatorRun run = rtl.result();
-  if (run.equal())
-    return VerilatorFrame{rtl.assembler().frame(), rtl.assembler().mask(), rtl.assembler().fragments_inside(),
-                          *run.cycles, stream.counts()};
-  return Error{ExitCode::differs,
-               fmt::format("{}: the RTL differs from the golden model: {} mismatches {}\n{}", key.name(),
-                           run.mismatches, run.fault, run.description)};
+  if (!run.equal())
+    throw Failure{
+        {ExitCode::differs, fmt::format("{}: the RTL differs from the golden model: {} mismatches {}\n{}",
+                                        key.name(), run.mismatches, run.fault, run.description)}};
+  return {rtl.assembler().frame(), rtl.assembler().mask(), rtl.assembler().fragments_inside(), *run.cycles,
+          stream.counts()};
 }
 
 }  // namespace halfway

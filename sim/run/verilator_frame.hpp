@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame drawn by the RTL in Verilator. The frame is correct, or the result is an error.
+// One correct frame drawn by the RTL in Verilator.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "frame/tile.hpp"
 #include "plan/hardware_key.hpp"
@@ -26,12 +25,13 @@ struct VerilatorFrame {
   SetupCounts counts;              ///< the sum over the tiles of a frame equals the frame's counts
 };
 
-/// Compares every fragment with the golden model's. A difference or a fault of the hardware is an error
-/// (ExitCode::differs) with the first differences. A tile's pixels have the same fragments as in the whole
-/// frame. `formats` makes setup and golden model of a key with other word lengths; null: use the program's.
-Result<VerilatorFrame> draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
-                                         const SetupOptions& options, const SimulatorFolders& folders,
-                                         unsigned threads, const std::optional<Tile>& tile = {},
-                                         const MadeFormats* formats = nullptr);
+/// Compares every fragment with the golden model's. Throws Failure with the first differences
+/// (ExitCode::differs) on a difference or a fault of the hardware. A tile's pixels have the same fragments as
+/// in the whole frame. `formats` makes setup and golden model of a key with other word lengths; null: use the
+/// program's.
+VerilatorFrame draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
+                                 const SetupOptions& options, const SimulatorFolders& folders,
+                                 unsigned threads, const std::optional<Tile>& tile = {},
+                                 const MadeFormats* formats = nullptr);
 
 }  // namespace halfway

@@ -16,6 +16,8 @@
 #include <system_error>
 #include <utility>
 
+#include "sim/system/must.hpp"
+
 namespace halfway {
 namespace {
 
@@ -35,73 +37,48 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-Result<TemporaryFolder> temporary_beside(const std::filesystem::path& file) {
-  return TemporaryFolder::make(folder_of(file));
+TemporaryFolder temporary_beside(const std::filesystem::path& file) {
+  return must(TemporaryFolder::make(folder_of(file)));
 }
 
 }  // namespace
 
-Status VideoWriter::check(const std::filesystem::path& file) {
+void VideoWriter::check(const std::filesystem::path& file) {
+  const auto refuse = [](const std::string& why) { throw Failure{bad_input("--video: " + why)}; };
   if (!file.has_filename() || !file.has_extension())
-    return bad_input(
-        fmt::format("--video: '{}' is not the name of a video; give a file such as turn.mp4", file.string()));
+    refuse(fmt::format("'{}' is not the name of a video; give a file such as turn.mp4", file.string()));
   if (!is_ending(file.extension().string()))
-    return bad_input(fmt::format("--video: '{}' does not have the ending of a video; take one of {}",
-                                 file.string(), fmt::join(c_endings, " ")));
+    refuse(fmt::format("'{}' does not have the ending of a video; take one of {}", file.string(),
+                       fmt::join(c_endings, " ")));
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
-    return bad_input(fmt::format("--video: {} is a folder; name a file", file.string()));
+    refuse(fmt::format("{} is a folder; name a file", file.string()));
   if (find_program("ffmpeg").empty())
-    return tool_failed(
-        fmt::format("ffmpeg: not found, and --video needs it; install it with: {}", c_install));
-  const auto writable = temporary_beside(file);
-  if (!writable) return writable.error();
-  return Ok{};
+    throw Failure{
+        tool_failed(fmt::format("ffmpeg: not found, and --video needs it; install it with: {}", c_install))};
+  temporary_beside(file);
 }
 
-Result<VideoWriter> VideoWriter::open(const std::filesystem::path& file, FrameSize size, unsigned rate) {
-  auto folder = temporary_beside(file);
-  if (!folder) return folder.error();
+VideoWriter::VideoWriter(const std::filesystem::path& file, FrameSize size, unsigned rate)
+    : file_(file), folder_(temporary_beside(file)) {
   // A socket instead of a pipe: writing after ffmpeg's end then returns an error without a signal.
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    return tool_failed(fmt::format("ffmpeg: cannot be given frames: {}", std::strerror(errno)));
-  VideoWriter writer(file, std::move(*folder));
-  writer.input_ = ends[0];
+    throw Failure{tool_failed(fmt::format("ffmpeg: cannot be given frames: {}", std::strerror(errno)))};
+  input_ = ends[0];
+  Command command{
+      .arguments = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y"},
+      .standard_input = ends[1],
+  };
+  const auto add = [&](std::initializer_list<std::string> more) {
+    command.arguments.insert(command.arguments.end(), more);
+  };
+  add({"-f", "rawvideo", "-pix_fmt", "rgb24", "-s", to_string(size), "-r", std::to_string(rate)});
   // Most players support only 4:2:0, which needs even sizes.
-  Command command{.arguments = {"ffmpeg",
-                                "-nostdin",
-                                "-hide_banner",
-                                "-loglevel",
-                                "error",
-                                "-y",
-                                "-f",
-                                "rawvideo",
-                                "-pix_fmt",
-                                "rgb24",
-                                "-s",
-                                fmt::format("{}x{}", size.width, size.height),
-                                "-r",
-                                std::to_string(rate),
-                                "-i",
-                                "pipe:0",
-                                "-vf",
-                                "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                "-pix_fmt",
-                                "yuv420p",
-                                (writer.folder_->path() / file.filename()).string()},
-                  .standard_input = ends[1]};
-  writer.ffmpeg_ = std::async(std::launch::async,
-                              [command = std::move(command)] { return run_process(command, c_install); });
-  return writer;
-}
-
-VideoWriter::VideoWriter(VideoWriter&& other) noexcept
-    : file_(std::move(other.file_)),
-      folder_(std::move(other.folder_)),
-      input_(std::exchange(other.input_, -1)),
-      ffmpeg_(std::move(other.ffmpeg_)) {
-  other.folder_.reset();
+  add({"-i", "pipe:0", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
+  add({(folder_.path() / file_.filename()).string()});
+  ffmpeg_ = std::async(std::launch::async,
+                       [command = std::move(command)] { return run_process(command, c_install); });
 }
 
 VideoWriter::~VideoWriter() {
@@ -113,45 +90,42 @@ void VideoWriter::close_input() {
   if (input_ >= 0) ::close(std::exchange(input_, -1));
 }
 
-Status VideoWriter::add(const Frame& frame) {
+void VideoWriter::add(const Frame& frame) {
   const std::uint8_t* bytes = frame.rgb.data();
   for (std::size_t left = frame.rgb.size(); left > 0;) {
     const ssize_t sent = ::send(input_, bytes, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) {
-      if (Status status = finish(); !status) return status;
-      return tool_failed("ffmpeg: stopped reading frames without a message");
+      finish();
+      throw Failure{tool_failed("ffmpeg: stopped reading frames without a message")};
     }
     bytes += sent;
     left -= static_cast<std::size_t>(sent);
   }
-  return Ok{};
 }
 
-Status VideoWriter::finish() {
+void VideoWriter::finish() {
   close_input();
-  const auto end = ffmpeg_.get();
-  if (!end) return end.error();
-  if (!end->succeeded())
-    return tool_failed(fmt::format("{}: ffmpeg could not make it ({}):\n{}{}", file_.string(), end->how(),
-                                   end->output, room_note({folder_of(file_)})));
-  return Ok{};
+  const ProcessEnd end = must(ffmpeg_.get());
+  if (!end.succeeded())
+    throw Failure{tool_failed(fmt::format("{}: ffmpeg could not make it ({}):\n{}{}", file_.string(),
+                                          end.how(), end.output, room_note({folder_of(file_)})))};
 }
 
-Status VideoWriter::commit() {
-  if (Status status = finish(); !status) return status;
+void VideoWriter::commit() {
+  finish();
   std::error_code error;
-  std::filesystem::rename(folder_->path() / file_.filename(), file_, error);
+  std::filesystem::rename(folder_.path() / file_.filename(), file_, error);
   if (error)
-    return tool_failed(fmt::format("{}: cannot move the video here: {}", file_.string(), error.message()));
-  return Ok{};
+    throw Failure{
+        tool_failed(fmt::format("{}: cannot move the video here: {}", file_.string(), error.message()))};
 }
 
 void VideoWriter::abandon() const {
   ::shutdown(input_, SHUT_RDWR);
   if (const auto ffmpeg = ffmpeg_; ffmpeg.valid()) ffmpeg.wait_for(c_patience);
   std::error_code ignored;
-  std::filesystem::remove_all(folder_->path(), ignored);
+  std::filesystem::remove_all(folder_.path(), ignored);
 }
 
 }  // namespace halfway

@@ -4,9 +4,7 @@
 
 #include <filesystem>
 #include <future>
-#include <optional>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
@@ -19,28 +17,26 @@ class VideoWriter {
  public:
   /// Check that a video can be written: bad_input for a wrong folder, name or ending, tool_failed without
   /// ffmpeg.
-  static Status check(const std::filesystem::path& file);
+  static void check(const std::filesystem::path& file);
 
   /// All frames have the given size; `rate` frames per second.
-  static Result<VideoWriter> open(const std::filesystem::path& file, FrameSize size, unsigned rate);
-  VideoWriter(VideoWriter&& other) noexcept;
-  VideoWriter& operator=(VideoWriter&&) = delete;
+  VideoWriter(const std::filesystem::path& file, FrameSize size, unsigned rate);
+  VideoWriter(const VideoWriter&) = delete;
+  VideoWriter& operator=(const VideoWriter&) = delete;
   ~VideoWriter();
 
-  Status add(const Frame& frame);
-  Status commit();
+  void add(const Frame& frame);
+  void commit();
   /// End ffmpeg and remove the unfinished file. Called from another thread that is about to end the process.
   void abandon() const;
 
  private:
-  VideoWriter(std::filesystem::path file, TemporaryFolder folder)
-      : file_(std::move(file)), folder_(std::move(folder)) {}
   /// Signal the end of the frames and wait for ffmpeg.
-  Status finish();
+  void finish();
   void close_input();
 
   std::filesystem::path file_;
-  std::optional<TemporaryFolder> folder_;
+  TemporaryFolder folder_;
   int input_ = -1;  ///< of ffmpeg
   std::shared_future<Result<ProcessEnd>> ffmpeg_;
 };

@@ -21,6 +21,7 @@
 #include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 #include "sim/system/threads.hpp"
 
@@ -61,25 +62,23 @@ class Easel {
         threads_(threads),
         rtl_(frame_of(std::move(engine))) {}
 
-  Result<DrawnFrame> draw(std::uint32_t number) {
+  DrawnFrame draw(std::uint32_t number) {
     scene_.camera = turned(first_camera_, number, s_.frames);
     if (!has_view(scene_.camera))
-      return bad_input(fmt::format(
+      throw Failure{bad_input(fmt::format(
           "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
-          scene_.name, number));
+          scene_.name, number))};
     again_.reset();
     DrawnFrame drawn;
-    auto run = draw_in(rtl_, drawn);
-    if (run && !run->equal() && rtl_.engine().kind() != EngineKind::verilator)
-      run = draw_again(number, *run, drawn);
-    if (!run) return run.error();
-    drawn.fragments = run->fragments;
-    drawn.covered = run->fragments != 0;
+    SimulatorRun run = draw_in(rtl_, drawn);
+    if (!run.equal() && rtl_.engine().kind() != EngineKind::verilator) run = draw_again(number, run, drawn);
+    drawn.fragments = run.fragments;
+    drawn.covered = run.fragments != 0;
     if (!drawn.covered && s_.compare) drawn.reference_pixels = count_reference_pixels();
-    if (!run->equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(*run)};
+    if (!run.equal()) drawn.difference = ViewDifference{number, scene_.camera, std::move(run)};
 
     const double images_start = thread_seconds();
-    if (Status status = s_.on_drawn(number, frame()); !status) return status.error();
+    s_.on_drawn(number, frame());
     drawn.seconds.images = thread_seconds() - images_start;
     return drawn;
   }
@@ -100,7 +99,7 @@ class Easel {
             {.golden = make_golden_model(key_), .compare = s_.compare}};
   }
 
-  Result<SimulatorRun> draw_in(RtlFrame& rtl, DrawnFrame& drawn) {
+  SimulatorRun draw_in(RtlFrame& rtl, DrawnFrame& drawn) {
     const double clear_start = thread_seconds();
     rtl.clear();
     const double setup_start = thread_seconds();
@@ -110,29 +109,27 @@ class Easel {
     drawn.seconds.setup += thread_seconds() - setup_start;
     // With one thread per frame another frame can be drawn meanwhile, so make no batch ahead.
     SceneStream stream(*setup, key_, threads_, {.golden = false, .ahead = threads_ > 1});
-    if (Status status = rtl.draw(scene_, stream); !status) return status.error();
+    must(rtl.draw(scene_, stream));
     drawn.in_view = triangles_in_view(stream.counts());
     const RtlFrame::Seconds seconds = rtl.seconds();
     drawn.seconds += {stream.setup_seconds(), seconds.golden, seconds.rtl, seconds.compare, seconds.assemble};
     return rtl.result();
   }
 
-  Result<SimulatorRun> draw_again(std::uint32_t number, const SimulatorRun& first, DrawnFrame& drawn) {
+  SimulatorRun draw_again(std::uint32_t number, const SimulatorRun& first, DrawnFrame& drawn) {
     const char* const engine = title(rtl_.engine().kind());
-    auto verilator = open_engine(EngineKind::verilator, key_, s_.folders);
-    if (!verilator) return verilator.error();
-    RtlFrame rtl = frame_of(std::move(*verilator));
+    RtlFrame rtl = frame_of(must(open_engine(EngineKind::verilator, key_, s_.folders)));
     drawn.again = true;
-    auto run = draw_in(rtl, drawn);
+    SimulatorRun run = draw_in(rtl, drawn);
     again_ = rtl.assembler().frame();
-    if (!run || !run->equal()) return run;
+    if (!run.equal()) return run;
     const std::string difference = first.fault.empty()
                                        ? fmt::format("{} fragments differ in {}", first.mismatches, engine)
                                        : first.fault;
-    return Error{ExitCode::differs,
-                 fmt::format("{}: frame {}: {}; Verilator draws it without a difference. The {} are "
-                             "wrong: please report it, and use --simulator verilator",
-                             scene_.name, number, difference, engine)};
+    throw Failure{{ExitCode::differs,
+                   fmt::format("{}: frame {}: {}; Verilator draws it without a difference. The {} are "
+                               "wrong: please report it, and use --simulator verilator",
+                               scene_.name, number, difference, engine)}};
   }
 
   Scene scene_;
@@ -167,7 +164,7 @@ class Turn {
     if (failed_ < number) return;
     // Only one thread gets here until `taken_` is incremented.
     lock.unlock();
-    const Status taken = s_.on_next(number, frame);
+    const auto taken = caught([&] { s_.on_next(number, frame); });
     lock.lock();
     summary_.fragments += drawn->fragments;
     summary_.parts += drawn->seconds;
@@ -251,11 +248,9 @@ ViewSeconds& ViewSeconds::operator+=(const ViewSeconds& other) {
   return *this;
 }
 
-Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
-  auto plan = plan_scene(scene, settings.plan);
-  if (!plan) return plan.error();
+ViewSummary view(const Scene& scene, const ViewSettings& settings) {
   ViewSummary summary{.scene = scene.name,
-                      .plan = std::move(*plan),
+                      .plan = must(plan_scene(scene, settings.plan)),
                       .size = settings.size,
                       .triangles = scene.triangles.size(),
                       .compared = settings.compare,
@@ -273,16 +268,12 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
     settings.on_build(key.name(), summary.engine);
     engine = open_engine(summary.engine, key, settings.folders);
   }
-  if (!engine) return engine.error();
   const auto fit = static_cast<unsigned>(std::clamp<std::size_t>(
       c_most_copied_bytes / std::max<std::size_t>(bytes(scene), 1), 1, settings.threads));
-  std::vector<std::shared_ptr<Engine>> engines{std::move(*engine)};
-  while (engines.size() < std::min({settings.threads, fit, settings.frames})) {
-    auto another = engines.front()->another();
-    if (!another) return another.error();
-    engines.push_back(std::move(*another));
-  }
-  if (Status status = settings.on_ready(); !status) return status.error();
+  std::vector<std::shared_ptr<Engine>> engines{must(std::move(engine))};
+  while (engines.size() < std::min({settings.threads, fit, settings.frames}))
+    engines.push_back(must(engines.front()->another()));
+  settings.on_ready();
 
   const Clock::time_point start = Clock::now();
   SetupOptions setup = settings.setup;
@@ -295,7 +286,7 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
     try {
       Easel easel(scene, engines[next++], settings, setup, key, std::max(1U, settings.threads / easels));
       while (const auto number = turn.next()) {
-        const auto drawn = easel.draw(*number);
+        const auto drawn = caught([&] { return easel.draw(*number); });
         turn.take(*number, drawn, easel.frame());
       }
     } catch (...) {
@@ -304,7 +295,7 @@ Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings) {
     }
   });
   summary.seconds = seconds_since(start);
-  if (turn.error()) return *turn.error();
+  if (turn.error()) throw Failure{*turn.error()};
   if (turn.bare() != 0)
     summary.notes.push_back(
         fmt::format("{}: {} of {} frames show no triangle, and so nothing of the hardware", scene.name,

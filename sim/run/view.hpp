@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
@@ -34,13 +33,11 @@ struct ViewSettings {
   std::function<void(const std::string& key, EngineKind engine)> on_build = [](const std::string&,
                                                                                EngineKind) {};
   /// Called when the hardware is built, before anything is drawn.
-  std::function<Status()> on_ready = []() -> Status { return Ok{}; };
+  std::function<void()> on_ready = [] {};
   /// Called with each frame when it is drawn, by several threads at the same time and in any order.
-  std::function<Status(std::uint32_t number, const Frame& frame)> on_drawn =
-      [](std::uint32_t, const Frame&) -> Status { return Ok{}; };
+  std::function<void(std::uint32_t number, const Frame& frame)> on_drawn = [](std::uint32_t, const Frame&) {};
   /// Called with each frame in order, one at a time, after on_drawn.
-  std::function<Status(std::uint32_t number, const Frame& frame)> on_next =
-      [](std::uint32_t, const Frame&) -> Status { return Ok{}; };
+  std::function<void(std::uint32_t number, const Frame& frame)> on_next = [](std::uint32_t, const Frame&) {};
 };
 
 /// Processor seconds of all frames.
@@ -84,10 +81,10 @@ struct ViewSummary {
 /// reset between them. If lanes would save time (c_least_lane_pixels) but cannot be built, Verilator draws,
 /// with a note. If a frame of lanes differs or ends with a fault, Verilator draws it again, because it
 /// reports more: the cycle of a fault, and the fragments before it. If Verilator finds no difference, the
-/// lanes are wrong: an error with the exit code `differs`. Memory depends on the threads, the frame size,
+/// lanes are wrong: a Failure with the exit code `differs`. Memory depends on the threads, the frame size,
 /// SceneStream and the engine, not on the number of frames or triangles. Ends after the first frame that
 /// differs, which is not an error: see ViewSummary::difference.
-Result<ViewSummary> view(const Scene& scene, const ViewSettings& settings);
+ViewSummary view(const Scene& scene, const ViewSettings& settings);
 
 /// Two lines: frames per second and mismatches; the parts of a frame's time.
 std::string to_lines(const ViewSummary& summary);

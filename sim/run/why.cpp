@@ -11,6 +11,7 @@
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/run/stage_trace.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -26,16 +27,15 @@ class Explainer {
     report_.key = key;
   }
 
-  Result<WhyReport> run() {
-    if (Status status = compare_frame(); !status) return status.error();
+  WhyReport run() {
+    compare_frame();
     const PixelSearch search = search_triangles();
     way_.draw_golden(search.found());
     if (way_.fragments() == 0) return report_;
     const auto rtl = trace_stages(key_, way_.stages(), s_.folders,
                                   {setup_->init_bits(), search.found().words()}, way_.fragments());
-    if (!rtl) return rtl.error();
-    if (report_.fault.empty()) report_.fault = rtl->fault;
-    way_.compare(rtl->events);
+    if (report_.fault.empty()) report_.fault = rtl.fault;
+    way_.compare(rtl.events);
     report_.stories = way_.stories();
     report_.first = way_.first();
     return report_;
@@ -43,25 +43,22 @@ class Explainer {
 
  private:
   // Compare the whole frame in Verilator, fragment by fragment.
-  Status compare_frame() {
-    auto engine = open_engine(EngineKind::verilator, key_, s_.folders);
-    if (!engine) return engine.error();
+  void compare_frame() {
+    RtlFrame rtl(must(open_engine(EngineKind::verilator, key_, s_.folders)), s_.size, scene_.background);
     SceneStream stream(*setup_, key_, s_.threads);
-    RtlFrame rtl(std::move(*engine), s_.size, scene_.background);
     for (Batch batch; rtl.alive() && stream.next(batch);) {
       s_.on_progress(batch.done);
       report_.fragments += batch.golden.size();
-      if (Status status = rtl.add(batch.init_words, batch.golden); !status) return status;
+      must(rtl.add(batch.init_words, batch.golden));
     }
-    if (Status status = rtl.finish(); !status) return status;
+    must(rtl.finish());
     report_.in_view = triangles_in_view(stream.counts());
     const SimulatorRun run = rtl.result();
     report_.fault = run.fault;
-    if (run.first.empty()) return Ok{};
+    if (run.first.empty()) return;
     report_.frame_difference = run.first.front();
     // A fragment after the last golden one belongs to the last triangle.
     if (report_.fragments > 0) first_wrong_ = std::min(run.first.front().index, report_.fragments - 1);
-    return Ok{};
   }
 
   // Choose the triangles that cover the pixel, and the one with the first fragment that differs.
@@ -83,10 +80,8 @@ class Explainer {
 
 }  // namespace
 
-Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings) {
-  const auto plan = plan_scene(scene, settings.plan);
-  if (!plan) return plan.error();
-  return Explainer(scene, settings, plan->key).run();
+WhyReport explain_pixel(const Scene& scene, const WhySettings& settings) {
+  return Explainer(scene, settings, must(plan_scene(scene, settings.plan)).key).run();
 }
 
 }  // namespace halfway

@@ -41,6 +41,6 @@ struct WhyReport {
   std::uint64_t in_view = 0;                 ///< triangles
 };
 
-Result<WhyReport> explain_pixel(const Scene& scene, const WhySettings& settings);
+WhyReport explain_pixel(const Scene& scene, const WhySettings& settings);
 
 }  // namespace halfway

@@ -15,15 +15,11 @@
 #include "golden/formats.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway::study {
 namespace {
-
-// Exception that stops reading a space. `read_space` returns its error.
-struct BadSpace {
-  Error error;
-};
 
 // The names of values in a space.
 const char* name_of(Method method) {
@@ -45,7 +41,7 @@ class Sweep {
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
     const toml::node* node = table_.get(key);
     const auto line = (node == nullptr ? table_.source() : node->source()).begin.line;
-    throw BadSpace{bad_input(fmt::format("{}:{}: {} {}", file_, line, key, what))};
+    throw Failure{bad_input(fmt::format("{}:{}: {} {}", file_, line, key, what))};
   }
 
   void allow(const std::vector<std::string_view>& keys) const {
@@ -281,26 +277,24 @@ std::vector<DesignPoint> ordered(std::vector<DesignPoint> points) {
   return points;
 }
 
-Result<std::vector<DesignPoint>> read_space(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
+std::vector<DesignPoint> read_space(const std::filesystem::path& path) {
+  const std::string text = must(read_file(path));
   try {
-    const toml::table root = toml::parse(*text, path.string());
+    const toml::table root = toml::parse(text, path.string());
     const Sweep top(root, path.string());
     top.allow({"sweep"});
     const toml::array* sweeps = root["sweep"].as_array();
     if (sweeps == nullptr || sweeps->empty())
-      return bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method");
+      throw Failure{bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method")};
     std::vector<DesignPoint> points;
     for (const toml::node& node : *sweeps) {
       if (node.as_table() == nullptr) top.fail("sweep", "must be a table: [[sweep]]");
       std::ranges::copy(points_of(Sweep(*node.as_table(), path.string())), std::back_inserter(points));
     }
     return ordered(std::move(points));
-  } catch (const BadSpace& bad) {
-    return bad.error;
   } catch (const toml::parse_error& bad) {
-    return bad_input(fmt::format("{}:{}: {}", path.string(), bad.source().begin.line, bad.description()));
+    throw Failure{
+        bad_input(fmt::format("{}:{}: {}", path.string(), bad.source().begin.line, bad.description()))};
   }
 }
 

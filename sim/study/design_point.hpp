@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/frame_size.hpp"
 #include "frame/tile.hpp"
 #include "plan/plan.hpp"
@@ -91,6 +90,6 @@ inline constexpr std::uint32_t c_least_tile = 16;
 
 /// Read the points of a space: all sweeps, each the product of its lists, without duplicates. A space is a
 /// TOML file, see sim/studies/README.md. Errors name file and line.
-Result<std::vector<DesignPoint>> read_space(const std::filesystem::path& path);
+std::vector<DesignPoint> read_space(const std::filesystem::path& path);
 
 }  // namespace halfway::study

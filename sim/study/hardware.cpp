@@ -34,56 +34,44 @@ std::optional<tables::CosineSize> made_size(const DesignPoint& point) {
   return size;
 }
 
-Result<std::vector<double>> own_exponents_of(const DesignPoint& point, const Scene& scene) {
-  if (!point.own_tables) return std::vector<double>();
-  return own_exponents(scene);
+std::vector<double> own_exponents_of(const DesignPoint& point, const Scene& scene) {
+  return point.own_tables ? must(own_exponents(scene)) : std::vector<double>();
 }
 
 }  // namespace
 
-Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene) {
+PointHardware hardware_of(const DesignPoint& point, const Scene& scene) {
   PointHardware hardware;
   PlanRequest request = point.plan();
-  auto own = own_exponents_of(point, scene);
-  if (!own) return own.error();
-  request.own = std::move(*own);
+  request.own = own_exponents_of(point, scene);
   if (const auto size = made_size(point))
     hardware.tables = std::make_shared<tables::MadeTables>(point.preset == Preset::exact, *size, request.own);
   if (hardware.tables) request.made_tables = hardware.tables->tables();
-  auto plan = plan_scene(scene, request);
-  if (!plan) return plan.error();
-  hardware.key = plan->key;
+  hardware.key = must(plan_scene(scene, request)).key;
   hardware.key.words = point.words;
   if (point.method == Method::processors_1 || point.method == Method::processors_2) {
     ProcessorUnits& units = hardware.key.processors;
     if (point.method == Method::processors_1 && units.positional + units.spots > 0)
-      return bad_input(scene.name +
-                       ": version I of the processors has directional lights only; take version II");
+      throw Failure{bad_input(scene.name +
+                              ": version I of the processors has directional lights only; take version II")};
     units.normalize = point.method == Method::processors_2 && units.lights() > 0;
   }
   return hardware;
 }
 
-Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene& scene,
-                                          const SimulatorFolders& folders) {
-  auto hardware = hardware_of(point, scene);
-  if (!hardware || !point.words.any()) return hardware;
-  auto formats = MadeFormats::open(hardware->key, folders);
-  if (!formats) return formats.error();
-  hardware->formats = std::move(*formats);
+PointHardware drawing_hardware_of(const DesignPoint& point, const Scene& scene,
+                                  const SimulatorFolders& folders) {
+  PointHardware hardware = hardware_of(point, scene);
+  if (point.words.any()) hardware.formats = must(MadeFormats::open(hardware.key, folders));
   return hardware;
 }
 
-Result<SimulatorFolders> rtl_of(const DesignPoint& point, const Scene& scene,
-                                const SimulatorFolders& folders) {
+SimulatorFolders rtl_of(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders) {
   const auto size = made_size(point);
   if (!size && !point.words.any()) return folders;
-  const auto own = own_exponents_of(point, scene);
-  if (!own) return own.error();
-  const auto source =
-      tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source, folders.cache, *own);
-  if (!source) return source.error();
-  return SimulatorFolders{*source, folders.cache};
+  return {must(tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source,
+                                folders.cache, own_exponents_of(point, scene))),
+          folders.cache};
 }
 
 synth::Design HardwareSource::design() const {
@@ -172,8 +160,8 @@ void take_slowest_part(const HardwareSource& source, const ClocksByNetlist& cloc
 }
 
 void count_cells(const HardwareSource& source, HardwareFigures& figures) {
-  const CellCounter counter = must(CellCounter::open(source.folders));
-  figures.cells = must(counter.count(source.hardware.key));
+  const CellCounter counter(source.folders);
+  figures.cells = counter.count(source.hardware.key);
   add_tools(figures, "cells by " + counter.version());
 }
 
@@ -204,29 +192,31 @@ void place(const HardwareSource& source, HardwareFigures& figures) {
   }
 }
 
-std::vector<HardwareSource> sources_of(const std::string& scene, std::span<const DesignPoint> points,
-                                       const SimulatorFolders& folders) {
+}  // namespace
+
+std::vector<HardwareSource> hardware_of_space(const std::string& scene, std::span<const DesignPoint> points,
+                                              const SimulatorFolders& folders) {
   std::vector<HardwareSource> sources;
   std::set<std::string> names;
   for (const DesignPoint& point : points) {
     if (!in_hardware(point.method)) continue;
     const Scene drawn = drawn_scene(scene, folders.source / "sim" / "scenes", point);
-    auto hardware = hardware_of(point, drawn);
+    auto hardware = caught([&] { return hardware_of(point, drawn); });
     if (!hardware || !names.insert(hardware->key.name()).second) continue;
-    sources.push_back({std::move(*hardware), must(rtl_of(point, drawn, folders))});
+    sources.push_back({std::move(*hardware), rtl_of(point, drawn, folders)});
   }
   return sources;
 }
 
-HardwareTable table_of(const std::string& scene, std::span<const Record> records,
-                       const SimulatorFolders& folders, const FiguresOptions& options) {
+HardwareTable hardware_figures(const std::string& scene, std::span<const Record> records,
+                               const SimulatorFolders& folders, const FiguresOptions& options) {
   HardwareTable table;
   std::vector<DesignPoint> points;
   for (const Record& record : records)
     if (in_hardware(record.point.method) && table.try_emplace(record.measured.hardware).second)
       points.push_back(record.point);
   std::vector<Open> open;
-  for (HardwareSource& source : sources_of(scene, points, folders)) {
+  for (HardwareSource& source : hardware_of_space(scene, points, folders)) {
     HardwareFigures& figures = table[source.hardware.key.name()];
     open.push_back({std::move(source), &figures});
   }
@@ -244,41 +234,22 @@ HardwareTable table_of(const std::string& scene, std::span<const Record> records
   return table;
 }
 
-}  // namespace
-
-Result<std::vector<HardwareSource>> hardware_of_space(const std::string& scene,
-                                                      std::span<const DesignPoint> points,
-                                                      const SimulatorFolders& folders) {
-  return caught([&] { return sources_of(scene, points, folders); });
+HardwareFigures stored_figures(const HardwareSource& source, const SimulatorFolders& folders) {
+  HardwareFigures figures;
+  take_stored(source, stored_clocks(folders), figures);
+  return figures;
 }
 
-Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
-                                       const SimulatorFolders& folders, const FiguresOptions& options) {
-  return caught([&] { return table_of(scene, records, folders, options); });
-}
-
-Result<HardwareFigures> stored_figures(const HardwareSource& source, const SimulatorFolders& folders) {
-  return caught([&] {
-    HardwareFigures figures;
-    take_stored(source, stored_clocks(folders), figures);
-    return figures;
-  });
-}
-
-Result<Placements> Placements::open(const std::string& scene, std::span<const DesignPoint> points,
-                                    const SimulatorFolders& folders, const std::string& rtl) {
-  return caught([&] {
-    Placements placements;
-    placements.hardware_ = sources_of(scene, points, folders);
-    placements.stored_ = stored_clocks(folders);
-    ContentHash made_by;
-    made_by.add("placed 2").add(rtl).add(synth::Synthesizer::open(folders, true).versions());
-    for (const auto& [netlist, clock] : placements.stored_) made_by.add(netlist);
-    placements.made_by_ = made_by.hex();
-    placements.marks_ = folders.cache / "placed";
-    must(make_folders(placements.marks_));
-    return placements;
-  });
+Placements::Placements(const std::string& scene, std::span<const DesignPoint> points,
+                       const SimulatorFolders& folders, const std::string& rtl)
+    : hardware_(hardware_of_space(scene, points, folders)),
+      stored_(stored_clocks(folders)),
+      marks_(folders.cache / "placed") {
+  ContentHash made_by;
+  made_by.add("placed 2").add(rtl).add(synth::Synthesizer::open(folders, true).versions());
+  for (const auto& [netlist, clock] : stored_) made_by.add(netlist);
+  made_by_ = made_by.hex();
+  must(make_folders(marks_));
 }
 
 std::string Placements::name(std::size_t number) const {
@@ -293,19 +264,17 @@ bool Placements::is_done(std::size_t number) const {
   return std::filesystem::exists(mark(number));
 }
 
-Status Placements::make(std::size_t number) const {
-  return caught([&] {
-    const HardwareSource& source = source_of(number);
-    HardwareFigures figures;
-    take_stored(source, stored_, figures);
-    count_cells(source, figures);
-    take_size(figures);
-    if (!figures.mhz && figures.fits) {
-      const synth::Synthesizer synthesizer = synth::Synthesizer::open(source.folders, true);
-      if (synthesizer.no_room(source.design()).empty()) synthesizer.place(source.design(), seed_of(number));
-    }
-    must(write_file(mark(number), ""));
-  });
+void Placements::make(std::size_t number) const {
+  const HardwareSource& source = source_of(number);
+  HardwareFigures figures;
+  take_stored(source, stored_, figures);
+  count_cells(source, figures);
+  take_size(figures);
+  if (!figures.mhz && figures.fits) {
+    const synth::Synthesizer synthesizer = synth::Synthesizer::open(source.folders, true);
+    if (synthesizer.no_room(source.design()).empty()) synthesizer.place(source.design(), seed_of(number));
+  }
+  must(write_file(mark(number), ""));
 }
 
 }  // namespace halfway::study

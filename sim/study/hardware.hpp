@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "sim/costs/cells.hpp"
@@ -32,18 +31,17 @@ struct PointHardware {
   std::shared_ptr<const tables::MadeTables> tables;  ///< for the key, if not compiled into the program
   std::shared_ptr<const MadeFormats> formats{};      ///< for the key, if not compiled into the program
 };
-/// `point.method` must be hardware. Returns bad input if the hardware cannot draw the scene. Points whose
-/// word lengths differ from the preset's need `drawing_hardware_of` to draw.
-Result<PointHardware> hardware_of(const DesignPoint& point, const Scene& scene);
+/// `point.method` must be hardware. Throws bad input if the hardware cannot draw the scene. Points whose word
+/// lengths differ from the preset's need `drawing_hardware_of` to draw.
+PointHardware hardware_of(const DesignPoint& point, const Scene& scene);
 /// Same as hardware_of, but with formats that are not compiled into the program: compile them unless the
 /// cache has them.
-Result<PointHardware> drawing_hardware_of(const DesignPoint& point, const Scene& scene,
-                                          const SimulatorFolders& folders);
+PointHardware drawing_hardware_of(const DesignPoint& point, const Scene& scene,
+                                  const SimulatorFolders& folders);
 
 /// Sources of the RTL with which the point draws the scene: `folders`, or a copy in the cache if its tables
 /// or word lengths are not compiled into the program.
-Result<SimulatorFolders> rtl_of(const DesignPoint& point, const Scene& scene,
-                                const SimulatorFolders& folders);
+SimulatorFolders rtl_of(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders);
 
 /// Hardware and its RTL sources.
 struct HardwareSource {
@@ -91,17 +89,16 @@ struct FiguresOptions {
 };
 
 /// Each hardware of the points once, in their order. Points that cannot draw the scene have none.
-Result<std::vector<HardwareSource>> hardware_of_space(const std::string& scene,
-                                                      std::span<const DesignPoint> points,
-                                                      const SimulatorFolders& folders);
+std::vector<HardwareSource> hardware_of_space(const std::string& scene, std::span<const DesignPoint> points,
+                                              const SimulatorFolders& folders);
 
 /// The cells and clocks of all hardware that the records name, from the cache if present. Without Yosys the
 /// table has no cells. A stored clock belongs to hardware with the same netlist, whatever its name is.
-Result<HardwareTable> hardware_figures(const std::string& scene, std::span<const Record> records,
-                                       const SimulatorFolders& folders, const FiguresOptions& options);
+HardwareTable hardware_figures(const std::string& scene, std::span<const Record> records,
+                               const SimulatorFolders& folders, const FiguresOptions& options);
 
 /// The stored clock and cells of one hardware, if there are any. `folders`: with the stored clocks.
-Result<HardwareFigures> stored_figures(const HardwareSource& source, const SimulatorFolders& folders);
+HardwareFigures stored_figures(const HardwareSource& source, const SimulatorFolders& folders);
 
 /// The slowest part of hardware_figures with `place`, in independent pieces: a placement of each hardware
 /// with each seed. Results are stored in the cache with a mark for each finished piece. If the hardware does
@@ -110,18 +107,17 @@ class Placements {
  public:
   /// `points`: one for each hardware. `rtl`: the hash of all RTL. If a tool is missing, the error names the
   /// package to install.
-  static Result<Placements> open(const std::string& scene, std::span<const DesignPoint> points,
-                                 const SimulatorFolders& folders, const std::string& rtl);
+  Placements(const std::string& scene, std::span<const DesignPoint> points, const SimulatorFolders& folders,
+             const std::string& rtl);
 
   std::size_t count() const { return hardware_.size() * synth::c_seeds; }
   bool is_done(std::size_t number) const;
   /// Make one placement. For hardware with a stored clock, or that does not fit, only write the mark.
-  Status make(std::size_t number) const;
+  void make(std::size_t number) const;
   /// The hardware's name and the seed, for messages.
   std::string name(std::size_t number) const;
 
  private:
-  Placements() = default;
   static unsigned seed_of(std::size_t number) { return static_cast<unsigned>(1 + number % synth::c_seeds); }
   const HardwareSource& source_of(std::size_t number) const { return hardware_[number / synth::c_seeds]; }
   std::filesystem::path mark(std::size_t number) const;

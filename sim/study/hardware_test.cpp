@@ -15,9 +15,8 @@
 #include "sim/study/study.hpp"
 #include "sim/synth/clock_store.hpp"
 #include "sim/synth/netlist_identity.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 #include "sim/system/test/source_folder.hpp"
+#include "sim/system/test/test_files.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway::study {
@@ -64,7 +63,7 @@ class HardwareFiguresTest : public ::testing::Test {
     ASSERT_TRUE(make_folders(c_source_folder / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source_folder / "build/cache/ghdl", folders_.cache / "ghdl");
     put_tools("4", "30", "40");
-    key_ = must(hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_))).key;
+    key_ = hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_)).key;
     Record record{point_, {}};
     record.measured.hardware = key_.name();
     records_ = {record};
@@ -83,15 +82,13 @@ class HardwareFiguresTest : public ::testing::Test {
   void put_tools(const std::string& flip_flops, const std::string& luts, const std::string& packed) {
     using Words = std::vector<std::pair<std::string, std::string>>;
     const fs::path bin = folder_.path() / "bin";
-    ASSERT_TRUE(make_folders(bin));
     const auto put = [&](const char* name, std::string text, const Words& words) {
       for (const auto& [what, by] : words) {
         const std::size_t at = text.find(what);
         ASSERT_NE(at, std::string::npos);
         text.replace(at, what.size(), by);
       }
-      ASSERT_TRUE(write_file(bin / name, text));
-      fs::permissions(bin / name, fs::perms::all);
+      put_program(bin / name, text);
     };
     put("yosys", c_yosys, {{"FLIP_FLOPS", flip_flops}, {"LUTS", luts}});
     put("nextpnr-ice40", c_nextpnr, {{"LOG", log().string()}, {"PACKED", packed}});
@@ -103,7 +100,7 @@ class HardwareFiguresTest : public ::testing::Test {
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
   }
   HardwareFigures figures(bool place) const {
-    return must(hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place})).at(key_.name());
+    return hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place}).at(key_.name());
   }
 
   const std::string path_ = std::getenv("PATH");
@@ -193,13 +190,13 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 
 // The stored clocks must be of the netlists of the current RTL.
 TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
-  const auto points = must(read_space((c_source_folder / "sim/studies/small.toml").string()));
+  const auto points = read_space(c_source_folder / "sim/studies/small.toml");
   std::size_t clocks = 0;
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   const std::string scene = c_source_folder / "sim/studies/sphere.toml";
-  for (const HardwareSource& source : must(hardware_of_space(scene, points, folders))) {
+  for (const HardwareSource& source : hardware_of_space(scene, points, folders)) {
     if (source.hardware.key.shader == Shader::processors) continue;
-    const auto figures = must(stored_figures(source, folders));
+    const auto figures = stored_figures(source, folders);
     EXPECT_EQ(figures.clock == c_stored, figures.mhz.has_value());
     EXPECT_NE(figures.clock, c_not_placed)
         << source.design().name << ": its clock is not stored; make evidence PAGE=clocks places it";

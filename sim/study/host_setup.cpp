@@ -96,7 +96,7 @@ HostTime host_time(const DesignPoint& point, const std::string& scene_name, cons
   }
   const Scene scene = drawn_scene(scene_name, folders.source / "sim" / "scenes", point);
   if (in_hardware(point.method)) {
-    const PointHardware hardware = must(drawing_hardware_of(point, scene, folders));
+    const PointHardware hardware = drawing_hardware_of(point, scene, folders);
     const SetupOptions options = frame_setup(point, scene);
     HostTime time;
     time.ns = quickest_ns([&] {

@@ -120,10 +120,8 @@ std::map<MeshEdge, Sides> shared_edges(const Scene& scene, std::span<const Scree
 
 }  // namespace
 
-Result<MachBands> mach_bands(const Frame& frame, const Frame& reference, const Scene& scene,
-                             std::span<const ScreenTriangle> triangles) {
-  if (frame.size.width != reference.size.width || frame.size.height != reference.size.height)
-    return bad_input("the frames have different sizes");
+MachBands mach_bands(const Frame& frame, const Frame& reference, const Scene& scene,
+                     std::span<const ScreenTriangle> triangles) {
   const auto pixels = seen_pixels(scene, triangles, frame.size);
   MachBands bands;
   double squares = 0.0;

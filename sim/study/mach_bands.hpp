@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "scene/scene.hpp"
 #include "setup/screen_triangle.hpp"
@@ -21,7 +20,7 @@ struct MachBands {
 /// Evaluate every edge where the surface is smooth and both triangles are visible. On each side of the edge,
 /// fit a plane to the brightness (the mean of the three channels) of the pixels at most 4 pixels away. The
 /// frames must have the same size. `triangles` are the scene's triangles at this size, with 4 subpixel bits.
-Result<MachBands> mach_bands(const Frame& frame, const Frame& reference, const Scene& scene,
-                             std::span<const ScreenTriangle> triangles);
+MachBands mach_bands(const Frame& frame, const Frame& reference, const Scene& scene,
+                     std::span<const ScreenTriangle> triangles);
 
 }  // namespace halfway::study

@@ -12,6 +12,8 @@
 #include <set>
 #include <utility>
 
+#include "sim/system/must.hpp"
+
 namespace halfway::study {
 namespace {
 
@@ -30,8 +32,8 @@ std::optional<Quantity> read_quantity(const std::string& text) {
   return quantity;
 }
 
-Error bad_option(const char* option, const std::string& text, const char* what) {
-  return bad_input(fmt::format("{}: '{}' is not valid; {}", option, text, what));
+Failure bad_option(const char* option, const std::string& text, const char* what) {
+  return Failure{bad_input(fmt::format("{}: '{}' is not valid; {}", option, text, what))};
 }
 
 std::string time_text(double seconds) {
@@ -227,18 +229,18 @@ std::string Demand::text() const {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-Result<Demand> read_demand(const std::string& error, const std::string& psnr, const std::string& time) {
+Demand read_demand(const std::string& error, const std::string& psnr, const std::string& time) {
   Demand demand;
   if (!error.empty()) {
     const auto read = read_quantity(error);
     if (!read || !read->unit.empty() || read->value < 0 || read->value > 255)
-      return bad_option("--error", error, "take steps of 1/255 from 0 to 255, such as 2");
+      throw bad_option("--error", error, "take steps of 1/255 from 0 to 255, such as 2");
     demand.largest_error = read->value;
   }
   if (!psnr.empty()) {
     const auto read = read_quantity(psnr);
     if (!read || (!read->unit.empty() && read->unit != "dB") || read->value <= 0)
-      return bad_option("--psnr", psnr, "take decibels above 0, such as 45");
+      throw bad_option("--psnr", psnr, "take decibels above 0, such as 45");
     demand.psnr_db = read->value;
   }
   if (!time.empty()) {
@@ -248,7 +250,7 @@ Result<Demand> read_demand(const std::string& error, const std::string& psnr, co
     const auto unit =
         std::ranges::find_if(c_units, [&](const auto& known) { return read && read->unit == known.first; });
     if (unit == c_units.end() || read->value <= 0)
-      return bad_option("--time", time, "take a time with its unit, s, ms, us or ns, such as 10ms");
+      throw bad_option("--time", time, "take a time with its unit, s, ms, us or ns, such as 10ms");
     demand.seconds = read->value * unit->second;
   }
   return demand;

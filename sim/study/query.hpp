@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/study/front.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/record.hpp"
@@ -27,7 +26,7 @@ struct Demand {
 
 /// Parse --error (`2`, in steps), --psnr (`45` or `45dB`) and --time (`10ms`; s, ms, us or ns). Empty: no
 /// demand.
-Result<Demand> read_demand(const std::string& error, const std::string& psnr, const std::string& time);
+Demand read_demand(const std::string& error, const std::string& psnr, const std::string& time);
 
 /// A point of hardware with its accuracy and its cost.
 struct Offer {

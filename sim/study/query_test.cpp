@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <regex>
 #include <string>
 
 #include "common/test/is_error.hpp"
@@ -26,16 +25,16 @@ using ::testing::Not;
 constexpr double c_infinity = std::numeric_limits<double>::infinity();
 
 TEST(Demand, ReadsNumbersWithUnits) {
-  const auto demand = must(read_demand("2", "45 dB", "10ms"));
+  const auto demand = read_demand("2", "45 dB", "10ms");
   EXPECT_EQ(demand.largest_error, 2.0);
   EXPECT_EQ(demand.psnr_db, 45.0);
   EXPECT_DOUBLE_EQ(*demand.seconds, 0.01);
   EXPECT_EQ(demand.text(), "largest error at most 2/255, PSNR at least 45 dB, a frame in 10 ms");
-  EXPECT_DOUBLE_EQ(*read_demand("", "", "0.5s")->seconds, 0.5);
-  EXPECT_DOUBLE_EQ(*read_demand("", "", "250us")->seconds, 250e-6);
-  EXPECT_DOUBLE_EQ(*read_demand("", "", "800 ns")->seconds, 800e-9);
-  EXPECT_EQ(read_demand("0", "", "")->largest_error, 0.0);
-  EXPECT_FALSE(read_demand("", "", "")->any());
+  EXPECT_DOUBLE_EQ(*read_demand("", "", "0.5s").seconds, 0.5);
+  EXPECT_DOUBLE_EQ(*read_demand("", "", "250us").seconds, 250e-6);
+  EXPECT_DOUBLE_EQ(*read_demand("", "", "800 ns").seconds, 800e-9);
+  EXPECT_EQ(read_demand("0", "", "").largest_error, 0.0);
+  EXPECT_FALSE(read_demand("", "", "").any());
 }
 
 TEST(Demand, RefusesOtherUnits) {
@@ -46,9 +45,8 @@ TEST(Demand, RefusesOtherUnits) {
       {"", "", "10min", "--time"}, {"", "", "0ms", "--time"},  {"", "", "ms", "--time"},
       {"", "", "1e999s", "--time"}};
   for (const auto& [error, psnr, time, option] : cases) {
-    EXPECT_TRUE(is_error(read_demand(error, psnr, time), ExitCode::bad_input,
-                         option + ": '" + error + psnr + time + "'"))
-        << error << psnr << time;
+    EXPECT_TRUE(is_error(caught([&] { return read_demand(error, psnr, time); }), ExitCode::bad_input,
+                         option + ": '" + error + psnr + time + "'"));
   }
 }
 
@@ -330,32 +328,6 @@ TEST_F(QueryTest, ComparesTheHostIfAllInstructionsAreCounted) {
   EXPECT_FALSE(uncounted.offers[2].host);
   EXPECT_THAT(ask({.largest_error = 50.0}),
               AllOf(HasSubstr("front          4 of 4 points"), HasSubstr("the host's work not compared")));
-}
-
-// Every number in the text is a number of an offer or the difference of two.
-TEST_F(QueryTest, EveryNumberIsFromTheData) {
-  std::mt19937 random(11);
-  const std::regex number(R"([+-]?\d+(\.\d+)?)");
-  for (int trial = 0; trial < 50; ++trial) {
-    for (Record& record : records_) {
-      record.measured.picture.max_lsb = static_cast<unsigned>(1 + random() % 50);
-      record.measured.cycles = 1000 + random() % 1000;
-      record.measured.host_instructions = 10 * (1000 + random() % 1000);
-    }
-    const auto market = markets_of(records_, hardware_, {}).at(0);
-    const std::string text = ask({.largest_error = 25.0});
-    const std::regex line(
-        R"(: largest error (\d+)/255, PSNR [\d.]+ dB, (\d+) cells, (\d+) cycles, (\d+) host)");
-    int lines = 0;
-    for (auto it = std::sregex_iterator(text.begin(), text.end(), line); it != std::sregex_iterator(); ++it) {
-      ++lines;
-      EXPECT_TRUE(std::ranges::any_of(market.offers, [&](const Offer& o) {
-        return fmt::format("{:g} {:g} {:g} {:g}", o.largest_error, *o.cells, o.cycles, *o.host) ==
-               fmt::format("{} {} {} {}", (*it)[1].str(), (*it)[2].str(), (*it)[3].str(), (*it)[4].str());
-      })) << text;
-    }
-    EXPECT_GE(lines, 1) << text;
-  }
 }
 
 }  // namespace

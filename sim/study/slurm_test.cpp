@@ -24,10 +24,7 @@ using ::testing::Not;
 
 class JobScriptTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    ASSERT_TRUE(write_file(folder_.path() / "scontrol", "#!/bin/sh\necho \"scontrol $*\"\n"));
-    std::filesystem::permissions(folder_.path() / "scontrol", std::filesystem::perms::owner_all);
-  }
+  void SetUp() override { put_program(folder_.path() / "scontrol", "#!/bin/sh\necho \"scontrol $*\"\n"); }
   ProcessEnd run(const JobArray& array, const std::string& restarts) const {
     return must(run_process({.arguments = {"sh", "-c", job_script(array)},
                              .environment = {{"PATH", folder_.path().string() + ":/usr/bin:/bin"},

@@ -3,12 +3,9 @@
 // repeats a task that requests requeueing.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
-#include <utility>
 
-#include "sim/system/file.hpp"
+#include "sim/system/test/test_files.hpp"
 
 namespace halfway::study {
 
@@ -31,10 +28,8 @@ exit $failed
 )";
 
 inline void put_slurm(const std::filesystem::path& folder) {
-  for (const auto& [name, text] : {std::pair{"sbatch", c_sbatch}, {"scontrol", "#!/bin/sh\n"}}) {
-    ASSERT_TRUE(write_file(folder / name, text));
-    std::filesystem::permissions(folder / name, std::filesystem::perms::all);
-  }
+  put_program(folder / "sbatch", c_sbatch);
+  put_program(folder / "scontrol", "#!/bin/sh\n");
 }
 
 }  // namespace halfway::study

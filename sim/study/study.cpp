@@ -38,6 +38,12 @@ std::span<const Piece> part_of(std::span<const Piece> pieces, std::size_t part, 
   return pieces.subspan(range.begin, range.end - range.begin);
 }
 
+// Do the work; its error begins with the name.
+void naming(const std::string& name, const std::function<void()>& work) {
+  if (const auto done = caught(work); !done)
+    throw Failure{{done.error().code, name + ": " + done.error().message}};
+}
+
 bool is_point(const Piece& piece) {
   return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
 }
@@ -59,8 +65,7 @@ class Bench {
         shelf_(settings.scene, scenes()) {
     must(make_folders(points()));
     if (!settings.placed.empty())
-      placements_ =
-          must(Placements::open(settings.scene, settings.placed, settings.folders, provenance_.rtl));
+      placements_.emplace(settings.scene, settings.placed, settings.folders, provenance_.rtl);
   }
 
   const Provenance& provenance() const { return provenance_; }
@@ -132,9 +137,7 @@ void place(const StudySettings& settings, const Bench& bench, Study& study) {
   must_for_each(settings.threads, count, [&](std::size_t at) {
     const std::size_t number = mine.begin + at;
     const bool is_new = !bench.placements()->is_done(number);
-    if (is_new)
-      if (Status made = bench.placements()->make(number); !made)
-        throw Failure{{made.error().code, bench.placements()->name(number) + ": " + made.error().message}};
+    if (is_new) naming(bench.placements()->name(number), [&] { bench.placements()->make(number); });
     const std::scoped_lock lock(mutex);
     study.placements += is_new;
     settings.on_progress(fmt::format("{} of {} placements", ++done, count));
@@ -207,7 +210,7 @@ Drawable drawable(const std::vector<DesignPoint>& points, const std::string& sce
     else if (point.method == Method::phong_mesa)
       reason = no_mesa(*drawn, folders);
     else if (in_hardware(point.method)) {
-      if (const auto made = hardware_of(point, *drawn); !made)
+      if (const auto made = caught([&] { return hardware_of(point, *drawn); }); !made)
         reason = fmt::format("{}: {}", to_string(point.method), made.error().message);
       else if (hardware.insert(made->key.name()).second)
         found.hardware.push_back(point);
@@ -253,12 +256,7 @@ Study run_study(const StudySettings& settings) {
     const Piece& piece = mine[at];
     Made made{.record = bench.find(piece)};
     const bool is_new = is_point(piece) ? !made.record : !bench.is_done(piece);
-    if (is_new) try {
-        made = bench.make(piece);
-      } catch (const Failure& failure) {
-        throw Failure{
-            {failure.error.code, settings.points[piece.point].name() + ": " + failure.error.message}};
-      }
+    if (is_new) naming(settings.points[piece.point].name(), [&] { made = bench.make(piece); });
     const std::scoped_lock lock(mutex);
     study.measured += is_new && is_point(piece);
     study.drawn_tiles += made.tiles;

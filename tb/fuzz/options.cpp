@@ -10,6 +10,7 @@
 
 #include "frame/frame.hpp"
 #include "fuzz/fuzz.hpp"
+#include "sim/system/must.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace halfway;
@@ -37,9 +38,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   (void)cli::result_name(scene);
-  if (const auto chosen = cli::checked_simulators(simulators); !chosen)
+  if (const auto chosen = caught([&] { return cli::checked_simulators(simulators); }); !chosen)
     demand(chosen.error().code == ExitCode::bad_input && !chosen.error().message.empty(), "exit code 2");
-  const auto checked = cli::checked(options);
+  const auto checked = caught([&] { return cli::checked(options); });
   if (!checked) {
     demand(checked.error().code == ExitCode::bad_input && !checked.error().message.empty(), "exit code 2");
     return 0;

@@ -217,9 +217,9 @@ void add_hardware_of_spaces(const SimulatorFolders& folders, std::vector<Placed>
   };
   for (const Placed& placed : hardware) is_new(placed);
   for (const char* space : c_spaces) {
-    const auto points = must(study::read_space((folders.source / space).string()));
+    const auto points = study::read_space(folders.source / space);
     for (const study::HardwareSource& source :
-         must(study::hardware_of_space((folders.source / c_space_scene).string(), points, folders))) {
+         study::hardware_of_space((folders.source / c_space_scene).string(), points, folders)) {
       // Those of preset exact are much too large for the device and slow to synthesize.
       const HardwareKey& key = source.hardware.key;
       if (key.shader == Shader::processors && key.preset == Preset::exact) continue;
