@@ -94,7 +94,7 @@ sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
   $(call option,DATA_BITS,--data-bits)
 
-.PHONY: help help-all $(sort $(foreach name,$(variables),$(call users_of,$(name)))) mcode configure setup diagrams doctor format \
+.PHONY: help help-all $(sort $(foreach name,$(variables),$(call users_of,$(name)))) configure setup diagrams doctor format \
   check-format clean
 
 # The targets of make help; make help-all lists all.
@@ -177,10 +177,10 @@ tables: generator ## write the generated ROMs and formats
 check-tables: generator ## fail if make tables would change anything
 	@build/halfway_generator tables --check $(table_options)
 
-test: build mcode ## test each feature, entity and shader, if not tested on these files before (TESTS: only some, of all tests)
+test: build ## test each feature, entity and shader, if not tested on these files before (TESTS: only some, of all tests)
 	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh quick "$(jobs)" "$$TESTS"
 
-test-all: build mcode ## run every test that has not passed on these files: continues an interrupted run
+test-all: build ## run every test that has not passed on these files: continues an interrupted run
 	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh all "$(jobs)"
 
 testbench: configure ## run one VHDL testbench in GHDL, with vectors from the golden model (ENTITY)
@@ -211,7 +211,7 @@ mutate: configure ## make evidence PAGE=mutants; FULL=1 or DESIGN: print what fi
 prove: configure ## make evidence PAGE=proofs; PROOF: only print some proofs and the faults that they refute
 	@$(call measure,proofs,$${PROOF:+"$$PROOF"})
 
-evidence: configure $(if $(filter speed,$(PAGE)),mcode) ## measure the pages of evidence that are not of this commit, 45 minutes for all; may be interrupted (PAGE: one)
+evidence: configure ## measure the pages of evidence that are not of this commit, 45 minutes for all; may be interrupted (PAGE: one)
 	@export again="$$AGAIN"; $(call measure,$${PAGE:-all})
 
 stability: configure ## make evidence PAGE=hard_cases: hard cases in specification, golden model and RTL
@@ -235,12 +235,8 @@ board: configure ## make the bitstream of the board and compare its figures with
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_board
 	@build/tb/halfway_board . build/cache build/board/board.bin
 
-bench: configure mcode ## make evidence PAGE=speed: ways to the same picture, whole frames, frames in a browser, small triangles
+bench: configure ## make evidence PAGE=speed: ways to the same picture, whole frames, frames in a browser, small triangles
 	@$(call measure,speed)
-
-# GHDL's other back end, in addition to the installed one.
-mcode: setup
-	@scripts/unpack.sh build/tools/ghdl-mcode ghdl-mcode ghdl-common || echo 'ghdl-mcode is missing and will be skipped' >&2
 
 build: program ## build program and tests
 	@$(lock) cmake --build build -j "$(jobs)"

@@ -135,7 +135,7 @@ run() { # page, options
       ;;
     speed)
       build/halfway_bench --jobs "$jobs" --page docs/results/speed.md
-      end_page speed ghdl verilator yosys
+      end_page speed ghdl verilator
       build/tb/halfway_page . --judge speed docs/results/speed.md 'relative to Mesa'
       ;;
   esac

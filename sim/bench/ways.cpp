@@ -12,7 +12,6 @@
 #include "golden_run/golden_run.hpp"
 #include "reference/renderer.hpp"
 #include "setup/project.hpp"
-#include "sim/bench/outside_model.hpp"
 #include "sim/compare/stream_comparator.hpp"
 #include "sim/ghdl/ghdl_runner.hpp"
 #include "sim/mesa/mesa_picture.hpp"
@@ -35,12 +34,9 @@ const Name& name_of(Way way) {
        {"lanes", "RTL in lanes alone"},
        {"lanes_without_avx512_compared", "RTL in lanes, compiled without AVX-512, compared likewise"},
        {"lanes_without_avx512", "RTL in lanes, compiled without AVX-512, alone"},
-       {"verilator_compared", "RTL in Verilator as built here, compared likewise"},
-       {"verilator", "RTL in Verilator as built here, alone"},
-       {"verilator_as_it_comes", "RTL in Verilator as it comes, alone"},
-       {"cxxrtl", "RTL in CXXRTL, alone"},
-       {"ghdl_llvm", "RTL in GHDL, llvm"},
-       {"ghdl_mcode", "RTL in GHDL, mcode"},
+       {"verilator_compared", "RTL in Verilator, compared likewise"},
+       {"verilator", "RTL in Verilator alone"},
+       {"ghdl", "RTL in GHDL"},
        {"golden", "golden model alone"},
        {"reference", "Phong shading per pixel in double, the reference renderer"},
        {"mesa", "Phong shading per pixel by OpenGL on Mesa's llvmpipe"}}};
@@ -51,10 +47,6 @@ void check(bool right, Way way, const GoldenStream& s) {
   if (!right)
     throw Failure{{ExitCode::differs,
                    fmt::format("{}, {}: not the golden model's fragments", to_string(way), s.key.name())}};
-}
-
-std::string ghdl_program(Way way, const SimulatorFolders& folders) {
-  return way == Way::ghdl_llvm ? "ghdl-llvm" : ghdl_mcode(folders);
 }
 
 bool without_avx512(Way way) {
@@ -92,19 +84,9 @@ Go in_process(Way way, const WayInput& input) {
   };
 }
 
-Go outside(Way way, const WayInput& input) {
-  const OutsideModel model(way == Way::cxxrtl ? OutsideTool::cxxrtl : OutsideTool::verilator,
-                           input.stream->key, input.folders, input.fast);
-  return [=, &s = *input.stream] {
-    const OutsideRun run = model.run(s.words);
-    check(run.fragments == s.golden, way, s);
-    return run.seconds;
-  };
-}
-
 Go in_ghdl(Way way, const WayInput& input) {
-  const auto runner = std::make_shared<const GhdlRunner>(
-      must(GhdlRunner::open(input.stream->key, input.folders, ghdl_program(way, input.folders))));
+  const auto runner =
+      std::make_shared<const GhdlRunner>(must(GhdlRunner::open(input.stream->key, input.folders)));
   const std::filesystem::path init = input.scratch / (short_name(way) + ".init"),
                               trace = input.scratch / (short_name(way) + ".trace");
   return [=, &s = *input.stream] {
@@ -168,25 +150,7 @@ bool is_compared(Way way) {
 }
 
 std::string lacking(Way way, const SimulatorFolders& folders) {
-  const auto program = [](const char* name) { return find_program(name).empty() ? name : ""; };
-  switch (way) {
-    case Way::cxxrtl:
-      return find_program("yosys").empty() ? "yosys" : program("yosys-config");
-    case Way::ghdl_llvm:
-      return program("ghdl-llvm");
-    case Way::ghdl_mcode:
-      return std::filesystem::exists(ghdl_mcode(folders)) ? "" : "ghdl-mcode";
-    case Way::mesa:
-      return mesa_lacks(folders.source);
-    default:
-      return "";
-  }
-}
-
-std::string ghdl_mcode(const SimulatorFolders& folders) {
-  const std::filesystem::path installed = find_program("ghdl-mcode");
-  return installed.empty() ? (folders.source / "build/tools/ghdl-mcode/usr/bin/ghdl-mcode").string()
-                           : installed.string();
+  return way == Way::mesa ? mesa_lacks(folders.source) : "";
 }
 
 MesaRun run_mesa(const WayInput& input, int repetitions) {
@@ -216,11 +180,7 @@ Go make_way(Way way, const WayInput& input) {
   if (const std::string program = lacking(way, input.folders); !program.empty())
     throw Failure{tool_failed(fmt::format("{} is not here", program))};
   switch (way) {
-    case Way::verilator_as_it_comes:
-    case Way::cxxrtl:
-      return outside(way, input);
-    case Way::ghdl_llvm:
-    case Way::ghdl_mcode:
+    case Way::ghdl:
       return in_ghdl(way, input);
     case Way::golden:
       return golden_alone(way, input);

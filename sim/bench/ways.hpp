@@ -19,10 +19,7 @@ enum class Way {
   lanes_without_avx512,
   verilator_compared,
   verilator,
-  verilator_as_it_comes,
-  cxxrtl,
-  ghdl_llvm,
-  ghdl_mcode,
+  ghdl,
   golden,
   reference,
   mesa,
@@ -41,7 +38,7 @@ bool in_lanes(Way way);
 /// True if the golden model draws the same fragments, and every field is compared, within the measured time.
 bool is_compared(Way way);
 
-/// The program or package that a way needs and this machine lacks; empty if it can run.
+/// The packages that a way needs and this machine lacks; empty if it can run.
 std::string lacking(Way way, const SimulatorFolders& folders);
 
 struct WayInput {
@@ -72,9 +69,5 @@ struct MesaRun {
 };
 /// Draw the built-in scene and compare the picture with the reference. Throws Failure if they differ by more.
 MesaRun run_mesa(const WayInput& input, int repetitions);
-
-/// Path of the program `ghdl-mcode`: installed, or unpacked in build/tools by scripts/unpack.sh. The file may
-/// not exist.
-std::string ghdl_mcode(const SimulatorFolders& folders);
 
 }  // namespace halfway

@@ -38,8 +38,7 @@ class GhdlRunner {
   static Result<VhdlSource> testbench(const HardwareKey& key, const std::filesystem::path& source_folder);
 
   /// Analyses the RTL and the testbench unless the cache has them.
-  static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders,
-                                 const std::string& program = "ghdl");
+  static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders);
 
   /// Writes `trace_file`, under a temporary name until it is complete. A fault of the hardware that the
   /// testbench detects (a hang, a metavalue, a payload that changes while it waits) is an error with the exit

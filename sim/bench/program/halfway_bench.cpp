@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "sim/bench/program/bench.hpp"
-#include "sim/bench/ways.hpp"
 #include "sim/ghdl/rtl_hash.hpp"
 #include "sim/pages/template.hpp"
 #include "sim/program/program.hpp"
@@ -45,17 +44,14 @@ std::array<double, 3> load() {
 void run(const Options& options) {
   must(make_folders(c_scratch));
   const auto text = [](double value) { return fmt::format("{:.1f}", value); };
-  Json speed = {
-      {"machine", machine()},
-      {"load", {{"before", text(load()[0])}}},
-      {"rtl", must(rtl_hash(c_source))},
-      {"tools",
-       {{"ghdl", first_line({"ghdl", "--version"})},
-        {"mcode", lacking(Way::ghdl_mcode, c_folders).empty() ? "mcode back ends" : "no mcode back end"},
-        {"verilator", first_line({"verilator", "--version"})},
-        {"clang", first_line({"clang++", "--version"})},
-        {"gcc", first_line({"g++", "--version"})},
-        {"yosys", first_line({"yosys", "-V"})}}}};
+  Json speed = {{"machine", machine()},
+                {"load", {{"before", text(load()[0])}}},
+                {"rtl", must(rtl_hash(c_source))},
+                {"tools",
+                 {{"ghdl", first_line({"ghdl", "--version"})},
+                  {"verilator", first_line({"verilator", "--version"})},
+                  {"clang", first_line({"clang++", "--version"})},
+                  {"gcc", first_line({"g++", "--version"})}}}};
   const std::pair<const char*, std::function<void()>> sections[] = {
       {"make_sim", [&] { measure_make(speed); }},
       {"ways", [&] { measure_ways(speed, options.jobs); }},

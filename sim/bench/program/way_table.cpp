@@ -27,14 +27,10 @@ const Hardware c_hardware[] = {
      false,
      {320, 240},
      {64, 48}}};
-constexpr std::size_t c_columns = std::size(c_hardware), c_folded = 3;
+constexpr std::size_t c_columns = std::size(c_hardware);
 
 std::string name_of(Way way, std::size_t column) {
   return fmt::format("{}/{}/spheres", short_name(way), c_hardware[column].name);
-}
-
-bool in_ghdl(Way way) {
-  return way == Way::ghdl_llvm || way == Way::ghdl_mcode;
 }
 
 // Software draws the same picture for all hardware. Folded processors are measured for their number of
@@ -43,14 +39,13 @@ bool is_measured(Way way, std::size_t column) {
   if (!lacking(way, c_folders).empty()) return false;
   if (way == Way::reference || way == Way::mesa) return column == 0;
   if (in_lanes(way)) return c_hardware[column].lanes;
-  if (way == Way::cxxrtl || way == Way::verilator_as_it_comes) return column != c_folded;
   return true;
 }
 
 struct Column {
   Scene scene;
   GoldenStream stream, ghdl_stream;
-  const GoldenStream& of(Way way) const { return in_ghdl(way) ? ghdl_stream : stream; }
+  const GoldenStream& of(Way way) const { return way == Way::ghdl ? ghdl_stream : stream; }
 };
 
 // Build each way for each hardware and add its measurement.
@@ -71,13 +66,13 @@ void add_ways(const std::vector<Column>& columns, Measurements& measurements, un
       fmt::print(stderr, "building {}\n", name_of(way, column));
       const Hardware& hardware = c_hardware[column];
       go = make_way(way, {.scene = &columns[column].scene,
-                          .size = in_ghdl(way) ? hardware.ghdl_size : hardware.size,
+                          .size = way == Way::ghdl ? hardware.ghdl_size : hardware.size,
                           .stream = &columns[column].of(way),
                           .folders = c_folders,
                           .scratch = c_scratch});
     });
     for (Job& job : *jobs_now)
-      measurements.add(name_of(job.way, job.column), in_ghdl(job.way) ? 2 : 11, std::move(job.go));
+      measurements.add(name_of(job.way, job.column), job.way == Way::ghdl ? 2 : 11, std::move(job.go));
   }
 }
 
