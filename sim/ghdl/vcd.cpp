@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "sim/system/must.hpp"
+
 namespace halfway {
 namespace {
 
@@ -19,58 +21,49 @@ std::vector<std::string> words_of(std::string_view line) {
 
 }  // namespace
 
-Result<VcdReader> VcdReader::open(const std::filesystem::path& file) {
-  auto lines = LineReader::open(file);
-  if (!lines) return lines.error();
-  VcdReader reader(std::move(*lines));
+VcdReader::VcdReader(const std::filesystem::path& file) : lines_(must(LineReader::open(file))) {
   std::vector<std::string> scopes;
-  for (std::string_view line;;) {
-    const auto next = reader.lines_.next(line);
-    if (next == LineReader::Next::failed) return reader.lines_.error();
-    if (next == LineReader::Next::end_of_file) return reader.at("the trace has no $enddefinitions");
+  for (std::string_view line; must(lines_.next(line));) {
     const auto words = words_of(line);
     if (words.empty()) continue;
-    if (words[0] == "$enddefinitions") return reader;
+    if (words[0] == "$enddefinitions") return;
     if (words[0] == "$scope" && words.size() > 2) {
       scopes.push_back(words[2]);
     } else if (words[0] == "$upscope" && !scopes.empty()) {
       scopes.pop_back();
     } else if (words[0] == "$var" && words.size() > 4) {
       const std::string name = words[4].substr(0, words[4].find('['));
-      reader.signals_.emplace(fmt::format("{}/{}", fmt::join(scopes, "/"), name),
-                              VcdSignal{words[3], words[2] == "1"});
+      signals_.emplace(fmt::format("{}/{}", fmt::join(scopes, "/"), name),
+                       VcdSignal{words[3], words[2] == "1"});
     }
   }
+  throw Failure{at("the trace has no $enddefinitions")};
 }
 
-Result<std::optional<VcdChange>> VcdReader::next() {
-  for (std::string_view line;;) {
-    const auto next = lines_.next(line);
-    if (next == LineReader::Next::failed) return lines_.error();
-    if (next == LineReader::Next::end_of_file) return std::optional<VcdChange>();
+std::optional<VcdChange> VcdReader::next() {
+  for (std::string_view line; must(lines_.next(line));) {
     if (line.empty() || line.front() == '$') continue;
     const std::string rest(line.substr(1));
     if (line.front() == '#') {
       time_ = std::strtoull(rest.c_str(), nullptr, 10);
     } else if (line.front() == 'b') {
-      if (const auto words = words_of(rest); words.size() == 2)
-        return std::optional(VcdChange{words[1], words[0]});
+      if (const auto words = words_of(rest); words.size() == 2) return VcdChange{words[1], words[0]};
     } else {
-      return std::optional(VcdChange{rest, std::string(1, line.front())});
+      return VcdChange{rest, std::string(1, line.front())};
     }
   }
+  return std::nullopt;
 }
 
 Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::string& clock,
-                                  const std::vector<std::string>& paths, std::size_t most_edges) {
-  auto reader = VcdReader::open(file);
-  if (!reader) return reader.error();
+                                  const std::vector<std::string>& paths, std::size_t most_edges) try {
+  VcdReader reader(file);
   for (const std::string& path : paths)
-    if (!reader->signals().contains(path))
-      return reader->at(fmt::format("the trace has no signal {}; was it renamed?", path));
-  const auto clock_signal = reader->signals().find(clock);
-  if (clock_signal == reader->signals().end())
-    return reader->at(fmt::format("the trace has no clock {}; was it renamed?", clock));
+    if (!reader.signals().contains(path))
+      return reader.at(fmt::format("the trace has no signal {}; was it renamed?", path));
+  const auto clock_signal = reader.signals().find(clock);
+  if (clock_signal == reader.signals().end())
+    return reader.at(fmt::format("the trace has no clock {}; was it renamed?", clock));
   const std::string& clock_code = clock_signal->second.code;
 
   SampledSignals sampled;
@@ -80,20 +73,21 @@ Result<SampledSignals> sample_vcd(const std::filesystem::path& file, const std::
   const auto close_time = [&] {
     if (now[clock_code] == "1" && before[clock_code] == "0" && sampled.edges < most_edges) {
       for (const std::string& path : paths)
-        sampled.values[path].push_back(before[reader->signals().at(path).code]);
+        sampled.values[path].push_back(before[reader.signals().at(path).code]);
       ++sampled.edges;
     }
     before = now;
   };
   while (sampled.edges < most_edges) {
-    auto change = reader->next();
-    if (!change) return change.error();
-    if (!*change || reader->time() != time) close_time();
-    if (!*change) break;
-    time = reader->time();
-    now[(*change)->code] = std::move((*change)->value);
+    auto change = reader.next();
+    if (!change || reader.time() != time) close_time();
+    if (!change) break;
+    time = reader.time();
+    now[change->code] = std::move(change->value);
   }
   return sampled;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

@@ -25,24 +25,22 @@ struct VcdChange {
   std::string value;  ///< bits, the highest first
 };
 
-/// Reads a trace change by change.
+/// Reads a trace change by change. Its functions throw Failure.
 class VcdReader {
  public:
   /// Read the header.
-  static Result<VcdReader> open(const std::filesystem::path& file);
+  explicit VcdReader(const std::filesystem::path& file);
 
   /// All signals, by scopes and name joined by '/', such as "frame_tb/dut/x".
   const std::map<std::string, VcdSignal>& signals() const { return signals_; }
   /// The next change; nothing at the end of the trace.
-  Result<std::optional<VcdChange>> next();
+  std::optional<VcdChange> next();
   /// The time of the last change, in the trace's unit; at the end of the trace, the end.
   std::uint64_t time() const { return time_; }
   /// An error at the current line.
   Error at(std::string_view what) const { return lines_.at(what); }
 
  private:
-  explicit VcdReader(LineReader lines) : lines_(std::move(lines)) {}
-
   LineReader lines_;
   std::map<std::string, VcdSignal> signals_;
   std::uint64_t time_ = 0;

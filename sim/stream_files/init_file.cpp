@@ -6,12 +6,11 @@
 #include <array>
 #include <cstdint>
 
-#include "sim/stream_files/text_fields.hpp"
-
 namespace halfway {
 namespace {
 
-constexpr std::string_view c_init_magic = "halfway-init";
+constexpr StreamReader::Kind c_init{"halfway-init", "an init file", "write it again with halfway init",
+                                    " <bits>"};
 
 /// The value of each hexadecimal digit; 16 for any other character.
 constexpr std::array<std::uint8_t, 256> c_digit_values = [] {
@@ -31,20 +30,18 @@ Result<InitFileWriter> InitFileWriter::open(const std::filesystem::path& path, s
                                             unsigned bits) {
   auto writer = LineWriter::open(path);
   if (!writer) return writer.error();
-  writer->append(fmt::format("{} 1 {} {}\n", c_init_magic, key_name, bits));
+  writer->append(fmt::format("{} 1 {} {}\n", c_init.word, key_name, bits));
   return InitFileWriter(std::move(*writer), bits);
 }
 
 void InitFileWriter::write(std::span<const std::uint32_t> words) {
   const std::size_t words_per_vector = (bits_ + 31) / 32;
-  const std::size_t digits = (bits_ + 3) / 4;
+  std::string line;
   for (; words.size() >= words_per_vector && words_per_vector > 0; words = words.subspan(words_per_vector)) {
-    char* to = writer_.reserve(digits + 1);
-    for (std::size_t digit = digits; digit-- > 0;) {
-      *to++ = "0123456789abcdef"[(words[digit / 8] >> (digit % 8 * 4)) & 15U];
-    }
-    *to++ = '\n';
-    writer_.advance(to);
+    line.clear();
+    for (std::size_t digit = (bits_ + 3) / 4; digit-- > 0;)
+      line += "0123456789abcdef"[(words[digit / 8] >> (digit % 8 * 4)) & 15U];
+    writer_.append(line += '\n');
     ++count_;
   }
 }
@@ -55,32 +52,11 @@ Status InitFileWriter::commit() {
 }
 
 Result<InitFileReader> InitFileReader::open(const std::filesystem::path& path, std::string_view key_name) {
-  auto reader = LineReader::open(path, c_most_init_bits / 4 + 1);
+  auto reader = StreamReader::open(path, c_init, key_name, c_most_init_bits / 4 + 1);
   if (!reader) return reader.error();
-  std::string_view line;
-  switch (reader->next(line)) {
-    case LineReader::Next::failed:
-      return reader->error();
-    case LineReader::Next::end_of_file:
-      return bad_input(
-          fmt::format("{}:1: the file is empty; write it again with halfway init", path.string()));
-    case LineReader::Next::line:
-      break;
-  }
-  const bool spaced = ends_in_space(line);
-  if (take_field(line) != c_init_magic)
-    return reader->at("no init file; the first line must begin with halfway-init");
-  if (take_field(line) != "1") return reader->at("an init file of another version; write it again");
-  const std::string found_key(take_field(line));
-  const auto bits = to_number(take_field(line), c_most_init_bits);
-  if (found_key.empty() || !bits || *bits == 0 || !line.empty() || spaced) {
-    return reader->at("a broken header; it must read: halfway-init 1 <key name> <bits>");
-  }
-  if (!key_name.empty() && found_key != key_name) {
-    return reader->at(fmt::format("made for the hardware {}, wanted is {}; write it again for this one",
-                                  found_key, key_name));
-  }
-  return InitFileReader(std::move(*reader), found_key, static_cast<unsigned>(*bits));
+  const auto bits = to_number(reader->fields(), c_most_init_bits);
+  if (!bits || *bits == 0) return reader->broken_header();
+  return InitFileReader(std::move(*reader), static_cast<unsigned>(*bits));
 }
 
 Result<std::size_t> InitFileReader::read(std::vector<std::uint32_t>& words, std::size_t limit) {
@@ -88,31 +64,10 @@ Result<std::size_t> InitFileReader::read(std::vector<std::uint32_t>& words, std:
   const std::size_t digits = (bits_ + 3) / 4;
   const unsigned top_bits = bits_ % 4 == 0 ? 4 : bits_ % 4;
   std::size_t got = 0;
-  std::string_view line;
-  while (got < limit && !ended_) {
-    switch (reader_.next(line)) {
-      case LineReader::Next::failed:
-        return reader_.error();
-      case LineReader::Next::end_of_file:
-        return reader_.at("the file ends here without its last line, end <count>; it was not written whole");
-      case LineReader::Next::line:
-        break;
-    }
-    if (line.substr(0, 4) == "end ") {
-      if (to_number(line.substr(4), UINT64_MAX) != count_) {
-        return reader_.at(fmt::format("the last line must read: end {}", count_));
-      }
-      ended_ = true;
-      switch (reader_.next(line)) {
-        case LineReader::Next::failed:
-          return reader_.error();
-        case LineReader::Next::line:
-          return reader_.at("something follows the line end <count>");
-        case LineReader::Next::end_of_file:
-          break;
-      }
-      break;
-    }
+  for (std::string_view line; got < limit; ++got, ++count_) {
+    const auto more = reader_.next(line, count_);
+    if (!more) return more.error();
+    if (!*more) break;
     if (line.size() != digits) {
       return reader_.at(fmt::format("{} characters; a vector of {} bits takes {} hexadecimal digits",
                                     line.size(), bits_, digits));
@@ -131,8 +86,6 @@ Result<std::size_t> InitFileReader::read(std::vector<std::uint32_t>& words, std:
       return reader_.at(bad != 0 ? std::string("a character that is not a hexadecimal digit")
                                  : fmt::format("a value of more than {} bits", bits_));
     }
-    ++got;
-    ++count_;
   }
   return got;
 }

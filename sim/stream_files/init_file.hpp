@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "sim/stream_files/stream_reader.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway {
@@ -56,18 +57,15 @@ class InitFileReader {
   /// Read the header. A file for another hardware key is an error. An empty `key_name` accepts any key.
   static Result<InitFileReader> open(const std::filesystem::path& path, std::string_view key_name);
   unsigned bits() const { return bits_; }
-  const std::string& key_name() const { return key_name_; }
+  const std::string& key_name() const { return reader_.key_name(); }
   /// Append up to `limit` vectors to `words` and return their number. 0: end of a complete file.
   Result<std::size_t> read(std::vector<std::uint32_t>& words, std::size_t limit);
 
  private:
-  InitFileReader(LineReader reader, std::string key_name, unsigned bits)
-      : reader_(std::move(reader)), key_name_(std::move(key_name)), bits_(bits) {}
-  LineReader reader_;
-  std::string key_name_;
+  InitFileReader(StreamReader reader, unsigned bits) : reader_(std::move(reader)), bits_(bits) {}
+  StreamReader reader_;
   unsigned bits_;
   std::uint64_t count_ = 0;
-  bool ended_ = false;
 };
 
 Status write_init_file(const std::filesystem::path& path, std::string_view key_name,

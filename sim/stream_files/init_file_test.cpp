@@ -68,7 +68,7 @@ TEST_F(InitFile, StreamsInPieces) {
 
 TEST_F(InitFile, RefusesIncompleteAndForeignFiles) {
   expect_refused("", ":1", "empty");
-  expect_refused("P6\n1 1\n", ":1", "no init file");
+  expect_refused("P6\n1 1\n", ":1", "not an init file");
   expect_refused(std::string(100'000, 'x'), ":1", "more than");
   expect_refused("halfway-init 2 key 34\nend 0\n", ":1", "version");
   expect_refused("halfway-init 1 other 34\nend 0\n", ":1", "other");

@@ -19,6 +19,7 @@
 
 #include "common/result.hpp"
 #include "frame/fragment.hpp"
+#include "sim/stream_files/stream_reader.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway {
@@ -45,22 +46,17 @@ class TraceReader {
  public:
   /// Read the header. A trace of another hardware key is an error. An empty `key_name` accepts any key.
   static Result<TraceReader> open(const std::filesystem::path& path, std::string_view key_name);
-  const std::string& key_name() const { return key_name_; }
+  const std::string& key_name() const { return reader_.key_name(); }
   /// Append up to `limit` fragments and return their number. 0: end of a complete file.
   Result<std::size_t> read(std::vector<Fragment>& fragments, std::size_t limit);
   /// Known after `read` has returned 0.
   std::optional<std::uint64_t> cycles() const { return cycles_; }
 
  private:
-  TraceReader(LineReader reader, std::string key_name)
-      : reader_(std::move(reader)), key_name_(std::move(key_name)) {}
-  Status read_trailer(std::string_view line);
-
-  LineReader reader_;
-  std::string key_name_;
+  explicit TraceReader(StreamReader reader) : reader_(std::move(reader)) {}
+  StreamReader reader_;
   std::optional<std::uint64_t> cycles_;
   std::uint64_t count_ = 0;
-  bool ended_ = false;
 };
 
 Status write_trace(const std::filesystem::path& path, std::string_view key_name, const Trace& trace);

@@ -74,7 +74,7 @@ TEST_F(TraceFile, StreamsInPieces) {
 
 TEST_F(TraceFile, RefusesIncompleteAndForeignFiles) {
   expect_refused("", ":1", "empty");
-  expect_refused("GIF89a\n", ":1", "no trace");
+  expect_refused("GIF89a\n", ":1", "not a trace");
   expect_refused(std::string(1000, 'x'), ":1", "more than");
   expect_refused("halfway-trace 2 key\nend 0\n", ":1", "version");
   expect_refused("halfway-trace 1\nend 0\n", ":1", "broken header");

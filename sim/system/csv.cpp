@@ -67,9 +67,9 @@ Result<Table> read_csv(const std::filesystem::path& path) {
   if (!reader) return reader.error();
   Table table;
   for (std::string_view line;;) {
-    const auto next = reader->next(line);
-    if (next == LineReader::Next::failed) return reader->error();
-    if (next == LineReader::Next::end_of_file) break;
+    const auto more = reader->next(line);
+    if (!more) return more.error();
+    if (!*more) break;
     if (line.ends_with('\r')) line.remove_suffix(1);
     auto values = values_of(line);
     if (!values) return reader->at("a value's second quote is missing; make the table again");

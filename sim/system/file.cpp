@@ -29,19 +29,6 @@ ExitCode code_of(int error) {
   return error == ENOSPC || error == EDQUOT || error == EIO ? ExitCode::tool_failed : ExitCode::bad_input;
 }
 
-int write_all(int descriptor, const char* bytes, std::size_t count) {
-  while (count > 0) {
-    const ssize_t written = ::write(descriptor, bytes, count);
-    if (written < 0) {
-      if (errno == EINTR) continue;
-      return errno;
-    }
-    bytes += written;
-    count -= static_cast<std::size_t>(written);
-  }
-  return 0;
-}
-
 constexpr const char* c_folder_prefix = ".halfway-";
 // Upper bound of the time between creating and locking a temporary file.
 constexpr time_t c_young_seconds = 60;
@@ -65,16 +52,13 @@ void remove_stale(const std::filesystem::path& folder, const std::string& prefix
   }
 }
 
-}  // namespace
-
+// Lock a temporary file or folder while the descriptor is open. Other processes can then distinguish it from
+// leftovers of a killed run.
 void mark_in_use(int descriptor) {
   ::flock(descriptor, LOCK_EX | LOCK_NB);
 }
 
-void remove_stale_parts(const std::filesystem::path& path) {
-  const auto folder = path.parent_path();
-  remove_stale(folder.empty() ? "." : folder, path.filename().string() + ".part-");
-}
+}  // namespace
 
 std::string room_note(const std::vector<std::filesystem::path>& folders) {
   std::string note;
@@ -88,24 +72,13 @@ std::string room_note(const std::vector<std::filesystem::path>& folders) {
 }
 
 Result<std::string> read_file(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return cannot(ExitCode::bad_input, path, "open", errno);
+  std::ifstream file(path, std::ios::binary);
+  if (!file.is_open()) return cannot(ExitCode::bad_input, path, "open", errno);
   std::string content;
-  std::size_t used = 0;
-  while (true) {
-    if (content.size() - used < 1U << 16) content.resize(std::max<std::size_t>(1U << 17, content.size() * 2));
-    const ssize_t got = ::read(descriptor, content.data() + used, content.size() - used);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) {
-      const int error = errno;
-      ::close(descriptor);
-      return cannot(ExitCode::bad_input, path, "read", error);
-    }
-    if (got == 0) break;
-    used += static_cast<std::size_t>(got);
-  }
-  ::close(descriptor);
-  content.resize(used);
+  std::vector<char> block(1U << 17);
+  while (file.read(block.data(), std::ssize(block)), file.gcount() > 0)
+    content.append(block.data(), static_cast<std::size_t>(file.gcount()));
+  if (file.bad()) return cannot(ExitCode::bad_input, path, "read", errno);
   return content;
 }
 
@@ -197,62 +170,30 @@ Result<LineWriter> LineWriter::open(const std::filesystem::path& path) {
   if (path.has_parent_path()) {
     if (auto made = make_folders(path.parent_path()); !made) return made.error();
   }
-  remove_stale_parts(path);
-  std::string temporary = path.string() + ".part-XXXXXX";
-  const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
+  remove_stale(path.has_parent_path() ? path.parent_path() : ".", path.filename().string() + ".part-");
+  LineWriter writer;
+  writer.path_ = path;
+  writer.temporary_ = path.string() + ".part-XXXXXX";
+  const int descriptor = ::mkostemp(writer.temporary_.data(), O_CLOEXEC);
   if (descriptor < 0) return cannot(code_of(errno), path, "write", errno);
   mark_in_use(descriptor);
   ::fchmod(descriptor, 0644);
-  return LineWriter(path, temporary, descriptor);
+  writer.file_.reset(::fdopen(descriptor, "w"));
+  std::setvbuf(writer.file_.get(), nullptr, _IOFBF, c_buffer_bytes);
+  return writer;
 }
-
-LineWriter::LineWriter(std::filesystem::path path, std::filesystem::path temporary, int descriptor)
-    : path_(std::move(path)),
-      temporary_(std::move(temporary)),
-      descriptor_(descriptor),
-      buffer_(c_buffer_bytes) {}
-
-LineWriter::LineWriter(LineWriter&& other) noexcept
-    : path_(std::move(other.path_)),
-      temporary_(std::move(other.temporary_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      error_(other.error_),
-      buffer_(std::move(other.buffer_)),
-      used_(other.used_) {}
 
 LineWriter::~LineWriter() {
-  if (descriptor_ < 0) return;
-  ::close(descriptor_);
-  ::unlink(temporary_.c_str());
-}
-
-void LineWriter::flush() {
-  if (error_ == 0) error_ = write_all(descriptor_, buffer_.data(), used_);
-  used_ = 0;
-}
-
-char* LineWriter::reserve(std::size_t count) {
-  if (buffer_.size() - used_ < count) {
-    flush();
-    if (buffer_.size() < count) buffer_.resize(count);
-  }
-  return buffer_.data() + used_;
+  if (file_) ::unlink(temporary_.c_str());
 }
 
 void LineWriter::append(std::string_view text) {
-  while (!text.empty()) {
-    if (used_ == buffer_.size()) flush();
-    const std::size_t count = std::min(text.size(), buffer_.size() - used_);
-    std::memcpy(buffer_.data() + used_, text.data(), count);
-    used_ += count;
-    text.remove_prefix(count);
-  }
+  if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size() && error_ == 0) error_ = errno;
 }
 
 Status LineWriter::commit() {
-  flush();
-  // close reports errors too: delayed allocation, quotas, network file systems.
-  if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
+  // fclose reports errors too: delayed allocation, quotas, network file systems.
+  if (std::fclose(file_.release()) != 0 && error_ == 0) error_ = errno;
   if (error_ == 0 && ::rename(temporary_.c_str(), path_.c_str()) != 0) error_ = errno;
   if (error_ == 0) return Ok{};
   ::unlink(temporary_.c_str());
@@ -260,71 +201,29 @@ Status LineWriter::commit() {
 }
 
 Result<LineReader> LineReader::open(const std::filesystem::path& path, std::size_t longest_line) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return cannot(ExitCode::bad_input, path, "open", errno);
-  return LineReader(path, descriptor, longest_line);
-}
-
-LineReader::LineReader(std::filesystem::path path, int descriptor, std::size_t longest_line)
-    : path_(std::move(path)),
-      descriptor_(descriptor),
-      longest_line_(longest_line),
-      buffer_(std::max(c_buffer_bytes, longest_line + 2)) {}
-
-LineReader::LineReader(LineReader&& other) noexcept
-    : path_(std::move(other.path_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      longest_line_(other.longest_line_),
-      buffer_(std::move(other.buffer_)),
-      begin_(other.begin_),
-      end_(other.end_),
-      at_end_(other.at_end_),
-      line_number_(other.line_number_),
-      error_(std::move(other.error_)) {}
-
-LineReader::~LineReader() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  LineReader reader;
+  reader.path_ = path;
+  reader.buffer_.resize(longest_line + 1);
+  reader.file_.open(path, std::ios::binary);
+  if (!reader.file_.is_open()) return cannot(ExitCode::bad_input, path, "open", errno);
+  return reader;
 }
 
 Error LineReader::at(std::string_view what) const {
   return bad_input(fmt::format("{}:{}: {}", path_.string(), line_number_, what));
 }
 
-LineReader::Next LineReader::next(std::string_view& line) {
-  std::size_t searched = begin_;
-  while (true) {
-    const void* found = std::memchr(buffer_.data() + searched, '\n', end_ - searched);
-    const bool last = found == nullptr && at_end_;
-    if (last && begin_ == end_) return Next::end_of_file;
-    if (found != nullptr || last) {
-      const std::size_t line_end = last ? end_ : static_cast<const char*>(found) - buffer_.data();
-      line = {buffer_.data() + begin_, line_end - begin_};
-      begin_ = last ? end_ : line_end + 1;
-      ++line_number_;
-      if (line.size() <= longest_line_) return Next::line;
-      error_ = at(fmt::format("a line of more than {} characters; this is not a file of this project",
-                              longest_line_));
-      return Next::failed;
-    }
-    if (end_ - begin_ > longest_line_) {
-      ++line_number_;
-      error_ = at(fmt::format("a line of more than {} characters; this is not a file of this project",
-                              longest_line_));
-      return Next::failed;
-    }
-    std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
-    end_ -= begin_;
-    begin_ = 0;
-    searched = end_;
-    const ssize_t got = ::read(descriptor_, buffer_.data() + end_, buffer_.size() - end_);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) {
-      error_ = cannot(ExitCode::bad_input, path_, "read", errno);
-      return Next::failed;
-    }
-    if (got == 0) at_end_ = true;
-    end_ += static_cast<std::size_t>(got);
-  }
+Result<bool> LineReader::next(std::string_view& line) {
+  file_.getline(buffer_.data(), std::ssize(buffer_));
+  if (file_.bad()) return cannot(ExitCode::bad_input, path_, "read", errno);
+  const auto count = static_cast<std::size_t>(file_.gcount());  // with the line end
+  if (file_.eof() && count == 0) return false;
+  ++line_number_;
+  if (file_.fail())
+    return at(fmt::format("a line of more than {} characters; this is not a file of this project",
+                          buffer_.size() - 1));
+  line = {buffer_.data(), file_.eof() ? count : count - 1};
+  return true;
 }
 
 }  // namespace halfway

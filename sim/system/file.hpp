@@ -4,12 +4,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/result.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 
@@ -44,12 +48,6 @@ class ContentHash {
 /// Otherwise empty. Appended to the message of a tool that failed and may not have given the reason.
 std::string room_note(const std::vector<std::filesystem::path>& folders);
 
-/// Lock a temporary file or folder while the descriptor is open. Other processes can then distinguish it from
-/// leftovers of a killed run.
-void mark_in_use(int descriptor);
-/// Remove the unfinished files for `path` that killed runs left: `path`.part-* that no process has locked.
-void remove_stale_parts(const std::filesystem::path& path);
-
 /// A new folder under `parent`, removed with its contents unless `move_to` succeeds. The constructor first
 /// removes the folders that killed runs left in `parent`.
 class TemporaryFolder {
@@ -71,62 +69,58 @@ class TemporaryFolder {
   int descriptor_ = -1;         ///< of the folder; see mark_in_use
 };
 
+/// Let `fill(path)` fill a new folder and rename it to `folder`, unless `folder` exists. Throws Failure.
+template <class Fill>
+void make_once(const std::filesystem::path& folder, const Fill& fill) {
+  if (std::filesystem::exists(folder)) return;
+  TemporaryFolder fresh = must(TemporaryFolder::make(folder.parent_path()));
+  fill(fresh.path());
+  must(fresh.move_to(folder));
+}
+
 /// A file of many lines, written through a large buffer under a temporary name. `commit` renames it to its
 /// final name. Without `commit` the temporary file is removed. The first error is kept and returned by
 /// `commit`.
 class LineWriter {
  public:
   static Result<LineWriter> open(const std::filesystem::path& path);
-  LineWriter(LineWriter&& other) noexcept;
+  LineWriter(LineWriter&&) = default;
   LineWriter& operator=(LineWriter&&) = delete;
   ~LineWriter();
 
-  /// Reserve `count` bytes at the end of the buffer. Call `advance` with the number of bytes used.
-  char* reserve(std::size_t count);
-  void advance(const char* end) { used_ = static_cast<std::size_t>(end - buffer_.data()); }
   void append(std::string_view text);
   Status commit();
 
  private:
-  LineWriter(std::filesystem::path path, std::filesystem::path temporary, int descriptor);
-  void flush();
-
-  std::filesystem::path path_, temporary_;
-  int descriptor_ = -1;
-  int error_ = 0;  ///< errno of the first write that failed
-  std::vector<char> buffer_;
-  std::size_t used_ = 0;
+  LineWriter() = default;
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  std::string temporary_;
+  std::unique_ptr<std::FILE, Close> file_;  ///< null after commit
+  int error_ = 0;                           ///< errno of the first write that failed
 };
 
 /// A text file read line by line, with line numbers. The longest line allowed bounds the memory.
 class LineReader {
  public:
   static Result<LineReader> open(const std::filesystem::path& path, std::size_t longest_line = 1U << 16);
-  LineReader(LineReader&& other) noexcept;
-  LineReader& operator=(LineReader&&) = delete;
-  ~LineReader();
 
-  enum class Next { line, end_of_file, failed };
-  /// Return the next line without its line end (a last line without a line end counts). It is valid until the
-  /// next call.
-  Next next(std::string_view& line);
+  /// Read the next line without its line end (a last line without a line end counts), valid until the next
+  /// call; false at the end of the file.
+  Result<bool> next(std::string_view& line);
   std::size_t line_number() const { return line_number_; }
   /// An error at the current line: `file:line: what`.
   Error at(std::string_view what) const;
-  /// The error after `next` returned `failed`.
-  const Error& error() const { return error_; }
 
  private:
-  LineReader(std::filesystem::path path, int descriptor, std::size_t longest_line);
+  LineReader() = default;
 
   std::filesystem::path path_;
-  int descriptor_ = -1;
-  std::size_t longest_line_;
+  std::ifstream file_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0;
-  bool at_end_ = false;
   std::size_t line_number_ = 0;
-  Error error_;
 };
 
 }  // namespace halfway

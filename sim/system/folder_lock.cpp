@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -14,20 +13,14 @@ namespace halfway {
 Result<FolderLock> FolderLock::take(const std::filesystem::path& folder,
                                     const std::function<void()>& on_wait) {
   const std::filesystem::path path = folder / ".lock";
-  const int descriptor = ::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644);
-  if (descriptor < 0)
-    return tool_failed(fmt::format("{}: cannot lock the folder: {}", path.string(), std::strerror(errno)));
-  FolderLock lock(descriptor);
-  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return lock;
-  on_wait();
-  while (::flock(descriptor, LOCK_EX) != 0)
-    if (errno != EINTR)
+  FolderLock lock(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644));
+  const int descriptor = lock.descriptor_.get();
+  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return lock;
+  if (descriptor >= 0) on_wait();
+  while (descriptor < 0 || ::flock(descriptor, LOCK_EX) != 0)
+    if (descriptor < 0 || errno != EINTR)
       return tool_failed(fmt::format("{}: cannot lock the folder: {}", path.string(), std::strerror(errno)));
   return lock;
-}
-
-FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 }  // namespace halfway

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "common/result.hpp"
+#include "sim/system/descriptor.hpp"
 
 namespace halfway {
 
@@ -14,13 +15,10 @@ class FolderLock {
  public:
   /// Wait while another run has the lock. `on_wait` is called once if waiting is necessary.
   static Result<FolderLock> take(const std::filesystem::path& folder, const std::function<void()>& on_wait);
-  FolderLock(FolderLock&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
-  FolderLock& operator=(FolderLock&&) = delete;
-  ~FolderLock();
 
  private:
   explicit FolderLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_;
+  Descriptor descriptor_;
 };
 
 }  // namespace halfway

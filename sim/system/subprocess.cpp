@@ -16,6 +16,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "sim/system/descriptor.hpp"
+
 namespace halfway {
 namespace {
 
@@ -41,23 +43,6 @@ class KeptOutput {
  private:
   std::string head_, tail_;
   std::size_t left_out_ = 0;
-};
-
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int value) : value_(value) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() { reset(); }
-  void reset(int value = -1) {
-    if (value_ >= 0) ::close(value_);
-    value_ = value;
-  }
-  int get() const { return value_; }
-
- private:
-  int value_ = -1;
 };
 
 struct Pipe {
