@@ -30,13 +30,13 @@ constexpr std::uint32_t c_stop = 1'000'000, c_stop_in_ghdl = 10'000;
 constexpr std::size_t c_packets_per_pause = 4, c_longest_pause = 3000;
 
 /// The vectors of a frame, one by one.
-Result<std::vector<std::vector<std::uint32_t>>> vectors_of(const Scene& scene, const SetupOptions& options) {
+std::vector<std::vector<std::uint32_t>> vectors_of(const Scene& scene, const SetupOptions& options) {
   const std::unique_ptr<Setup> setup = make_setup(scene, c_board_frame, board_key(), options);
   std::vector<std::uint32_t> words;
   SetupCounts counts;
   setup->append_prologue(words, counts);
   setup->append_all(words, counts);
-  if (Status status = check_projection(scene, counts); !status) return status.error();
+  must(check_projection(scene, counts));
   const std::size_t size = (setup->init_bits() + 31) / 32;
   std::vector<std::vector<std::uint32_t>> vectors;
   for (std::size_t at = 0; at < words.size(); at += size)
@@ -147,24 +147,23 @@ class PictureOrder {
 };
 
 /// Writes the last two pictures, the monitor's and the twin's.
-Status write_pictures(const std::filesystem::path& out, const PictureOrder& order) {
-  if (Status made = make_folders(out); !made) return made;
+void write_pictures(const std::filesystem::path& out, const PictureOrder& order) {
+  must(make_folders(out));
   const auto write = [&](const std::string& name, const DotPicture& dots) {
-    return dots.empty() ? Status(Ok{}) : write_png(out / (name + ".png"), frame_of_dots(dots));
+    if (!dots.empty()) must(write_png(out / (name + ".png"), frame_of_dots(dots)));
   };
   const std::size_t first = order.expected().size() - 2;
   for (std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-    for (const Status& written : {write(fmt::format("twin-{}", i + 1), order.expected()[first + i]),
-                                  write(fmt::format("board-{}", i + 1), order.shown()[first + i])})
-      if (!written) return written;
+    write(fmt::format("twin-{}", i + 1), order.expected()[first + i]);
+    write(fmt::format("board-{}", i + 1), order.shown()[first + i]);
   }
-  return write("board-different", order.different());
+  write("board-different", order.different());
 }
 
 }  // namespace
 
 Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& options,
-                               const SimulatorFolders& folders) {
+                               const SimulatorFolders& folders) try {
   const std::uint16_t background = rgb565(scene.background);
   const unsigned init_bits = make_golden_model(board_key())->init_bits();
   BoardCheck check;
@@ -176,16 +175,15 @@ Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& opti
     Scene turned = scene;
     turned.camera = orbited(scene.camera, turn, 0.0, 1.0);
     auto vectors = vectors_of(turned, options.setup);
-    if (!vectors) return vectors.error();
-    const std::size_t sent = vectors->size();
-    append_frame(script, *vectors, init_bits, options.host, options.ghdl ? c_stop_in_ghdl : c_stop);
-    bad_packets += sent - vectors->size();
+    const std::size_t sent = vectors.size();
+    append_frame(script, vectors, init_bits, options.host, options.ghdl ? c_stop_in_ghdl : c_stop);
+    bad_packets += sent - vectors.size();
     script.push_back(whole_packet(end_packet(background)));
-    const std::vector<Fragment> fragments = fragments_of(*vectors);
+    const std::vector<Fragment> fragments = fragments_of(vectors);
     BoardPicture picture(background);
     picture.add(fragments);
     expected.push_back(picture.dots());
-    check.vectors += vectors->size();
+    check.vectors += vectors.size();
     check.fragments += fragments.size();
     check.depth_pixels += depth_pixels(picture, fragments, scene.background);
   }
@@ -194,19 +192,20 @@ Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& opti
   PictureOrder order(expected);
   const auto on_picture = [&](const DotPicture& dots) { return order.add(dots); };
   const RunOptions run_options{.pause_seed = options.host == Host::unreliable ? 7U : 0U};
-  const auto run = options.ghdl ? run_in_ghdl(script, folders, on_picture)
-                                : run_in_verilator(script, run_options, folders, on_picture);
-  if (!run) return run.error();
-  check.run = *run;
+  check.run = must(options.ghdl ? run_in_ghdl(script, folders, on_picture)
+                                : run_in_verilator(script, run_options, folders, on_picture));
   check.pictures = order.count();
-  if (Status written = write_pictures(options.out, order); !written) return written.error();
-  if (!order.complete() || !run->host_done)
+  write_pictures(options.out, order);
+  if (!order.complete() || !check.run.host_done)
     return Error{ExitCode::differs, fmt::format("{}: {}", scene.name, order.difference())};
-  if (run->report.errors != bad_packets || run->report.faults != 0)
+  const HostReport& report = check.run.report;
+  if (report.errors != bad_packets || report.faults != 0)
     return Error{ExitCode::differs,
                  fmt::format("{}: the status bytes report {} bad packets and {} faults instead of {} and 0",
-                             scene.name, run->report.errors, run->report.faults, bad_packets)};
+                             scene.name, report.errors, report.faults, bad_packets)};
   return check;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway::board

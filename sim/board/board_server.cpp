@@ -16,6 +16,7 @@
 #include "sim/board/spi_packet.hpp"
 #include "sim/board/verilated_board.hpp"
 #include "sim/pictures/image.hpp"
+#include "sim/system/descriptor.hpp"
 #include "sim/system/file.hpp"
 
 namespace halfway::board {
@@ -25,23 +26,8 @@ constexpr std::uint32_t c_longest_packet = 4096;
 /// Until the last frame must be shown: two that are being shown or were begun before the swap, and the frame.
 constexpr int c_pictures_at_end = 3;
 
-/// A descriptor that is closed at the end.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  int operator*() const { return number_; }
-
- private:
-  int number_;
-};
-
-Error failed(const std::filesystem::path& socket, const char* what) {
-  return tool_failed(fmt::format("{}: {}: {}", socket.string(), what, std::strerror(errno)));
+[[noreturn]] void fail(const std::filesystem::path& socket, const char* what) {
+  throw Failure{tool_failed(fmt::format("{}: {}: {}", socket.string(), what, std::strerror(errno)))};
 }
 
 /// Returns false at the end of the connection.
@@ -67,18 +53,15 @@ class Pictures {
   void add(const DotPicture& dots) {
     ++count_;
     const bool equal = twin_.shows(dots);
-    const std::string name = equal ? fmt::format("picture-{}", different_) : "picture-different";
+    const std::string name = equal ? fmt::format("picture-{}.png", different_) : "picture-different.png";
+    if (dots != last_) must(write_png(out_ / name, frame_of_dots(dots)));
     if (!equal)
-      status_ =
-          Error{ExitCode::differs, fmt::format("picture {} of the monitor differs from the twin's; see {}",
-                                               count_, (out_ / (name + ".png")).string())};
-    if (dots == last_) return;
+      throw Failure{
+          {ExitCode::differs, fmt::format("picture {} of the monitor differs from the twin's; see {}", count_,
+                                          (out_ / name).string())}};
+    if (dots != last_) ++different_;
     last_ = dots;
-    ++different_;
-    if (const Status written = write_png(out_ / (name + ".png"), frame_of_dots(dots)); !written && status_)
-      status_ = written;
   }
-  const Status& status() const { return status_; }
   std::uint64_t count() const { return count_; }
   std::uint64_t different() const { return different_; }
 
@@ -87,18 +70,16 @@ class Pictures {
   std::filesystem::path out_;
   DotPicture last_;
   std::uint64_t count_ = 0, different_ = 0;
-  Status status_ = Ok{};
 };
 
 }  // namespace
 
 Result<ServerReport> serve_board(const std::filesystem::path& socket, const std::filesystem::path& out,
-                                 const SimulatorFolders& folders) {
-  if (Status made = make_folders(out); !made) return made.error();
+                                 const SimulatorFolders& folders) try {
+  must(make_folders(out));
   PacketTwin twin;
   Pictures pictures(twin, out);
-  auto board = VerilatedBoard::open(folders, [&](const DotPicture& dots) { pictures.add(dots); });
-  if (!board) return board.error();
+  VerilatedBoard board(folders, [&](const DotPicture& dots) { pictures.add(dots); });
 
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -107,46 +88,43 @@ Result<ServerReport> serve_board(const std::filesystem::path& socket, const std:
   std::strcpy(address.sun_path, socket.c_str());
   const Descriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   ::unlink(socket.c_str());
-  if (*listener < 0 || ::bind(*listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(*listener, 1) != 0)
-    return failed(socket, "cannot listen");
-  const Descriptor client(::accept4(*listener, nullptr, nullptr, SOCK_CLOEXEC));
+  if (listener.get() < 0 ||
+      ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      ::listen(listener.get(), 1) != 0)
+    fail(socket, "cannot listen");
+  const Descriptor client(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
   ::unlink(socket.c_str());
-  if (*client < 0) return failed(socket, "no client");
+  if (client.get() < 0) fail(socket, "no client");
 
   ServerReport report;
   SpiWire wire(0);
   SpiPins pins;
-  const auto clock = [&]() -> Status {
-    const Result<bool> data = board->clock(pins);
-    if (!data) return data.error();
-    pins = wire.clock(*data);
-    return pictures.status();
-  };
+  const auto clock = [&] { pins = wire.clock(board.clock(pins)); };
   std::uint32_t count = 0;
-  for (std::vector<std::uint8_t> packet; read_all(*client, &count, sizeof count);) {
+  for (std::vector<std::uint8_t> packet; read_all(client.get(), &count, sizeof count);) {
     if (count == 0 || count > c_longest_packet)
       return bad_input(fmt::format("{}: a packet of {} bytes", socket.string(), count));
     packet.resize(count);
-    if (!read_all(*client, packet.data(), count)) break;
+    if (!read_all(client.get(), packet.data(), count)) break;
     wire.send(packet);
-    while (wire.busy())
-      if (Status status = clock(); !status) return status.error();
+    while (wire.busy()) clock();
     twin.take(packet, wire.received()[0]);
     ++report.packets;
     if (packet[0] == c_draw) ++report.vectors;
-    if (!write_all(*client, wire.received())) break;
+    if (!write_all(client.get(), wire.received())) break;
   }
   // Show the last frame.
   for (const std::uint64_t end = pictures.count() + c_pictures_at_end; twin.pending() > 0;) {
-    if (Status status = clock(); !status) return status.error();
+    clock();
     if (pictures.count() == end && twin.pending() > 0)
       return Error{ExitCode::differs,
                    fmt::format("the monitor has not shown the last {} frames", twin.pending())};
   }
-  report.clocks = board->clocks();
+  report.clocks = board.clocks();
   report.pictures = pictures.different();
   return report;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway::board

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
@@ -17,6 +16,7 @@ HardwareKey board_key();
 inline constexpr const char* c_board_top_file = "rtl/board/board_top.vhd";
 
 /// The RTL in compile order, and that of the board without board_top, which needs the cells of the FPGA.
-Result<std::vector<VhdlSource>> board_sources(const SimulatorFolders& folders);
+/// Throws Failure.
+std::vector<VhdlSource> board_sources(const SimulatorFolders& folders);
 
 }  // namespace halfway::board

@@ -9,6 +9,7 @@
 #include "sim/board/board_picture.hpp"
 #include "sim/board/board_sources.hpp"
 #include "sim/board/sram_model.hpp"
+#include "sim/system/must.hpp"
 #include "sim/verilator/netlist.hpp"
 #include "sim/verilator/verilated_library.hpp"
 
@@ -26,34 +27,24 @@ struct BoardLibrary {
   decltype(&board_destroy) destroy = nullptr;
 };
 
-Result<BoardLibrary> open_library(const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = board_sources(folders);
-  if (!sources) return sources.error();
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
-  if (!library) return library.error();
-  const auto netlist = library->synthesize(c_top, board_key().generics());
-  if (!netlist) return netlist.error();
-  auto mended = mend_netlist(*netlist);
-  if (!mended) return mended.error();
+BoardLibrary open_library(const SimulatorFolders& folders) {
+  const GhdlLibrary library =
+      must(GhdlLibrary::for_synthesis(must(GhdlTool::find()), board_sources(folders), folders.cache));
   const std::filesystem::path folder = folders.source / "sim/board";
-  auto built = open_verilated({.name = c_top,
-                               .netlist = std::move(*mended),
-                               .top = c_top,
-                               .harness = folder / "board_harness.cpp",
-                               .include_folder = folders.source,
-                               .harness_headers = {folder / "board_api.h"}},
-                              folders.cache);
-  if (!built) return built.error();
-  BoardLibrary board{.library = std::move(*built)};
-  if (Status bound = board.library.bind(board.version, "board_version", board.create, "board_create",
-                                        board.clock, "board_clock", board.destroy, "board_destroy");
-      !bound)
-    return bound.error();
+  BoardLibrary board{
+      .library = must(open_verilated(
+          {.name = c_top,
+           .netlist = must(mend_netlist(must(library.synthesize(c_top, board_key().generics())))),
+           .top = c_top,
+           .harness = folder / "board_harness.cpp",
+           .include_folder = folders.source,
+           .harness_headers = {folder / "board_api.h"}},
+          folders.cache))};
+  must(board.library.bind(board.version, "board_version", board.create, "board_create", board.clock,
+                          "board_clock", board.destroy, "board_destroy"));
   if (board.version() != HALFWAY_BOARD_VERSION)
-    return tool_failed(
-        fmt::format("{}: of another version; delete it and try again", board.library.file().string()));
+    throw Failure{tool_failed(
+        fmt::format("{}: of another version; delete it and try again", board.library.file().string()))};
   return board;
 }
 
@@ -75,26 +66,22 @@ struct VerilatedBoard::State {
   std::uint64_t clocks = 0;
 };
 
-Result<VerilatedBoard> VerilatedBoard::open(const SimulatorFolders& folders,
-                                            std::function<void(const DotPicture&)> on_picture) {
-  auto library = open_library(folders);
-  if (!library) return library.error();
-  auto state = std::make_unique<State>(std::move(*library), std::move(on_picture));
-  state->pins.hsync = state->pins.vsync = 1;
-  for (int i = 0; i < c_reset_clocks; ++i) state->library.clock(state->core, &state->inputs, &state->outputs);
-  state->inputs.reset = 0;
-  return VerilatedBoard(std::move(state));
+VerilatedBoard::VerilatedBoard(const SimulatorFolders& folders,
+                               std::function<void(const DotPicture&)> on_picture)
+    : state_(std::make_unique<State>(open_library(folders), std::move(on_picture))) {
+  State& s = *state_;
+  s.pins.hsync = s.pins.vsync = 1;
+  for (int i = 0; i < c_reset_clocks; ++i) s.library.clock(s.core, &s.inputs, &s.outputs);
+  s.inputs.reset = 0;
 }
 
-VerilatedBoard::VerilatedBoard(std::unique_ptr<State> state) : state_(std::move(state)) {}
-VerilatedBoard::VerilatedBoard(VerilatedBoard&& other) noexcept = default;
 VerilatedBoard::~VerilatedBoard() = default;
 
 std::uint64_t VerilatedBoard::clocks() const {
   return state_->clocks;
 }
 
-Result<bool> VerilatedBoard::clock(const SpiPins& spi) {
+bool VerilatedBoard::clock(const SpiPins& spi) {
   State& s = *state_;
   ++s.clocks;
   s.library.clock(s.core, &s.inputs, &s.outputs);
@@ -106,7 +93,7 @@ Result<bool> VerilatedBoard::clock(const SpiPins& spi) {
   s.monitor.clock({s.pins.hsync != 0, s.pins.vsync != 0, s.pins.red, s.pins.green, s.pins.blue});
   s.pins = s.outputs;
   for (const std::string* fault : {&s.sram.fault(), &s.monitor.fault()})
-    if (!fault->empty()) return Error{ExitCode::differs, "board in Verilator: " + *fault};
+    if (!fault->empty()) throw Failure{{ExitCode::differs, "board in Verilator: " + *fault}};
   return s.outputs.spi_data_out != 0;
 }
 

@@ -8,31 +8,28 @@
 #include <memory>
 #include <string>
 
-#include "common/result.hpp"
 #include "sim/board/monitor.hpp"
 #include "sim/board/spi_wire.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway::board {
 
+/// Its functions throw Failure.
 class VerilatedBoard {
  public:
   /// Builds the model, or takes it from the cache, and resets it. on_picture gets each picture of the
   /// monitor.
-  static Result<VerilatedBoard> open(const SimulatorFolders& folders,
-                                     std::function<void(const DotPicture&)> on_picture);
-  VerilatedBoard(VerilatedBoard&& other) noexcept;
+  VerilatedBoard(const SimulatorFolders& folders, std::function<void(const DotPicture&)> on_picture);
   ~VerilatedBoard();
 
   /// One system clock with these levels at the host's pins. Returns the level of the board's data. A fault of
-  /// the bus or of the video timing is an error with the code `differs`.
-  Result<bool> clock(const SpiPins& pins);
+  /// the bus or of the video timing has the code `differs`.
+  bool clock(const SpiPins& pins);
 
   std::uint64_t clocks() const;
 
  private:
   struct State;
-  explicit VerilatedBoard(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 

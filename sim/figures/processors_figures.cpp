@@ -17,7 +17,6 @@
 #include "shading/shade.hpp"
 #include "sim/figures/figure.hpp"
 #include "sim/figures/pictures.hpp"
-#include "sim/figures/testbench.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/stream_files/table4.hpp"
 #include "sim/system/file.hpp"
@@ -27,32 +26,19 @@ namespace {
 
 // ---- Table 3 ----
 
-enum class Source { ambient, directional, positional, spot };
-const char* name_of_source(Source source) {
-  constexpr std::array c_names = {"ambient", "directional", "positional", "spot"};
-  return c_names[static_cast<std::size_t>(source)];
-}
-
-enum class Reflection { ambient, diffuse, specular };
-constexpr std::array c_reflections = {Reflection::ambient, Reflection::diffuse, Reflection::specular};
-const char* name_of_reflection(Reflection reflection) {
-  constexpr std::array c_names = {"ambient", "diffuse", "specular"};
-  return c_names[static_cast<std::size_t>(reflection)];
-}
-
 // A sphere with one kind of light and one kind of reflection.
-Scene lit_sphere(Source source, Reflection reflection) {
+Scene lit_sphere(std::string_view source, std::string_view reflection) {
   Scene scene = sphere_scene(17, 12, 20.0);
   Material& material = scene.materials[0];
-  material.ambient = reflection == Reflection::ambient ? 0.6 : 0.0;
-  material.diffuse = reflection == Reflection::diffuse ? 0.9 : 0.0;
-  material.specular = reflection == Reflection::specular ? 0.9 : 0.0;
+  material.ambient = reflection == "ambient" ? 0.6 : 0.0;
+  material.diffuse = reflection == "diffuse" ? 0.9 : 0.0;
+  material.specular = reflection == "specular" ? 0.9 : 0.0;
   const glm::dvec3 place{-0.8, 0.9, 2.4};
   scene.directional.clear();
-  scene.ambient = glm::dvec3(source == Source::ambient ? 1.0 : 0.0);
-  if (source == Source::directional) scene.directional.push_back({glm::normalize(place), glm::dvec3(1.0)});
-  if (source == Source::positional) scene.positional.push_back({place, glm::dvec3(1.0)});
-  if (source == Source::spot)
+  scene.ambient = glm::dvec3(source == "ambient" ? 1.0 : 0.0);
+  if (source == "directional") scene.directional.push_back({glm::normalize(place), glm::dvec3(1.0)});
+  if (source == "positional") scene.positional.push_back({place, glm::dvec3(1.0)});
+  if (source == "spot")
     scene.spots.push_back({.position_world = place, .axis_world = -glm::normalize(place)});
   return scene;
 }
@@ -76,36 +62,29 @@ bool draws(const Context& context, const Scene& scene, Preset preset, bool norma
          distance(hardware.frame, phong.frame, phong.mask).psnr_db >= c_least_psnr_db;
 }
 
-std::string list_of(const std::vector<const char*>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 void draw_table_3(const Context& context, Drawing& out) {
   // What each version draws of scenes with a single kind of light and of reflection.
   for (const bool normalize : {false, true}) {
-    const auto draws_published = [&](Source source, Reflection reflection) {
+    const auto draws_published = [&](std::string_view source, std::string_view reflection) {
       return draws(context, lit_sphere(source, reflection), Preset::published, normalize);
     };
-    std::vector<const char*> sources, reflections;
-    for (const Source source : {Source::ambient, Source::directional, Source::positional})
-      if (draws_published(source, source == Source::ambient ? Reflection::ambient : Reflection::diffuse))
-        sources.push_back(name_of_source(source));
-    for (const Reflection reflection : c_reflections) {
+    std::vector<std::string_view> sources, reflections;
+    for (const std::string_view source : {"ambient", "directional", "positional"})
+      if (draws_published(source, source == "ambient" ? "ambient" : "diffuse")) sources.push_back(source);
+    for (const std::string_view reflection : {"ambient", "diffuse", "specular"}) {
       // Version II must draw a reflection under each kind of light.
-      bool drawn = draws_published(reflection == Reflection::ambient ? Source::ambient : Source::directional,
-                                   reflection);
-      if (normalize && reflection != Reflection::ambient)
-        drawn = drawn && draws_published(Source::positional, reflection);
-      if (drawn) reflections.push_back(name_of_reflection(reflection));
+      bool drawn = draws_published(reflection == "ambient" ? "ambient" : "directional", reflection);
+      if (normalize && reflection != "ambient") drawn = drawn && draws_published("positional", reflection);
+      if (drawn) reflections.push_back(reflection);
     }
     const char* const version = normalize ? "version II" : "version I";
     out.measured[fmt::format("{}, {} normalization: light sources", version,
-                             normalize ? "with" : "without")] = {list_of(sources)};
-    out.measured[fmt::format("{}: reflection", version)] = {list_of(reflections)};
+                             normalize ? "with" : "without")] = {fmt::format("{}", fmt::join(sources, ", "))};
+    out.measured[fmt::format("{}: reflection", version)] = {fmt::format("{}", fmt::join(reflections, ", "))};
   }
   std::vector<const char*> spot_presets;
   for (const Preset preset : {Preset::published, Preset::exact})
-    if (draws(context, lit_sphere(Source::spot, Reflection::diffuse), preset, true))
+    if (draws(context, lit_sphere("spot", "diffuse"), preset, true))
       spot_presets.push_back(to_string(preset));
   out.measured["spot lights"] = {spot_presets.empty()
                                      ? "not drawn"
@@ -115,8 +94,8 @@ void draw_table_3(const Context& context, Drawing& out) {
   // preset exact.
   constexpr FrameSize c_shown_size{144, 108};
   std::vector<Frame> pictures;
-  for (const Source source : {Source::directional, Source::positional}) {
-    Scene scene = lit_sphere(source, Reflection::diffuse);
+  for (const std::string_view source : {"directional", "positional"}) {
+    Scene scene = lit_sphere(source, "diffuse");
     scene.ambient = glm::dvec3(0.5);
     scene.materials[0].ambient = 0.1, scene.materials[0].diffuse = 0.65, scene.materials[0].specular = 0.4;
     for (const FrameSize size : {c_compared_size, c_shown_size}) {
@@ -127,11 +106,11 @@ void draw_table_3(const Context& context, Drawing& out) {
         PlanRequest plan = c_published;
         plan.preset = preset;
         const Frame frame = draw_in_hardware(context, scene, size, plan).frame;
-        const char* const version = preset == Preset::exact         ? "preset exact"
-                                    : source == Source::directional ? "version I"
-                                                                    : "version II";
+        const char* const version = preset == Preset::exact   ? "preset exact"
+                                    : source == "directional" ? "version I"
+                                                              : "version II";
         if (compared)
-          out.measured[fmt::format("{} light, {} against Phong shading", name_of_source(source), version)] =
+          out.measured[fmt::format("{} light, {} against Phong shading", source, version)] =
               likeness(frame, phong.frame, phong.mask).measured();
         else
           pictures.push_back(frame);
@@ -166,10 +145,12 @@ constexpr std::array<Table4Row, 8> c_table_4 = {
 std::map<std::string, int> clocks_in_ghdl(const Context& context) {
   const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
   vectors::write_table4(scratch.path());
-  const std::string output =
-      run_testbench(context, "table4_tb", must(read_rtl_sources(context.folders.source)),
-                    {"tb/tb_pkg.vhd", "tb/illumination/table4_tb.vhd"},
-                    {"-gg_folder=" + std::filesystem::absolute(scratch.path()).string()});
+  std::vector<VhdlSource> sources = must(read_rtl_sources(context.folders.source));
+  for (const char* name : {"tb/tb_pkg.vhd", "tb/illumination/table4_tb.vhd"})
+    sources.push_back(must(read_vhdl_source(context.folders.source, name)));
+  const std::string output = must(run_testbench(
+      "table4_tb", sources, {"-gg_folder=" + std::filesystem::absolute(scratch.path()).string()},
+      context.folders.cache));
   std::map<std::string, int> clocks;
   constexpr std::string_view c_mark = "(report note): table 4, ";
   for (std::size_t at = 0; (at = output.find(c_mark, at)) != std::string::npos;) {

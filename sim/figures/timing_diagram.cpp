@@ -12,7 +12,6 @@
 #include <set>
 
 #include "sim/figures/plot.hpp"
-#include "sim/figures/testbench.hpp"
 #include "sim/ghdl/vcd.hpp"
 #include "sim/pages/timing_diagram.hpp"
 #include "sim/system/file.hpp"
@@ -146,21 +145,20 @@ class TraceBuilder {
 
 TimingTrace timing_trace(const std::filesystem::path& vcd) {
   constexpr double c_femtoseconds = 1e6;  // per nanosecond
-  VcdReader reader = must(VcdReader::open(vcd));
+  VcdReader reader(vcd);
   TraceBuilder builder;
   const std::string scope = std::string(c_top) + '/';
   for (const auto& [path, signal] : reader.signals())
     if (path.starts_with(scope) && path.find('/', scope.size()) == std::string::npos)
       builder.name(signal.code, path.substr(scope.size()), signal.is_scalar);
   for (;;) {
-    const auto change = must(reader.next());
+    const auto change = reader.next();
     builder.at(static_cast<double>(reader.time()) / c_femtoseconds);
     if (!change) break;
-    const auto& [code, value] = *change;
-    if (value.size() > 1)
-      builder.change(code, hexadecimal(value));
-    else if (value == "0" || value == "1")
-      builder.change(code, value);
+    if (change->value.size() > 1)
+      builder.change(change->code, hexadecimal(change->value));
+    else if (change->value == "0" || change->value == "1")
+      builder.change(change->code, change->value);
   }
   TimingTrace trace = builder.finish();
   if (trace.steps.empty() || trace.values.empty())
@@ -171,18 +169,18 @@ TimingTrace timing_trace(const std::filesystem::path& vcd) {
 namespace {
 
 TimingTrace simulated(const Context& context) {
-  std::vector<VhdlSource> packages = must(read_rtl_sources(context.folders.source));
-  std::erase_if(packages, [](const VhdlSource& source) {
+  std::vector<VhdlSource> sources = must(read_rtl_sources(context.folders.source));
+  std::erase_if(sources, [](const VhdlSource& source) {
     const bool of_tables =
         source.name.find("tables/") != std::string::npos && source.name.ends_with("_pkg.vhd");
     return !of_tables && !source.name.ends_with("raster/line_pkg.vhd");
   });
   const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
   const std::filesystem::path vcd = std::filesystem::absolute(scratch.path()) / "trace.vcd";
-  run_testbench(
-      context, c_top, std::move(packages),
-      {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"},
-      {"-gg_lines=1", "--vcd=" + vcd.string()});
+  for (const char* name :
+       {"tb/tb_pkg.vhd", "tb/timing/interpolator_timing.vhd", "tb/timing/interpolator_timing_tb.vhd"})
+    sources.push_back(must(read_vhdl_source(context.folders.source, name)));
+  must(run_testbench(c_top, sources, {"-gg_lines=1", "--vcd=" + vcd.string()}, context.folders.cache));
   return timing_trace(vcd);
 }
 

@@ -47,6 +47,7 @@ struct TimingTrace {
 };
 
 /// Read a VCD file of the first line of interpolator_timing_tb, as written by GHDL; its times are in fs.
+/// Throws Failure.
 TimingTrace timing_trace(const std::filesystem::path& vcd);
 
 void draw_figure_17(const Context& context, Drawing& out);

@@ -12,20 +12,16 @@ std::vector<std::string> format_sources(Shader shader) {
           fmt::format("model/setup/{}_setup.cpp", to_string(shader))};
 }
 
-Result<std::string> format_sources_hash(const std::filesystem::path& source) {
+Result<std::string> format_sources_hash(const std::filesystem::path& source) try {
   std::vector<std::filesystem::path> files;
   for (const Shader shader : c_shaders)
     for (const std::string& file : format_sources(shader)) files.emplace_back(file);
-  const auto headers = files_below(source / "model", ".hpp");
-  if (!headers) return headers.error();
-  for (const std::filesystem::path& header : *headers) files.push_back("model" / header);
+  for (const auto& header : must(files_below(source / "model", ".hpp"))) files.push_back("model" / header);
   ContentHash hash;
-  for (const std::filesystem::path& file : files) {
-    const auto text = read_file(source / file);
-    if (!text) return text.error();
-    hash.add(file.string()).add(*text);
-  }
+  for (const std::filesystem::path& file : files) hash.add(file.string()).add(must(read_file(source / file)));
   return hash.hex();
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

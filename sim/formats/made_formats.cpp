@@ -32,11 +32,10 @@ constexpr std::array c_flags = {
 }  // namespace
 
 Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& key,
-                                                             const SimulatorFolders& folders) {
+                                                             const SimulatorFolders& folders) try {
   const fs::path source = fs::absolute(folders.source);
-  const auto sources = format_sources_hash(source);
-  if (!sources) return sources.error();
-  if (*sources != built_from())
+  const std::string sources = must(format_sources_hash(source));
+  if (sources != built_from())
     return bad_input(fmt::format(
         "{}: the program was built from other sources; word lengths other than the preset's need the "
         "same sources: run make program",
@@ -44,15 +43,14 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
   const bool exact = key.preset == Preset::exact;
   const tables::WordLengths& words = key.words;
   const auto headers = tables::cpp_headers(tables::compiled_sizes(), exact, words);
-  const auto compiler = Compiler::find(HALFWAY_CXX);
-  if (!compiler) return compiler.error();
+  const Compiler compiler = must(Compiler::find(HALFWAY_CXX));
   std::vector<std::string> flags(c_flags.begin(), c_flags.end());
   // g++ would let the program and the library share inline variables.
-  if (compiler->program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
+  if (compiler.program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
   flags.push_back(fmt::format("-DHALFWAY_SHADER={}", static_cast<int>(key.shader)));
   flags.emplace_back(exact ? "-DHALFWAY_PRESET=Exact" : "-DHALFWAY_PRESET=Published");
   ContentHash hash;
-  hash.add("formats 4").add(*sources).add(compiler->identity);
+  hash.add("formats 4").add(sources).add(compiler.identity);
   for (const tables::GeneratedFile& header : headers) hash.add(header.text);
   for (const std::string& flag : flags) hash.add(flag);
 
@@ -60,35 +58,29 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
   const std::string name =
       fmt::format("{}-{}-{}-{}", to_string(key.shader), to_string(key.preset), words.name(), hash.hex());
   const fs::path folder = parent / name;
-  if (!fs::exists(folder / c_library)) {
+  if (!fs::exists(folder)) {
     // Compiling takes half a minute. Other points with the same formats wait for it.
     const fs::path locked = parent / (name + ".lock");
-    if (Status made = make_folders(locked); !made) return made.error();
-    const auto lock = FolderLock::take(locked, [] {});
-    if (!lock) return lock.error();
-    if (!fs::exists(folder / c_library)) {
-      auto fresh = TemporaryFolder::make(parent);
-      if (!fresh) return fresh.error();
-      if (Status written = tables::write_files(fresh->path(), headers); !written) return written.error();
-      Command compile{.arguments = {compiler->program}, .working_folder = fresh->path()};
+    must(make_folders(locked));
+    const FolderLock lock = must(FolderLock::take(locked, [] {}));
+    make_once(folder, [&](const fs::path& fresh) {
+      must(tables::write_files(fresh, headers));
+      Command compile{.arguments = {compiler.program}, .working_folder = fresh};
       compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
       compile.arguments.insert(compile.arguments.end(),
                                {"-I.", "-I" + (source / "model").string(), "-I" + source.string()});
       for (const std::string& file : format_sources(key.shader))
         compile.arguments.push_back((source / file).string());
       compile.arguments.insert(compile.arguments.end(), {"-o", c_library});
-      if (auto done = run_tool(compile, c_install_compiler, words.name()); !done) return done.error();
-      if (Status moved = fresh->move_to(folder); !moved) return moved.error();
-    }
+      must(run_tool(compile, c_install_compiler, words.name()));
+    });
   }
-  auto library = SharedLibrary::load(folder / c_library);
-  if (!library) return library.error();
-  std::shared_ptr<MadeFormats> made(new MadeFormats(std::move(*library)));
-  if (Status bound = made->library_.bind(made->setup_, "halfway_make_setup", made->golden_model_,
-                                         "halfway_make_golden_model");
-      !bound)
-    return bound.error();
+  std::shared_ptr<MadeFormats> made(new MadeFormats(must(SharedLibrary::load(folder / c_library))));
+  must(made->library_.bind(made->setup_, "halfway_make_setup", made->golden_model_,
+                           "halfway_make_golden_model"));
   return std::shared_ptr<const MadeFormats>(std::move(made));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 std::unique_ptr<Setup> MadeFormats::make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,

@@ -31,15 +31,11 @@ struct Source {
   std::string text;
 };
 
-Result<std::vector<Source>> rtl_sources(const fs::path& rtl, const Packages& packages) {
-  const auto files = files_below(rtl);
-  if (!files) return files.error();
+std::vector<Source> rtl_sources(const fs::path& rtl, const Packages& packages) {
   std::vector<Source> sources;
-  for (const fs::path& path : *files) {
-    auto text = read_file(rtl / path);
-    if (!text) return text.error();
+  for (const fs::path& path : must(files_below(rtl))) {
     const auto made = packages.find(path.string());
-    sources.push_back({path, made != packages.end() ? made->second : *text});
+    sources.push_back({path, made != packages.end() ? made->second : must(read_file(rtl / path))});
   }
   return sources;
 }
@@ -69,7 +65,8 @@ Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& ch
 }
 
 Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
-                          const fs::path& checkout, const fs::path& cache, const std::vector<double>& own) {
+                          const fs::path& checkout, const fs::path& cache,
+                          const std::vector<double>& own) try {
   Packages packages;
   std::string name = exact ? "exact" : "published";
   if (size) {
@@ -81,28 +78,22 @@ Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, con
     packages["tables/function_pkg.vhd"] = function_vhdl_package(function_tables(exact, words));
     name += "-" + words.name();
   }
-  const auto sources = rtl_sources(checkout / "rtl", packages);
-  if (!sources) return sources.error();
+  const std::vector<Source> sources = rtl_sources(checkout / "rtl", packages);
   ContentHash hash;
   hash.add(fs::absolute(checkout).string());
-  for (const Source& source : *sources) hash.add(source.path.string()).add(source.text);
-  const fs::path parent = fs::absolute(cache) / "tables";
-  const fs::path folder = parent / fmt::format("{}-{}", name, hash.hex());
-  if (fs::exists(folder)) return folder;
-  auto fresh = TemporaryFolder::make(parent);
-  if (!fresh) return fresh.error();
-  for (const Source& source : *sources) {
-    const fs::path path = fresh->path() / "rtl" / source.path;
-    if (Status made = make_folders(path.parent_path()); !made) return made.error();
-    if (Status written = write_file(path, source.text); !written) return written.error();
-  }
-  for (const char* kept : {"sim", "tb"}) {
-    std::error_code error;
-    fs::create_directory_symlink(fs::absolute(checkout) / kept, fresh->path() / kept, error);
-    if (error) return tool_failed(fmt::format("{}: {}", fresh->path().string(), error.message()));
-  }
-  if (Status moved = fresh->move_to(folder); !moved) return moved.error();
+  for (const Source& source : sources) hash.add(source.path.string()).add(source.text);
+  const fs::path folder = fs::absolute(cache) / "tables" / fmt::format("{}-{}", name, hash.hex());
+  make_once(folder, [&](const fs::path& fresh) {
+    for (const Source& source : sources) must(write_file(fresh / "rtl" / source.path, source.text));
+    for (const char* kept : {"sim", "tb"}) {
+      std::error_code error;
+      fs::create_directory_symlink(fs::absolute(checkout) / kept, fresh / kept, error);
+      if (error) throw Failure{tool_failed(fmt::format("{}: {}", fresh.string(), error.message()))};
+    }
+  });
   return folder;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway::tables

@@ -30,8 +30,8 @@ struct GhdlTool {
   std::string version;           ///< the output of `ghdl --version`
   std::string program = "ghdl";  ///< a name in PATH, or a path
 
-  /// Find the program. If it is missing, return an error with the command that installs GHDL.
-  static Result<GhdlTool> find(const std::string& program = "ghdl");
+  /// Find ghdl. If it is missing, return an error with the command that installs it.
+  static Result<GhdlTool> find();
 };
 
 struct VhdlSource {
@@ -60,26 +60,29 @@ class GhdlLibrary {
   const GhdlTool& tool() const { return tool_; }
   const std::string& hash() const { return hash_; }
 
+  using Generics = std::vector<std::pair<std::string, std::string>>;
   /// The Verilog netlist of `entity`, as `ghdl --synth` prints it. Synthesis takes seconds, so the result is
   /// stored in the library's folder. Refuses a design for which GHDL would omit a `when others`.
-  Result<std::string> synthesize(const std::string& entity,
-                                 const std::vector<std::pair<std::string, std::string>>& generics) const;
+  Result<std::string> synthesize(const std::string& entity, const Generics& generics) const;
   /// The same netlist as VHDL, with positions in the sources.
-  Result<std::string> synthesize_vhdl(const std::string& entity,
-                                      const std::vector<std::pair<std::string, std::string>>& generics) const;
+  Result<std::string> synthesize_vhdl(const std::string& entity, const Generics& generics) const;
   /// The command that simulates `top`. Generics and GHDL's run options are appended to it.
   std::vector<std::string> run_arguments(const std::string& top) const;
 
  private:
   GhdlLibrary(GhdlTool tool, std::filesystem::path folder, std::string hash)
       : tool_(std::move(tool)), folder_(std::move(folder)), hash_(std::move(hash)) {}
-  /// Synthesizes, unless the netlist is stored. The files' names without extension: .v and .vhd.
-  Result<std::filesystem::path> netlists(
-      const std::string& entity, const std::vector<std::pair<std::string, std::string>>& generics) const;
+  std::string netlist(const std::string& entity, const Generics& generics, const std::string& ending) const;
   GhdlTool tool_;
   std::filesystem::path folder_;
   std::string hash_;
   std::vector<std::string> to_read_;  ///< names of the sources; used if nothing is analysed
 };
+
+/// Analyse the sources, run the testbench `top` with these options of GHDL, and return its output. A testbench
+/// that fails is an error with the code `differs`.
+Result<std::string> run_testbench(const std::string& top, const std::vector<VhdlSource>& sources,
+                                  const std::vector<std::string>& options,
+                                  const std::filesystem::path& cache);
 
 }  // namespace halfway

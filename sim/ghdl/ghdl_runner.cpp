@@ -22,27 +22,16 @@ constexpr std::string_view c_testbench_shader = "entity work.quadratic_shader";
 constexpr std::string_view c_testbench_generics = "g_exact => g_exact, g_channels => g_channels";
 constexpr std::string_view c_testbench_init_bits = "work.formats_pkg.init_bits(g_exact, g_channels)";
 
-/// Removes the file at the end unless it was renamed.
-class ScratchFile {
- public:
-  explicit ScratchFile(std::filesystem::path path) : path_(std::move(path)) {}
+/// A file that does not exist any more at the end.
+struct ScratchFile {
+  explicit ScratchFile(std::filesystem::path name) : path(std::move(name)) {}
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
   ~ScratchFile() {
     std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+    std::filesystem::remove(path, ignored);
   }
-  const std::filesystem::path& path() const { return path_; }
-  Status rename_to(const std::filesystem::path& target) {
-    std::error_code error;
-    std::filesystem::rename(path_, target, error);
-    if (error) return tool_failed(fmt::format("{}: cannot write: {}", target.string(), error.message()));
-    path_.clear();
-    return Ok{};
-  }
-
- private:
-  std::filesystem::path path_;
+  const std::filesystem::path path;
 };
 
 /// The numbers of the last two lines, `cycles <n>` and `end <count>`; std::nullopt if they are missing.
@@ -97,48 +86,42 @@ std::string reported_failure(const std::string& output) {
 
 }  // namespace
 
-Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key, const std::filesystem::path& source_folder) {
-  auto testbench = read_vhdl_source(source_folder, c_testbench_file);
-  if (!testbench) return testbench.error();
+Result<VhdlSource> GhdlRunner::testbench(const HardwareKey& key,
+                                         const std::filesystem::path& source_folder) try {
+  VhdlSource testbench = must(read_vhdl_source(source_folder, c_testbench_file));
   // All shaders have the same ports, so one testbench serves all: insert the entity, its generics and the
   // width of init_data.
-  const auto put = [&](std::string_view what, const std::string& with) -> Status {
-    const std::size_t at = testbench->content.find(what);
-    if (at == std::string::npos)
-      return tool_failed(fmt::format("{}: does not say \"{}\"", c_testbench_file, what));
-    testbench->content.replace(at, what.size(), with);
-    return Ok{};
-  };
   std::string generics;
   for (const auto& [name, value] : key.generics())
     generics += fmt::format("{0}{1} => {1}", generics.empty() ? "" : ", ", name);
-  for (const Status& status :
-       {put(c_testbench_shader, "entity work." + key.entity()), put(c_testbench_generics, generics),
-        put(c_testbench_init_bits, key.vhdl_init_bits())})
-    if (!status) return status.error();
+  for (const auto& [what, with] : {std::pair(c_testbench_shader, "entity work." + key.entity()),
+                                   {c_testbench_generics, generics},
+                                   {c_testbench_init_bits, key.vhdl_init_bits()}}) {
+    const std::size_t at = testbench.content.find(what);
+    if (at == std::string::npos)
+      return tool_failed(fmt::format("{}: does not say \"{}\"", c_testbench_file, what));
+    testbench.content.replace(at, what.size(), with);
+  }
   return testbench;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
-Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders,
-                                    const std::string& program) {
-  const auto tool = GhdlTool::find(program);
-  if (!tool) return tool.error();
-  auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  auto with_shader = testbench(key, folders.source);
-  if (!with_shader) return with_shader.error();
-  sources->push_back(std::move(*with_shader));
-  auto library = GhdlLibrary::open(*tool, *sources, c_testbench, folders.cache);
-  if (!library) return library.error();
-  return GhdlRunner(key, std::move(*library));
+Result<GhdlRunner> GhdlRunner::open(const HardwareKey& key, const SimulatorFolders& folders) try {
+  std::vector<VhdlSource> sources = must(read_rtl_sources(folders.source));
+  sources.push_back(must(testbench(key, folders.source)));
+  return GhdlRunner(key,
+                    must(GhdlLibrary::open(must(GhdlTool::find()), sources, c_testbench, folders.cache)));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
-                                const std::filesystem::path& trace_file,
-                                const GhdlRunOptions& options) const {
+                                const std::filesystem::path& trace_file, const GhdlRunOptions& options) const
+    try {
   const auto absolute_trace = std::filesystem::absolute(trace_file);
-  if (auto made = make_folders(absolute_trace.parent_path()); !made) return made.error();
-  ScratchFile trace(fmt::format("{}.part-{}", absolute_trace.string(), ::getpid()));
+  must(make_folders(absolute_trace.parent_path()));
+  const ScratchFile trace(fmt::format("{}.part-{}", absolute_trace.string(), ::getpid()));
 
   Command command{.arguments = library_.run_arguments(c_testbench), .working_folder = library_.folder()};
   const auto generic = [&](std::string_view name, const std::string& value) {
@@ -146,7 +129,7 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
   };
   for (const auto& [name, value] : key_.generics()) generic(name, value);
   generic("g_init_file", std::filesystem::absolute(init_file).string());
-  generic("g_trace_file", trace.path().string());
+  generic("g_trace_file", trace.path.string());
   generic("g_max_fragments", std::to_string(std::min(options.max_fragments, 0x7fffffffU)));
   generic("g_idle_limit", std::to_string(std::clamp(options.idle_limit, 1U, 0x7fffffffU)));
   generic("g_stall_seed", std::to_string(options.stall_seed & 0x7fffffffU));
@@ -160,33 +143,29 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
                                                                        : "--wave=";
     command.arguments.push_back(kind + std::filesystem::absolute(options.wave_file).string());
   }
-  ScratchFile wave_signals(options.wave_signals.empty() ? std::string()
-                                                        : absolute_trace.string() + ".signals");
+  const ScratchFile wave_signals(absolute_trace.string() + ".signals");
   if (!options.wave_signals.empty()) {
-    if (auto written = write_file(wave_signals.path(), wave_options(options.wave_signals)); !written)
-      return written.error();
-    command.arguments.push_back("--read-wave-opt=" + wave_signals.path().string());
+    must(write_file(wave_signals.path, wave_options(options.wave_signals)));
+    command.arguments.push_back("--read-wave-opt=" + wave_signals.path.string());
   }
   command.timeout = options.timeout;
   if (options.on_progress) {
     command.on_poll = [&] {
       std::error_code error;
-      const auto bytes = std::filesystem::file_size(trace.path(), error);
+      const auto bytes = std::filesystem::file_size(trace.path, error);
       if (!error) options.on_progress(bytes);
     };
   }
 
-  const auto end = run_process(command, c_install_ghdl);
-  if (!end) return end.error();
-
-  if (end->timed_out) {
+  const ProcessEnd end = must(run_process(command, c_install_ghdl));
+  if (end.timed_out) {
     return tool_failed(
         fmt::format("{}: the GHDL simulation did not end within {} s; allow it more time or draw a "
                     "smaller frame",
                     init_file.string(), std::chrono::duration<double>(*options.timeout).count()));
   }
-  if (!end->succeeded()) {
-    const std::string failure = reported_failure(end->output);
+  if (!end.succeeded()) {
+    const std::string failure = reported_failure(end.output);
     const std::string file = std::filesystem::absolute(init_file).string() + ": ";
     if (failure.compare(0, file.size(), file) == 0) return bad_input(failure);
     if (!failure.empty() && failure.find(": cannot write") == std::string::npos) {
@@ -196,17 +175,21 @@ Result<GhdlRun> GhdlRunner::run(const std::filesystem::path& init_file,
     const auto space = std::filesystem::space(absolute_trace.parent_path(), error);
     const bool full = !error && space.available < (1U << 16);
     return tool_failed(fmt::format("{}: the GHDL simulation failed ({}){}:\n{}\n  while running: {}",
-                                   init_file.string(), end->how(), full ? ", the disk is full" : "",
-                                   end->output, to_string(command)));
+                                   init_file.string(), end.how(), full ? ", the disk is full" : "",
+                                   end.output, to_string(command)));
   }
-  auto run = read_trailer(trace.path());
-  if (!run) {
+  const auto run = read_trailer(trace.path);
+  if (!run)
     return tool_failed(
         fmt::format("{}: GHDL ended without an error, but the trace is not whole; is the disk full?",
                     absolute_trace.string()));
-  }
-  if (auto renamed = trace.rename_to(absolute_trace); !renamed) return renamed.error();
+  std::error_code error;
+  std::filesystem::rename(trace.path, absolute_trace, error);
+  if (error)
+    return tool_failed(fmt::format("{}: cannot write: {}", absolute_trace.string(), error.message()));
   return *run;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

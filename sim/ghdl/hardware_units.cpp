@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "sim/system/must.hpp"
+
 namespace halfway {
 
 std::set<std::string> entities_of(const std::vector<VhdlSource>& sources) {
@@ -104,41 +106,34 @@ void InstanceTree::add_named(const std::string& module, const std::vector<std::s
   }
 }
 
-Result<UnitCounter> UnitCounter::open(const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  std::set<std::string> entities = entities_of(*sources);
-  auto library = GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
-  if (!library) return library.error();
-  return UnitCounter(std::move(*library), std::move(entities));
+Result<UnitCounter> UnitCounter::open(const SimulatorFolders& folders) try {
+  const auto sources = must(read_rtl_sources(folders.source));
+  return UnitCounter(must(GhdlLibrary::for_synthesis(must(GhdlTool::find()), sources, folders.cache)),
+                     entities_of(sources));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
-Result<InstanceTree> UnitCounter::tree(const HardwareKey& key) const {
-  const auto netlist = library_.synthesize(key.entity(), key.generics());
-  if (!netlist) return netlist.error();
-  return InstanceTree(*netlist, entities_);
+InstanceTree UnitCounter::tree(const HardwareKey& key) const {
+  return {must(library_.synthesize(key.entity(), key.generics())), entities_};
 }
 
-Result<UnitCounts> UnitCounter::count(const HardwareKey& key) {
+Result<UnitCounts> UnitCounter::count(const HardwareKey& key) try {
   if (const auto at = counted_.find(key.name()); at != counted_.end()) return at->second;
-  const auto instances = tree(key);
-  if (!instances) return instances.error();
-  return counted_[key.name()] = instances->count(key.entity());
+  return counted_[key.name()] = tree(key).count(key.entity());
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
-Result<UnitCounts> UnitCounter::count(const HardwareKey& key, const PlannedEffect& effect) {
+Result<UnitCounts> UnitCounter::count(const HardwareKey& key, const PlannedEffect& effect) try {
   if (effect.other) {
-    const auto here = count(key), there = count(*effect.other);
-    if (!here) return here;
-    if (!there) return there;
-    return effect.elaborated ? difference(*here, *there) : difference(*there, *here);
+    const UnitCounts here = must(count(key)), there = must(count(*effect.other));
+    return effect.elaborated ? difference(here, there) : difference(there, here);
   }
   if (!effect.elaborated) return UnitCounts{};
-  const auto instances = tree(key);
-  if (!instances) return instances.error();
-  return instances->count_named(key.entity(), instances_of(effect.effect, key.shader));
+  return tree(key).count_named(key.entity(), instances_of(effect.effect, key.shader));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

@@ -57,7 +57,7 @@ class UnitCounter {
  private:
   UnitCounter(GhdlLibrary library, std::set<std::string> entities)
       : library_(std::move(library)), entities_(std::move(entities)) {}
-  Result<InstanceTree> tree(const HardwareKey& key) const;
+  InstanceTree tree(const HardwareKey& key) const;
   GhdlLibrary library_;
   std::set<std::string> entities_;
   std::map<std::string, UnitCounts> counted_;  ///< by the key's name

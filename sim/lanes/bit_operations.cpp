@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "sim/system/must.hpp"
+
 namespace halfway {
 namespace {
 
@@ -21,9 +23,8 @@ std::set<unsigned> ends_of(const Bits& bits) {
 
 }  // namespace
 
-Bits BitOperations::fail(const std::string& what) {
-  if (error_.empty()) error_ = what;
-  return {};
+void BitOperations::fail(const std::string& what) {
+  throw Failure{tool_failed(what)};
 }
 
 /// The value of a piece of a constant. Bits above the node's vector are zero.
@@ -61,7 +62,7 @@ Bits BitOperations::slice(const Bits& bits, unsigned low, unsigned width) {
     if (begin < end) append(found, {piece.node, is_mask(piece) ? 0 : piece.low + begin - at, end - begin});
     at += piece.width;
   }
-  if (width_of(found) != width) return fail("a slice reaches past its signal");
+  if (width_of(found) != width) fail("a slice reaches past its signal");
   return found;
 }
 
@@ -130,28 +131,6 @@ Words BitOperations::to_words(const Bits& bits, bool arithmetic) {
   return words;
 }
 
-Words BitOperations::to_unnoted_words(const Bits& bits) {
-  Words words;
-  const unsigned width = width_of(bits);
-  for (unsigned low = 0; low < width; low += c_lane_word) {
-    int sum = graph().constant(0);
-    unsigned at = 0;
-    for (const Piece& piece : slice(bits, low, std::min(width - low, c_lane_word))) {
-      const std::uint64_t field = low_ones(piece.width) << at;
-      const int part =
-          is_mask(piece)
-              ? graph().fill(piece.node, field)
-              : graph().operate(LaneOp::both,
-                                graph().shift(piece.node, static_cast<int>(at) - static_cast<int>(piece.low)),
-                                graph().constant(field));
-      sum = graph().operate(LaneOp::either, sum, part);
-      at += piece.width;
-    }
-    words.push_back(sum);
-  }
-  return words;
-}
-
 Bits BitOperations::from_words(const Words& words, unsigned width) {
   Bits bits;
   for (unsigned low = 0; low < width; low += c_lane_word)
@@ -200,7 +179,6 @@ Bits BitOperations::choose(int mask, const Bits& a, const Bits& b) {
     if (others.count(high) == 0) continue;
     const Bits p = slice(a, low, high - low), q = slice(b, low, high - low);
     low = high;
-    if (p.empty() || q.empty()) return {};
     append(chosen,
            is_shifted(p, q) || is_shifted(q, p) ? choose_words(mask, p, q) : choose_pieces(mask, p, q));
   }

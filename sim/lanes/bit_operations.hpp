@@ -16,9 +16,8 @@ class BitOperations {
   /// Notes in `layout` which parts of registers and inputs are used, and how.
   BitOperations(Step& step, CellLayout& layout) : step_(step), layout_(layout) {}
 
-  /// The first error; empty: none.
-  const std::string& error() const { return error_; }
-  Bits fail(const std::string& what);
+  /// Throw Failure.
+  [[noreturn]] static void fail(const std::string& what);
 
   // Make and rearrange.
   Bits whole(int node, unsigned width) { return {{node, 0, width}}; }
@@ -31,9 +30,6 @@ class BitOperations {
   // Convert. With `arithmetic` the bits are one number: no cut inside it.
   int to_vector(const Bits& bits, bool arithmetic = true);
   Words to_words(const Bits& bits, bool arithmetic = true);
-  /// The words without a note in the layout: reading a signal in this way leaves the rest of the text as it
-  /// is.
-  Words to_unnoted_words(const Bits& bits);
   Bits from_words(const Words& words, unsigned width);
   int to_mask(const Bits& bits);
   bool is_mask(const Piece& piece) { return graph()[piece.node].is_mask(); }
@@ -68,7 +64,6 @@ class BitOperations {
 
   Step& step_;
   CellLayout& layout_;
-  std::string error_;
 };
 
 }  // namespace halfway

@@ -29,7 +29,7 @@ class GraphBuilder {
     }
   }
 
-  Result<Step> build() {
+  Step build() {
     // Outputs before the clock's edge.
     for (const std::string& name : ports_.outputs) {
       const Bits bits = signal(name);
@@ -38,7 +38,6 @@ class GraphBuilder {
       if (width == 1) {
         words.push_back(ops_.to_mask(bits));
       } else {
-        if (bits.empty()) continue;
         words = ops_.to_words(bits, false);
         words.back() = graph().clean(words.back(), ops_.top_width(width));
       }
@@ -47,14 +46,13 @@ class GraphBuilder {
     for (const pugi::xml_node statement : netlist_.clocked) execute(statement, {});
     if (!reset_)
       for (const ObservedPart& part : ports_.observed)
-        step_.observed.push_back(ops_.to_unnoted_words(ops_.slice(signal(part.path), part.low, part.bits)));
-    if (!ops_.error().empty()) return tool_failed(ops_.error());
+        step_.observed.push_back(observed(ops_.slice(signal(part.path), part.low, part.bits)));
     return std::move(step_);
   }
 
  private:
   LaneGraph& graph() { return step_.graph; }
-  Bits fail(const std::string& what) { return ops_.fail(what); }
+  [[noreturn]] static void fail(const std::string& what) { BitOperations::fail(what); }
 
   /// The text of an expression in the netlist, for messages.
   static std::string line_of(pugi::xml_node node) {
@@ -64,11 +62,20 @@ class GraphBuilder {
     return "netlist.v:" + std::string(place.substr(comma + 1, place.find(',', comma + 1) - comma - 1));
   }
 
+  /// The words without a note in the layout, and clean: reading a signal leaves the rest of the text as it
+  /// is.
+  Words observed(const Bits& bits) {
+    CellLayout ignored = layout_;
+    Words words = BitOperations(step_, ignored).to_words(bits);
+    words.back() = graph().clean(words.back(), ops_.top_width(width_of(bits)));
+    return words;
+  }
+
   // Expressions
 
   Bits signal(const std::string& name) {
     if (const auto known = signals_.find(name); known != signals_.end()) {
-      if (known->second.empty()) return fail(name + ": depends on itself without a register");
+      if (known->second.empty()) fail(name + ": depends on itself without a register");
       return known->second;
     }
     if (const auto fixed = ports_.fixed.find(name); fixed != ports_.fixed.end())
@@ -85,7 +92,7 @@ class GraphBuilder {
       return bits;
     }
     const auto driver = netlist_.drivers.find(name);
-    if (driver == netlist_.drivers.end()) return fail(name + ": has no driver that the lanes support");
+    if (driver == netlist_.drivers.end()) fail(name + ": has no driver that the lanes support");
     signals_[name] = {};
     return signals_[name] = value(driver->second);
   }
@@ -94,11 +101,11 @@ class GraphBuilder {
     const unsigned width = netlist_.width_of(node);
     std::string_view digits = node.attribute("name").value();
     const std::size_t quote = digits.find('\'');
-    if (quote == std::string_view::npos) return fail(line_of(node) + ": a constant without a base");
+    if (quote == std::string_view::npos) fail(line_of(node) + ": a constant without a base");
     digits.remove_prefix(quote + 1);
     if (digits.substr(0, 1) == "s") digits.remove_prefix(1);
     const unsigned step = digits.substr(0, 1) == "h" ? 4 : digits.substr(0, 1) == "b" ? 1 : 0;
-    if (step == 0) return fail(line_of(node) + ": a constant of an unknown base");
+    if (step == 0) fail(line_of(node) + ": a constant of an unknown base");
     digits.remove_prefix(1);
     std::vector<std::uint64_t> words(width / c_lane_word + 1);
     unsigned at = 0;
@@ -126,17 +133,16 @@ class GraphBuilder {
     if (op == "const") return literal(node);
     const unsigned width = netlist_.width_of(node);
     const pugi::xml_node first = node.first_child(), second = first.next_sibling();
-    if (!first) return fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
+    if (!first) fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
     if (op == "arraysel") return element(node);
     if (op == "sel") {
       const auto low = number(second), count = number(second.next_sibling());
-      if (!low || !count) return fail(line_of(node) + ": a slice with a position that is not constant");
+      if (!low || !count) fail(line_of(node) + ": a slice with a position that is not constant");
       return part(first, static_cast<unsigned>(*low), static_cast<unsigned>(*count));
     }
     const Bits a = value(first);
-    if (a.empty()) return {};
     if (op == "extend" || op == "extends") {
-      if (width_of(a) > width) return fail(line_of(node) + ": an extension that narrows");
+      if (width_of(a) > width) fail(line_of(node) + ": an extension that narrows");
       Bits bits = a;
       const unsigned more = width - width_of(a);
       ops_.append(bits, op == "extend" ? ops_.zeros(more)
@@ -148,24 +154,20 @@ class GraphBuilder {
     if (op == "negate") return ops_.difference(ops_.zeros(width), a);
     if (op == "replicate") {
       const auto count = number(second);
-      if (!count) return fail(line_of(node) + ": a replication with a count that is not constant");
+      if (!count) fail(line_of(node) + ": a replication with a count that is not constant");
       Bits bits;
       if (width_of(a) == 1) return ops_.whole(ops_.to_mask(a), static_cast<unsigned>(*count));
       for (std::uint64_t i = 0; i < *count; ++i) ops_.append(bits, a);
       return bits;
     }
-    if (!second) return fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
+    if (!second) fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
     const Bits b = value(second);
-    if (b.empty()) return {};
     if (op == "concat") {
       Bits bits = b;
       ops_.append(bits, a);
       return bits;
     }
-    if (op == "cond") {
-      const Bits c = value(second.next_sibling());
-      return c.empty() ? c : ops_.choose(ops_.to_mask(a), b, c);
-    }
+    if (op == "cond") return ops_.choose(ops_.to_mask(a), b, value(second.next_sibling()));
     return binary(node, op, a, b);
   }
 
@@ -188,8 +190,7 @@ class GraphBuilder {
       const auto known = signals_.find(name);
       const bool built = known != signals_.end() && !known->second.empty();
       if (!built && driver != netlist_.drivers.end() && is_rearrangement(driver->second)) {
-        if (!parts_.insert({name, low, width}).second)
-          return fail(name + ": depends on itself without a register");
+        if (!parts_.insert({name, low, width}).second) fail(name + ": depends on itself without a register");
         Bits bits = part(driver->second, low, width);
         parts_.erase({name, low, width});
         return bits;
@@ -198,8 +199,7 @@ class GraphBuilder {
     if (op == "sel")
       if (const auto inner = number(node.first_child().next_sibling()))
         return part(node.first_child(), low + static_cast<unsigned>(*inner), width);
-    const Bits bits = value(node);
-    return bits.empty() ? bits : ops_.slice(bits, low, width);
+    return ops_.slice(value(node), low, width);
   }
   static bool is_rearrangement(pugi::xml_node node) {
     const std::string_view op = node.name();
@@ -209,7 +209,7 @@ class GraphBuilder {
   Bits binary(pugi::xml_node node, std::string_view op, const Bits& a, const Bits& b) {
     const unsigned width = netlist_.width_of(node), operand = width_of(a);
     if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return ops_.shift(op, a, b);
-    if (operand != width_of(b)) return fail(fmt::format("{}: '{}' on different widths", line_of(node), op));
+    if (operand != width_of(b)) fail(fmt::format("{}: '{}' on different widths", line_of(node), op));
     static const std::map<std::string_view, std::pair<LaneOp, LaneOp>> c_bitwise = {
         {"and", {LaneOp::both, LaneOp::mask_both}},
         {"or", {LaneOp::either, LaneOp::mask_either}},
@@ -244,8 +244,7 @@ class GraphBuilder {
         {"lts", {LaneOp::signed_less, false, false}}, {"gts", {LaneOp::signed_less, true, false}},
         {"ltes", {LaneOp::signed_less, true, true}},  {"gtes", {LaneOp::signed_less, false, true}}};
     const auto found = c_orders.find(op);
-    if (found == c_orders.end())
-      return fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
+    if (found == c_orders.end()) fail(fmt::format("{}: the lanes do not support '{}'", line_of(node), op));
     const Order order = found->second;
     int mask = 0;
     if (order.op == LaneOp::equal && operand == 1) {
@@ -267,11 +266,11 @@ class GraphBuilder {
       return read(node, name, memory->second);
     const auto rom = netlist_.roms.find(name);
     if (rom == netlist_.roms.end())
-      return fail(fmt::format("{}: {}: neither a table nor a memory", line_of(node), name));
+      fail(fmt::format("{}: {}: neither a table nor a memory", line_of(node), name));
     const Bits address = value(node.last_child());
     const unsigned width = width_of(address);
     if (width > 16 || rom->second.data.size() != std::size_t{1} << width)
-      return fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
+      fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
     const int index = graph().clean(ops_.to_vector(address), width);
     Bits bits;
     for (const std::size_t table : rom->second.tables) {
@@ -281,21 +280,19 @@ class GraphBuilder {
     return bits;
   }
 
-  /// The address of an element; empty, with an error, if it may lie outside the memory.
+  /// The address of an element. Fails if it may lie outside the memory.
   Bits address_of(pugi::xml_node node, const std::string& name, const LaneMemory& memory) {
     const Bits address = value(node.last_child());
-    if (address.empty()) return {};
     if (memory.places > c_most_places)
-      return fail(fmt::format("{}: {}: a memory of {} places: lanes have up to {}", line_of(node), name,
-                              memory.places, c_most_places));
+      fail(fmt::format("{}: {}: a memory of {} places: lanes have up to {}", line_of(node), name,
+                       memory.places, c_most_places));
     if (memory.places != std::size_t{1} << width_of(address))
-      return fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
+      fail(fmt::format("{}: {}: an address that may be out of range", line_of(node), name));
     return address;
   }
 
   Bits read(pugi::xml_node node, const std::string& name, const LaneMemory& memory) {
     const Bits address = address_of(node, name, memory);
-    if (address.empty()) return {};
     const int index = graph().clean(ops_.to_vector(address), width_of(address));
     Bits bits;
     for (std::size_t i = 0; i < memory.words(); ++i) {
@@ -311,7 +308,6 @@ class GraphBuilder {
     const pugi::xml_node target = assignment.last_child();
     const std::string name = target.first_child().attribute("name").value();
     const Bits address = address_of(target, name, memory), datum = value(assignment.first_child());
-    if (address.empty() || datum.empty()) return;
     const int index = graph().clean(ops_.to_vector(address), width_of(address));
     if (!step_.stores.try_emplace(name, Store{guard, index, ops_.to_words(datum, false)}).second)
       fail(fmt::format("{}: {}: written in two places", line_of(assignment), name));
@@ -351,7 +347,6 @@ class GraphBuilder {
       if (!excludes(guard, other.first)) fail(fmt::format("{}: {}: assigned twice", line_of(node), name));
     }
     assignments.emplace_back(guard, bits);
-    if (!ops_.error().empty()) return;
     unsigned at = 0;
     for (const Piece& piece : bits) layout_.cuts[name].insert(at += piece.width);
     for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].signal == name; ++i) {
@@ -382,7 +377,7 @@ class GraphBuilder {
 
 }  // namespace
 
-Result<Step> build_step(const LaneNetlist& netlist, const LanePorts& ports, bool reset, CellLayout& layout) {
+Step build_step(const LaneNetlist& netlist, const LanePorts& ports, bool reset, CellLayout& layout) {
   return GraphBuilder(netlist, ports, reset, layout).build();
 }
 

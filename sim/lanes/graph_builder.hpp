@@ -2,7 +2,6 @@
 // Phase 3 of the lane generator: builds the graph of one clock from a netlist's expressions.
 #pragma once
 
-#include "common/result.hpp"
 #include "sim/lanes/cell_layout.hpp"
 #include "sim/lanes/lane_generator.hpp"
 #include "sim/lanes/netlist_reader.hpp"
@@ -11,7 +10,7 @@
 namespace halfway {
 
 /// The step with `reset` 0 or 1, with registers cut as in `layout`. Additional cuts that are needed are noted
-/// in `layout`; if it changes, build again.
-Result<Step> build_step(const LaneNetlist& netlist, const LanePorts& ports, bool reset, CellLayout& layout);
+/// in `layout`; if it changes, build again. Throws Failure.
+Step build_step(const LaneNetlist& netlist, const LanePorts& ports, bool reset, CellLayout& layout);
 
 }  // namespace halfway

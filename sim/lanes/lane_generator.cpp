@@ -8,6 +8,7 @@
 #include "sim/lanes/graph_builder.hpp"
 #include "sim/lanes/netlist_reader.hpp"
 #include "sim/lanes/schedule.hpp"
+#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {
@@ -17,29 +18,27 @@ struct Steps {
 };
 
 /// Builds the graphs until the layout no longer changes.
-Result<Steps> build_steps(const LaneNetlist& netlist, const LanePorts& ports, CellLayout& layout) {
+Steps build_steps(const LaneNetlist& netlist, const LanePorts& ports, CellLayout& layout) {
   layout.memory_words = place_memories(netlist.memories, {}, {});
   while (true) {
     CellLayout next = layout;
-    auto step = build_step(netlist, ports, false, next);
-    if (!step) return step.error();
+    Step step = build_step(netlist, ports, false, next);
     if (next != layout) {  // the reset step is built only with a layout that suits the other one
       layout = std::move(next);
       continue;
     }
-    auto reset_step = build_step(netlist, ports, true, next);
-    if (!reset_step) return reset_step.error();
-    note_twins(next, *step, *reset_step);
-    next.memory_words = place_memories(netlist.memories, *step, *reset_step);
-    if (next == layout && layout.words) return Steps{std::move(*step), std::move(*reset_step)};
+    Step reset_step = build_step(netlist, ports, true, next);
+    note_twins(next, step, reset_step);
+    next.memory_words = place_memories(netlist.memories, step, reset_step);
+    if (next == layout && layout.words) return {std::move(step), std::move(reset_step)};
     next.words = layout.words || next == layout;
     layout = std::move(next);
   }
 }
 
 /// The observed parts with their signals' names in the netlist as paths.
-Result<std::vector<ObservedPart>> in_netlist(const LanePorts& ports, const LaneNetlist& netlist,
-                                             const RegisterNames& names) {
+std::vector<ObservedPart> in_netlist(const LanePorts& ports, const LaneNetlist& netlist,
+                                     const RegisterNames& names) {
   std::vector<ObservedPart> parts = ports.observed;
   if (parts.empty()) return parts;
   // Verilator omits the top in the names of its ports and of ports of instances.
@@ -52,7 +51,8 @@ Result<std::vector<ObservedPart>> in_netlist(const LanePorts& ports, const LaneN
   for (const auto& [name, driver] : netlist.drivers) add(name);
   for (ObservedPart& part : parts) {
     const auto name = by_path.find(part.path);
-    if (name == by_path.end()) return tool_failed(part.path + ": the netlist has no such signal to observe");
+    if (name == by_path.end())
+      throw Failure{tool_failed(part.path + ": the netlist has no such signal to observe")};
     part.path = name->second;
   }
   return parts;
@@ -61,32 +61,28 @@ Result<std::vector<ObservedPart>> in_netlist(const LanePorts& ports, const LaneN
 }  // namespace
 
 Result<std::string> generate_lanes(std::string_view xml, const LanePorts& rtl_ports,
-                                   const RegisterNames& names) {
-  auto netlist = read_lane_netlist(xml);
-  if (!netlist) return netlist.error();
+                                   const RegisterNames& names) try {
+  LaneNetlist netlist = read_lane_netlist(xml);
   LanePorts ports = rtl_ports;
-  auto observed = in_netlist(rtl_ports, *netlist, names);
-  if (!observed) return observed.error();
-  ports.observed = std::move(*observed);
-  netlist->inputs.erase("reset");
-  for (const auto& fixed : ports.fixed) netlist->inputs.erase(fixed.first);
+  ports.observed = in_netlist(rtl_ports, netlist, names);
+  netlist.inputs.erase("reset");
+  for (const auto& fixed : ports.fixed) netlist.inputs.erase(fixed.first);
 
   CellLayout layout;
-  auto steps = build_steps(*netlist, ports, layout);
-  if (!steps) return steps.error();
-  const CellSet live = live_cells(steps->step, layout.memory_words);
-  const Delays delays = find_delays(steps->step, steps->reset_step, live);
-  auto schedule = make_schedule(steps->step, layout.memory_words, live, delays);
-  if (!schedule) return schedule.error();
-  auto reset_schedule = make_schedule(steps->reset_step, layout.memory_words, live, delays);
-  if (!reset_schedule) return reset_schedule.error();
-  return emit_lanes({.netlist = *netlist,
+  auto [step, reset_step] = build_steps(netlist, ports, layout);
+  const CellSet live = live_cells(step, layout.memory_words);
+  const Delays delays = find_delays(step, reset_step, live);
+  Schedule schedule = make_schedule(step, layout.memory_words, live, delays);
+  Schedule reset_schedule = make_schedule(reset_step, layout.memory_words, live, delays);
+  return emit_lanes({.netlist = netlist,
                      .names = names,
                      .memory_words = layout.memory_words,
                      .live = live,
                      .delays = delays},
-                    {std::move(steps->step), std::move(*schedule)},
-                    {std::move(steps->reset_step), std::move(*reset_schedule)});
+                    {std::move(step), std::move(schedule)},
+                    {std::move(reset_step), std::move(reset_schedule)});
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

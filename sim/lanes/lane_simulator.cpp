@@ -243,10 +243,9 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
 }
 
 Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
-                                const LaneOptions& options) {
-  auto netlist = netlist_of(key, folders);
-  if (!netlist) return netlist.error();
-  const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
+                                const LaneOptions& options) try {
+  std::string netlist = must(netlist_of(key, folders));
+  const unsigned init_bits = port_bits(netlist, key.entity(), "init_data");
   if (init_bits == 0)
     return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));
   const bool stalls = options.stall_seed != 0;
@@ -257,7 +256,7 @@ Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& 
   else
     fixed["fragment_ready"] = true;
   return LaneBuild{.name = key.name() + (stalls ? "-stalls" : ""),
-                   .netlist = std::move(*netlist),
+                   .netlist = std::move(netlist),
                    .top = key.entity(),
                    .ports = {.fixed = fixed,
                              .outputs = {"init_ready", "fragment_valid", "fragment_triangle", "fragment_y",
@@ -269,31 +268,31 @@ Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& 
                    .fast = options.fast,
                    .vectors = options.vectors,
                    .compiler = options.compiler};
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
-                                          const LaneOptions& options) {
-  auto build = lane_build_of(key, folders, options);
-  if (!build) return build.error();
-  const unsigned init_bits = port_bits(build->netlist, key.entity(), "init_data");
-  auto library = open_lanes(*build, folders.cache);
-  if (!library) return library.error();
-
-  Hardware hardware{.key = key, .options = options, .library = std::move(*library), .init_bits = init_bits};
+                                          const LaneOptions& options) try {
+  const LaneBuild build = must(lane_build_of(key, folders, options));
+  Hardware hardware{.key = key,
+                    .options = options,
+                    .library = must(open_lanes(build, folders.cache)),
+                    .init_bits = port_bits(build.netlist, key.entity(), "init_data")};
   decltype(&halfway_lanes_version) version = nullptr;
   decltype(&halfway_lanes_count) count = nullptr;
-  if (Status bound = hardware.library.bind(
-          version, "halfway_lanes_version", count, "halfway_lanes_count", hardware.run, "halfway_lanes_run",
-          hardware.take, "halfway_lanes_take", hardware.cycles, "halfway_lanes_cycles", hardware.create,
-          "halfway_lanes_create", hardware.destroy, "halfway_lanes_destroy");
-      !bound)
-    return bound.error();
+  must(hardware.library.bind(version, "halfway_lanes_version", count, "halfway_lanes_count", hardware.run,
+                             "halfway_lanes_run", hardware.take, "halfway_lanes_take", hardware.cycles,
+                             "halfway_lanes_cycles", hardware.create, "halfway_lanes_create",
+                             hardware.destroy, "halfway_lanes_destroy"));
   if (version() != HALFWAY_LANES_VERSION) {
     return tool_failed(
         fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
   }
   hardware.lanes = count();
   return LaneSimulator(std::make_shared<State>(std::move(hardware)));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 Result<std::shared_ptr<Engine>> LaneSimulator::another() const {

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <optional>
 
+#include "sim/system/must.hpp"
+
 namespace halfway {
 namespace {
 
@@ -29,20 +31,21 @@ class NetlistReader {
  public:
   explicit NetlistReader(LaneNetlist& netlist) : netlist_(netlist) {}
 
-  Status read() {
+  void read() {
     const pugi::xml_node root = netlist_.document->child("verilator_xml").child("netlist");
     const pugi::xml_node module = root.find_child_by_attribute("module", "topModule", "1");
     const pugi::xml_node scope = module.child("topscope").child("scope");
-    if (!scope) return tool_failed("Verilator's XML has no flattened module");
-    if (Status read = read_types(root.child("typetable")); !read) return read;
+    if (!scope) fail("Verilator's XML has no flattened module");
+    read_types(root.child("typetable"));
     read_variables(module);
-    for (const pugi::xml_node node : scope.children())
-      if (Status read = read_statement(node); !read) return read;
-    return finish();
+    for (const pugi::xml_node node : scope.children()) read_statement(node);
+    finish();
   }
 
  private:
-  Status read_types(pugi::xml_node table) {
+  [[noreturn]] static void fail(const std::string& what) { throw Failure{tool_failed(what)}; }
+
+  void read_types(pugi::xml_node table) {
     for (const pugi::xml_node type : table.children()) {
       const std::string id = type.attribute("id").value();
       if (is(type, "basicdtype")) {
@@ -51,11 +54,10 @@ class NetlistReader {
         const pugi::xml_node range = type.child("range");
         const auto left = to_number(name_of(range.first_child()));
         const auto right = to_number(name_of(range.last_child()));
-        if (!left || !right) return tool_failed("Verilator's XML: an array of unknown size");
+        if (!left || !right) fail("Verilator's XML: an array of unknown size");
         netlist_.arrays[id] = {type.attribute("sub_dtype_id").value(), std::max(*left, *right) + 1};
       }
     }
-    return Ok{};
   }
 
   void read_variables(pugi::xml_node module) {
@@ -67,24 +69,26 @@ class NetlistReader {
     }
   }
 
-  Status read_statement(pugi::xml_node node) {
-    if (is(node, "varscope")) return Ok{};
-    if (is(node, "always")) return read_always(node);
-    if (is(node, "contassign") || is(node, "assignalias")) return read_assignment(node);
-    if (is(node, "initial")) return read_tables(node);
-    return tool_failed(fmt::format("the lanes do not support '{}' in a module", node.name()));
+  void read_statement(pugi::xml_node node) {
+    if (is(node, "always"))
+      read_always(node);
+    else if (is(node, "contassign") || is(node, "assignalias"))
+      read_assignment(node);
+    else if (is(node, "initial"))
+      read_tables(node);
+    else if (!is(node, "varscope"))
+      fail(fmt::format("the lanes do not support '{}' in a module", node.name()));
   }
 
-  Status read_always(pugi::xml_node node) {
+  void read_always(pugi::xml_node node) {
     const pugi::xml_node edge = node.child("sentree").child("senitem");
     const bool rising = std::string_view(edge.attribute("edgeType").value()) == "POS";
     if (!rising || name_of(edge.child("varref")) != "clk" || edge.next_sibling())
-      return tool_failed("the lanes do not support an 'always' without the clock's rising edge");
+      fail("the lanes do not support an 'always' without the clock's rising edge");
     for (pugi::xml_node at = node.child("sentree").next_sibling(); at; at = at.next_sibling()) {
       netlist_.clocked.push_back(at);
       read_targets(at);
     }
-    return Ok{};
   }
 
   /// Each target of a clocked assignment is a register, or a memory if one of its elements is assigned.
@@ -103,16 +107,15 @@ class NetlistReader {
     for (const pugi::xml_node inner : node.children()) read_targets(inner);
   }
 
-  Status read_assignment(pugi::xml_node node) {
+  void read_assignment(pugi::xml_node node) {
     if (!is(node.last_child(), "varref"))
-      return tool_failed("the lanes do not support an assignment to a part of a signal");
+      fail("the lanes do not support an assignment to a part of a signal");
     const std::string name = name_of(node.last_child());
     if (is(node, "contassign") || name != name_of(node.first_child()))
       netlist_.drivers[name] = node.first_child();
-    return Ok{};
   }
 
-  Status read_tables(pugi::xml_node initial) {
+  void read_tables(pugi::xml_node initial) {
     for (const pugi::xml_node assign : initial.children()) {
       const pugi::xml_node datum = assign.first_child(), target = assign.last_child();
       if (is(target, "varref")) {
@@ -123,18 +126,17 @@ class NetlistReader {
       const auto index = to_number(name_of(target.last_child())), value = to_number(name_of(datum));
       const auto array = netlist_.arrays.find(type_of_[name]);
       if (!is(target, "arraysel") || !index || !value || array == netlist_.arrays.end())
-        return tool_failed(fmt::format("{}: the lanes do not support this initial value", name));
+        fail(fmt::format("{}: the lanes do not support this initial value", name));
       LaneRom& rom = netlist_.roms[name];
       rom.width = netlist_.type_widths[array->second.first];
       rom.data.resize(array->second.second);
       if (*index >= rom.data.size() || rom.width > 2 * c_lane_word)
-        return tool_failed(fmt::format("{}: a table too wide or too small", name));
+        fail(fmt::format("{}: a table too wide or too small", name));
       rom.data[*index] = *value;
     }
-    return Ok{};
   }
 
-  Status finish() {
+  void finish() {
     // A signal without a driver is a register that never changes.
     for (const auto& [name, type] : type_of_) {
       const auto width = netlist_.type_widths.find(type);
@@ -146,10 +148,9 @@ class NetlistReader {
     for (const auto& [name, width] : netlist_.registers) netlist_.roms.erase(name);
     for (const auto& [name, memory] : netlist_.memories) {
       if (netlist_.roms.erase(name) != 0)
-        return tool_failed(fmt::format("{}: the lanes do not support a memory with an initial value", name));
+        fail(fmt::format("{}: the lanes do not support a memory with an initial value", name));
     }
     for (auto& [name, rom] : netlist_.roms) make_tables(rom);
-    return Ok{};
   }
 
   /// One table per word of the data; the same table for equal words.
@@ -175,12 +176,12 @@ unsigned LaneNetlist::width_of(pugi::xml_node expression) const {
   return found == type_widths.end() ? 0 : found->second;
 }
 
-Result<LaneNetlist> read_lane_netlist(std::string_view xml) {
+LaneNetlist read_lane_netlist(std::string_view xml) {
   LaneNetlist netlist;
   netlist.document = std::make_unique<pugi::xml_document>();
   if (const auto parsed = netlist.document->load_buffer(xml.data(), xml.size()); !parsed)
-    return tool_failed(fmt::format("Verilator's XML cannot be read: {}", parsed.description()));
-  if (Status read = NetlistReader(netlist).read(); !read) return read.error();
+    throw Failure{tool_failed(fmt::format("Verilator's XML cannot be read: {}", parsed.description()))};
+  NetlistReader(netlist).read();
   return netlist;
 }
 

@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/lanes/lane_graph.hpp"
 
 namespace halfway {
@@ -49,8 +48,8 @@ struct LaneNetlist {
   unsigned width_of(pugi::xml_node expression) const;
 };
 
-/// `clk` is no input of the result. A construct that the lanes do not support is an error that names it (exit
-/// code tool_failed).
-Result<LaneNetlist> read_lane_netlist(std::string_view xml);
+/// `clk` is no input of the result. A construct that the lanes do not support is a Failure that names it
+/// (exit code tool_failed).
+LaneNetlist read_lane_netlist(std::string_view xml);
 
 }  // namespace halfway

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "sim/system/must.hpp"
+
 namespace halfway {
 namespace {
 
@@ -51,12 +53,12 @@ class Scheduler {
     make_groups(memory_words, live);
   }
 
-  Result<Schedule> make() {
+  Schedule make() {
     find_always();
     for (Group& group : schedule_.groups) find_uses(group);
     order();
     if (!schedule_.saved.empty() && *schedule_.saved.rbegin() >= c_first_bank)
-      return tool_failed("the lanes do not support memories that read from one another at one edge");
+      throw Failure{tool_failed("the lanes do not support memories that read from one another at one edge")};
     return std::move(schedule_);
   }
 
@@ -266,8 +268,8 @@ Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live
   return delays;
 }
 
-Result<Schedule> make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
-                               const Delays& delays) {
+Schedule make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
+                       const Delays& delays) {
   return Scheduler(step, memory_words, live, delays).make();
 }
 

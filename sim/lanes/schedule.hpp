@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/lanes/cell_layout.hpp"
 #include "sim/lanes/step.hpp"
 
@@ -54,9 +53,9 @@ CellSet live_cells(const Step& step, const MemoryWords& memory_words);
 
 Delays find_delays(const Step& step, const Step& reset_step, const CellSet& live);
 
-/// Memories that read from one another at the same edge have no order: an error (exit code tool_failed).
-Result<Schedule> make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
-                               const Delays& delays);
+/// Memories that read from one another at the same edge have no order: a Failure (exit code tool_failed).
+Schedule make_schedule(Step& step, const MemoryWords& memory_words, const CellSet& live,
+                       const Delays& delays);
 
 /// The mask of the lanes that change and the new value; -1 and the value if all change.
 std::pair<int, int> changed_lanes(const Step& step, const Delays& delays, const Update& update);

@@ -52,17 +52,15 @@ bool is_source(const fs::path& file) {
 
 /// Paths of all sources of core_sources.txt, relative to the project's root.
 std::vector<std::string> sources_of(const fs::path& root) {
-  const auto list = must(read_file(root / "sim/live/core_sources.txt"));
   std::vector<std::string> sources;
-  std::istringstream lines(list);
+  std::istringstream lines(must(read_file(root / "sim/live/core_sources.txt")));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with('#')) continue;
     if (line.ends_with(".cpp")) {
       sources.push_back(line);
       continue;
     }
-    const auto files = must(files_below(root / line, ".cpp"));
-    for (const fs::path& file : files)
+    for (const fs::path& file : must(files_below(root / line, ".cpp")))
       if (is_source(file)) sources.push_back((line / file).string());
   }
   std::sort(sources.begin(), sources.end());
@@ -75,10 +73,9 @@ std::string hash_of(const fs::path& root, const std::vector<std::string>& source
                     const std::vector<std::string>& tools) {
   std::vector<std::string> files = sources;
   for (const std::string& folder : c_header_folders)
-    for (const char* ending : {".hpp", ".h"}) {
-      const auto headers = must(files_below(root / folder, ending));
-      for (const fs::path& header : headers) files.push_back((folder / header).string());
-    }
+    for (const char* ending : {".hpp", ".h"})
+      for (const fs::path& header : must(files_below(root / folder, ending)))
+        files.push_back((folder / header).string());
   ContentHash hash;
   hash.add("core 1");
   for (const auto* list : {&tools, &c_flags, &c_link_flags}) {
@@ -118,7 +115,6 @@ void compile(const Compiler& compiler, const fs::path& root, const std::vector<s
   must_for_each(std::max(1U, std::thread::hardware_concurrency()), sources.size(), [&](std::size_t i) {
     run(flags, {(root / sources[i]).string(), "-o", object(i)});
   });
-
   std::vector<std::string> objects;
   for (std::size_t i = 0; i < sources.size(); ++i) objects.push_back(object(i));
   objects.insert(objects.end(), {"-o", c_module_name});
@@ -129,21 +125,17 @@ void compile(const Compiler& compiler, const fs::path& root, const std::vector<s
 
 }  // namespace
 
-Result<fs::path> build_core_module(const SimulatorFolders& folders) {
-  return caught([&] {
-    const Compiler compiler = must(Compiler::find("clang++"));
-    const fs::path root = fs::absolute(folders.source);
-    const std::vector<std::string> sources = sources_of(root);
-    const auto generated = tables::cpp_headers(tables::compiled_sizes());
-    const std::string hash = hash_of(root, sources, generated, {compiler.identity});
-    const fs::path parent = fs::absolute(folders.cache) / "live", folder = parent / ("core-" + hash);
-    if (!fs::exists(folder)) {
-      TemporaryFolder fresh = must(TemporaryFolder::make(parent));
-      compile(compiler, root, sources, generated, fresh.path());
-      must(fresh.move_to(folder));
-    }
-    return folder / c_module_name;
-  });
+Result<fs::path> build_core_module(const SimulatorFolders& folders) try {
+  const Compiler compiler = must(Compiler::find("clang++"));
+  const fs::path root = fs::absolute(folders.source);
+  const std::vector<std::string> sources = sources_of(root);
+  const auto generated = tables::cpp_headers(tables::compiled_sizes());
+  const fs::path folder = fs::absolute(folders.cache) / "live" /
+                          ("core-" + hash_of(root, sources, generated, {compiler.identity}));
+  make_once(folder, [&](const fs::path& fresh) { compile(compiler, root, sources, generated, fresh); });
+  return folder / c_module_name;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

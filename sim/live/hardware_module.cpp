@@ -3,25 +3,25 @@
 
 #include "sim/lanes/lane_simulator.hpp"
 #include "sim/stages/stages.hpp"
+#include "sim/system/must.hpp"
 #include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway {
 
-Result<std::filesystem::path> build_hardware_module(const HardwareKey& key, const SimulatorFolders& folders) {
-  auto build = lane_build_of(key, folders);
-  if (!build) return build.error();
-  build->harness = folders.source / "sim/live/hardware_harness.cpp";
-  build->target = LaneTarget::web_assembly;
-  const auto library = rtl_library(folders);
-  if (!library) return library.error();
-  const auto netlist = library->synthesize_vhdl(key.entity(), key.generics());
-  if (!netlist) return netlist.error();
-  build->names = RegisterNames(*netlist, library->folder());
-  build->ports.top = build->top;
+Result<std::filesystem::path> build_hardware_module(const HardwareKey& key,
+                                                    const SimulatorFolders& folders) try {
+  LaneBuild build = must(lane_build_of(key, folders));
+  build.harness = folders.source / "sim/live/hardware_harness.cpp";
+  build.target = LaneTarget::web_assembly;
+  const GhdlLibrary library = must(rtl_library(folders));
+  build.names = RegisterNames(must(library.synthesize_vhdl(key.entity(), key.generics())), library.folder());
+  build.ports.top = build.top;
   for (const TracedPart& part : make_stages(key)->parts())
-    build->ports.observed.push_back(
+    build.ports.observed.push_back(
         {part.netlist_path, static_cast<unsigned>(part.low), static_cast<unsigned>(part.bits)});
-  return build_lanes(*build, folders.cache);
+  return build_lanes(build, folders.cache);
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

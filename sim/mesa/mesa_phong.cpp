@@ -29,6 +29,7 @@
 #include "sim/mesa/mesa_picture.hpp"
 #include "sim/scene_files/load_scene.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/seconds.hpp"
 
 namespace halfway {
@@ -72,20 +73,23 @@ void main() {
 )";
 
 /// Create a context without a window. It stays current until the process ends.
-Status make_context() {
+[[noreturn]] void fail(const std::string& what) {
+  throw Failure{tool_failed(what)};
+}
+
+void make_context() {
   const EGLDisplay display =
       eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr))
-    return tool_failed("EGL: no display without a surface; install it with: apt-get install libgl1-mesa-dri");
+    fail("EGL: no display without a surface; install it with: apt-get install libgl1-mesa-dri");
   const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
   eglBindAPI(EGL_OPENGL_ES_API);
   const EGLContext context = eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, version);
   if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context))
-    return tool_failed("EGL: no context of OpenGL ES 3");
-  return Ok{};
+    fail("EGL: no context of OpenGL ES 3");
 }
 
-Result<GLuint> make_shader(GLenum kind, const std::string& text) {
+GLuint make_shader(GLenum kind, const std::string& text) {
   const GLuint shader = glCreateShader(kind);
   const char* source = text.c_str();
   glShaderSource(shader, 1, &source, nullptr);
@@ -95,35 +99,29 @@ Result<GLuint> make_shader(GLenum kind, const std::string& text) {
   if (compiled) return shader;
   char log[1024];
   glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-  return tool_failed(fmt::format("OpenGL: {}", log));
+  fail(fmt::format("OpenGL: {}", log));
 }
 
 class Picture {
  public:
-  static Result<Picture> make(const Scene& scene, FrameSize size) {
-    if (Status can = mesa_draws(scene); !can) return can.error();
+  Picture(const Scene& scene, FrameSize size) : scene_(&scene), size_(size) {
+    must(mesa_draws(scene));
     std::size_t lights = 0;
     for_each_light(scene, [&](const Light&) { ++lights; });
-    Picture picture(scene, size);
-    const auto vertex = make_shader(GL_VERTEX_SHADER, c_vertex_shader);
-    if (!vertex) return vertex.error();
-    const auto fragment =
-        make_shader(GL_FRAGMENT_SHADER, fmt::format("#version 300 es\n#define LIGHTS {}\n{}",
-                                                    std::max<std::size_t>(lights, 1), c_fragment_shader));
-    if (!fragment) return fragment.error();
-    picture.program_ = glCreateProgram();
-    glAttachShader(picture.program_, *vertex);
-    glAttachShader(picture.program_, *fragment);
-    glLinkProgram(picture.program_);
+    program_ = glCreateProgram();
+    glAttachShader(program_, make_shader(GL_VERTEX_SHADER, c_vertex_shader));
+    glAttachShader(program_, make_shader(GL_FRAGMENT_SHADER,
+                                         fmt::format("#version 300 es\n#define LIGHTS {}\n{}",
+                                                     std::max<std::size_t>(lights, 1), c_fragment_shader)));
+    glLinkProgram(program_);
     GLint linked = 0;
-    glGetProgramiv(picture.program_, GL_LINK_STATUS, &linked);
-    if (!linked) return tool_failed("OpenGL: the shaders do not link");
-    glUseProgram(picture.program_);
-    picture.set_camera();
-    picture.set_lights();
-    picture.load_triangles();
-    if (Status made = picture.make_frame(); !made) return made.error();
-    return picture;
+    glGetProgramiv(program_, GL_LINK_STATUS, &linked);
+    if (!linked) fail("OpenGL: the shaders do not link");
+    glUseProgram(program_);
+    set_camera();
+    set_lights();
+    load_triangles();
+    make_frame();
   }
 
   void draw() const {
@@ -154,8 +152,6 @@ class Picture {
     GLsizei count;
     std::size_t first;
   };
-
-  Picture(const Scene& scene, FrameSize size) : scene_(&scene), size_(size) {}
 
   void set(const char* name, glm::dvec3 v) const {
     glUniform3f(glGetUniformLocation(program_, name), static_cast<float>(v.x), static_cast<float>(v.y),
@@ -224,7 +220,7 @@ class Picture {
     glEnableVertexAttribArray(1);
   }
 
-  Status make_frame() const {
+  void make_frame() const {
     const auto width = static_cast<GLsizei>(size_.width), height = static_cast<GLsizei>(size_.height);
     GLuint frame, buffers[2];
     glGenFramebuffers(1, &frame);
@@ -237,12 +233,11 @@ class Picture {
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, width, height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, buffers[1]);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      return tool_failed("OpenGL: the frame cannot be drawn into");
+      fail("OpenGL: the frame cannot be drawn into");
     glViewport(0, 0, width, height);
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     glDisable(GL_DITHER);
-    return Ok{};
   }
 
   const Scene* scene_;
@@ -268,19 +263,17 @@ struct Request {
   double tessellation = 1.0, exponent = 0.0;  // exponent 0: the scene's
 };
 
-Status run(const Request& request) {
-  auto scene = load_scene(request.scene, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes",
-                          {.tessellation = request.tessellation});
-  if (!scene) return scene.error();
+void run(const Request& request) {
+  Scene scene = must(load_scene(request.scene, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/scenes",
+                                {.tessellation = request.tessellation}));
   if (request.exponent > 0)
-    for (Material& material : scene->materials) material.exponent = request.exponent;
-  if (Status made = make_context(); !made) return made;
-  const auto picture = Picture::make(*scene, request.size);
-  if (!picture) return picture.error();
+    for (Material& material : scene.materials) material.exponent = request.exponent;
+  make_context();
+  const Picture picture(scene, request.size);
   std::vector<std::uint8_t> rgba(4 * Frame(request.size).pixels());
   const auto draw = [&] {
-    picture->draw();
-    picture->read(rgba);
+    picture.draw();
+    picture.read(rgba);
   };
   draw();  // the first drawing compiles the shaders for the processor
   double best = 1e300;
@@ -292,16 +285,16 @@ Status run(const Request& request) {
   }
   const double elapsed = seconds_since(first);
   if (const GLenum error = glGetError(); error != GL_NO_ERROR)
-    return tool_failed(fmt::format("OpenGL: error {:#x}", error));
+    fail(fmt::format("OpenGL: error {:#x}", error));
   fmt::print("{:.9f} {:.9f}\n{}\n", best, elapsed, reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
   const Frame frame = to_frame(rgba, request.size);
-  return write_file(request.file, {reinterpret_cast<const char*>(frame.rgb.data()), frame.rgb.size()});
+  must(write_file(request.file, {reinterpret_cast<const char*>(frame.rgb.data()), frame.rgb.size()}));
 }
 
 }  // namespace
 }  // namespace halfway
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   halfway::Request request;
   halfway::FrameSize& size = request.size;
   if (argc < 5 || argc > 7 || std::sscanf(argv[2], "%ux%u", &size.width, &size.height) != 2 ||
@@ -315,9 +308,9 @@ int main(int argc, char** argv) {
   }
   request.scene = argv[1];
   request.file = argv[4];
-  if (const halfway::Status done = halfway::run(request); !done) {
-    fmt::print(stderr, "{}\n", done.error().message);
-    return static_cast<int>(done.error().code);
-  }
+  halfway::run(request);
   return 0;
+} catch (const halfway::Failure& failure) {
+  fmt::print(stderr, "{}\n", failure.what());
+  return static_cast<int>(failure.error.code);
 }

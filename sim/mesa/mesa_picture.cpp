@@ -8,6 +8,7 @@
 
 #include "scene/lights.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 
 namespace halfway {
@@ -34,10 +35,9 @@ std::string mesa_lacks(const std::filesystem::path& source) {
   return std::filesystem::exists(mesa_program(source)) ? "" : "libegl-dev, libgles-dev";
 }
 
-Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesystem::path& source) {
-  const auto scratch = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!scratch) return scratch.error();
-  const std::filesystem::path file = scratch->path() / "mesa.rgb";
+Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesystem::path& source) try {
+  const TemporaryFolder scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path file = scratch.path() / "mesa.rgb";
   Command command{
       .arguments = {mesa_program(source).string(), request.scene, to_string(request.size),
                     std::to_string(request.repetitions), file.string(),
@@ -46,19 +46,20 @@ Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesyst
       .environment = {
           {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "0"}}};
   if (request.exponent) command.arguments.push_back(fmt::format("{}", *request.exponent));
-  const auto end = run_process(command, "apt-get install libegl-dev libgles-dev, then make study");
-  if (!end) return end.error();
+  const ProcessEnd end =
+      must(run_process(command, "apt-get install libegl-dev libgles-dev, then make study"));
   MesaPicture picture{.frame = Frame(request.size)};
-  std::istringstream said(end->output);
-  if (!end->succeeded() || !(said >> picture.seconds >> picture.elapsed_seconds))
-    return tool_failed(fmt::format("halfway_mesa: {}: {}", end->how(), end->output));
+  std::istringstream said(end.output);
+  if (!end.succeeded() || !(said >> picture.seconds >> picture.elapsed_seconds))
+    return tool_failed(fmt::format("halfway_mesa: {}: {}", end.how(), end.output));
   said.ignore();
   std::getline(said, picture.renderer);
-  const auto rgb = read_file(file);
-  if (!rgb) return rgb.error();
-  if (rgb->size() != picture.frame.rgb.size()) return tool_failed("halfway_mesa: a frame of another size");
-  std::copy(rgb->begin(), rgb->end(), picture.frame.rgb.begin());
+  const std::string rgb = must(read_file(file));
+  if (rgb.size() != picture.frame.rgb.size()) return tool_failed("halfway_mesa: a frame of another size");
+  std::copy(rgb.begin(), rgb.end(), picture.frame.rgb.begin());
   return picture;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

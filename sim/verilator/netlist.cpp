@@ -3,17 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstddef>
-#include <optional>
+#include <regex>
+#include <string>
 #include <vector>
 
 namespace halfway {
 namespace {
-
-bool is_name_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '$';
-}
 
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
@@ -29,38 +25,6 @@ std::string_view trim(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   return text;
-}
-
-bool take(std::string_view& text, std::string_view beginning) {
-  if (text.substr(0, beginning.size()) != beginning) return false;
-  text.remove_prefix(beginning.size());
-  return true;
-}
-
-std::optional<unsigned> take_number(std::string_view& text) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  return value;
-}
-
-std::string_view take_name(std::string_view& text) {
-  std::size_t length = 0;
-  while (length < text.size() && is_name_character(text[length])) ++length;
-  const std::string_view name = text.substr(0, length);
-  text.remove_prefix(length);
-  return name;
-}
-
-/// Read `[high:0] ` or nothing; return the width.
-unsigned take_width(std::string_view& text) {
-  text = trim(text);
-  if (!take(text, "[")) return 1;
-  const unsigned high = take_number(text).value_or(0);
-  take(text, ":0]");
-  text = trim(text);
-  return high + 1;
 }
 
 /// The line without comments `/* ... */` and `// ...`; GHDL keeps a comment on one line.
@@ -130,19 +94,13 @@ bool ends_always(std::string_view text) {
 }  // namespace
 
 unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port) {
-  bool inside = false;
-  for (std::string_view line : lines_of(netlist)) {
-    line = trim(line);
-    if (take(line, "module ")) {
-      inside = trim(line) == top;
-    } else if (inside) {
-      if (take(line, "(")) line = trim(line);
-      if (!take(line, "input ") && !take(line, "output ")) return 0;
-      const unsigned width = take_width(line);
-      if (take_name(line) == port) return width;
-    }
-  }
-  return 0;
+  const std::size_t begin = netlist.find(fmt::format("module {}\n", top));
+  if (begin == std::string_view::npos) return 0;
+  const std::string_view ports = netlist.substr(begin, netlist.find(");", begin) - begin);
+  const std::regex declaration(fmt::format(R"((input|output) +(\[(\d+):0\] +)?{}\b)", port));
+  std::cmatch found;
+  if (!std::regex_search(ports.data(), ports.data() + ports.size(), found, declaration)) return 0;
+  return found[3].matched ? static_cast<unsigned>(std::stoul(found[3])) + 1 : 1;
 }
 
 Result<std::string> mend_netlist(std::string_view netlist) {

@@ -1,24 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/verilator/shader_netlist.hpp"
 
+#include "sim/system/must.hpp"
 #include "sim/verilator/netlist.hpp"
 
 namespace halfway {
 
-Result<GhdlLibrary> rtl_library(const SimulatorFolders& folders) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(folders.source);
-  if (!sources) return sources.error();
-  return GhdlLibrary::for_synthesis(*tool, *sources, folders.cache);
+Result<GhdlLibrary> rtl_library(const SimulatorFolders& folders) try {
+  const GhdlTool tool = must(GhdlTool::find());
+  return GhdlLibrary::for_synthesis(tool, must(read_rtl_sources(folders.source)), folders.cache);
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
-Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
-  const auto library = rtl_library(folders);
-  if (!library) return library.error();
-  const auto netlist = library->synthesize(key.entity(), key.generics());
-  if (!netlist) return netlist.error();
-  return mend_netlist(*netlist);
+Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) try {
+  return mend_netlist(must(must(rtl_library(folders)).synthesize(key.entity(), key.generics())));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 }  // namespace halfway

@@ -54,19 +54,18 @@ struct VerilatorSimulator::State : Hardware {
 };
 
 Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
-                                                    const VerilatorOptions& options) {
+                                                    const VerilatorOptions& options) try {
   // Builds with waveforms or another netlist simulate few cycles, so compile them without optimization.
   const bool fast = options.wave_file.empty() && options.netlist.empty();
-  auto netlist = netlist_of(key, folders);
-  if (!netlist) return netlist.error();
-  const unsigned init_bits = port_bits(*netlist, key.entity(), "init_data");
+  std::string netlist = must(netlist_of(key, folders));
+  const unsigned init_bits = port_bits(netlist, key.entity(), "init_data");
   if (init_bits == 0)
     return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));
-  if (!options.netlist.empty()) *netlist = options.netlist;
+  if (!options.netlist.empty()) netlist = options.netlist;
   const std::filesystem::path folder = folders.source / "sim/verilator";
   const VerilatedBuild build{.name = key.name() + (options.wave_file.empty() ? "" : "-waves") +
                                      (options.netlist.empty() ? "" : "-mapped"),
-                             .netlist = std::move(*netlist),
+                             .netlist = std::move(netlist),
                              .top = key.entity(),
                              .harness = folder / "harness.cpp",
                              .include_folder = folders.source,
@@ -75,17 +74,11 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
                              .waves = !options.wave_file.empty(),
                              .fast = fast,
                              .compiler = options.compiler};
-  auto library = open_verilated(build, folders.cache);
-  if (!library) return library.error();
-
-  Hardware hardware{.library = std::move(*library), .name = key.name()};
+  Hardware hardware{.library = must(open_verilated(build, folders.cache)), .name = key.name()};
   decltype(&halfway_harness_version) version = nullptr;
-  if (Status bound =
-          hardware.library.bind(version, "halfway_harness_version", hardware.create, "halfway_create",
-                                hardware.destroy, "halfway_destroy", hardware.run, "halfway_run",
-                                hardware.drain, "halfway_drain", hardware.cycles, "halfway_cycles");
-      !bound)
-    return bound.error();
+  must(hardware.library.bind(version, "halfway_harness_version", hardware.create, "halfway_create",
+                             hardware.destroy, "halfway_destroy", hardware.run, "halfway_run", hardware.drain,
+                             "halfway_drain", hardware.cycles, "halfway_cycles"));
   if (version() != HALFWAY_HARNESS_VERSION) {
     return tool_failed(
         fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
@@ -96,13 +89,15 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
   auto state = std::make_shared<State>(std::move(hardware));
   if (!options.wave_file.empty()) {
     const auto absolute = std::filesystem::absolute(options.wave_file);
-    if (auto made = make_folders(absolute.parent_path()); !made) return made.error();
+    must(make_folders(absolute.parent_path()));
     state->wave_path = absolute.string();
     state->options.waves_path = state->wave_path.c_str();
     state->options.waves_from = options.waves_from;
     state->options.waves_to = options.waves_to;
   }
   return with_model(std::move(state));
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 Result<VerilatorSimulator> VerilatorSimulator::with_model(std::shared_ptr<State> state) {
