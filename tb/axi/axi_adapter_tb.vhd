@@ -137,8 +137,6 @@ begin
       draw(frame, frame_t'val(frame mod 5 / 2 mod 3), 1 + frame mod 7, frame mod 4 > 1);
       draw(frame, good, 1 + frame mod 3, frame mod 8 > 3);
     end loop;
-    -- Each vector comes in time, but the frame takes longer than the limit.
-    draw(c_frames + 1, good, 2 ** (c_limit_bits + 1), false);
     ended <= true;
     finish(finished);
   end process;
