@@ -32,8 +32,12 @@ HardwareCost measure(const SavingsCase& which, bool all, const SimulatorFolders&
   const HardwareKey& key = all ? plan.everything : plan.called_for;
   const Cells cells = CellCounter(folders).count(key);
   const FrameSize size = which.shader == Shader::processors ? FrameSize{320, 240} : FrameSize{640, 480};
+  CostSettings settings;
+  settings.size = size;
+  settings.ghdl = false;
+  settings.folders = folders;
   return {cells.luts, cells.flip_flops, cells.memory_bits, cells.multipliers,
-          simulation_cost(scene, key, {.size = size, .ghdl = false, .folders = folders}).cycles};
+          simulation_cost(scene, key, settings).cycles};
 }
 
 // 58298 as "58 298".

@@ -5,7 +5,7 @@
 
 #include <atomic>
 #include <chrono>
-#include <optional>
+#include <memory>
 #include <thread>
 
 #include "common/test/is_error.hpp"
@@ -17,8 +17,8 @@ namespace {
 
 TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
   auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  auto first = must(FolderLock::take(folder.path(), [] { FAIL() << "it is not locked"; }));
-  std::optional<FolderLock> held(std::move(first));
+  auto held = std::make_unique<FolderLock>(
+      must(FolderLock::take(folder.path(), [] { FAIL() << "it is not locked"; })));
   std::atomic<bool> waited = false, taken = false;
   std::jthread second([&] {
     const auto lock = FolderLock::take(folder.path(), [&] { waited = true; });
