@@ -98,8 +98,8 @@ std::vector<MultiplierShape> read_multiplier_shapes(const std::string& netlist, 
 
 CellCounter::CellCounter(const SimulatorFolders& folders)
     : yosys_(synth::Yosys::find(folders.cache / "yosys")),
-      library_(must(GhdlLibrary::for_synthesis(must(GhdlTool::find()),
-                                               must(read_rtl_sources(folders.source)), folders.cache))) {}
+      library_(must(GhdlLibrary::for_synthesis(must(GhdlTool::find()), must(read_rtl_sources(folders.source)),
+                                               folders.cache))) {}
 
 Cells CellCounter::count(const HardwareKey& key) const {
   const std::string netlist = must(mend_netlist(must(library_.synthesize(key.entity(), key.generics()))));

@@ -79,8 +79,8 @@ class GhdlLibrary {
   std::vector<std::string> to_read_;  ///< names of the sources; used if nothing is analysed
 };
 
-/// Analyse the sources, run the testbench `top` with these options of GHDL, and return its output. A testbench
-/// that fails is an error with the code `differs`.
+/// Analyse the sources, run the testbench `top` with these options of GHDL, and return its output. A
+/// testbench that fails is an error with the code `differs`.
 Result<std::string> run_testbench(const std::string& top, const std::vector<VhdlSource>& sources,
                                   const std::vector<std::string>& options,
                                   const std::filesystem::path& cache);
