@@ -119,7 +119,7 @@ class ObjReader {
       if (count < 6) values[static_cast<std::size_t>(count)] = value;
       ++count;
     }
-    if (std::ranges::find(allowed, count) != allowed.end()) return count;
+    if (std::find(allowed.begin(), allowed.end(), count) != allowed.end()) return count;
     return lines.error(
         fmt::format("{} {} has {} numbers; it must have {}", field.what, field.all, count, allowed_text));
   }

@@ -59,9 +59,10 @@ constexpr Type c_types[] = {
 
 /// Null if there is none.
 const Type* find_type(std::string_view name) {
-  const auto found = std::ranges::find_if(
-      c_types, [name](const Type& type) { return name == type.name || name == type.other_name; });
-  return found == std::end(c_types) ? nullptr : found;
+  for (const Type& type : c_types) {
+    if (name == type.name || name == type.other_name) return &type;
+  }
+  return nullptr;
 }
 
 // ---- Header
@@ -198,7 +199,8 @@ class PlyReader {
     return Ok{};
   }
   bool has_element(std::string_view name) const {
-    return std::ranges::find(elements_, name, &Element::name) != elements_.end();
+    return std::any_of(elements_.begin(), elements_.end(),
+                       [name](const Element& element) { return element.name == name; });
   }
 
   Status read_property() {
@@ -218,7 +220,7 @@ class PlyReader {
     if (property.type == nullptr) return lines_.error(quoted(type) + " is not a type of PLY; correct it");
     property.name = lines_.word();
     if (property.name.empty()) return lines_.error("a property without a name; give it one");
-    if (std::ranges::find(element.properties, property.name, &Property::name) != element.properties.end()) {
+    if (has_property(element, &Property::name, property.name)) {
       return lines_.error(fmt::format("a second property {} of {}; rename or remove it",
                                       quoted(property.name), quoted(element.name)));
     }
@@ -244,9 +246,12 @@ class PlyReader {
   static bool has_corners(const Element& element) {
     return element.kind == Kind::face || element.kind == Kind::tristrips;
   }
-  static bool uses(const Element& element, Use use) {
-    return std::ranges::find(element.properties, use, &Property::use) != element.properties.end();
+  template <class Value>
+  static bool has_property(const Element& element, Value Property::*member, const Value& value) {
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [&](const Property& property) { return property.*member == value; });
   }
+  static bool uses(const Element& element, Use use) { return has_property(element, &Property::use, use); }
 
   Status check_elements() {
     for (const Element& element : elements_) {
