@@ -14,13 +14,13 @@ cd "$(dirname "$0")/.."
 root=$PWD
 
 # Name, minutes on two cores, Markdown file, programs.
-pages='bounds 2 docs/results/bounds.md halfway_bounds
+pages='bounds 1 docs/results/bounds.md halfway_bounds
 cells 4 docs/results/synthesis.md halfway_synth
 accuracy 4 docs/accuracy.md halfway
 transcripts 1 README.md halfway
-figures 3 docs/results/figures/README.md halfway
+figures 1 docs/results/figures/README.md halfway
 gallery 4 docs/accuracy.md halfway_studies
-hard_cases 5 docs/results/hard_cases.md halfway_stability
+hard_cases 7 docs/results/hard_cases.md halfway_stability
 proofs 14 docs/results/proofs.md halfway_proofs
 mutants 14 docs/results/mutants.md halfway_mutants halfway_vectors
 speed 30 docs/results/speed.md halfway halfway_bench
