@@ -22,7 +22,7 @@ figures 1 docs/results/figures/README.md halfway
 gallery 4 docs/accuracy.md halfway_studies
 hard_cases 7 docs/results/hard_cases.md halfway_stability
 proofs 14 docs/results/proofs.md halfway_proofs
-mutants 14 docs/results/mutants.md halfway_mutants halfway_vectors
+mutants 12 docs/results/mutants.md halfway_mutants halfway_vectors
 speed 30 docs/results/speed.md halfway halfway_bench
 clocks 300 docs/results/synthesis.md halfway_synth halfway_board'
 by_name='speed clocks'
