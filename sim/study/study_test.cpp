@@ -202,6 +202,35 @@ TEST_F(InterruptedStudyTest, ContinuesTileByTile) {
   expect_anew(3);
 }
 
+// A study stops at a damaged tile, and draws it again when it is removed.
+TEST_F(InterruptedStudyTest, RefusesTilesOfAnotherSize) {
+  const std::pair<std::filesystem::path, FrameSize> cases[] = {
+      {file(drawing_, "-tile-0.png"), {37, 8}}, {file(reference_, "-tile-0-mask.png"), {64, 48}}};
+  for (const auto& [tile, size] : cases) {
+    ASSERT_TRUE(write_png(tile, Frame(size)));
+    EXPECT_TRUE(
+        is_error(caught([&] { return study(); }), ExitCode::bad_input,
+                 fmt::format("{}: {}, but the tile has 37x29; remove it", tile.string(), to_string(size))));
+    restore();
+    EXPECT_TRUE(std::filesystem::remove(tile));
+    expect_anew(1);
+    restore();
+  }
+}
+
+TEST_F(InterruptedStudyTest, RefusesTilesWithoutFigures) {
+  const std::filesystem::path figures = file(drawing_, "-tile-1.json");
+  for (const char* text : {"{", "{}", R"({"hardware": "quadratic", "fragments": "many"})"}) {
+    ASSERT_TRUE(write_file(figures, text));
+    const auto made = caught([&] { return study(); });
+    EXPECT_TRUE(is_error(made, ExitCode::bad_input, figures.string() + ": [json.exception."));
+    EXPECT_TRUE(is_error(made, ExitCode::bad_input, "; remove it"));
+  }
+  restore();
+  EXPECT_TRUE(std::filesystem::remove(figures));
+  expect_anew(1);
+}
+
 // Drawings are removed after assembly. The reference's tiles stay for later points; losing them does no harm.
 TEST_F(InterruptedStudyTest, KeepsOnlyTheReferencesTiles) {
   expect_anew(0);

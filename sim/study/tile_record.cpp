@@ -53,6 +53,30 @@ void add_files(const std::filesystem::path& stem, const Frame& colours, const Fr
   must(write_file(stem.string() + c_figures, figures.dump(2) + "\n"));
 }
 
+// A study draws removed tiles again.
+Failure damaged(const std::filesystem::path& file, const std::string& what) {
+  return Failure{bad_input(fmt::format("{}: {}; remove it", file.string(), what))};
+}
+
+Frame read_tile(const std::filesystem::path& file, FrameSize size) {
+  Frame picture = must(read_png(file));
+  if (!(picture.size == size))
+    throw damaged(file, fmt::format("{}, but the tile has {}", to_string(picture.size), to_string(size)));
+  return picture;
+}
+
+void add_figures(const std::filesystem::path& file, Drawing& drawing) {
+  const std::string text = must(read_file(file));
+  try {
+    const Json figures = Json::parse(text);
+    figures.at("hardware").get_to(drawing.hardware);
+    for_each_count(
+        drawing, [&](const char* name, std::uint64_t& sum) { sum += figures.at(name).get<std::uint64_t>(); });
+  } catch (const Json::exception& bad) {
+    throw damaged(file, bad.what());
+  }
+}
+
 }  // namespace
 
 std::filesystem::path TileRecords::file(const DesignPoint& point, PieceKind kind, std::size_t tile,
@@ -98,16 +122,14 @@ void TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, const 
 
 struct TileRecords::Whole {
   Frame colours, masks;
-  std::vector<Json> figures{};  // one per tile
 };
 
 TileRecords::Whole TileRecords::put_together(const DesignPoint& point, PieceKind kind) const {
   Whole whole{Frame(point.size), Frame(point.size)};
   const std::vector<Tile> tiles = point.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    put_tile(whole.colours, must(read_png(file(point, kind, i, c_colours))), tiles[i]);
-    put_tile(whole.masks, must(read_png(file(point, kind, i, c_masks))), tiles[i]);
-    whole.figures.push_back(Json::parse(must(read_file(file(point, kind, i, c_figures)))));
+    put_tile(whole.colours, read_tile(file(point, kind, i, c_colours), tiles[i].size), tiles[i]);
+    put_tile(whole.masks, read_tile(file(point, kind, i, c_masks), tiles[i].size), tiles[i]);
   }
   return whole;
 }
@@ -121,11 +143,8 @@ Drawing TileRecords::drawing(const DesignPoint& point) const {
   Whole whole = put_together(point, PieceKind::tile);
   Drawing drawing{.frame = std::move(whole.colours)};
   if (point.method != Method::gouraud) drawing.mask = mask_of(whole.masks, 0);
-  for (const Json& figures : whole.figures) {
-    figures.at("hardware").get_to(drawing.hardware);
-    for_each_count(
-        drawing, [&](const char* name, std::uint64_t& sum) { sum += figures.at(name).get<std::uint64_t>(); });
-  }
+  for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
+    add_figures(file(point, PieceKind::tile, tile, c_figures), drawing);
   return drawing;
 }
 
