@@ -65,6 +65,8 @@ package tb_pkg is
     -- Goes on with the rest of the row of `clocks` clocks before, which is not checked if there was none. Call it once
     -- per row.
     procedure look_back (clocks : in natural);
+    -- Fails if this vector has words that were not read.
+    procedure expect_end;
     -- Stops the run. The message gives the file and the number of the vector.
     procedure fail (message : in string);
   end protected;
@@ -353,6 +355,13 @@ package body tb_pkg is
       end loop;
       if number = 0 and words /= (words'range => '0') then
         fail(name & " is " & to_text(got) & ", though it has no words");
+      end if;
+    end procedure;
+
+    procedure expect_end is
+    begin
+      if position <= text_in'high then
+        fail("has words that the testbench does not read");
       end if;
     end procedure;
 

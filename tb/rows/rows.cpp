@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cstring>
@@ -12,6 +11,7 @@
 
 #include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
+#include "sim/system/toml_file.hpp"
 
 namespace halfway::rows {
 namespace {
@@ -126,7 +126,8 @@ class Writer {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Failure{bad_input(fmt::format("tb/rows.toml: {}: {}", entity_, what))};
+    throw Failure{
+        bad_input(fmt::format("tb/rows.toml:{}: {}: {}", table_.source().begin.line, entity_, what))};
   }
   void check_keys() const {
     const Texts known =
@@ -136,6 +137,7 @@ class Writer {
     if (value("drive").empty() || value("check").empty()) fail("needs drive and check");
   }
   bool has(const char* key) const { return table_.contains(key); }
+  bool resets() const { return table_["reset"].value_or(false); }
   std::string value(const char* key) const { return table_[key].value_or(std::string()); }
   template <class... Values>
   void put(fmt::format_string<Values...> format, Values&&... values) {
@@ -146,7 +148,11 @@ class Writer {
   /// A VHDL expression: the name of the form's file.
   std::string file_of(std::size_t form, const Texts& generics, const Texts& values) const {
     if (has("file")) return value("file");
-    if (has("files")) return '"' + words(value("files")).at(form) + '"';
+    if (has("files")) {
+      const Texts files = words(value("files"));
+      if (form >= files.size()) fail(fmt::format("has only {} files", files.size()));
+      return '"' + files[form] + '"';
+    }
     Texts parts;
     for (std::size_t i = 0; i < generics.size(); ++i) {
       const bool is_true = values[i] == "true";
@@ -171,9 +177,9 @@ class Writer {
     }
     for (const std::string& port : interface_.port_names)
       put("signal {} : {}{};", port, interface_.port_types.at(port),
-          port == "clk"                     ? " := '0'"
-          : port == "reset" && has("reset") ? " := '1'"
-                                            : "");
+          port == "clk"                 ? " := '0'"
+          : port == "reset" && resets() ? " := '1'"
+                                        : "");
     if (has("declare")) put(value("declare"));
     put("begin\ndut : entity work.{}", entity_);
     if (!interface_.generic_names.empty() && !generics.empty())
@@ -191,7 +197,7 @@ class Writer {
     const bool clocked = interface_.port_types.contains("clk");
     Texts driven = words(value("drive"));
     const bool checked = driven.at(0) == "checked";
-    if (has("reset")) put("tick(clk);");
+    if (resets()) put("tick(clk);");
     put("while vectors.{} loop", checked ? "next_clock" : "next_vector");
     if (checked) driven.erase(driven.begin());
     for (const std::string& column : driven) {
@@ -204,6 +210,7 @@ class Writer {
     put("settle;");
     if (has("late")) put("vectors.look_back({});", value("late"));
     for (const std::string& column : words(value("check"))) put_check(column);
+    put("vectors.expect_end;");
     if (clocked) put("tick(clk);");
     put("end loop;");
   }
@@ -227,20 +234,12 @@ class Writer {
   std::string text_;
 };
 
-toml::table read_table(const std::filesystem::path& file) {
-  try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& error) {
-    throw Failure{
-        bad_input(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()))};
-  }
-}
-
 }  // namespace
 
 std::map<std::string, std::string> testbenches(const std::filesystem::path& source) {
   std::map<std::string, std::string> all;
-  for (const auto& [folder, entities] : read_table(source / "tb/rows.toml"))
+  const toml::table folders = read_toml(source / "tb/rows.toml");
+  for (const auto& [folder, entities] : folders)
     for (const auto& [name, table] : *entities.as_table()) {
       const std::string entity(name.str());
       const auto file = source / "rtl" / std::string(folder.str()) / (entity + ".vhd");
