@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <toml++/toml.h>
-
 #include "sim/figures/figure.hpp"
 #include "sim/system/file.hpp"
+#include "sim/system/toml_file.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -79,8 +78,8 @@ Claim claim_of(toml::node& node, const std::string& file) {
 }  // namespace
 
 std::vector<Figure> read_figures(const std::string& text, const std::string& file,
-                                 std::map<std::string, Draw> drawings) try {
-  toml::table root = toml::parse(text, file);
+                                 std::map<std::string, Draw> drawings) {
+  toml::table root = parse_toml(text, file);
   std::vector<Figure> figures;
   Fields all(root, file);
   for (toml::node& node : all.list("figure")) {
@@ -97,8 +96,6 @@ std::vector<Figure> read_figures(const std::string& text, const std::string& fil
   all.close();
   if (!drawings.empty()) all.fail(fmt::format("has no figure '{}'", drawings.begin()->first));
   return figures;
-} catch (const toml::parse_error& bad) {
-  throw Failure{bad_input(fmt::format("{}:{}: {}", file, bad.source().begin.line, bad.description()))};
 }
 
 std::vector<Figure> all_figures(const std::filesystem::path& source) {

@@ -16,25 +16,22 @@ Stream read_stream(const toml::table& table) {
           table["columns"].value_or(std::string()), table["prompt"].value_or(false)};
 }
 
-std::string text_of(const toml::table& table, const char* name) {
-  return table[name].value_or(std::string());
-}
-
 std::vector<std::string> words_of(const toml::table& table, const char* name) {
   std::istringstream words(text_of(table, name));
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-}  // namespace
-
-toml::table read_toml(const std::filesystem::path& file) {
-  try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& error) {
-    throw Failure{
-        bad_input(fmt::format("{}:{}: {}", file.string(), error.source().begin.line, error.description()))};
+// The columns that the section of an entity in tb/rows.toml names.
+void take_rows(const toml::table& folders, Design& design) {
+  for (const auto& [folder, entities] : folders) {
+    const toml::table* section = (*entities.as_table())[design.entity].as_table();
+    if (section == nullptr) continue;
+    design.rows = text_of(*section, "drive") + ' ' + text_of(*section, "check");
+    design.skip = section->contains("latency");
   }
 }
+
+}  // namespace
 
 std::vector<Survivor> read_survivors(const std::filesystem::path& file) {
   return read_list<Survivor>(read_toml(file), "survivor", [](const toml::table& table) {
@@ -48,9 +45,10 @@ std::vector<Without> read_without(const std::filesystem::path& file) {
   });
 }
 
-std::vector<Design> read_designs(const std::filesystem::path& file) {
+std::vector<Design> read_designs(const std::filesystem::path& source) {
   std::vector<Design> designs;
-  const toml::table all = read_toml(file);
+  const toml::table all = read_toml(source / "tb/mutants/designs.toml");
+  const toml::table testbenches = read_toml(source / "tb/rows.toml");
   for (const toml::node& node : *all["entity"].as_array()) {
     const toml::table& entity = *node.as_table();
     Design common;
@@ -61,6 +59,7 @@ std::vector<Design> read_designs(const std::filesystem::path& file) {
     common.reset = entity["reset"].value_or(false);
     common.proofs = entity["proofs"].value_or(true);
     if (const toml::table* input = entity["input"].as_table()) common.input = read_stream(*input);
+    if (!entity.contains("rows") && !entity.contains("input")) take_rows(testbenches, common);
     if (entity.contains("outputs")) common.outputs = read_list<Stream>(entity, "outputs", read_stream);
     for (const toml::node& variant_node : *entity["variants"].as_array()) {
       const toml::table& variant = *variant_node.as_table();

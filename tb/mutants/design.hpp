@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The content of designs.toml: the netlists that get faults, and which columns of which vector files drive
-// and check their ports.
+// The content of designs.toml and rows.toml: the netlists that get faults, and which columns of which vector
+// files drive and check their ports.
 #pragma once
-
-#include <toml++/toml.h>
 
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "sim/system/toml_file.hpp"
 
 namespace halfway::mutants {
 
@@ -38,7 +38,9 @@ struct Design {
 
 // These functions throw Failure, with file and line.
 
-toml::table read_toml(const std::filesystem::path& file);
+inline std::string text_of(const toml::table& table, const char* name) {
+  return table[name].value_or(std::string());
+}
 
 /// `read` of each table in the list `name`.
 template <class Item, class Read>
@@ -48,7 +50,7 @@ std::vector<Item> read_list(const toml::table& all, const char* name, const Read
   return items;
 }
 
-std::vector<Design> read_designs(const std::filesystem::path& file);
+std::vector<Design> read_designs(const std::filesystem::path& source);
 
 /// An entity without a netlist of its own in designs.toml.
 struct Without {

@@ -156,7 +156,7 @@ class Run {
   explicit Run(const Options& options)
       : options_(options),
         reasons_(options.source),
-        designs_(read_designs(options.source / "tb/mutants/designs.toml")),
+        designs_(read_designs(options.source)),
         faults_(read_source_faults(options.source / "tb/mutants/source_faults.toml")) {
     if (options_.evidence) measured_ = open_page();
     const auto is_left_out = [&](const std::string& name, const std::string& row, bool quick) {

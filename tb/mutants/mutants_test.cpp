@@ -63,7 +63,7 @@ TEST(VhdlPlaces, AreThoseOfTheCommentBeforeTheStatement) {
 }
 
 TEST(Designs, NameEveryStreamOrColumns) {
-  const auto designs = read_designs(c_source / "tb/mutants/designs.toml");
+  const auto designs = read_designs(c_source);
   EXPECT_GE(designs.size(), 40U);
   for (const Design& design : designs) {
     EXPECT_NE(design.rows.empty(), design.input.port.empty()) << design.name;
@@ -95,9 +95,8 @@ bool contains(const std::map<std::string, std::set<std::string>>& entities, cons
 }
 
 TEST(Designs, HaveEveryEntityOrTheReason) {
-  const auto file = c_source / "tb/mutants/designs.toml";
-  const auto designs = read_designs(file);
-  const auto without = read_without(file);
+  const auto designs = read_designs(c_source);
+  const auto without = read_without(c_source / "tb/mutants/designs.toml");
   const auto entities = entities_with_parts();
   EXPECT_GT(entities.size(), 50U);
   std::set<std::string> listed, named;

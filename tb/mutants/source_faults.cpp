@@ -34,20 +34,14 @@ std::vector<SourceFault> read_source_faults(const std::filesystem::path& file) {
   const toml::table all = read_toml(file);
   std::vector<SourceFault> faults;
   for (const std::string kind : {"fault", "vector"})
-    std::ranges::move(read_list<SourceFault>(all, kind.c_str(),
-                                             [&](const toml::table& table) {
-                                               const auto text = [&](const char* name) {
-                                                 return table[name].value_or(std::string());
-                                               };
-                                               return SourceFault{text("file"),
-                                                                  text("old"),
-                                                                  text("new"),
-                                                                  table["line"].value_or(0U),
-                                                                  table["word"].value_or(0U),
-                                                                  kind == "vector",
-                                                                  text("test"),
-                                                                  table["quick"].value_or(false)};
-                                             }),
+    std::ranges::move(read_list<SourceFault>(
+                          all, kind.c_str(),
+                          [&](const toml::table& table) {
+                            return SourceFault{text_of(table, "file"),     text_of(table, "old"),
+                                               text_of(table, "new"),      table["line"].value_or(0U),
+                                               table["word"].value_or(0U), kind == "vector",
+                                               text_of(table, "test"),     table["quick"].value_or(false)};
+                          }),
                       std::back_inserter(faults));
   return faults;
 }

@@ -14,7 +14,6 @@
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
 #include "sim/verilator/verilated_library.hpp"
 
 namespace halfway {
@@ -50,17 +49,12 @@ class KnownBad : public testing::Test {
 
   /// The responses in GHDL's own simulation.
   std::string simulate(const std::string& construct) const {
-    const auto library = must(GhdlLibrary::open(tool_, sources(), c_testbench, HALFWAY_CACHE_DIR));
     const auto in = scratch_.path() / "stimuli.txt", out = scratch_.path() / "responses.txt";
     must(write_file(in, to_lines(stimuli_, c_stimulus_words)));
-    Command command{.arguments = library.run_arguments(c_testbench),
-                    .working_folder = library.folder(),
-                    .timeout = std::chrono::minutes(60)};
-    for (const std::string& option : {"-gg_construct=" + construct, "-gg_stimuli=" + in.string(),
-                                      "-gg_responses=" + out.string(), std::string("--ieee-asserts=disable")})
-      command.arguments.push_back(option);
-    const auto end = must(run_process(command, c_install_ghdl));
-    EXPECT_TRUE(end.succeeded()) << end.how() << '\n' << end.output;
+    must(run_testbench(
+        c_testbench, sources(),
+        {"-gg_construct=" + construct, "-gg_stimuli=" + in.string(), "-gg_responses=" + out.string()},
+        HALFWAY_CACHE_DIR));
     return must(read_file(out));
   }
 

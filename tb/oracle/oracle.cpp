@@ -3,13 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
+#include <numbers>
 
 namespace halfway::oracle {
 namespace {
 
-constexpr Real c_pi = 3.14159265358979323846264338327950288L;
 constexpr int c_unit_bits = 4;  // of a pixel
 constexpr Real c_last_depth = 16777215;
 
@@ -25,7 +23,8 @@ Oracle::Oracle(const Scene& scene, unsigned width, unsigned height, Fault fault)
   right_ = cross(forward_, up_);
   if (has("mirrored")) right_ = -right_;
   if (has("upside_down")) up_ = -up_;
-  const Real half_angle = Real(scene.camera.vertical_fov_degrees) * c_pi / 180 / (has("fov_is_half") ? 1 : 2);
+  const Real half_angle =
+      Real(scene.camera.vertical_fov_degrees) * std::numbers::pi_v<Real> / 180 / (has("fov_is_half") ? 1 : 2);
   const Real half_side = Real(has("fov_is_horizontal") ? width : height) / 2;
   pixels_per_slope_ = half_side / std::tan(half_angle);
 

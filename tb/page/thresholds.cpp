@@ -2,7 +2,6 @@
 #include "page/thresholds.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,8 @@
 #include <set>
 
 #include "sim/system/file.hpp"
+#include "sim/system/must.hpp"
+#include "sim/system/toml_file.hpp"
 
 namespace halfway::page {
 namespace {
@@ -73,13 +74,9 @@ Result<Thresholds> Thresholds::read(const std::filesystem::path& root) {
 
 Result<Thresholds> Thresholds::parse(std::string_view text) {
   Thresholds thresholds;
-  toml::table all;
-  try {
-    all = toml::parse(text, c_file);
-  } catch (const toml::parse_error& error) {
-    return bad_input(fmt::format("{}:{}: {}", c_file, error.source().begin.line, error.description()));
-  }
-  for (const auto& [section_name, node] : all) {
+  const auto all = caught([&] { return parse_toml(text, std::string(c_file)); });
+  if (!all) return all.error();
+  for (const auto& [section_name, node] : *all) {
     const toml::table* table = node.as_table();
     if (table == nullptr) continue;  // the release
     Section section{.line = node.source().begin.line};

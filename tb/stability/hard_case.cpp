@@ -2,9 +2,10 @@
 #include "stability/hard_case.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <limits>
+
+#include "sim/system/toml_file.hpp"
 
 namespace halfway::stability {
 
@@ -13,7 +14,7 @@ std::unique_ptr<Simulators> HardCases::s_simulators;
 namespace {
 
 const toml::table& all_cases() {
-  static const toml::table c_all = toml::parse_file(HALFWAY_SOURCE_DIR "/tb/stability/cases.toml");
+  static const toml::table c_all = read_toml(HALFWAY_SOURCE_DIR "/tb/stability/cases.toml");
   return c_all;
 }
 

@@ -19,7 +19,7 @@
 
 namespace halfway::stability {
 
-using LongVec = glm::vec<3, long double>;
+using LongVec = oracle::Vector;
 
 using oracle::barycentric, oracle::centre, oracle::covers, oracle::ExactBarycentric, oracle::radiance,
     oracle::Wide;
