@@ -8,6 +8,7 @@
 #include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
 #include "sim/verilator/netlist.hpp"
+#include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway {
 namespace {
@@ -97,9 +98,7 @@ std::vector<MultiplierShape> read_multiplier_shapes(const std::string& netlist, 
 }
 
 CellCounter::CellCounter(const SimulatorFolders& folders)
-    : yosys_(synth::Yosys::find(folders.cache / "yosys")),
-      library_(must(GhdlLibrary::for_synthesis(must(GhdlTool::find()), must(read_rtl_sources(folders.source)),
-                                               folders.cache))) {}
+    : yosys_(synth::Yosys::find(folders.cache / "yosys")), library_(must(rtl_library(folders))) {}
 
 Cells CellCounter::count(const HardwareKey& key) const {
   const std::string netlist = must(mend_netlist(must(library_.synthesize(key.entity(), key.generics()))));
@@ -120,9 +119,8 @@ Cells CellCounter::read_cells(const std::filesystem::path& folder) const {
                               {"$memrd", nullptr},
                               {"$memwr", nullptr}});
   if (cells.multipliers == 0) return cells;
-  const auto text = read_file(folder / c_multipliers);
-  if (!text) throw Failure{tool_failed(text.error().message)};
-  const std::vector<MultiplierShape> shapes = read_multiplier_shapes(*text, c_multiplier);
+  const std::string text = read_own_file(folder / c_multipliers);
+  const std::vector<MultiplierShape> shapes = read_multiplier_shapes(text, c_multiplier);
   if (shapes.size() != cells.multipliers)
     throw Failure{
         tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again",

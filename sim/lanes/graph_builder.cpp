@@ -44,9 +44,16 @@ class GraphBuilder {
     }
     // Registers and memories after it.
     for (const pugi::xml_node statement : netlist_.clocked) execute(statement, {});
-    if (!reset_)
-      for (const ObservedPart& part : ports_.observed)
-        step_.observed.push_back(observed(ops_.slice(signal(part.path), part.low, part.bits)));
+    if (!reset_) {
+      // Drop the notes of observed parts: reading a signal leaves the rest of the text as it is.
+      CellLayout dropped = layout_;
+      BitOperations reading(step_, dropped);
+      for (const ObservedPart& part : ports_.observed) {
+        const Bits bits = ops_.slice(signal(part.path), part.low, part.bits);
+        Words& words = step_.observed.emplace_back(reading.to_words(bits));
+        words.back() = graph().clean(words.back(), ops_.top_width(width_of(bits)));
+      }
+    }
     return std::move(step_);
   }
 
@@ -60,15 +67,6 @@ class GraphBuilder {
     const std::size_t comma = place.find(',');
     if (comma == std::string_view::npos) return "netlist.v";
     return "netlist.v:" + std::string(place.substr(comma + 1, place.find(',', comma + 1) - comma - 1));
-  }
-
-  /// The words without a note in the layout, and clean: reading a signal leaves the rest of the text as it
-  /// is.
-  Words observed(const Bits& bits) {
-    CellLayout ignored = layout_;
-    Words words = BitOperations(step_, ignored).to_words(bits);
-    words.back() = graph().clean(words.back(), ops_.top_width(width_of(bits)));
-    return words;
   }
 
   // Expressions

@@ -102,7 +102,7 @@ void generate_text(const LaneBuild& build, const std::filesystem::path& folder) 
   if (!build.ports.observed.empty()) verilate.arguments.emplace_back("-fno-dfg");
   verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "netlist.v"});
   must(run_tool(verilate, c_install_verilator, build.name));
-  const auto lanes = generate_lanes(must(read_file(folder / "netlist.xml")), build.ports, build.names);
+  const auto lanes = generate_lanes(read_own_file(folder / "netlist.xml"), build.ports, build.names);
   if (!lanes) throw Failure{{lanes.error().code, build.name + ": " + lanes.error().message}};
   must(write_file(folder / "lanes.hpp", *lanes));
 }
@@ -122,12 +122,12 @@ void compile(const LaneBuild& build, const Toolchain& tools, const std::filesyst
 Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache) try {
   const std::string verilator_version = must(ask({"verilator", "--version"}, c_install_verilator));
   const Toolchain tools = toolchain_of(build);
-  const std::string harness = must(read_file(build.harness));
+  const std::string harness = read_own_file(build.harness);
 
   ContentHash hash;
   hash.add("lanes 2").add(verilator_version).add(tools.compiler.identity).add(tools.optimizer);
   hash.add(build.netlist).add(build.top).add(build.names.text()).add(harness);
-  for (const std::filesystem::path& file : generator_sources(build.source)) hash.add(must(read_file(file)));
+  for (const std::filesystem::path& file : generator_sources(build.source)) hash.add(read_own_file(file));
   for (const auto* list : {&c_verilator_flags, &tools.flags, &build.ports.outputs}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& item : *list) hash.add(item);

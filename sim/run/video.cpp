@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -65,7 +64,7 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, FrameSize size, unsi
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Failure{tool_failed(fmt::format("ffmpeg: cannot be given frames: {}", std::strerror(errno)))};
-  input_ = ends[0];
+  input_.reset(ends[0]);
   Command command{
       .arguments = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y"},
       .standard_input = ends[1],
@@ -82,18 +81,14 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, FrameSize size, unsi
 }
 
 VideoWriter::~VideoWriter() {
-  close_input();
+  input_.reset();
   if (ffmpeg_.valid()) ffmpeg_.wait();
-}
-
-void VideoWriter::close_input() {
-  if (input_ >= 0) ::close(std::exchange(input_, -1));
 }
 
 void VideoWriter::add(const Frame& frame) {
   const std::uint8_t* bytes = frame.rgb.data();
   for (std::size_t left = frame.rgb.size(); left > 0;) {
-    const ssize_t sent = ::send(input_, bytes, left, MSG_NOSIGNAL);
+    const ssize_t sent = ::send(input_.get(), bytes, left, MSG_NOSIGNAL);
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) {
       finish();
@@ -105,7 +100,7 @@ void VideoWriter::add(const Frame& frame) {
 }
 
 void VideoWriter::finish() {
-  close_input();
+  input_.reset();
   const ProcessEnd end = must(ffmpeg_.get());
   if (!end.succeeded())
     throw Failure{tool_failed(fmt::format("{}: ffmpeg could not make it ({}):\n{}{}", file_.string(),
@@ -122,7 +117,7 @@ void VideoWriter::commit() {
 }
 
 void VideoWriter::abandon() const {
-  ::shutdown(input_, SHUT_RDWR);
+  ::shutdown(input_.get(), SHUT_RDWR);
   if (const auto ffmpeg = ffmpeg_; ffmpeg.valid()) ffmpeg.wait_for(c_patience);
   std::error_code ignored;
   std::filesystem::remove_all(folder_.path(), ignored);

@@ -6,6 +6,7 @@
 #include <future>
 
 #include "frame/frame.hpp"
+#include "sim/system/descriptor.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/subprocess.hpp"
 
@@ -33,11 +34,10 @@ class VideoWriter {
  private:
   /// Signal the end of the frames and wait for ffmpeg.
   void finish();
-  void close_input();
 
   std::filesystem::path file_;
   TemporaryFolder folder_;
-  int input_ = -1;  ///< of ffmpeg
+  Descriptor input_;  ///< of ffmpeg
   std::shared_future<Result<ProcessEnd>> ffmpeg_;
 };
 

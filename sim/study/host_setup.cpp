@@ -165,10 +165,11 @@ std::optional<std::vector<std::uint64_t>> host_instructions(std::vector<std::str
   for (const std::string& name : names) {
     const std::size_t space = std::getline(lines, line) ? line.find(' ') : std::string::npos;
     if (space == std::string::npos || line.substr(space + 1) != name) throw failed("no process of " + name);
-    const std::string text = must(read_file(folder.path() / line.substr(0, space)));
+    const auto text = read_file(folder.path() / line.substr(0, space));
+    if (!text) throw failed(text.error().message);
     std::uint64_t instructions = 0;
-    if (const std::size_t at = text.find(c_totals); at != std::string::npos)
-      std::from_chars(text.data() + at + c_totals.size(), text.data() + text.size(), instructions);
+    if (const std::size_t at = text->find(c_totals); at != std::string::npos)
+      std::from_chars(text->data() + at + c_totals.size(), text->data() + text->size(), instructions);
     if (instructions == 0) throw failed("no instructions of set_up_frame counted for " + name);
     counted.push_back(instructions);
   }

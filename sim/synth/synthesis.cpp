@@ -345,7 +345,7 @@ Synthesizer::Folder Synthesizer::placed(const Design& design, const std::string&
   hash.add("placed 2").add(nextpnr_).add(netlist);
   for (const std::string& argument : arguments) hash.add(argument);
   Folder folder = cache_ / fmt::format("{}-{}-{}", design.name, kind, hash.hex());
-  keep_folder(folder, [&](const Folder& fresh) {
+  make_once(folder, [&](const Folder& fresh) {
     must(write_file(fresh / c_wrapped, netlist));
     run(fresh);
     std::filesystem::remove(fresh / c_wrapped);

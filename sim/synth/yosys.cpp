@@ -28,14 +28,6 @@ std::string version_of(const std::string& tool, const std::string& option) {
   return said.substr(0, said.find('\n'));
 }
 
-void keep_folder(const std::filesystem::path& folder,
-                 const std::function<void(const std::filesystem::path&)>& fill) {
-  if (std::filesystem::exists(folder)) return;
-  TemporaryFolder fresh = must(TemporaryFolder::make(folder.parent_path()));
-  fill(fresh.path());
-  must(fresh.move_to(folder));
-}
-
 Yosys Yosys::find(const std::filesystem::path& cache) {
   return Yosys(version_of("yosys", "-V"), std::filesystem::absolute(cache));
 }
@@ -46,7 +38,7 @@ std::filesystem::path Yosys::run(const std::string& name, const std::string& scr
   hash.add("yosys 1").add(version_).add(script);
   for (const auto& [file, text] : files) hash.add(file).add(text);
   std::filesystem::path folder = cache_ / fmt::format("{}-{}", name, hash.hex());
-  keep_folder(folder, [&](const std::filesystem::path& fresh) {
+  make_once(folder, [&](const std::filesystem::path& fresh) {
     for (const auto& [file, text] : files) must(write_file(fresh / file, text));
     run_tool({"yosys", "-q", "-p", script}, fresh, name);
     check(fresh);
@@ -56,9 +48,7 @@ std::filesystem::path Yosys::run(const std::string& name, const std::string& scr
 
 nlohmann::json read_statistics(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "cells.json";
-  const auto text = read_file(path);
-  if (!text) throw Failure{tool_failed(text.error().message)};
-  const auto whole = nlohmann::json::parse(*text, nullptr, false);
+  const auto whole = nlohmann::json::parse(read_own_file(path), nullptr, false);
   nlohmann::json design = whole.is_object() ? whole.value("design", nlohmann::json()) : nlohmann::json();
   if (design.is_object() && design.value("num_cells_by_type", nlohmann::json()).is_object()) return design;
   throw Failure{

@@ -25,10 +25,6 @@ std::string run_tool(std::vector<std::string> arguments, const std::filesystem::
 /// The first line that a tool prints for its version.
 std::string version_of(const std::string& tool, const std::string& option);
 
-/// Calls `fill` for a new folder, unless the folder exists. If `fill` throws, no folder remains.
-void keep_folder(const std::filesystem::path& folder,
-                 const std::function<void(const std::filesystem::path&)>& fill);
-
 class Yosys {
  public:
   /// Results are kept in `cache`.

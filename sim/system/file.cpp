@@ -15,6 +15,8 @@
 #include <ctime>
 #include <system_error>
 
+#include "sim/system/descriptor.hpp"
+
 namespace halfway {
 namespace {
 
@@ -41,14 +43,13 @@ void remove_stale(const std::filesystem::path& folder, const std::string& prefix
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     if (!entry->path().filename().string().starts_with(prefix)) continue;
-    const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0) continue;
+    const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (file.get() < 0) continue;
     struct stat status {};
     std::error_code ignored;
-    if (::fstat(descriptor, &status) == 0 && ::time(nullptr) - status.st_mtime >= c_young_seconds &&
-        ::flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    if (::fstat(file.get(), &status) == 0 && ::time(nullptr) - status.st_mtime >= c_young_seconds &&
+        ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
       std::filesystem::remove_all(entry->path(), ignored);
-    ::close(descriptor);
   }
 }
 
@@ -80,6 +81,12 @@ Result<std::string> read_file(const std::filesystem::path& path) {
     content.append(block.data(), static_cast<std::size_t>(file.gcount()));
   if (file.bad()) return cannot(ExitCode::bad_input, path, "read", errno);
   return content;
+}
+
+std::string read_own_file(const std::filesystem::path& path) {
+  auto content = read_file(path);
+  if (!content) throw Failure{tool_failed(content.error().message)};
+  return std::move(*content);
 }
 
 Result<std::vector<std::filesystem::path>> files_below(const std::filesystem::path& folder,
@@ -179,7 +186,8 @@ Result<LineWriter> LineWriter::open(const std::filesystem::path& path) {
   mark_in_use(descriptor);
   ::fchmod(descriptor, 0644);
   writer.file_.reset(::fdopen(descriptor, "w"));
-  std::setvbuf(writer.file_.get(), nullptr, _IOFBF, c_buffer_bytes);
+  writer.buffer_.resize(c_buffer_bytes);
+  std::setvbuf(writer.file_.get(), writer.buffer_.data(), _IOFBF, writer.buffer_.size());
   return writer;
 }
 

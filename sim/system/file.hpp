@@ -19,6 +19,9 @@ namespace halfway {
 
 /// Return the whole file, byte for byte.
 Result<std::string> read_file(const std::filesystem::path& path);
+/// The same for a file of the project or of a tool: that it cannot be read is no fault of the input. Throws
+/// Failure.
+std::string read_own_file(const std::filesystem::path& path);
 
 /// Return every file below the folder, sorted by name, relative to the folder. `extension`, if given,
 /// includes the dot.
@@ -69,7 +72,8 @@ class TemporaryFolder {
   int descriptor_ = -1;         ///< of the folder; see mark_in_use
 };
 
-/// Let `fill(path)` fill a new folder and rename it to `folder`, unless `folder` exists. Throws Failure.
+/// Let `fill(path)` fill a new folder and rename it to `folder`, unless `folder` exists. If `fill` throws,
+/// no folder remains. Throws Failure.
 template <class Fill>
 void make_once(const std::filesystem::path& folder, const Fill& fill) {
   if (std::filesystem::exists(folder)) return;
@@ -98,6 +102,7 @@ class LineWriter {
   };
   std::filesystem::path path_;
   std::string temporary_;
+  std::vector<char> buffer_;                ///< the file's; it is destroyed after the file
   std::unique_ptr<std::FILE, Close> file_;  ///< null after commit
   int error_ = 0;                           ///< errno of the first write that failed
 };

@@ -15,11 +15,14 @@ Result<FolderLock> FolderLock::take(const std::filesystem::path& folder,
   const std::filesystem::path path = folder / ".lock";
   FolderLock lock(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644));
   const int descriptor = lock.descriptor_.get();
-  if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return lock;
-  if (descriptor >= 0) on_wait();
-  while (descriptor < 0 || ::flock(descriptor, LOCK_EX) != 0)
-    if (descriptor < 0 || errno != EINTR)
-      return tool_failed(fmt::format("{}: cannot lock the folder: {}", path.string(), std::strerror(errno)));
+  const auto failed = [&] {
+    return tool_failed(fmt::format("{}: cannot lock the folder: {}", path.string(), std::strerror(errno)));
+  };
+  if (descriptor < 0) return failed();
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return lock;
+  on_wait();
+  while (::flock(descriptor, LOCK_EX) != 0)
+    if (errno != EINTR) return failed();
   return lock;
 }
 

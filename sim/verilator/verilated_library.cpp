@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <future>
 
@@ -73,7 +72,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   const std::string verilator_version = must(ask({"verilator", "--version"}, c_install_verilator));
   const std::string verilator_root = must(asked_root.get());
   const Compiler compiler = must(asked_compiler.get());
-  const std::string harness = must(read_file(build.harness));
+  const std::string harness = read_own_file(build.harness);
 
   std::vector<std::string> flags = c_compiler_flags;
   // g++ would share inline variables between all libraries of the process.
@@ -88,7 +87,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   for (const std::string& flag : flags) tools.add(flag);
   ContentHash hash;
   hash.add(tools.hex()).add(build.netlist).add(build.top).add(harness).add(level);
-  for (const auto& header : build.harness_headers) hash.add(must(read_file(header)));
+  for (const auto& header : build.harness_headers) hash.add(read_own_file(header));
   for (const auto* list : {&c_verilator_flags, &c_link_flags, &build.definitions}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& flag : *list) hash.add(flag);

@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 
+#include "sim/system/descriptor.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/machine.hpp"
 #include "sim/system/subprocess.hpp"
@@ -44,13 +45,11 @@ std::string line_of(const Row& row) {
 }
 
 Status append(const std::filesystem::path& file, std::string_view text) {
-  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  const bool written =
-      descriptor >= 0 && ::write(descriptor, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const int error = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (written) return Ok{};
-  return tool_failed(fmt::format("{}: {}", file.string(), std::strerror(error)));
+  const Descriptor opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  if (opened.get() >= 0 &&
+      ::write(opened.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size()))
+    return Ok{};
+  return tool_failed(fmt::format("{}: {}", file.string(), std::strerror(errno)));
 }
 
 }  // namespace
