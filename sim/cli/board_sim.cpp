@@ -85,27 +85,25 @@ void simulate_board(const BoardSimulation& simulation, const BoardSimCommand& co
 }
 
 /// Simulates the board for another program.
-int serve(const Folders& folders, const BoardSimCommand& command) {
+void serve(const Folders& folders, const BoardSimCommand& command) {
   const auto report_of =
       must(board::serve_board(command.socket, command.out, {folders.source, folders.cache()}));
   fmt::print(
       "{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
       command.socket, report_of.packets, report_of.vectors, report_of.clocks, report_of.pictures);
-  return 0;
 }
 
-int run(const Folders& folders, const BoardSimCommand& command) {
+void run(const Folders& folders, const BoardSimCommand& command) {
   if (!command.socket.empty()) return serve(folders, command);
   if (!(command.threshold > 0.0))
-    return report(bad_input(fmt::format("--threshold: {} is not above 0", command.threshold)));
+    throw Failure{bad_input(fmt::format("--threshold: {} is not above 0", command.threshold))};
   for (const BoardSimulation& simulation : simulations(command, folders))
     simulate_board(simulation, command, folders);
-  return 0;
 }
 
 }  // namespace
 
-void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code) {
+void add_board_sim(CLI::App& app, const Folders& folders, int&) {
   CLI::App* sub = app.add_subcommand(
       "board-sim", "draw two frames on the simulated board and compare every picture of its monitor");
   auto command = std::make_shared<BoardSimCommand>();
@@ -120,7 +118,7 @@ void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--serve", command->socket,
                   "a Unix socket to listen at: another program sends the packets (see docs/library.md);\n"
                   "different pictures of the monitor are written to the folder of --out");
-  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
+  sub->callback([=, &folders] { run(folders, *command); });
 }
 
 }  // namespace halfway::cli

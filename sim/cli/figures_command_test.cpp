@@ -9,6 +9,7 @@
 #include "sim/cli/command_test.hpp"
 #include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
+#include "sim/system/test/test_files.hpp"
 
 namespace halfway {
 namespace {
@@ -43,11 +44,10 @@ TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
 TEST_F(FiguresCommand, FindsAClaimThatIsNotMeasured) {
   namespace fs = std::filesystem;
   const fs::path real = HALFWAY_SOURCE_DIR, source = folder_.path() / "source";
-  auto claims = must(read_file(real / "sim/figures/claims.toml"));
-  const std::string value = "value = 2.7582";
-  claims.replace(claims.find(value), value.size(), "value = 2.7583");
-  ASSERT_TRUE(write_file(source / "sim/figures/claims.toml", claims));
-  fs::copy(real / "sim/figures/page.md.mustache", source / "sim/figures/page.md.mustache");
+  must(make_folders(source / "sim/figures"));
+  for (const char* name : {"claims.toml", "page.md.mustache"})
+    fs::copy(real / "sim/figures" / name, source / "sim/figures" / name);
+  replace_in(source / "sim/figures/claims.toml", "value = 2.7582", "value = 2.7583");
   EXPECT_THAT(run({"--source", source.string(), "figures", "spherical-table", "--page", "there"}),
               Ends(1, AllOf(HasSubstr("'a for n = 20' differs, and no reason is known: published 2.7582, "
                                       "measured 2.7582 (± 0.00005)"),

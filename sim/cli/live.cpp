@@ -8,7 +8,6 @@
 
 #include "sim/cli/options.hpp"
 #include "sim/live/live_page.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway::cli {
 namespace {

@@ -49,15 +49,15 @@ Frame golden_frame(const Scene& scene, const DrawSettings& draw) {
   return assembler.frame();
 }
 
-int run(const Folders& folders, const RenderCommand& command) {
+void run(const Folders& folders, const RenderCommand& command) {
   const bool spherical = command.method.starts_with("spherical-");
   DrawOptions options_given = command.draw;
   // these methods take the options of the spherical shader
   if (spherical) options_given.shader = to_string(Shader::spherical);
   const auto draw = checked(options_given);
   if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
-    return report(bad_input(
-        fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "))));
+    throw Failure{bad_input(
+        fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", ")))};
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   for (const std::string& note : scene.notes) say(note);
 
@@ -81,12 +81,11 @@ int run(const Folders& folders, const RenderCommand& command) {
   const auto distance = must(frame_distance(frame, reference.frame, reference.mask));
   fmt::print("{}: {} against the reference: PSNR {:.2f} dB, largest error {}/255\n", file, command.method,
              distance.psnr_db, distance.max_lsb);
-  return 0;
 }
 
 }  // namespace
 
-void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
+void add_render(CLI::App& app, const Folders& folders, int&) {
   CLI::App* sub = app.add_subcommand("render", "draw a scene in software and compare it with the reference");
   auto command = std::make_shared<RenderCommand>();
   sub->add_option("scene", command->scene, "as for sim")->required();
@@ -96,7 +95,7 @@ void add_render(CLI::App& app, const Folders& folders, int& exit_code) {
                   "in double, with one vector fixed or both interpolated")
       ->capture_default_str();
   sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
-  sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });
+  sub->callback([=, &folders] { run(folders, *command); });
 }
 
 }  // namespace halfway::cli

@@ -99,18 +99,17 @@ Drawn draw_scene(const std::string& name, std::size_t number, const Folders& fol
   return {must(std::move(summary)), scene.notes};
 }
 
-// The scene's outcome, when it is drawn. Other exceptions than Failure become one.
-Drawn outcome_of(std::promise<Drawn>& promise) {
+// The scene's outcome, when it is drawn. Each exception becomes an error.
+Result<Drawn> outcome_of(std::promise<Drawn>& promise) {
   try {
     return promise.get_future().get();
-  } catch (const Failure&) {
-    throw;
+  } catch (const Failure& failure) {
+    return failure.error;
   } catch (const std::bad_alloc&) {
-    throw Failure{tool_failed(
-        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit")};
+    return tool_failed(
+        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit");
   } catch (const std::exception& error) {
-    throw Failure{
-        tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()))};
+    return tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()));
   }
 }
 
@@ -187,7 +186,7 @@ int run(const Folders& folders, const SimOptions& options) {
     equal = false;
   }
   for (std::size_t n = 0; n < scenes.size(); ++n) {
-    const auto outcome = caught([&] { return outcome_of(outcomes[n]); });
+    const auto outcome = outcome_of(outcomes[n]);
     board.clear();
     if (!outcome) {
       stop = true;

@@ -12,7 +12,6 @@
 #include "sim/cli/command_test.hpp"
 #include "sim/study/stand_in_slurm_test.hpp"
 #include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {

@@ -13,6 +13,7 @@
 #include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
 #include "sim/verilator/netlist.hpp"
+#include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -42,8 +43,7 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
 }
 
 std::string netlist_of_top(const HardwareKey& key, const std::string& top, const Folders& folders) {
-  const GhdlLibrary library = must(GhdlLibrary::for_synthesis(
-      must(GhdlTool::find()), must(read_rtl_sources(folders.source)), folders.cache()));
+  const GhdlLibrary library = must(rtl_library({folders.source, folders.cache()}));
   return must(mend_netlist(must(library.synthesize(top, key.generics()))));
 }
 
@@ -74,7 +74,7 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
   return text;
 }
 
-int run(const Folders& folders, const VerilogCommand& command, const std::string& version) {
+void run(const Folders& folders, const VerilogCommand& command, const std::string& version) {
   const auto draw = checked(command.draw);
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   const auto plan = must(plan_scene(scene, draw.plan));
@@ -83,7 +83,7 @@ int run(const Folders& folders, const VerilogCommand& command, const std::string
   const auto netlist = netlist_of_top(key, top, folders);
   const std::vector<Port> ports = ports_of(netlist, top);
   if (ports.empty())
-    return report(tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), top)));
+    throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), top))};
 
   const std::filesystem::path folder = draw.out / key.name();
   const std::filesystem::path file = folder / (top + ".v"), list = folder / (top + ".f");
@@ -92,12 +92,11 @@ int run(const Folders& folders, const VerilogCommand& command, const std::string
   must(write_file(list, top + ".v\n"));
   fmt::print("{}: module {} with {} ports\n{}: the list of files\n", file.string(), top, ports.size(),
              list.string());
-  return static_cast<int>(ExitCode::equal);
 }
 
 }  // namespace
 
-void add_verilog(CLI::App& app, const Folders& folders, int& exit_code) {
+void add_verilog(CLI::App& app, const Folders& folders, int&) {
   CLI::App* sub =
       app.add_subcommand("verilog", "write the hardware of a scene as Verilog, with a list of files");
   auto command = std::make_shared<VerilogCommand>();
@@ -105,7 +104,7 @@ void add_verilog(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("scene", command->scene, "as for sim")->capture_default_str();
   command->draw.add_to(*sub);
   sub->add_flag("--axi", command->axi, "the top with AXI4-Stream ports");
-  sub->callback([=, &app, &folders, &exit_code] { exit_code = run(folders, *command, app.version()); });
+  sub->callback([=, &app, &folders] { run(folders, *command, app.version()); });
 }
 
 }  // namespace halfway::cli

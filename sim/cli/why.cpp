@@ -79,10 +79,10 @@ int run(const Folders& folders, const WhyCommand& command) {
   const auto draw = checked(command.draw);
   const auto pixel = parse_pixel(command.pixel);
   if (!pixel)
-    return report(bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel)));
+    throw Failure{bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel))};
   if (pixel->x >= draw.size.width || pixel->y >= draw.size.height)
-    return report(bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
-                                        draw.size.width, draw.size.height)));
+    throw Failure{bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
+                                        draw.size.width, draw.size.height))};
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   Progress progress(scene.name);
   WhySettings settings;

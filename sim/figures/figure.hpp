@@ -14,7 +14,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/system/must.hpp"
 

@@ -31,6 +31,7 @@ struct Figure7 {
   /// The published words of a register, restored ones in square brackets.
   std::string published(const std::string& name) const;
 };
+/// Throws Failure.
 Figure7 read_figure7(const std::filesystem::path& file);
 
 /// Line k has k pixels; the printed trace ends within the fourth line.
@@ -56,7 +57,7 @@ struct Figure7Trace {
 
 /// Trace of the golden model, without clocks.
 Figure7Trace golden_figure7(const Figure7& figure);
-/// Trace of the RTL in GHDL.
+/// Trace of the RTL in GHDL. Throws Failure.
 Figure7Trace rtl_figure7(const Figure7& figure, const SimulatorFolders& folders);
 
 /// "FFFD1688 FFFD0626"

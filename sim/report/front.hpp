@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/report/plot.hpp"
 #include "sim/system/csv.hpp"
 
@@ -28,11 +27,11 @@ std::string commonest_picture(const Table& study);
 /// The rows of a study's table with that picture, with the columns for design, cost, error and origin.
 /// Without hardware there are no rows.
 Table front_of(const Table& study);
-/// Error against cells (against clocks if cells were not counted), as an SVG. Bad input if there is nothing
-/// to plot.
+/// Error against cells (against clocks if cells were not counted), as an SVG. Throws Failure if there is
+/// nothing to plot.
 std::string draw_front(const Table& front, const std::filesystem::path& scratch);
-/// The part "front" of docs/accuracy.md: the picture and the designs on its line, in words. Bad input if a
-/// cost is missing.
+/// The part "front" of docs/accuracy.md: the picture and the designs on its line, in words. Throws
+/// Failure if a cost is missing.
 std::string page_front(const Table& front);
 /// Writes front.csv and front.svg, or nothing if there is nothing to plot. Returns the number of designs.
 std::size_t write_front(const Table& study, const std::filesystem::path& folder,

@@ -7,8 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "common/result.hpp"
-
 namespace halfway::report {
 
 /// The file's bytes in base64.

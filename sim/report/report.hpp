@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 
 namespace halfway::report {
@@ -30,7 +29,7 @@ struct Report {
   std::vector<std::string> notes;  ///< missing parts and the commands that make them
 };
 
-/// Write the page atomically. Missing results are noted on the page; damaged results are an error.
+/// Write the page atomically. Missing results are noted on the page. Throws Failure if results are damaged.
 Report write_report(const ReportSettings& settings);
 
 }  // namespace halfway::report

@@ -160,10 +160,6 @@ std::string plot_name(const Table& picture) {
   return fmt::format("times-{}x{}.svg", picture.text(0, "width"), picture.text(0, "height"));
 }
 
-std::string draw_times(const Table& picture, const std::filesystem::path& scratch) {
-  return draw_plot(times_plot(picture), scratch);
-}
-
 std::string readme_times(const Table& times) {
   const std::vector<Table> pictures = pictures_of(times);
   if (pictures.empty()) throw Failure{bad_input("times: no design has a known time")};
@@ -207,10 +203,8 @@ std::string page_times(const Table& times) {
 std::size_t write_times(const Table& times, const std::filesystem::path& folder,
                         const std::filesystem::path& scratch) {
   must(make_folders(folder));
-  for (const Table& picture : pictures_of(times)) {
-    const auto svg = draw_times(picture, scratch);
-    must(write_file(folder / plot_name(picture), svg));
-  }
+  for (const Table& picture : pictures_of(times))
+    must(write_file(folder / plot_name(picture), draw_plot(times_plot(picture), scratch)));
   must(write_file(folder / "times.csv", to_csv(times)));
   return times.rows.size();
 }

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/system/csv.hpp"
 
 namespace halfway::report {
@@ -16,16 +15,15 @@ namespace halfway::report {
 std::vector<Table> pictures_of(const Table& times);
 /// Name of a picture's plot, such as times-640x480.svg.
 std::string plot_name(const Table& picture);
-/// rms error against milliseconds per frame, host and hardware overlapped, as an SVG.
-std::string draw_times(const Table& picture, const std::filesystem::path& scratch);
 
-/// README's part "times": plot, front and sentences for the first picture. Bad input with fewer than two
-/// designs of hardware on the front.
+/// README's part "times": plot, front and sentences for the first picture. Throws Failure with fewer
+/// than two designs of hardware on the front.
 std::string readme_times(const Table& times);
 /// The part "times" of docs/accuracy.md: every design of every picture, the quickest first.
 std::string page_times(const Table& times);
 
-/// Writes times.csv and the plots. Returns the number of designs.
+/// Writes times.csv and the plots: rms error against milliseconds per frame, host and hardware overlapped.
+/// Returns the number of designs.
 std::size_t write_times(const Table& times, const std::filesystem::path& folder,
                         const std::filesystem::path& scratch);
 

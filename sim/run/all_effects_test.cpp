@@ -89,9 +89,7 @@ Scene scene_of(const Subset& subset) {
     // Use one normal per triangle: that of its first corner.
     for (SceneTriangle& t : mesh.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
   }
-  scene.positions_world = mesh.positions;
-  scene.normals_world = mesh.normals;
-  scene.triangles = mesh.triangles;
+  add_mesh(scene, mesh);
   scene.shadows = subset.shadows;
   if (subset.shadows) {
     Mesh box = make_box(glm::dvec3(0.5), 1);

@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"

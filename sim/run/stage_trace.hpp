@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/stages/stages.hpp"

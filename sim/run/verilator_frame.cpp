@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <utility>
 
 #include "sim/formats/made_formats.hpp"
 #include "sim/run/open_engine.hpp"

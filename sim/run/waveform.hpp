@@ -7,7 +7,6 @@
 #include <optional>
 #include <string>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/ghdl/ghdl_library.hpp"
 #include "sim/run/result_files.hpp"

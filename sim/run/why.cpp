@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "plan/plan.hpp"
 #include "sim/run/open_engine.hpp"

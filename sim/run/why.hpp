@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"

@@ -20,7 +20,7 @@
 #include "sim/system/must.hpp"
 #include "sim/system/subprocess.hpp"
 #include "sim/system/threads.hpp"
-#include "sim/verilator/netlist.hpp"
+#include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway::study {
 
@@ -123,15 +123,9 @@ std::string no_placement(const synth::Ice40Cells& cells) {
   return why.empty() ? "too full, or nextpnr does not end" : why;
 }
 
-std::string netlist_of(const HardwareSource& source) {
-  const GhdlLibrary library = must(GhdlLibrary::for_synthesis(
-      must(GhdlTool::find()), must(read_rtl_sources(source.folders.source)), source.folders.cache));
-  const HardwareKey& key = source.hardware.key;
-  return must(mend_netlist(must(library.synthesize(key.entity(), key.generics()))));
-}
-
 void take_stored(const HardwareSource& source, const ClocksByNetlist& clocks, HardwareFigures& figures) {
-  const auto found = clocks.find(synth::netlist_identity(netlist_of(source)));
+  const auto found =
+      clocks.find(synth::netlist_identity(must(netlist_of(source.hardware.key, source.folders))));
   if (found == clocks.end()) return;
   const synth::StoredClock& stored = found->second.second;
   figures.ice40 = stored.cells;
@@ -149,7 +143,8 @@ void take_stored(const HardwareSource& source, const ClocksByNetlist& clocks, Ha
 void take_slowest_part(const HardwareSource& source, const ClocksByNetlist& clocks,
                        HardwareFigures& figures) {
   if (figures.fits) return;
-  for (const std::string& part : synth::part_identities(netlist_of(source))) {
+  for (const std::string& part :
+       synth::part_identities(must(netlist_of(source.hardware.key, source.folders)))) {
     const auto found = clocks.find(part);
     if (found == clocks.end()) continue;
     const auto& [name, stored] = found->second;

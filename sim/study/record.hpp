@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 
-#include "common/result.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/measure.hpp"
 

@@ -11,10 +11,7 @@
 
 namespace halfway {
 
-/// Return the text between `<!-- NAME: ... -->` and `<!-- end of NAME -->`, without blank lines at both ends.
-Result<std::string> page_part(std::string_view page, std::string_view name);
-
-/// Return the page with the text of that part replaced.
+/// Return the page with the text between `<!-- NAME: ... -->` and `<!-- end of NAME -->` replaced.
 Result<std::string> with_page_part(std::string_view page, std::string_view name, std::string_view text);
 
 /// Replace the page in the file by `rewritten(page)`. An error of either names the file.

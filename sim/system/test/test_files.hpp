@@ -12,7 +12,6 @@ namespace halfway {
 
 /// Write an executable file, such as a replacement for a tool.
 inline void put_program(const std::filesystem::path& file, const std::string& script) {
-  must(make_folders(file.parent_path()));
   must(write_file(file, script));
   std::filesystem::permissions(file, std::filesystem::perms::all);
 }
