@@ -190,7 +190,7 @@ testbench: configure ## run one VHDL testbench in GHDL, with vectors from the go
 
 # Warnings of clang-tidy and of GHDL are errors.
 lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's warnings on the VHDL
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_row_testbenches halfway_vectors rtl_lint_test
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_row_testbenches rtl_lint_test
 	@$(lock) cmake --log-level=NOTICE --preset lint
 	@scripts/lint.sh build/lint "$(jobs)" "$$FILES"
 	@ctest --test-dir build --output-on-failure --no-tests=error -R '^tb\.analysis$$|^rtl_lint_test$$'

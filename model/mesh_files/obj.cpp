@@ -73,6 +73,7 @@ class ObjReader {
   /// A list that corners index.
   struct Field {
     std::string_view what;
+    std::uint64_t most = c_max_vertices;
     std::uint64_t so_far = 0;  ///< its items before the current line
     std::uint64_t all = 0;     ///< in the file
   };
@@ -105,9 +106,9 @@ class ObjReader {
   /// Read the numbers of a line. Returns their count, which is one of those allowed.
   static Result<int> read_numbers(TextLines& lines, Field& field, std::array<float, 6>& values,
                                   std::span<const int> allowed, std::string_view allowed_text) {
-    if (field.all++ == c_max_vertices) {
+    if (field.all++ == field.most) {
       return lines.error(
-          fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, c_max_vertices));
+          fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, field.most));
     }
     int count = 0;
     for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
@@ -322,7 +323,9 @@ class ObjReader {
   const ReadLibrary& read_library_;
   LoadedMesh loaded_;
 
-  Field position_{.what = "vertex"}, texel_{.what = "texture coordinate"}, normal_{.what = "normal"};
+  // Texture coordinates are not kept, so any number is read.
+  Field position_{.what = "vertex"}, texel_{.what = "texture coordinate", .most = UINT64_MAX},
+      normal_{.what = "normal"};
 
   MtlMaterials defined_;
   std::set<std::string> missing_libraries_;

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 #include <string>
 
@@ -31,6 +30,7 @@ std::string refusal(const Scene& scene, PlanRequest request = {}) {
   EXPECT_EQ(plan.error().code, ExitCode::bad_input);
   return plan.error().message;
 }
+
 TEST(PlanProcessors, LightsByTheirKinds) {
   EXPECT_EQ(key(grey_scene()), "processors_shader-exact-c1-l0.0.0-unrolled");
   EXPECT_EQ(key(with_lights(1)), "processors_shader-exact-c1-l1.0.0-d-s-unrolled");

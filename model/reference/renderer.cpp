@@ -38,8 +38,8 @@ ReferenceImage render_gouraud(const Scene& scene, std::span<const ScreenTriangle
                                                                        std::uint32_t y) mutable {
       const ScreenTriangle& triangle = triangles[index];
       if (index != last) {
-        for (int i = 0; i < 3; ++i) {
-          const SurfacePoint point = surface_point(triangle, {i == 0, i == 1, i == 2});
+        for (std::size_t i = 0; i < 3; ++i) {
+          const SurfacePoint point = surface_point(triangle, barycentric_at_vertex(i));
           at_vertex[i] =
               radiance(scene, scene.materials[triangle.material], point.position_world, point.normal_world);
         }

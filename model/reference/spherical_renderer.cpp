@@ -128,9 +128,9 @@ class SphericalShader {
     index_ = index;
     if (method_.ends == SpanEnds::on_surface) return;
     const ScreenTriangle& triangle = triangles_[index];
-    for (int i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i)
       take_vectors(scene_, scene_.materials[triangle.material],
-                   surface_point(triangle, {i == 0, i == 1, i == 2}), vertex_[i]);
+                   surface_point(triangle, barycentric_at_vertex(i)), vertex_[i]);
   }
 
   void begin_line(std::uint32_t y) {

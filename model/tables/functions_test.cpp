@@ -114,8 +114,8 @@ std::vector<std::uint32_t> numbers_of(const std::string& text, const std::string
   return numbers;
 }
 
-// The testbench of the tables and its vectors list the functions by hand. A missing function would not be
-// tested.
+// The testbench of the tables runs from the first function to the last; its vectors list them by hand. A
+// missing function would not be tested.
 TEST(Functions, TheTestbenchReadsEveryFunction) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const auto testbenches = read_file(source / "tb/rows.toml");

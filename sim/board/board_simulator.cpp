@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <string_view>
-#include <utility>
 
 #include "sim/board/board_sources.hpp"
 #include "sim/board/verilated_board.hpp"

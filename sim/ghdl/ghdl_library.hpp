@@ -28,7 +28,7 @@ enum class GhdlBackEnd { mcode, llvm, gcc };
 struct GhdlTool {
   GhdlBackEnd back_end;
   std::string version;           ///< the output of `ghdl --version`
-  std::string program = "ghdl";  ///< a name in PATH, or a path
+  std::string program = "ghdl";  ///< a name in PATH, or a path; tests name another
 
   /// Find ghdl. If it is missing, return an error with the command that installs it.
   static Result<GhdlTool> find();

@@ -29,7 +29,8 @@ struct LivePage {
 };
 
 /// Build the modules, which takes minutes if the cache has none, and write the page atomically. The page has
-/// the hardware of the scenes, and of a mesh file, grey or coloured, by all shaders in both presets.
+/// the hardware of the scenes, and of a mesh file, grey or coloured, by all shaders in both presets. Throws
+/// Failure.
 LivePage write_live(const LiveSettings& settings);
 
 }  // namespace halfway::live

@@ -72,11 +72,11 @@ void main() {
 }
 )";
 
-/// Create a context without a window. It stays current until the process ends.
 [[noreturn]] void fail(const std::string& what) {
   throw Failure{tool_failed(what)};
 }
 
+/// Create a context without a window. It stays current until the process ends.
 void make_context() {
   const EGLDisplay display =
       eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <regex>
 
@@ -20,7 +19,7 @@ namespace {
 
 constexpr const char* c_install = "apt-get install yosys cvc5 gappa";
 constexpr std::chrono::minutes c_timeout{60};
-constexpr const char* c_timed_out = "no answer within 10 minutes";
+constexpr const char* c_timed_out = "no answer within 60 minutes";
 constexpr const char* c_formats = "rtl/tables/formats_pkg.vhd";
 
 std::string read_unit(const Folders& folders, const std::string& name) {

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include "frame/assemble.hpp"
@@ -23,12 +21,13 @@ struct Drawn {
   bool fault = false;
 };
 
-/// Draws the words with the golden model.
-inline void draw_words(const HardwareKey& key, Drawn& drawn) {
+/// Draws the words with the golden model. Returns the bits of its vectors.
+inline unsigned draw_words(const HardwareKey& key, Drawn& drawn) {
   const auto model = make_golden_model(key);
   drawn.vector_words = (model->init_bits() + 31) / 32;
   model->draw(drawn.words, drawn.fragments);
   drawn.fault = model->fault();
+  return model->init_bits();
 }
 
 inline Drawn draw(const Scene& scene, FrameSize size, const HardwareKey& key,
@@ -37,8 +36,7 @@ inline Drawn draw(const Scene& scene, FrameSize size, const HardwareKey& key,
   Drawn drawn;
   setup->append_prologue(drawn.words, drawn.counts);
   setup->append_all(drawn.words, drawn.counts);
-  draw_words(key, drawn);
-  EXPECT_EQ((setup->init_bits() + 31) / 32, drawn.vector_words);
+  EXPECT_EQ(setup->init_bits(), draw_words(key, drawn));
   EXPECT_EQ(drawn.words.size(), (drawn.counts.vectors + drawn.counts.records) * drawn.vector_words);
   return drawn;
 }

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "plan/plan.hpp"
 #include "scene/lights.hpp"
