@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,8 @@
 #include "frame/frame.hpp"
 #include "golden/formats.hpp"
 #include "sim/scene_files/load_scene.hpp"
-#include "sim/system/file.hpp"
 #include "sim/system/must.hpp"
+#include "sim/system/toml_file.hpp"
 #include "tables/cosine.hpp"
 
 namespace halfway::study {
@@ -278,24 +277,18 @@ std::vector<DesignPoint> ordered(std::vector<DesignPoint> points) {
 }
 
 std::vector<DesignPoint> read_space(const std::filesystem::path& path) {
-  const std::string text = must(read_file(path));
-  try {
-    const toml::table root = toml::parse(text, path.string());
-    const Sweep top(root, path.string());
-    top.allow({"sweep"});
-    const toml::array* sweeps = root["sweep"].as_array();
-    if (sweeps == nullptr || sweeps->empty())
-      throw Failure{bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method")};
-    std::vector<DesignPoint> points;
-    for (const toml::node& node : *sweeps) {
-      if (node.as_table() == nullptr) top.fail("sweep", "must be a table: [[sweep]]");
-      std::ranges::copy(points_of(Sweep(*node.as_table(), path.string())), std::back_inserter(points));
-    }
-    return ordered(std::move(points));
-  } catch (const toml::parse_error& bad) {
-    throw Failure{
-        bad_input(fmt::format("{}:{}: {}", path.string(), bad.source().begin.line, bad.description()))};
+  const toml::table root = read_toml(path);
+  const Sweep top(root, path.string());
+  top.allow({"sweep"});
+  const toml::array* sweeps = root["sweep"].as_array();
+  if (sweeps == nullptr || sweeps->empty())
+    throw Failure{bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method")};
+  std::vector<DesignPoint> points;
+  for (const toml::node& node : *sweeps) {
+    if (node.as_table() == nullptr) top.fail("sweep", "must be a table: [[sweep]]");
+    std::ranges::copy(points_of(Sweep(*node.as_table(), path.string())), std::back_inserter(points));
   }
+  return ordered(std::move(points));
 }
 
 }  // namespace halfway::study
