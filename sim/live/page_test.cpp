@@ -419,7 +419,7 @@ TEST_F(WholeLivePage, DrawsADroppedGreyMesh) {
 }
 
 TEST_F(WholeLivePage, TheFileIsSmall) {
-  EXPECT_LE(std::filesystem::file_size(page()), 3'000'000U);
+  EXPECT_LE(std::filesystem::file_size(page()), 3'500'000U);
 }
 
 }  // namespace
