@@ -148,7 +148,7 @@ savings: program ## measure the tables of docs/effects.md again (minutes)
 
 study: studies ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
-	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/studies/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
+	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/study/spaces/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
 	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
@@ -197,7 +197,7 @@ lint: configure ## run clang-tidy on the C++ (FILES: only some) and check GHDL's
 
 sanitize: setup ## run every test with AddressSanitizer and UndefinedBehaviorSanitizer, in build/sanitize
 	@$(sanitized)
-	@unset MAKEFLAGS; LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/fuzz/leaks.txt:print_suppressions=0" flock -o build/test.lock \
+	@unset MAKEFLAGS; LSAN_OPTIONS="suppressions=$$(pwd -P)/tb/inputs/random/leaks.txt:print_suppressions=0" flock -o build/test.lock \
 	  ctest --test-dir build/sanitize --output-on-failure --no-tests=error -j "$(jobs)" \
 	  $${TESTS:+--build-config cases --tests-regex "$$TESTS"}
 

@@ -83,17 +83,17 @@ run() { # page, options
       bright=
       for intensity in 1 10 100 1000; do
         bright="$bright build/accuracy/bright_$intensity.toml"
-        sed "s/^k_s = .*/k_s = 0.0/; s/^intensity = .*/intensity = $intensity.0/" sim/studies/sphere.toml \
+        sed "s/^k_s = .*/k_s = 0.0/; s/^intensity = .*/intensity = $intensity.0/" sim/study/spaces/sphere.toml \
           >"build/accuracy/bright_$intensity.toml"
       done
       printf '[[sweep]]\nmethod = "spherical"\n' >build/accuracy/bright.toml
       # shellcheck disable=SC2086 # scenes
       {
-        write_study frames sim/studies/accuracy.toml spheres
-        write_study 'within one step' sim/studies/one_step.toml sim/studies/sphere.toml
-        write_study 'cosine tables' sim/studies/tables.toml sim/studies/sphere.toml
+        write_study frames sim/study/spaces/accuracy.toml spheres
+        write_study 'within one step' sim/study/spaces/one_step.toml sim/study/spaces/sphere.toml
+        write_study 'cosine tables' sim/study/spaces/tables.toml sim/study/spaces/sphere.toml
         write_study 'bright lights' build/accuracy/bright.toml $bright
-        write_study 'root tables' sim/studies/roots.toml sim/studies/sphere.toml sim/studies/distant_eye.toml
+        write_study 'root tables' sim/study/spaces/roots.toml sim/study/spaces/sphere.toml sim/study/spaces/distant_eye.toml
       }
       end_page accuracy ghdl verilator yosys
       build/tb/halfway_page . --judge accuracy docs/accuracy.md 'largest error'
@@ -126,13 +126,13 @@ run() { # page, options
       done
       build/halfway study --out build/gallery/study ${threads:+--threads "$threads"}
       build/halfway report --study build/gallery/study --front docs/results/gallery --page docs/accuracy.md
-      build/halfway study --space sim/studies/times.toml --out build/gallery/times ${threads:+--threads "$threads"}
+      build/halfway study --space sim/study/spaces/times.toml --out build/gallery/times ${threads:+--threads "$threads"}
       build/halfway report --study build/gallery/times --times docs/results/gallery --page docs/accuracy.md --readme README.md
       end_page gallery verilator
       ;;
     transcripts)
-      tb/examples/transcripts.sh "$root/build/halfway" "$root" "$root/build/tb/transcripts"
-      tb/examples/block_clocks.sh "$root" "$root/build/tb/block_clocks"
+      tb/project/example/transcripts.sh "$root/build/halfway" "$root" "$root/build/tb/transcripts"
+      tb/project/example/block_clocks.sh "$root" "$root/build/tb/block_clocks"
       ;;
     speed)
       build/halfway_bench --jobs "$jobs" --page docs/results/speed.md

@@ -11,7 +11,7 @@ export LC_ALL=C
 cd "$(dirname "$0")/.."
 
 build=build/fuzz
-inputs=tb/fuzz
+inputs=tb/inputs/random
 
 # Run one target to its end; the details are in its log.
 if [ "${1-}" = --one ]; then
@@ -25,7 +25,7 @@ if [ "${1-}" = --one ]; then
   status=0
   TMPDIR=$PWD/$build/tmp/$target ASAN_OPTIONS="log_path=$log_path:detect_leaks=1" \
     UBSAN_OPTIONS="print_stacktrace=1:log_path=$log_path" \
-    "build/sanitize/tb/fuzz/fuzz_$target" "-max_total_time=$seconds" -timeout=20 -report_slow_units=10 -rss_limit_mb=3000 \
+    "build/sanitize/tb/inputs/random/fuzz_$target" "-max_total_time=$seconds" -timeout=20 -report_slow_units=10 -rss_limit_mb=3000 \
     -max_len=8192 -len_control=20 -print_final_stats=1 "-artifact_prefix=$build/crashes/$target-" \
     $([ ! -f "$dictionary" ] || echo "-dict=$dictionary") \
     "$build/corpus/$target" "$inputs/seeds/$target" "$inputs/regressions/$target" \

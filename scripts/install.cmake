@@ -11,7 +11,7 @@ target_link_libraries(libhalfway PRIVATE fmt::fmt Threads::Threads)
 target_include_directories(libhalfway INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
 install(TARGETS libhalfway EXPORT halfway ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES sim/library/halfway.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES sim/extras/library/halfway.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 file(GLOB scenes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sim/scenes/*.toml)
 install(FILES ${scenes} DESTINATION ${scenes_folder})
 

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "common/test/is_error.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/lanes/lane_simulator.hpp"
-#include "sim/stream_files/init_file.hpp"
-#include "sim/stream_files/trace.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
+#include "sim/engines/ghdl/ghdl_runner.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
+#include "sim/extras/lanes/lane_simulator.hpp"
+#include "sim/files/init_file.hpp"
+#include "sim/files/trace.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -142,7 +142,7 @@ class Simulators : public testing::Test {
  protected:
   void SetUp() override {
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-    for (const char* folder : {"sim/lanes", "sim/verilator", "tb"}) {
+    for (const char* folder : {"sim/extras/lanes", "sim/engines/verilator", "tb"}) {
       std::filesystem::create_directories(folders_.source / folder);
       std::filesystem::copy(root / folder, folders_.source / folder,
                             std::filesystem::copy_options::recursive);

@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "plan/plan.hpp"
-#include "setup/init_vector.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/setup.hpp"
+#include "setup/walk_header.hpp"
 #include "shading/shade.hpp"
+#include "words/init_vector.hpp"
 
 namespace {
 
@@ -99,5 +100,5 @@ int main(int argc, char** argv) {
   const Scene scene = my_scene();
   const bool screen = argc > 1 && std::string_view(argv[1]) == "screen";
   print(screen ? from_screen(scene) : from_scene(scene),
-        golden::Exact::c_init_header_bits + c_channels * golden::Exact::c_init_channel_bits);
+        words::Exact::c_init_header_bits + c_channels * words::Exact::c_init_channel_bits);
 }

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <random>
 
-#include "setup/test/gmp_numbers.hpp"
+#include "common/test/gmp_numbers.hpp"
 
 namespace halfway {
 namespace {

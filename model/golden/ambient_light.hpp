@@ -6,7 +6,7 @@
 #include <span>
 
 #include "golden/colour_sum.hpp"
-#include "golden/formats.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

@@ -4,7 +4,7 @@
 
 #include <type_traits>
 
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

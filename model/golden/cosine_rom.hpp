@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "golden/cosine_tables.hpp"
+#include "golden/words.hpp"
+#include "words/cosine_tables.hpp"
 
 namespace halfway::golden {
 

@@ -2,7 +2,7 @@
 // Golden model of rtl/raster/edge_walker.vhd.
 #pragma once
 
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

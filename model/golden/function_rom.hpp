@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "golden/formats.hpp"
-#include "golden/function_tables.hpp"
+#include "golden/words.hpp"
+#include "words/function_tables.hpp"
 
 namespace halfway::golden {
 

@@ -15,9 +15,6 @@
 
 namespace halfway::golden {
 
-/// The term that a processor adds.
-enum class Term { ambient = 0, diffuse = 1, specular = 2 };
-
 template <class Preset>
 class LightTerm {
  public:

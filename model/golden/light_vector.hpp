@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "golden/unit_vector.hpp"
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

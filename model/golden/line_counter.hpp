@@ -6,7 +6,7 @@
 #include <span>
 #include <type_traits>
 
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

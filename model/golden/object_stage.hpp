@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "golden/processors_layout.hpp"
+#include "golden/words.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway::golden {
 

@@ -6,7 +6,7 @@
 #include <bit>
 
 #include "golden/function_rom.hpp"
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

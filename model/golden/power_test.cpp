@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The power rises with its base; the published one has the paper's errors. The spot's factor is its cubic,
-// with the bound stated in the header in rtl/. tb/bounds bounds the error of the power.
+// with the bound stated in the header in rtl/. tb/specification/bounds bounds the error of the power.
 #include "golden/power.hpp"
 
 #include <gtest/gtest.h>

@@ -10,11 +10,12 @@
 #include "frame/fragment.hpp"
 #include "golden/plane_interpolator.hpp"
 #include "golden/quadratic_interpolator.hpp"
-#include "golden/quadratic_layout.hpp"
 #include "golden/saturate.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
+#include "golden/words.hpp"
 #include "golden/z_interpolator.hpp"
+#include "words/quadratic_layout.hpp"
 
 namespace halfway::golden {
 

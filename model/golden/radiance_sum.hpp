@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "golden/vector_multiply.hpp"
-#include "golden/word.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <span>
 
-#include "golden/processors_layout.hpp"
 #include "golden/vector_shift.hpp"
-#include "golden/word.hpp"
+#include "golden/words.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway::golden {
 

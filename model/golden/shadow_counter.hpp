@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "golden/formats.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

@@ -9,7 +9,8 @@
 #include "golden/colour_sum.hpp"
 #include "golden/diffuse_slice.hpp"
 #include "golden/specular_slice.hpp"
-#include "golden/spherical_layout.hpp"
+#include "golden/words.hpp"
+#include "words/spherical_layout.hpp"
 
 namespace halfway::golden {
 

@@ -9,11 +9,12 @@
 #include "frame/fragment.hpp"
 #include "golden/ambient_light.hpp"
 #include "golden/colour_sum.hpp"
-#include "golden/spherical_layout.hpp"
 #include "golden/spherical_light.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/unwatched.hpp"
+#include "golden/words.hpp"
 #include "golden/z_interpolator.hpp"
+#include "words/spherical_layout.hpp"
 
 namespace halfway::golden {
 

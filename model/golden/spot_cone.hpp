@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "golden/formats.hpp"
 #include "golden/vector_multiply.hpp"
+#include "golden/words.hpp"
 
 namespace halfway::golden {
 

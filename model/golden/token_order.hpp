@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "golden/processors_layout.hpp"
+#include "golden/words.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway::golden {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ends of 1/sqrt and the shift of a vector. tb/bounds bounds the errors of 1/sqrt and of unit vectors.
+// The ends of 1/sqrt and the shift of a vector. tb/specification/bounds bounds the errors of 1/sqrt and of
+// unit vectors.
 #include "golden/unit_vector.hpp"
 
 #include <gtest/gtest.h>

@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "golden/formats.hpp"
-#include "golden/processors_layout.hpp"
+#include "golden/words.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway::golden {
 

@@ -38,7 +38,7 @@ std::span<const Fragment> GoldenModel::draw_next(std::span<const std::uint32_t>&
 }
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key) {
-  return key.preset == Preset::exact ? make<golden::Exact>(key) : make<golden::Published>(key);
+  return key.preset == Preset::exact ? make<words::Exact>(key) : make<words::Published>(key);
 }
 
 }  // namespace halfway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GoldenModel of any golden shader. Formats are the shader's number formats, such as golden::Exact.
+// A GoldenModel of any golden shader. Formats are the shader's number formats, such as words::Exact.
 #pragma once
 
 #include <algorithm>

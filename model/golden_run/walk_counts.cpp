@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "golden/processors_layout.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway {
 
@@ -24,14 +24,14 @@ void WalkCounter::add(std::span<const std::uint32_t> init_words) {
   while (!init_words.empty()) {
     const auto vector = init_words;
     init_words = init_words.subspan(golden_->group(init_words) * words_per_vector);
-    if (processors_ && golden::get_bits(vector, golden::Exact::request_header_at::command) !=
-                           static_cast<std::uint64_t>(golden::Command::draw))
+    if (processors_ && words::get_bits(vector, words::Exact::request_header_at::command) !=
+                           static_cast<std::uint64_t>(words::Command::draw))
       continue;  // the vector defines a light
-    std::array<std::uint32_t, (golden::Exact::c_init_header_bits + 31) / 32> header;
+    std::array<std::uint32_t, (words::Exact::c_init_header_bits + 31) / 32> header;
     for (std::size_t i = 0; i < header.size(); ++i)
       header[i] = static_cast<std::uint32_t>(
-          golden::get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
-                           processors_ ? golden::ProcessorsLayout<golden::Exact>::walk_low() : 0));
+          words::get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
+                          processors_ ? words::ProcessorsLayout<words::Exact>::walk_low() : 0));
     walker_.line_load(header);
     ++counts_.headers;
     clock_.take_init();

@@ -7,11 +7,11 @@
 #include <memory>
 #include <span>
 
-#include "golden/formats.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/walker_clock.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/hardware_key.hpp"
+#include "words/formats.hpp"
 
 namespace halfway {
 
@@ -42,7 +42,7 @@ class WalkCounter {
  private:
   std::unique_ptr<GoldenModel> golden_;
   bool processors_;
-  golden::TriangleWalker<golden::Exact> walker_;
+  golden::TriangleWalker<words::Exact> walker_;
   golden::WalkerClock clock_;
   WalkCounts counts_;
   /// Clocks lost to lines alone: the line stage handles one line per clock, the span stage one pixel per

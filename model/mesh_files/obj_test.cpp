@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mesh_files/test/spelling.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/test/is_error.hpp"
 #include "mesh_files/test/spelling.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

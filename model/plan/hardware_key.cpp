@@ -88,21 +88,21 @@ std::string HardwareKey::name() const {
   return text;
 }
 
-golden::SphericalConfig golden_config(const HardwareKey& key) {
+words::SphericalConfig golden_config(const HardwareKey& key) {
   const SphericalUnits& s = key.spherical;
-  golden::SphericalConfig config{.channels = static_cast<int>(key.channels),
-                                 .lights = static_cast<int>(s.lights),
-                                 .diffuse = s.diffuse,
-                                 .specular = s.specular,
-                                 .highlight_channels = static_cast<int>(s.highlight_channels),
-                                 .powers = s.powers,
-                                 .address_bits = s.tables.address_bits,
-                                 .data_bits = s.tables.data_bits};
+  words::SphericalConfig config{.channels = static_cast<int>(key.channels),
+                                .lights = static_cast<int>(s.lights),
+                                .diffuse = s.diffuse,
+                                .specular = s.specular,
+                                .highlight_channels = static_cast<int>(s.highlight_channels),
+                                .powers = s.powers,
+                                .address_bits = s.tables.address_bits,
+                                .data_bits = s.tables.data_bits};
   if (!s.made_tables.empty()) config.tables = s.made_tables;
   return config;
 }
 
-golden::ProcessorsConfig processors_config(const HardwareKey& key) {
+words::ProcessorsConfig processors_config(const HardwareKey& key) {
   const ProcessorUnits& p = key.processors;
   return {.channels = static_cast<int>(key.channels),
           .directional = static_cast<int>(p.directional),

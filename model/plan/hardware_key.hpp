@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "golden/processors_layout.hpp"
-#include "golden/spherical_layout.hpp"
-#include "tables/word_lengths.hpp"
+#include "words/generator/word_lengths.hpp"
+#include "words/processors_layout.hpp"
+#include "words/spherical_layout.hpp"
 
 namespace halfway {
 
@@ -47,7 +47,7 @@ struct SphericalUnits {
   unsigned powers = 0;              ///< bit i: a table of cosine to the power 2^i for highlights
   TableSize tables;
   /// Empty: the tables built into the program. They must outlive the key and all objects that draw with it.
-  std::span<const golden::CosineTable> made_tables{};
+  std::span<const words::CosineTable> made_tables{};
   /// Exponents of the own tables, of which made_tables then consists; empty: none (plan/own_bells.hpp).
   std::vector<double> own{};
   /// True if lines have records, that is, if some light has an effect.
@@ -95,8 +95,8 @@ struct HardwareKey {
 };
 
 /// The configuration of the spherical shader's golden model.
-golden::SphericalConfig golden_config(const HardwareKey& key);
+words::SphericalConfig golden_config(const HardwareKey& key);
 /// The configuration of the processors shader's golden model.
-golden::ProcessorsConfig processors_config(const HardwareKey& key);
+words::ProcessorsConfig processors_config(const HardwareKey& key);
 
 }  // namespace halfway

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "shading/effects.hpp"
-#include "tables/cosine.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway {
 namespace {

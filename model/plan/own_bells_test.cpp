@@ -9,7 +9,7 @@
 
 #include "common/test/is_error.hpp"
 #include "plan/test/planned.hpp"
-#include "tables/cosine.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway {
 namespace {

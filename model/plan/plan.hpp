@@ -41,8 +41,8 @@ struct PlanRequest {
   Preset preset = Preset::exact;
   std::optional<TableSize> tables;  ///< of the spherical shader; empty: the preset's
   /// Tables of a size that the program was not built with. The RTL must have them too (rtl_with_tables of
-  /// sim/formats).
-  std::span<const golden::CosineTable> made_tables{};
+  /// sim/generator).
+  std::span<const words::CosineTable> made_tables{};
   /// Preset exact of the spherical shader: the scene's own_exponents, if made_tables are its own tables.
   std::vector<double> own{};
   /// Elaborate Plan::everything. For effects not in the scene, setup uses coefficients of zero.

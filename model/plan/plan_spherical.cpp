@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <bit>
 
-#include "golden/cosine_tables.hpp"
 #include "plan/own_bells.hpp"
 #include "plan/shader_plans.hpp"
 #include "shading/bell.hpp"
+#include "words/cosine_tables.hpp"
 
 namespace halfway {
 namespace {
@@ -18,7 +18,7 @@ constexpr unsigned c_every_power = 31;
 
 std::vector<TableSize> generated_sizes(bool exact) {
   std::vector<TableSize> sizes;
-  for (const golden::CosineTable& table : golden::c_cosine_tables)
+  for (const words::CosineTable& table : words::c_cosine_tables)
     if (const TableSize size{table.address_bits, table.data_bits};
         table.exact == exact && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
       sizes.push_back(size);
@@ -27,7 +27,7 @@ std::vector<TableSize> generated_sizes(bool exact) {
 
 Result<TableSize> table_size(const PlanRequest& request) {
   const bool exact = request.preset == Preset::exact;
-  const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
+  const words::CosineSize usual = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
   if (!request.tables) return TableSize{usual.address_bits, usual.data_bits};
   const std::vector<TableSize> sizes = generated_sizes(exact);
   if (!request.made_tables.empty() || std::find(sizes.begin(), sizes.end(), *request.tables) != sizes.end())

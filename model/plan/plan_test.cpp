@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "common/test/is_error.hpp"
-#include "golden/cosine_tables.hpp"
 #include "plan/test/planned.hpp"
 #include "shading/effects.hpp"
-#include "sim/system/file.hpp"
+#include "sim/os/file.hpp"
+#include "words/cosine_tables.hpp"
 
 namespace halfway {
 namespace {
@@ -312,11 +312,11 @@ TEST(Plan, PowersAreThoseOfTheExponentsInUse) {
 TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     const bool exact = preset == Preset::exact;
-    const golden::CosineSize usual = exact ? golden::c_exact_cosine_size : golden::c_published_cosine_size;
+    const words::CosineSize usual = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
     const Plan plan = spherical(with_lights(1), preset);
     EXPECT_EQ(plan.key.spherical.tables, (TableSize{usual.address_bits, usual.data_bits}));
     EXPECT_THAT(plan.key.name(), HasSubstr(fmt::format("-rom{}x{}", usual.address_bits, usual.data_bits)));
-    for (const golden::CosineTable& table : golden::c_cosine_tables) {
+    for (const words::CosineTable& table : words::c_cosine_tables) {
       const TableSize size{table.address_bits, table.data_bits};
       const auto other =
           plan_scene(with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = size});
@@ -336,7 +336,7 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
                                 " ADDRESS_BITS=12 DATA_BITS=3")));
   }
   // A table size of one preset is not available for the other.
-  const golden::CosineSize published = golden::c_published_cosine_size;
+  const words::CosineSize published = words::c_published_cosine_size;
   EXPECT_FALSE(plan_scene(
       with_lights(1),
       {.shader = Shader::spherical, .tables = TableSize{published.address_bits, published.data_bits}}));
@@ -484,7 +484,7 @@ TEST(HardwareKey, GenericsMatchTheKey) {
                                                         {"g_data_bits", "7"}}));
   EXPECT_EQ(key.entity(), "spherical_shader");
   EXPECT_EQ(key.name(), "spherical_shader-exact-c3-l5-d-s1-cos2.16-rom10x7");
-  const golden::SphericalConfig config = golden_config(key);
+  const words::SphericalConfig config = golden_config(key);
   EXPECT_EQ(config.lights, 5);
   EXPECT_EQ(config.channels, 3);
   EXPECT_EQ(config.highlight_channels, 1);

@@ -8,19 +8,19 @@ namespace {
 
 bool has_view(const HardwareKey& key) {
   return key.preset == Preset::exact &&
-         golden::ProcessorsLayout<golden::Exact>(processors_config(key)).has_view();
+         words::ProcessorsLayout<words::Exact>(processors_config(key)).has_view();
 }
 
 bool has(const HardwareKey& key, const ProcessorClocks& row) {
   const ProcessorUnits& p = key.processors;
   if (!row.term) return false;
   switch (*row.term) {
-    case golden::Term::ambient:
+    case words::Term::ambient:
       return row.normalize == p.normalize && row.view == has_view(key);
-    case golden::Term::diffuse:
+    case words::Term::diffuse:
       if (!p.diffuse) return false;
       break;
-    case golden::Term::specular:
+    case words::Term::specular:
       if (!p.specular) return false;
       break;
   }

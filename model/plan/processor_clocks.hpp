@@ -5,21 +5,21 @@
 #include <array>
 #include <optional>
 
-#include "golden/shading_processor.hpp"
 #include "plan/hardware_key.hpp"
 #include "shading/effects.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway {
 
 /// A row of the table: clocks from the acceptance of one token to the acceptance of the next while the output
-/// is not stalled, measured in the RTL by tb/illumination/table4_tb.vhd. For an object that the light
+/// is not stalled, measured in the RTL by tb/rtl/illumination/table4_tb.vhd. For an object that the light
 /// reaches. In preset exact it takes fewer clocks if the highlight is below the horizon.
 struct ProcessorClocks {
   const char* what;
-  std::optional<golden::Term> term;  ///< empty: no term to compute
-  std::optional<LightKind> light;    ///< empty: ambient
-  bool normalize, view;              ///< the ambient processor normalizes N; it computes the view vector
-  std::optional<unsigned> paper;     ///< as printed
+  std::optional<words::Term> term;  ///< empty: no term to compute
+  std::optional<LightKind> light;   ///< empty: ambient
+  bool normalize, view;             ///< the ambient processor normalizes N; it computes the view vector
+  std::optional<unsigned> paper;    ///< as printed
   unsigned exact;
   std::optional<unsigned> published;  ///< empty: this preset has no such operation
 
@@ -28,18 +28,17 @@ struct ProcessorClocks {
 
 inline constexpr std::array<ProcessorClocks, 11> c_processor_clocks = {{
     {"load, shadow polygon, unlit", std::nullopt, std::nullopt, false, false, 2, 2, 2},
-    {"ambient", golden::Term::ambient, std::nullopt, false, false, 4, 4, 4},
-    {"ambient, N normalized", golden::Term::ambient, std::nullopt, true, false, 6, 9, 6},
-    {"ambient, view vector", golden::Term::ambient, std::nullopt, false, true, std::nullopt, 10,
+    {"ambient", words::Term::ambient, std::nullopt, false, false, 4, 4, 4},
+    {"ambient, N normalized", words::Term::ambient, std::nullopt, true, false, 6, 9, 6},
+    {"ambient, view vector", words::Term::ambient, std::nullopt, false, true, std::nullopt, 10, std::nullopt},
+    {"ambient, N normalized, view vector", words::Term::ambient, std::nullopt, true, true, std::nullopt, 15,
      std::nullopt},
-    {"ambient, N normalized, view vector", golden::Term::ambient, std::nullopt, true, true, std::nullopt, 15,
-     std::nullopt},
-    {"directional diffuse", golden::Term::diffuse, LightKind::directional, false, false, 6, 6, 6},
-    {"directional specular", golden::Term::specular, LightKind::directional, false, false, 7, 20, 7},
-    {"positional diffuse", golden::Term::diffuse, LightKind::positional, false, false, 12, 16, 12},
-    {"positional specular", golden::Term::specular, LightKind::positional, false, false, 13, 30, 13},
-    {"spot diffuse", golden::Term::diffuse, LightKind::spot, false, false, std::nullopt, 22, 18},
-    {"spot specular", golden::Term::specular, LightKind::spot, false, false, std::nullopt, 32, 24},
+    {"directional diffuse", words::Term::diffuse, LightKind::directional, false, false, 6, 6, 6},
+    {"directional specular", words::Term::specular, LightKind::directional, false, false, 7, 20, 7},
+    {"positional diffuse", words::Term::diffuse, LightKind::positional, false, false, 12, 16, 12},
+    {"positional specular", words::Term::specular, LightKind::positional, false, false, 13, 30, 13},
+    {"spot diffuse", words::Term::diffuse, LightKind::spot, false, false, std::nullopt, 22, 18},
+    {"spot specular", words::Term::specular, LightKind::spot, false, false, std::nullopt, 32, 24},
 }};
 
 /// The slowest operation in the pipeline of a processors shader's key. It determines the throughput.

@@ -12,13 +12,13 @@
 
 #include "plan/plan.hpp"
 #include "plan/processor_count.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Term;
+using words::Term;
 
 // tb.table4 checks that these values equal the RTL's.
 TEST(Table4, PublishedEqualsThePaper) {

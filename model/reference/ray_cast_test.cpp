@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "setup/test/random_solids.hpp"
+#include "shading/test/random_solids.hpp"
 
 namespace halfway {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <memory>
 
+#include "projection/project.hpp"
 #include "reference/ray_cast.hpp"
 #include "reference/visible_pixels.hpp"
-#include "setup/project.hpp"
 #include "shading/shade.hpp"
 
 namespace halfway {

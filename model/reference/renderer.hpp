@@ -11,8 +11,8 @@
 
 #include "frame/frame.hpp"
 #include "frame/tile.hpp"
+#include "projection/screen_triangle.hpp"
 #include "scene/scene.hpp"
-#include "setup/screen_triangle.hpp"
 
 namespace halfway {
 

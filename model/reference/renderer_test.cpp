@@ -12,12 +12,12 @@
 #include <random>
 #include <vector>
 
+#include "projection/project.hpp"
 #include "scene/lights.hpp"
-#include "setup/project.hpp"
-#include "setup/test/random_solids.hpp"
 #include "shading/light_ray.hpp"
 #include "shading/shade.hpp"
-#include "sim/system/threads.hpp"
+#include "shading/test/random_solids.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway {
 namespace {

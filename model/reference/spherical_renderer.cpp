@@ -9,11 +9,11 @@
 #include <numbers>
 #include <vector>
 
+#include "projection/edge.hpp"
+#include "projection/project.hpp"
 #include "reference/visible_pixels.hpp"
 #include "scene/lights.hpp"
-#include "setup/arc.hpp"
-#include "setup/edge.hpp"
-#include "setup/project.hpp"
+#include "shading/arc.hpp"
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
 

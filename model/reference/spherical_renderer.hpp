@@ -5,10 +5,10 @@
 
 #include <span>
 
+#include "projection/screen_triangle.hpp"
 #include "reference/renderer.hpp"
 #include "scene/scene.hpp"
-#include "setup/screen_triangle.hpp"
-#include "setup/setup.hpp"
+#include "shading/arc.hpp"
 
 namespace halfway {
 

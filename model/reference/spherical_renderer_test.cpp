@@ -14,15 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "projection/project.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/lights.hpp"
 #include "scene/test/add_mesh.hpp"
-#include "setup/project.hpp"
 #include "setup/test/paper_spans.hpp"
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/threads.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "setup/edge.hpp"
-#include "setup/project.hpp"
+#include "projection/edge.hpp"
+#include "projection/project.hpp"
 
 namespace halfway {
 namespace {

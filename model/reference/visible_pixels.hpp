@@ -8,9 +8,9 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+#include "projection/screen_triangle.hpp"
 #include "reference/renderer.hpp"
 #include "scene/scene.hpp"
-#include "setup/screen_triangle.hpp"
 
 namespace halfway {
 

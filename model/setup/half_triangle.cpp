@@ -6,6 +6,29 @@
 #include "common/to_integer.hpp"
 
 namespace halfway {
+namespace {
+
+using words::Published;
+
+// Words of an edge, modulo their width. One half is added to x: truncation then gives the nearest pixel.
+struct EdgeWords {
+  EdgeWords(long double x_real, long double slope_real)
+      : x(wrapped_word(x_real + 0.5L, Published::c_edge_x_fraction_bits, Published::c_edge_x_bits)),
+        slope(wrapped_word(slope_real, Published::c_edge_x_fraction_bits, Published::c_edge_x_bits)) {}
+  // The pixel after that many steps.
+  std::int64_t pixel(std::int64_t steps) const {
+    const auto sum = words::Word<Published::c_edge_x_bits>::from_bits(static_cast<std::uint64_t>(x) +
+                                                                      static_cast<std::uint64_t>(slope) *
+                                                                          static_cast<std::uint64_t>(steps));
+    return words::Word<Published::c_span_x_bits>::from_bits(
+               static_cast<std::uint64_t>(sum.value() >> Published::c_edge_x_fraction_bits))
+        .value();
+  }
+
+  std::int64_t x, slope;
+};
+
+}  // namespace
 
 HalfVertex half_vertex(ScreenPoint corner, int level, double depth_steps) {
   const auto nearest_pixel = [level](std::int32_t v) {
@@ -54,20 +77,24 @@ std::vector<HalfTriangle> half_triangles(const std::array<HalfVertex, 3>& p) {
   return halves;
 }
 
+HalfLine line_of(const HalfTriangle& half, std::int64_t y) {
+  const std::int64_t steps = y - half.y;
+  return {EdgeWords(half.x_start, half.slope_start).pixel(steps),
+          EdgeWords(half.x_stop, half.slope_stop).pixel(steps)};
+}
+
 void put_header(InitVector& init, std::uint32_t triangle, const HalfTriangle& h,
                 const std::array<HalfVertex, 3>& p) {
-  using golden::Published;
   using At = Published::init_header_at;
-  constexpr int c_x_fraction = Published::c_edge_x_fraction_bits, c_x_bits = Published::c_edge_x_bits;
   constexpr int c_z_fraction = Published::c_depth_sum_fraction_bits, c_z_bits = Published::c_depth_sum_bits;
   init.put(At::triangle, triangle);
   init.put(At::y, h.y);
   init.put(At::upper_lines, h.lines);
-  // Add one half: truncation then gives the nearest pixel.
-  init.put(At::start_x, wrapped_word(h.x_start + 0.5L, c_x_fraction, c_x_bits));
-  init.put(At::start_slope, wrapped_word(h.slope_start, c_x_fraction, c_x_bits));
-  init.put(At::upper_x, wrapped_word(h.x_stop + 0.5L, c_x_fraction, c_x_bits));
-  init.put(At::upper_slope, wrapped_word(h.slope_stop, c_x_fraction, c_x_bits));
+  const EdgeWords start(h.x_start, h.slope_start), stop(h.x_stop, h.slope_stop);
+  init.put(At::start_x, start.x);
+  init.put(At::start_slope, start.slope);
+  init.put(At::upper_x, stop.x);
+  init.put(At::upper_slope, stop.slope);
   const long double x2 = p[1].x - p[0].x, y2 = p[1].y - p[0].y, x3 = p[2].x - p[0].x, y3 = p[2].y - p[0].y;
   const long double d = x2 * y3 - y2 * x3;
   const long double zu = ((p[1].z - p[0].z) * y3 - (p[2].z - p[0].z) * y2) / d;

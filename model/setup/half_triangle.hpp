@@ -8,7 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "setup/init_vector.hpp"
+#include "projection/edge.hpp"
+#include "words/init_vector.hpp"
 
 namespace halfway {
 
@@ -35,6 +36,15 @@ struct HalfTriangle {
 
 /// The upper half first. Empty for a triangle of zero area.
 std::vector<HalfTriangle> half_triangles(const std::array<HalfVertex, 3>& vertices);
+
+/// First and last pixel of a line.
+struct HalfLine {
+  std::int64_t first, last;
+  bool empty() const { return first > last; }
+};
+
+/// The pixels of line y, in the hardware's words.
+HalfLine line_of(const HalfTriangle& half, std::int64_t y);
 
 /// Twice the area, (x2-x1)(y3-y1) - (y2-y1)(x3-x1).
 long double twice_area(const std::array<HalfVertex, 3>& vertices);

@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-using golden::Published;
+using words::Published;
 using Triangle = std::array<HalfVertex, 3>;
 
 // Sizes up to the frame's; some are flat at the top or the bottom, some have zero area.

@@ -6,8 +6,8 @@
 #include <array>
 #include <glm/vec3.hpp>
 
+#include "projection/project.hpp"
 #include "scene/scene.hpp"
-#include "setup/project.hpp"
 
 namespace halfway {
 

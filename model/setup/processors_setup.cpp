@@ -13,19 +13,19 @@
 #include <utility>
 
 #include "common/to_integer.hpp"
-#include "golden/processors_layout.hpp"
+#include "projection/unit_vector.hpp"
 #include "scene/lights.hpp"
-#include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/shadow_volume.hpp"
-#include "setup/unit_vector.hpp"
 #include "setup/walk.hpp"
+#include "setup/walk_header.hpp"
 #include "shading/effects.hpp"
+#include "words/processors_layout.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Command, golden::Exact, golden::Published, golden::c_axes;
+using words::Command, words::Exact, words::Published, words::c_axes;
 
 // A light farther away than this multiple of the surfaces' extent would leave no bits for their positions.
 // Preset published treats it as directional.
@@ -38,24 +38,24 @@ constexpr double c_white = 255.0;  // colour steps
 constexpr double c_least_cone = 32.0;
 
 // A number format outside any block.
-constexpr golden::Field word(int bits, int fraction_bits, bool is_signed = false) {
+constexpr words::Field word(int bits, int fraction_bits, bool is_signed = false) {
   return {"", 0, bits, is_signed, fraction_bits};
 }
 
-std::int64_t largest(const golden::Field& f) {
+std::int64_t largest(const words::Field& f) {
   return (std::int64_t{1} << (f.bits - (f.is_signed ? 1 : 0))) - 1;
 }
-double largest_value(const golden::Field& f) {
+double largest_value(const words::Field& f) {
   return std::ldexp(static_cast<double>(largest(f)), -f.fraction_bits);
 }
 
 // Rounds and clamps to the format.
-std::int64_t clamped(double value, const golden::Field& f) {
+std::int64_t clamped(double value, const words::Field& f) {
   const double most = static_cast<double>(largest(f)), least = f.is_signed ? -most - 1.0 : 0.0;
   const double rounded = std::floor(std::ldexp(value, f.fraction_bits) + 0.5);
   return to_integer<std::int64_t>(std::clamp(rounded, least, most));
 }
-bool holds(double value, const golden::Field& f) {
+bool holds(double value, const words::Field& f) {
   return std::floor(std::ldexp(value, f.fraction_bits) + 0.5) <= static_cast<double>(largest(f));
 }
 
@@ -219,12 +219,12 @@ class ProcessorsSetup final : public Setup {
   using Axis = typename P::light_axes_channel_at;
   using Plane = typename P::plane_header_at;
 
-  static constexpr bool c_exact = golden::ProcessorsLayout<P>::c_exact;
-  static constexpr golden::Field c_direction = word(P::c_direction_bits, P::c_direction_fraction_bits, true);
-  static constexpr golden::Field c_exponent = word(P::c_exponent_bits, P::c_exponent_fraction_bits);
-  static constexpr golden::Field c_coefficient = word(P::c_coefficient_bits, P::c_coefficient_fraction_bits);
-  static constexpr golden::Field c_reflected = word(P::c_reflected_bits, P::c_reflected_fraction_bits);
-  static constexpr golden::Field c_intensity = P::light_colour_channel_at::intensity;
+  static constexpr bool c_exact = words::ProcessorsLayout<P>::c_exact;
+  static constexpr words::Field c_direction = word(P::c_direction_bits, P::c_direction_fraction_bits, true);
+  static constexpr words::Field c_exponent = word(P::c_exponent_bits, P::c_exponent_fraction_bits);
+  static constexpr words::Field c_coefficient = word(P::c_coefficient_bits, P::c_coefficient_fraction_bits);
+  static constexpr words::Field c_reflected = word(P::c_reflected_bits, P::c_reflected_fraction_bits);
+  static constexpr words::Field c_intensity = P::light_colour_channel_at::intensity;
   // Error of a unit vector's length, and so of a cosine close to 1: see reciprocal_root.vhd.
   static constexpr double c_cosine_error = c_exact ? 0x1p-19 : 0x1p-7;
   // Half a step of `vector`: the hardware truncates the planes to that format.
@@ -297,7 +297,7 @@ class ProcessorsSetup final : public Setup {
                layout_.light_colour_low(c));
   }
 
-  void put_axis_vector(InitVector& init, const golden::Field& field, glm::dvec3 v) const {
+  void put_axis_vector(InitVector& init, const words::Field& field, glm::dvec3 v) const {
     for (int axis = 0; axis < c_axes; ++axis)
       init.put(field, clamped(v[axis], field), layout_.light_axis_low(axis));
   }
@@ -617,8 +617,8 @@ class ProcessorsSetup final : public Setup {
 
   const Scene& scene_;
   FrameSize frame_;
-  golden::ProcessorsConfig config_;
-  golden::ProcessorsLayout<P> layout_;
+  words::ProcessorsConfig config_;
+  words::ProcessorsLayout<P> layout_;
   ViewSpace view_;
   Projector projector_;
   std::vector<LightRef> lights_;  // at most the key's number; further lights of the key stay undefined

@@ -19,16 +19,16 @@
 #include <vector>
 
 #include "frame/metrics.hpp"
-#include "golden/processors_layout.hpp"
-#include "golden/word.hpp"
 #include "golden_run/test/drawing.hpp"
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
 #include "scene/builtin_meshes.hpp"
-#include "setup/test/random_scenes.hpp"
-#include "setup/test/random_solids.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
+#include "scene/test/random_scenes.hpp"
+#include "shading/test/random_solids.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "words/processors_layout.hpp"
+#include "words/word.hpp"
 
 namespace halfway {
 namespace {
@@ -123,7 +123,7 @@ Scene narrow_spot(double inner, double outer) {
   return scene;
 }
 
-// Limits: angles from which on the light's noise exceeds the value in tb/stability.
+// Limits: angles from which on the light's noise exceeds the value in tb/specification/hard_cases.
 TEST(ProcessorsSetup, NarrowSpotsAreNoted) {
   for (const auto& [preset, angle] : {std::pair{Preset::exact, 0.4}, {Preset::published, 40.0}}) {
     const Scene scene = narrow_spot(0.0, angle);
@@ -258,8 +258,8 @@ TEST(ProcessorsSetup, ShadowsAreThoseOfRaysWhereInsidesAreVisible) {
   }
 }
 
-using Request = golden::Exact::request_header_at;
-using Walked = golden::Exact::init_header_at;
+using Request = words::Exact::request_header_at;
+using Walked = words::Exact::init_header_at;
 
 // The vectors of a stream, one after the other.
 template <class Vector>
@@ -278,7 +278,7 @@ TEST(ProcessorsSetup, ALineHasDepthsThenShadowsThenSurfaces) {
     scene.camera.near = 2.0;  // cuts the shadow volumes
     const HardwareKey key = key_of(scene);
     const auto setup = make_setup(scene, c_small_frame, key, {});
-    const int walk = golden::ProcessorsLayout<golden::Exact>::walk_low();
+    const int walk = words::ProcessorsLayout<words::Exact>::walk_low();
     for (std::uint32_t y = 0; y < setup->units(); ++y) {
       std::vector<std::uint32_t> words;
       SetupCounts counts;
@@ -286,25 +286,25 @@ TEST(ProcessorsSetup, ALineHasDepthsThenShadowsThenSurfaces) {
       std::vector<std::uint64_t> depths, drawn;
       int stage = 0;
       for_each_vector(words, setup->init_bits(), [&](std::span<const std::uint32_t> v) {
-        EXPECT_EQ(golden::get_bits(v, Walked::y, walk), y);
-        EXPECT_EQ(golden::get_bits(v, Walked::upper_lines, walk), 1U);
-        EXPECT_EQ(golden::get_bits(v, Walked::lower_lines, walk), 0U);
-        const auto command = static_cast<golden::Command>(golden::get_bits(v, Request::command));
-        const bool opens = golden::get_bits(v, Request::opens) != 0;
-        const std::uint64_t triangle = golden::get_bits(v, Walked::triangle, walk);
+        EXPECT_EQ(words::get_bits(v, Walked::y, walk), y);
+        EXPECT_EQ(words::get_bits(v, Walked::upper_lines, walk), 1U);
+        EXPECT_EQ(words::get_bits(v, Walked::lower_lines, walk), 0U);
+        const auto command = static_cast<words::Command>(words::get_bits(v, Request::command));
+        const bool opens = words::get_bits(v, Request::opens) != 0;
+        const std::uint64_t triangle = words::get_bits(v, Walked::triangle, walk);
         int now = 3;
-        if (command == golden::Command::depth) {
+        if (command == words::Command::depth) {
           now = 0;
           depths.push_back(triangle);
-        } else if (command == golden::Command::shadow) {
+        } else if (command == words::Command::shadow) {
           now = opens ? 1 : 2;
           ++(opens ? opening : closing);
-          const std::uint64_t light = golden::get_bits(v, Request::light);
+          const std::uint64_t light = words::get_bits(v, Request::light);
           EXPECT_TRUE(light >= 1 && light <= 3) << light;
           before_near +=
-              golden::get_bits(v, Walked::z, walk) == 0 && golden::get_bits(v, Walked::z_dx, walk) == 0;
+              words::get_bits(v, Walked::z, walk) == 0 && words::get_bits(v, Walked::z_dx, walk) == 0;
         } else {
-          EXPECT_EQ(command, golden::Command::draw);
+          EXPECT_EQ(command, words::Command::draw);
           drawn.push_back(triangle);
         }
         EXPECT_GE(now, stage);
@@ -324,22 +324,22 @@ TEST(ProcessorsSetup, AConstantNormalIsRoundedOnce) {
   scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
   for (SceneTriangle& t : scene.triangles) t.normal = {t.normal[0], t.normal[0], t.normal[0]};
   const HardwareKey key = key_of(scene);
-  const golden::ProcessorsLayout<golden::Exact> layout(processors_config(key));
-  using Plane = golden::Exact::plane_header_at;
-  constexpr int c_drop = golden::Exact::c_plane_sum_fraction_bits - golden::Exact::c_vector_fraction_bits;
+  const words::ProcessorsLayout<words::Exact> layout(processors_config(key));
+  using Plane = words::Exact::plane_header_at;
+  constexpr int c_drop = words::Exact::c_plane_sum_fraction_bits - words::Exact::c_vector_fraction_bits;
   int seen = 0;
   for_each_vector(draw_processors(scene, key).words, static_cast<unsigned>(layout.init_bits()), [&](auto v) {
-    if (golden::get_bits(v, Request::command) != static_cast<std::uint32_t>(golden::Command::draw)) return;
-    EXPECT_EQ(golden::get_bits(v, Request::normalize), 0U);
-    const auto triangle = golden::get_bits(v, Walked::triangle, layout.walk_low());
+    if (words::get_bits(v, Request::command) != static_cast<std::uint32_t>(words::Command::draw)) return;
+    EXPECT_EQ(words::get_bits(v, Request::normalize), 0U);
+    const auto triangle = words::get_bits(v, Walked::triangle, layout.walk_low());
     // The camera's axes are the world's axes.
     const glm::dvec3 n = scene.normals_world[scene.triangles[triangle].normal[0]];
     for (int axis = 0; axis < 3; ++axis) {
-      const auto word = golden::Word<golden::Exact::c_plane_sum_bits>::from_bits(
-          golden::get_bits(v, Plane::value, layout.plane_low(axis)));
+      const auto word = words::Word<words::Exact::c_plane_sum_bits>::from_bits(
+          words::get_bits(v, Plane::value, layout.plane_low(axis)));
       EXPECT_EQ(word.value() >> c_drop,
-                std::floor(std::ldexp(n[axis], golden::Exact::c_vector_fraction_bits) + 0.5));
-      EXPECT_EQ(golden::get_bits(v, Plane::dx, layout.plane_low(axis)), 0U);
+                std::floor(std::ldexp(n[axis], words::Exact::c_vector_fraction_bits) + 0.5));
+      EXPECT_EQ(words::get_bits(v, Plane::dx, layout.plane_low(axis)), 0U);
       ++seen;
     }
   });
@@ -356,14 +356,14 @@ TEST(ProcessorsSetup, PlacesFillTheirFormat) {
       const auto setup = make_setup(scene, c_small_frame, key, {});
       std::int64_t place = 0;
       for_each_vector(draw_processors(scene, key).words, setup->init_bits(), [&](auto v) {
-        if (golden::get_bits(v, Request::light) != 1) return;
+        if (words::get_bits(v, Request::light) != 1) return;
         const auto z = [&]<class P>(P) {
-          return static_cast<std::int64_t>(golden::get_bits(v, P::light_axes_channel_at::place,
-                                                            golden::ProcessorsLayout<P>::light_axis_low(2))
+          return static_cast<std::int64_t>(words::get_bits(v, P::light_axes_channel_at::place,
+                                                           words::ProcessorsLayout<P>::light_axis_low(2))
                                            << (64 - P::c_light_place_bits)) >>
                  (62 - 15);
         };
-        place = preset == Preset::exact ? z(golden::Exact{}) : z(golden::Published{});
+        place = preset == Preset::exact ? z(words::Exact{}) : z(words::Published{});
       });
       // In 2^-15 of the format's 1.
       EXPECT_LE(place, -(1 << 14)) << to_string(preset) << ' ' << distance;

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "setup/edge.hpp"
-#include "setup/exact_division.hpp"
+#include "common/exact_division.hpp"
+#include "projection/edge.hpp"
 
 namespace halfway {
 

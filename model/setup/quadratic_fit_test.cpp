@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares QuadraticFit and DepthFit with the 6x6 and 3x3 systems solved in rationals, and the golden model's
-// registers with PixelFit's colours, without tolerance. tb/bounds and the searches and hard cases of
-// tb/stability compare the golden model with the quadratic at every pixel.
+// registers with PixelFit's colours, without tolerance. tb/specification/bounds and the searches and hard
+// cases of tb/specification/hard_cases compare the golden model with the quadratic at every pixel.
 #include "setup/quadratic_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -13,14 +13,14 @@
 #include <utility>
 #include <vector>
 
+#include "common/test/gmp_numbers.hpp"
 #include "golden/quadratic_shader.hpp"
-#include "setup/test/gmp_numbers.hpp"
 #include "setup/test/random_triangles.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Exact;
+using words::Exact;
 
 constexpr int c_fraction = Exact::c_intensity_fraction_bits;
 constexpr std::int64_t c_largest_sample_word = std::int64_t{1023} << c_fraction;
@@ -180,8 +180,8 @@ TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
 
 void put_words(std::span<std::uint32_t> init, const QuadraticWords& w) {
   using At = Exact::init_channel_at;
-  const auto put = [&](const golden::Field& field, Int128 value) {
-    golden::set_bits(init, field, static_cast<std::uint64_t>(value), Exact::c_init_header_bits);
+  const auto put = [&](const words::Field& field, Int128 value) {
+    words::set_bits(init, field, static_cast<std::uint64_t>(value), Exact::c_init_header_bits);
   };
   put(At::value, w.value);
   put(At::dx, w.dx);

@@ -7,20 +7,19 @@
 #include <utility>
 
 #include "common/recent_values.hpp"
-#include "golden/quadratic_layout.hpp"
-#include "golden/quadratic_shader.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/highlight_bound.hpp"
-#include "setup/init_vector.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/walk.hpp"
+#include "setup/walk_header.hpp"
 #include "shading/shade.hpp"
+#include "words/quadratic_layout.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Exact;
-using golden::Published;
+using words::Exact;
+using words::Published;
 
 // A vertex of a piece of a screen triangle: exact on the screen and in barycentric coordinates of the
 // triangle.
@@ -233,8 +232,8 @@ double clamped_sample(double radiance, SetupCounts& counts) {
 
 template <class Preset>
 int channel_low(int degree, int channel) {
-  return degree == 1 ? golden::QuadraticLayout<Preset, 1>::channel_low(channel)
-                     : golden::QuadraticLayout<Preset, 2>::channel_low(channel);
+  return degree == 1 ? words::QuadraticLayout<Preset, 1>::channel_low(channel)
+                     : words::QuadraticLayout<Preset, 2>::channel_low(channel);
 }
 
 template <class Preset>

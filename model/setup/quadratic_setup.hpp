@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "plan/hardware_key.hpp"
+#include "projection/project.hpp"
 #include "scene/lights.hpp"
 #include "scene/scene.hpp"
 #include "setup/half_triangle.hpp"
-#include "setup/project.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/setup.hpp"
 #include "setup/walk.hpp"

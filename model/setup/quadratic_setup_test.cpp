@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "golden/quadratic_layout.hpp"
 #include "golden_run/test/drawing.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/test/random_scenes.hpp"
 #include "setup/test/pixels.hpp"
-#include "setup/test/random_scenes.hpp"
-#include "setup/test/random_solids.hpp"
 #include "shading/shade.hpp"
+#include "shading/test/random_solids.hpp"
+#include "words/quadratic_layout.hpp"
 
 namespace halfway {
 namespace {
@@ -92,8 +92,8 @@ glm::dvec3 colour_of(const Fragment& f) {
 // The vectors of degree 1 as vectors of degree 2 whose second differences are zero, and what they draw.
 template <class Formats>
 Drawn draw_as_quadratics(const Drawn& planes, HardwareKey key) {
-  using OfPlane = golden::QuadraticLayout<Formats, 1>;
-  using OfQuadratic = golden::QuadraticLayout<Formats, 2>;
+  using OfPlane = words::QuadraticLayout<Formats, 1>;
+  using OfQuadratic = words::QuadraticLayout<Formats, 2>;
   key.degree = 2;
   const std::size_t to_words = (make_golden_model(key)->init_bits() + 31) / 32;
   Drawn drawn;
@@ -103,8 +103,8 @@ Drawn draw_as_quadratics(const Drawn& planes, HardwareKey key) {
     const auto to = std::span(drawn.words).last(to_words);
     const auto copy = [&](int bits, int from_low, int to_low) {
       for (int bit = 0; bit < bits; ++bit) {
-        const golden::Field field{"", bit, 1, false, 0};
-        golden::set_bits(to, field, golden::get_bits(from, field, from_low), to_low);
+        const words::Field field{"", bit, 1, false, 0};
+        words::set_bits(to, field, words::get_bits(from, field, from_low), to_low);
       }
     };
     copy(Formats::c_init_header_bits, 0, 0);
@@ -382,8 +382,8 @@ TEST(QuadraticSetup, PlanesAreQuadraticsWithoutSecondDifferences) {
     const HardwareKey key = quadratic_key(preset, channels, 1);
     const Drawn planes = draw_quadratic(scene, {160, 120}, options, key);
     EXPECT_GT(planes.fragments.size(), 1000U);
-    const Drawn quadratics = preset == Preset::exact ? draw_as_quadratics<golden::Exact>(planes, key)
-                                                     : draw_as_quadratics<golden::Published>(planes, key);
+    const Drawn quadratics = preset == Preset::exact ? draw_as_quadratics<words::Exact>(planes, key)
+                                                     : draw_as_quadratics<words::Published>(planes, key);
     EXPECT_EQ(quadratics.fragments, planes.fragments);
   };
   for (const Scene& scene : {teapot_scene(), sphere_scene(9, 0.1, 0.15)})

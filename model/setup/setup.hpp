@@ -9,11 +9,12 @@
 
 #include "frame/frame_size.hpp"
 #include "frame/tile.hpp"
-#include "golden/formats.hpp"
 #include "plan/hardware_key.hpp"
+#include "projection/project.hpp"
 #include "scene/scene.hpp"
-#include "setup/project.hpp"
+#include "shading/arc.hpp"
 #include "shading/bell.hpp"
+#include "words/formats.hpp"
 
 namespace halfway {
 
@@ -32,15 +33,6 @@ struct QuadraticSetupOptions {
   /// Colour steps of 1/255; above it a triangle is split into four, unless it is small.
   double threshold = 2.0;
   int max_level = 5;  ///< of subdivision, 0 to 5
-};
-
-/// Source of the vectors at the two ends of a span of the spherical shader.
-enum class SpanEnds {
-  on_surface,  ///< the surface at the centres of the end pixels, perspective-correct
-  /// As published: spherical interpolation along the triangle's edges. Triangles are never split into
-  /// columns, for any threshold. The errors are large if a light is close to the surface or a spot's edge
-  /// crosses it.
-  slerped_along_edges,
 };
 
 struct SphericalSetupOptions {
@@ -94,7 +86,7 @@ struct SetupCounts {
 inline constexpr double c_largest_sample = 1023.0;
 
 /// Greatest absolute value of a shadow counter.
-inline constexpr std::uint64_t c_most_shadows = (1U << (golden::Exact::c_shadow_count_bits - 1)) - 1;
+inline constexpr std::uint64_t c_most_shadows = (1U << (words::Exact::c_shadow_count_bits - 1)) - 1;
 
 /// Appends the vectors of units, for one thread. It keeps what the next units may use again, because
 /// neighbours in the mesh share vertices and edges. The result does not depend on the units before.

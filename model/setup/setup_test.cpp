@@ -10,7 +10,7 @@
 #include "plan/plan.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/test/add_mesh.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

@@ -29,7 +29,7 @@
 #include <span>
 #include <vector>
 
-#include "setup/project.hpp"
+#include "projection/project.hpp"
 #include "shading/light_ray.hpp"
 
 namespace halfway {

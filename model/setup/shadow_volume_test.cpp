@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "scene/lights.hpp"
-#include "setup/test/random_solids.hpp"
 #include "shading/effects.hpp"
+#include "shading/test/random_solids.hpp"
 
 namespace halfway {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
+#include "projection/project.hpp"
 #include "scene/lights.hpp"
-#include "setup/project.hpp"
 
 namespace halfway {
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "setup/arc.hpp"
+#include "shading/arc.hpp"
 
 namespace halfway {
 namespace {

@@ -12,17 +12,17 @@
 #include <utility>
 
 #include "common/cosine_power.hpp"
-#include "golden/triangle_walker.hpp"
 #include "scene/lights.hpp"
-#include "setup/arc.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/span_bound.hpp"
+#include "setup/walk_header.hpp"
+#include "shading/arc.hpp"
 #include "shading/shade.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Exact, golden::Published;
+using words::Exact, words::Published;
 
 // Beyond the end of any bell, so that the bell is zero.
 constexpr double c_outside = 2.0;
@@ -33,14 +33,6 @@ constexpr double c_nearly_opposed = -0.99;
 
 // From the peak of a cosine to its zero.
 constexpr double c_half_bell = 0.5 * std::numbers::pi;
-
-// Calls line(walker) for each line of a header's triangle, in the hardware's order.
-template <class P, class Line>
-void walk_lines(std::span<const std::uint32_t> header, Line&& line) {
-  golden::TriangleWalker<P> walker;
-  walker.line_load(header);
-  walker.walk([&] { line(walker); });
-}
 
 bool nearly_opposed(glm::dvec3 a, glm::dvec3 b) {
   return glm::dot(a, b) < c_nearly_opposed;
@@ -98,8 +90,8 @@ SphericalSetup::SphericalSetup(const Scene& scene, FrameSize frame, const Hardwa
       own_tables_(!key.spherical.own.empty()),
       has_records_(key.spherical.records()),
       init_bits_(static_cast<unsigned>(preset_ == Preset::exact
-                                           ? golden::SphericalLayout<Exact>(config_).init_bits()
-                                           : golden::SphericalLayout<Published>(config_).init_bits())),
+                                           ? words::SphericalLayout<Exact>(config_).init_bits()
+                                           : words::SphericalLayout<Published>(config_).init_bits())),
       projector_(scene, frame,
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
                                           : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {
@@ -158,8 +150,8 @@ std::int64_t SphericalSetup::factor_word(double steps, SetupCounts& counts) cons
 }
 
 void SphericalSetup::put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const {
-  const golden::SphericalLayout<Exact> exact(config_);
-  const golden::SphericalLayout<Published> published(config_);
+  const words::SphericalLayout<Exact> exact(config_);
+  const words::SphericalLayout<Published> published(config_);
   for (int c = 0; c < config_.channels; ++c) {
     // Add one half: truncating the sum's fraction then rounds.
     const double steps = 255.0 * scene_->ambient[c] * material.ambient * material.colour[c] + 0.5;
@@ -206,7 +198,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   constexpr bool c_exact = std::is_same_v<P, Exact>;
   // The published cosine table covers the full period, so its angles are in units of half turns.
   constexpr double c_diffuse_unit = c_exact ? c_half_bell : std::numbers::pi;
-  const golden::SphericalLayout<P> at(config_);
+  const words::SphericalLayout<P> at(config_);
   const Material& material = scene_->materials[material_index];
   const Bell& bell = bells_[material_index];
   // A table's largest entry is 2^D - 1 and represents 1.
@@ -215,7 +207,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   const bool diffuse = has_diffuse(material), specular = config_.specular && has_specular(material);
 
   // Write angle and slope in the table's unit. A light with zero amplitude stays dark at any angle.
-  const auto put_angle = [&](const golden::Field& angle, const golden::Field& slope, const CosineArc& arc,
+  const auto put_angle = [&](const words::Field& angle, const words::Field& slope, const CosineArc& arc,
                              double scale, int low) {
     const double start = arc.amplitude > 0.0 ? scale * (span.first * arc.sweep - arc.phase) : c_outside;
     const double step = arc.amplitude > 0.0 ? scale * span.step * arc.sweep : 0.0;
@@ -372,22 +364,20 @@ class SphericalSetup::ExactTriangle {
   // Fills the part. Returns false if a line must be split. Checks errors only if `look` is true.
   bool plan(const Walks& walks, bool look) {
     for (const Walk& walk : walks) {
-      const std::span<const std::uint32_t> header = append_header(walk);
-      bool well = true;
-      if (setup_.has_records_)
-        walk_lines<Exact>(
-            header, [&](const golden::TriangleWalker<Exact>& walker) { well = well && plan(walker, look); });
-      if (!well) return false;
+      append_header(walk);
+      const std::int64_t lines = setup_.has_records_ ? walk.upper_lines + walk.lower_lines : 0;
+      for (std::int64_t y = walk.y; y < walk.y + lines; ++y)
+        if (!plan(line_of(walk, y), look)) return false;
       part_.ends.push_back(part_.lines.size());
     }
     return true;
   }
-  bool plan(const golden::TriangleWalker<Exact>& line, bool look) {
-    if (line.line_empty() || setup_.lights_.empty()) {
+  bool plan(const WalkLine& line, bool look) {
+    if (line.empty() || setup_.lights_.empty()) {
       part_.lines.push_back({true, 0.0, 0.0, 0});
       return true;
     }
-    const Span at = span_of(line);
+    const Span at = span_of(line.walk);
     if (setup_.options_.ends == SpanEnds::slerped_along_edges) {
       append_arcs(at, vectors_along_edges(at));
       return true;
@@ -399,12 +389,11 @@ class SphericalSetup::ExactTriangle {
            interpolates_well(at, arcs);
   }
 
-  std::span<const std::uint32_t> append_header(const Walk& walk) {
+  void append_header(const Walk& walk) {
     InitVector header(part_.headers, setup_.init_bits_);
     put_header(header, triangle_.source, walk,
                depth_->words(difference_start(walk), half(Exact::c_depth_sum_fraction_bits)));
     setup_.put_ambient(header, material_, part_.counts);
-    return header.words();
   }
 
   // First and last pixel, in the order of the walker.
@@ -414,9 +403,9 @@ class SphericalSetup::ExactTriangle {
     std::int64_t steps() const { return first < last ? last - first : first - last; }
     std::int64_t way() const { return first <= last ? 1 : -1; }
   };
-  static Span span_of(const golden::TriangleWalker<Exact>& walker) {
-    const std::int64_t way = walker.backward() ? -1 : 1;
-    return {walker.start().value(), walker.stop().value() - way, walker.y()};
+  static Span span_of(const Walk& line) {
+    const std::int64_t way = line.backward ? -1 : 1;
+    return {line.start.pixel, line.upper.pixel - way, static_cast<std::uint32_t>(line.y)};
   }
 
   SurfacePoint point(std::int64_t half_x, std::uint32_t y) const {
@@ -575,25 +564,22 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
   ++counts.leaves;
   for (const HalfTriangle& h : half_triangles(p)) {
     ++counts.vectors;
-    const std::size_t header_at = words.size();
-    {
-      InitVector header(words, init_bits_);
-      put_header(header, triangle.source, h, p);
-      put_ambient(header, material, counts);
-    }
+    InitVector header(words, init_bits_);
+    put_header(header, triangle.source, h, p);
+    put_ambient(header, material, counts);
     if (!has_records_) continue;
-    const std::vector<std::uint32_t> header(words.begin() + static_cast<std::ptrdiff_t>(header_at),
-                                            words.end());
-    walk_lines<Published>(header, [&](const golden::TriangleWalker<Published>& walker) {
+    for (std::int64_t y = h.y; y < h.y + h.lines; ++y) {
       ++counts.records;
       InitVector record(words, init_bits_);
-      if (walker.line_empty() || lights_.empty()) return;
+      const HalfLine line = line_of(h, y);
+      if (line.empty() || lights_.empty()) continue;
       const auto on_edge = [&](const HalfEdge& edge) {
-        const auto t = static_cast<double>((walker.y() - p[edge.top].y) / (p[edge.bottom].y - p[edge.top].y));
+        const auto height = p[edge.bottom].y - p[edge.top].y;
+        const auto t = static_cast<double>((static_cast<long double>(y) - p[edge.top].y) / height);
         return slerped(vertex[edge.top], vertex[edge.bottom], t);
       };
       SpanVectors span{on_edge(h.start), on_edge(h.stop), 0.0, 0.0};
-      const std::int64_t steps = walker.stop().value() - 1 - walker.start().value();
+      const std::int64_t steps = line.last - line.first;
       // On one pixel nothing turns. A plane between ends that are the same point would be determined by
       // rounding.
       if (steps == 0)
@@ -605,7 +591,7 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
       set_arcs(
           material, span, [&] { return slerped(span.begin, span.end, 0.5); }, of_line);
       put_record<Published>(record, triangle.material, {of_line, span.first, span.step, span.steps}, counts);
-    });
+    }
   }
 }
 

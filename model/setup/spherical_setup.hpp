@@ -10,14 +10,14 @@
 #include <span>
 #include <vector>
 
-#include "golden/spherical_layout.hpp"
 #include "plan/own_bells.hpp"
 #include "plan/plan.hpp"
-#include "setup/arc.hpp"
-#include "setup/init_vector.hpp"
 #include "setup/setup.hpp"
+#include "shading/arc.hpp"
 #include "shading/bell.hpp"
 #include "shading/effects.hpp"
+#include "words/init_vector.hpp"
+#include "words/spherical_layout.hpp"
 
 namespace halfway {
 
@@ -32,7 +32,7 @@ template <class P>
 inline constexpr double c_largest_factor =
     static_cast<double>((1 << (P::c_factor_bits - P::c_factor_fraction_bits)) - 1);
 inline constexpr int c_white_data_bits = 8;
-static_assert(c_largest_factor<golden::Exact> >= 255.0 * (1 << c_white_data_bits));
+static_assert(c_largest_factor<words::Exact> >= 255.0 * (1 << c_white_data_bits));
 
 /// Inputs of the illumination model at a point of the surface, per light. A zero vector means that the
 /// direction does not exist (the light is exactly at the point, or L = -V).
@@ -105,7 +105,7 @@ class SphericalSetup final : public Setup {
   FrameSize frame_;
   Preset preset_;
   SphericalSetupOptions options_;
-  golden::SphericalConfig config_;
+  words::SphericalConfig config_;
   std::vector<Light> lights_;  ///< at most the key's number; further lights of the key stay dark
   std::vector<Bell> bells_;    ///< one per material
   bool own_tables_;            ///< the tables of the key are the scene's own

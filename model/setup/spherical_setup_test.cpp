@@ -25,22 +25,22 @@
 #include "golden_run/test/spherical_drawing.hpp"
 #include "reference/renderer.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/test/random_scenes.hpp"
 #include "setup/test/paper_spans.hpp"
 #include "setup/test/pixels.hpp"
-#include "setup/test/random_scenes.hpp"
 #include "setup/test/random_triangles.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/simulate.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/threads.hpp"
-#include "tables/cosine.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway {
 namespace {
 
-using golden::Exact, golden::Published;
 using paper::Ends, paper::LightThere, paper::Real, paper::Span, paper::SpanThere, paper::Vector;
 using ::testing::HasSubstr, ::testing::Not;
+using words::Exact, words::Published;
 
 // ---- The papers' formulas
 
@@ -216,8 +216,8 @@ void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey
   constexpr bool c_exact = std::is_same_v<P, Exact>;
   const SphericalSetup setup(scene, frame, key, options);
   const Specification<P> specification(scene, key);
-  const golden::SphericalConfig config = golden_config(key);
-  const golden::SphericalLayout<P> layout(config);
+  const words::SphericalConfig config = golden_config(key);
+  const words::SphericalLayout<P> layout(config);
   const std::size_t vector_words = (setup.init_bits() + 31) / 32;
   const auto model = make_golden_model(key);
   const Projector projector(

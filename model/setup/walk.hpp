@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "common/fixed_vector.hpp"
-#include "setup/edge.hpp"
+#include "projection/edge.hpp"
 
 namespace halfway {
 

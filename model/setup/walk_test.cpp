@@ -16,7 +16,7 @@
 namespace halfway {
 namespace {
 
-using golden::Exact;
+using words::Exact;
 
 struct LineSpan {
   std::int64_t y, begin, end;

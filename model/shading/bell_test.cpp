@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "common/test/big_real.hpp"
-#include "tables/cosine.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway {
 namespace {

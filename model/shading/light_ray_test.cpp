@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "setup/exact_division.hpp"
-#include "setup/test/random_solids.hpp"
+#include "common/exact_division.hpp"
+#include "shading/test/random_solids.hpp"
 
 namespace halfway {
 namespace {

@@ -9,7 +9,7 @@
 --  new_frame, delete     nothing
 -- A token between processors is a pixel header, N, P, 1/w, the view vector, the material, and the sum of the colours so
 -- far. A token that loads has the light after command and flags, at the same position as in the host's vector.
--- Golden twin model/golden/processors_layout.hpp
+-- Golden twin model/words/processors_layout.hpp
 
 use work.formats_pkg.all;
 

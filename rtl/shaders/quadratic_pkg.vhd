@@ -2,7 +2,7 @@
 --
 -- Positions of the channels' blocks in an init vector of the quadratic shader. With degree 2 a channel has its whole
 -- block; with degree 1, Gouraud's shading, only the block's lower words: the second differences are zero.
--- Golden twin model/golden/quadratic_layout.hpp
+-- Golden twin model/words/quadratic_layout.hpp
 
 use work.formats_pkg.all;
 

@@ -2,7 +2,7 @@
 --
 -- Positions of a light's parts in a line record of the spherical shader, and its terms of the sum of colours. A line
 -- record holds for every light its diffuse part, then its specular part.
--- Golden twin model/golden/spherical_layout.hpp
+-- Golden twin model/words/spherical_layout.hpp
 
 use work.formats_pkg.all;
 

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Made by `make tables` from model/tables/cosine.cpp; edit that.
+-- Made by `make tables` from model/words/generator/cosine.cpp; edit that.
 -- Powers of the cosine, correctly rounded, times 2^data_bits - 1. Preset exact: over half a bell, from its
 -- peak; preset published: over a full period, the address signed, and zero where the cosine is negative.
 

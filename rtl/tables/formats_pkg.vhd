@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Made by `make tables` from model/tables/formats.cpp; edit that.
+-- Made by `make tables` from model/words/generator/formats.cpp; edit that.
 -- Number formats and the layouts of the flat vectors, for both presets. A slice of (-1, 0) is a field that
 -- the preset does not have.
 -- In bounds u is the format's unit, u_x that of format x. Frames have up to 4096 lines and pixels, so

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Made by `make tables` from model/tables/functions.cpp; edit that.
+-- Made by `make tables` from model/words/generator/functions.cpp; edit that.
 -- Functions over cells, correctly rounded. With slope bits a value is the function at the start of its cell, and
 -- one more value follows the last cell; without, it is the function at the middle of the cell.
 

@@ -10,17 +10,17 @@
 
 #include "frame/metrics.hpp"
 #include "golden_run/golden_run.hpp"
+#include "projection/project.hpp"
 #include "reference/renderer.hpp"
-#include "setup/project.hpp"
-#include "sim/compare/stream_comparator.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/mesa/mesa_picture.hpp"
+#include "sim/driver/stream_comparator.hpp"
+#include "sim/engines/ghdl/ghdl_runner.hpp"
+#include "sim/engines/mesa/mesa_picture.hpp"
+#include "sim/files/init_file.hpp"
+#include "sim/files/trace.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/subprocess.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/stream_files/init_file.hpp"
-#include "sim/stream_files/trace.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sim/bench/workload.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 

@@ -8,11 +8,11 @@
 
 #include "golden_run/walk_counts.hpp"
 #include "sim/bench/workload.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {

@@ -15,10 +15,10 @@
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "setup/spherical_setup.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/scene_stream.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/threads.hpp"
 
 namespace halfway {
 

@@ -12,7 +12,7 @@
 #include "frame/frame_size.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
-#include "sim/engine/engine.hpp"
+#include "sim/driver/engine.hpp"
 #include "sim/run/rtl_frame.hpp"
 
 namespace halfway {

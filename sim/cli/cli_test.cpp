@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/stream_files/trace.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/files/trace.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

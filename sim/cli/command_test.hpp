@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/system/subprocess.hpp"
-#include "sim/system/test/test_files.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/os/test/test_files.hpp"
 
 namespace halfway {
 

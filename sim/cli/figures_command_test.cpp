@@ -7,9 +7,9 @@
 #include <string>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/test_files.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/test_files.hpp"
 
 namespace halfway {
 namespace {
@@ -45,7 +45,7 @@ TEST_F(FiguresCommand, FindsAClaimThatIsNotMeasured) {
   namespace fs = std::filesystem;
   const fs::path real = HALFWAY_SOURCE_DIR, source = folder_.path() / "source";
   must(make_folders(source / "sim/figures"));
-  for (const char* name : {"claims.toml", "page.md.mustache"})
+  for (const char* name : {"claims.toml", "figures.md.mustache"})
     fs::copy(real / "sim/figures" / name, source / "sim/figures" / name);
   replace_in(source / "sim/figures/claims.toml", "value = 2.7582", "value = 2.7583");
   EXPECT_THAT(run({"--source", source.string(), "figures", "spherical-table", "--page", "there"}),

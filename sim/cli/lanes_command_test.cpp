@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/pictures/image.hpp"
-#include "sim/system/must.hpp"
+#include "sim/files/image.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

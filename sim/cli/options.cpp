@@ -16,8 +16,8 @@
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
-#include "sim/system/must.hpp"
-#include "tables/cosine.hpp"
+#include "sim/os/must.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway::cli {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
-#include "sim/engine/engine.hpp"
-#include "sim/program/program.hpp"
+#include "sim/driver/engine.hpp"
+#include "sim/os/program.hpp"
 
 namespace halfway::cli {
 

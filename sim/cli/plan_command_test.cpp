@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "sim/cli/command_test.hpp"
+#include "sim/os/file.hpp"
 #include "sim/study/stand_in_slurm_test.hpp"
-#include "sim/system/file.hpp"
 
 namespace halfway {
 namespace {

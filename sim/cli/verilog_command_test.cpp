@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of `halfway verilog`: the files, the comment at their start, and refused options. tb/verilog
+// Tests of `halfway verilog`: the files, the comment at their start, and refused options. tb/project/verilog
 // simulates them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

@@ -12,11 +12,11 @@
 
 #include "scene/turntable.hpp"
 #include "sim/cli/command_test.hpp"
-#include "sim/pictures/image.hpp"
-#include "sim/pictures/terminal_picture.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/files/image.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/files/terminal_picture.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -292,7 +292,7 @@ TEST_F(ViewCommand, ReportsTheFrameWhereTheRtlDiffers) {
 // Lanes that stop in the middle of frame 0's triangles. Verilator draws the frame without a fault.
 TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
   const std::filesystem::path copy = copy_checkout();
-  replace_in(copy / "sim/lanes/lane_runner.hpp", "      const std::uint32_t moved = block();\n",
+  replace_in(copy / "sim/extras/lanes/lane_runner.hpp", "      const std::uint32_t moved = block();\n",
              "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
              "      if (!broken) {\n        broken = true;\n        return halfway_hang;\n      }\n");
   for (const bool compare : {true, false}) {
@@ -309,7 +309,7 @@ TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
 // Also with `auto`, which selects lanes for this amount of work.
 TEST_F(ViewCommand, VerilatorDrawsIfLanesAreUnavailable) {
   const std::filesystem::path copy = copy_checkout();
-  ASSERT_TRUE(write_file(copy / "sim/lanes/lane_harness.cpp", "#error spoilt\n"));
+  ASSERT_TRUE(write_file(copy / "sim/extras/lanes/lane_harness.cpp", "#error spoilt\n"));
   EXPECT_THAT(run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"}),
               Ends(3, HasSubstr("spoilt")));
   write_averted();

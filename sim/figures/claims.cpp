@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/figures/figure.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/toml_file.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/toml_file.hpp"
 
 namespace halfway::figures {
 namespace {

@@ -12,12 +12,13 @@
 #include "scene/lights.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/spherical_setup.hpp"
+#include "setup/walk_header.hpp"
 #include "shading/bell.hpp"
 
 namespace halfway::figures {
 namespace {
 
-using golden::Published;
+using words::Published;
 using Words = std::vector<std::uint32_t>;
 using WordSpan = std::span<const std::uint32_t>;
 
@@ -120,7 +121,7 @@ class Cutter {
     for (int c = 0; c < static_cast<int>(key_.channels); ++c)
       init.put(Published::ambient_channel_at::ambient,
                static_cast<std::int64_t>(
-                   golden::get_bits(header, Published::ambient_channel_at::ambient, layout_.ambient_low(c))),
+                   words::get_bits(header, Published::ambient_channel_at::ambient, layout_.ambient_low(c))),
                layout_.ambient_low(c));
   }
 
@@ -129,11 +130,10 @@ class Cutter {
     const std::size_t begin = out.size();
     out.insert(out.end(), record.begin(), record.end());
     const auto words = std::span(out).subspan(begin);
-    const golden::SphericalConfig config = golden_config(key_);
-    const auto advance = [&](const golden::Field& angle, const golden::Field& slope, int low) {
-      golden::set_bits(words, angle,
-                       golden::get_bits(record, angle, low) + from * golden::get_bits(record, slope, low),
-                       low);
+    const words::SphericalConfig config = golden_config(key_);
+    const auto advance = [&](const words::Field& angle, const words::Field& slope, int low) {
+      words::set_bits(words, angle,
+                      words::get_bits(record, angle, low) + from * words::get_bits(record, slope, low), low);
     };
     for (int light = 0; light < config.lights; ++light) {
       using Diffuse = Published::diffuse_header_at;
@@ -144,14 +144,14 @@ class Cutter {
       advance(Specular::angle, Specular::slope, low);
       if ((inside >> light & 1U) != 0) continue;
       for (int c = 0; c < config.highlight_channels; ++c)
-        golden::set_bits(words, Published::specular_channel_at::factor, 0,
-                         low + Published::c_specular_header_bits + c * Published::c_specular_channel_bits);
+        words::set_bits(words, Published::specular_channel_at::factor, 0,
+                        low + Published::c_specular_header_bits + c * Published::c_specular_channel_bits);
     }
   }
 
   const Scene& scene_;
   const HardwareKey& key_;
-  golden::SphericalLayout<Published> layout_;
+  words::SphericalLayout<Published> layout_;
   const SphericalSetup& setup_;
   std::size_t words_;  // per vector
 };

@@ -5,7 +5,7 @@
 // bell ends.
 #pragma once
 
-#include "sim/figures/pictures.hpp"
+#include "sim/figures/figure_pictures.hpp"
 
 namespace halfway::figures {
 

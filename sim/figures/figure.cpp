@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "sim/pages/template.hpp"
+#include "sim/files/template.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -179,7 +179,7 @@ std::string to_page(std::span<const Entry> entries, const std::filesystem::path&
   const auto count = [&](Verdict verdict) { return counts[to_string(verdict)]; };
   const std::int64_t agreeing = count(Verdict::agrees), differing = count(Verdict::differs),
                      constructed = count(Verdict::by_construction);
-  return must(filled_template(source / "sim/figures/page.md.mustache",
+  return must(filled_template(source / "sim/figures/figures.md.mustache",
                               {{"rows_in_all", agreeing + differing + constructed},
                                {"agreeing", agreeing},
                                {"differing", differing},

@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/system/must.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::figures {
 

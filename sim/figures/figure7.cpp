@@ -8,14 +8,14 @@
 #include <sstream>
 #include <string_view>
 
-#include "golden/word.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 #include "sim/run/stage_trace.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "words/word.hpp"
 
 namespace halfway::figures {
 
-using golden::Published;
+using words::Published;
 
 const HardwareKey& figure7_key() {
   static const HardwareKey c_key{.preset = Preset::published, .channels = 1};
@@ -61,15 +61,15 @@ std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure
   using ChannelAt = Published::init_channel_at;
   constexpr std::uint64_t c_one = std::uint64_t{1} << Published::c_edge_x_fraction_bits;
   std::array<std::uint32_t, Figure7Shader::c_init_words> init{};
-  golden::set_bits(init, At::triangle, c_figure7_triangle);
-  golden::set_bits(init, At::y, c_figure7_y);
-  golden::set_bits(init, At::upper_lines, c_figure7_lines);
-  golden::set_bits(init, At::start_x, c_figure7_x * c_one);
-  golden::set_bits(init, At::start_slope, 0);
-  golden::set_bits(init, At::upper_x, c_figure7_x * c_one);
-  golden::set_bits(init, At::upper_slope, c_one);
-  const auto put = [&](const golden::Field& field, std::uint32_t word) {
-    golden::set_bits(init, field, word, Published::c_init_header_bits);
+  words::set_bits(init, At::triangle, c_figure7_triangle);
+  words::set_bits(init, At::y, c_figure7_y);
+  words::set_bits(init, At::upper_lines, c_figure7_lines);
+  words::set_bits(init, At::start_x, c_figure7_x * c_one);
+  words::set_bits(init, At::start_slope, 0);
+  words::set_bits(init, At::upper_x, c_figure7_x * c_one);
+  words::set_bits(init, At::upper_slope, c_one);
+  const auto put = [&](const words::Field& field, std::uint32_t word) {
+    words::set_bits(init, field, word, Published::c_init_header_bits);
   };
   put(ChannelAt::value, figure.line.at("I_start").at(0));
   put(ChannelAt::dx, figure.line.at("dI(X_start)").at(0));

@@ -11,14 +11,14 @@
 
 #include "golden/quadratic_shader.hpp"
 #include "plan/hardware_key.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::figures {
 
 /// Values of a register in time order.
 using TraceWords = std::vector<std::uint32_t>;
 
-/// Contents of tb/published/figure7.txt, by register names.
+/// Contents of tb/specification/paper/figure7.txt, by register names.
 struct Figure7 {
   std::map<std::string, std::uint32_t> step;
   std::map<std::string, TraceWords> line, pixel;
@@ -41,7 +41,7 @@ inline constexpr std::uint32_t c_figure7_triangle = 7, c_figure7_x = 20, c_figur
 
 /// The hardware and its golden model.
 const HardwareKey& figure7_key();
-using Figure7Shader = golden::QuadraticShader<golden::Published, 1>;
+using Figure7Shader = golden::QuadraticShader<words::Published, 1>;
 
 /// Edges with slopes of 0 and 1 pixel per line, so that line k has k pixels.
 std::array<std::uint32_t, Figure7Shader::c_init_words> figure7_init(const Figure7& figure);

@@ -14,13 +14,13 @@
 #include "common/test/is_error.hpp"
 #include "sim/figures/cut_lines.hpp"
 #include "sim/figures/figure7.hpp"
-#include "sim/figures/pictures.hpp"
-#include "sim/figures/plot.hpp"
+#include "sim/figures/figure_pictures.hpp"
+#include "sim/figures/figure_plot.hpp"
+#include "sim/figures/interpolator_timing.hpp"
 #include "sim/figures/six_point_fit.hpp"
-#include "sim/figures/timing_diagram.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/source_folder.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -158,7 +158,7 @@ TEST(Figures, HaveAllFiguresAndClaims) {
 
 // The claims print the words of the trace, restored ones in brackets.
 TEST(Figures, Figure7PublishesTheWordsOfTheTrace) {
-  const auto trace = read_figure7(c_source_folder / "tb/published/figure7.txt");
+  const auto trace = read_figure7(c_source_folder / "tb/specification/paper/figure7.txt");
   int registers = 0;
   for (const Figure& figure : all_figures(c_source_folder))
     for (const Claim& claim : figure.claims) {

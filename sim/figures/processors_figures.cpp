@@ -16,10 +16,10 @@
 #include "scene/builtin_meshes.hpp"
 #include "shading/shade.hpp"
 #include "sim/figures/figure.hpp"
-#include "sim/figures/pictures.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/stream_files/table4.hpp"
-#include "sim/system/file.hpp"
+#include "sim/figures/figure_pictures.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/files/table4.hpp"
+#include "sim/os/file.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -129,7 +129,7 @@ void draw_table_3(const Context& context, Drawing& out) {
 
 struct Table4Row {
   const char* what;
-  const char* run;  // name in tb/illumination/table4_tb.vhd
+  const char* run;  // name in tb/rtl/illumination/table4_tb.vhd
 };
 constexpr std::array<Table4Row, 8> c_table_4 = {
     {{"ambient, version I", "ambient, version I"},
@@ -146,7 +146,7 @@ std::map<std::string, int> clocks_in_ghdl(const Context& context) {
   const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
   vectors::write_table4(scratch.path());
   std::vector<VhdlSource> sources = must(read_rtl_sources(context.folders.source));
-  for (const char* name : {"tb/tb_pkg.vhd", "tb/illumination/table4_tb.vhd"})
+  for (const char* name : {"tb/rtl/tb_pkg.vhd", "tb/rtl/illumination/table4_tb.vhd"})
     sources.push_back(must(read_vhdl_source(context.folders.source, name)));
   const std::string output = must(run_testbench(
       "table4_tb", sources, {"-gg_folder=" + std::filesystem::absolute(scratch.path()).string()},

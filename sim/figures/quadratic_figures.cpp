@@ -13,12 +13,12 @@
 #include "scene/builtin_meshes.hpp"
 #include "sim/figures/figure.hpp"
 #include "sim/figures/figure7.hpp"
-#include "sim/figures/pictures.hpp"
-#include "sim/figures/plot.hpp"
+#include "sim/figures/figure_pictures.hpp"
+#include "sim/figures/figure_plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/figures/software_shading.hpp"
-#include "sim/pages/timing_diagram.hpp"
-#include "sim/scene_files/load_scene.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/files/timing_diagram.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -71,7 +71,7 @@ Measured compared_words(const Figure7& figure, const std::string& name, std::spa
 }
 
 void draw_figure_7(const Context& context, Drawing& out) {
-  const Figure7 figure = read_figure7(context.folders.source / "tb" / "published" / "figure7.txt");
+  const Figure7 figure = read_figure7(context.folders.source / "tb/specification/paper/figure7.txt");
   const Figure7Trace golden = golden_figure7(figure);
   for (const auto& [name, shown] : c_line_registers)
     out.measured[shown] = compared_words(figure, name, golden.line.at(name));
@@ -236,7 +236,7 @@ void draw_times(const Context& context, Drawing& out) {
   golden::LineInterpolator<32> value, difference;
   const double second = 0.499 * std::ldexp(1.0, -c_rule_bits);
   const auto word = [](double v) {
-    return golden::Word<32>::from_bits(
+    return words::Word<32>::from_bits(
         std::uint64_t(to_integer<std::int64_t>(std::round(std::ldexp(v, c_rule_bits)))));
   };
   value.load(word(0.0));

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "setup/edge.hpp"
-#include "setup/project.hpp"
+#include "projection/edge.hpp"
+#include "projection/project.hpp"
 #include "shading/shade.hpp"
 #include "sim/figures/six_point_fit.hpp"
-#include "sim/system/seconds.hpp"
+#include "sim/os/seconds.hpp"
 
 namespace halfway::figures {
 namespace {

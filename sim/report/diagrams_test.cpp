@@ -8,8 +8,8 @@
 #include <set>
 
 #include "plan/hardware_key.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway::report {
 namespace {

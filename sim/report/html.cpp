@@ -15,9 +15,9 @@
 #include <sstream>
 #include <vector>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway::report {
 namespace {

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::report {
 namespace {

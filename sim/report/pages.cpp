@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sections with the pages that other commands write.
+#include "sim/os/file.hpp"
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
-#include "sim/system/file.hpp"
 
 namespace halfway::report {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "sim/pages/template.hpp"
+#include "sim/files/template.hpp"
+#include "sim/os/file.hpp"
 #include "sim/report/html.hpp"
 #include "sim/report/section.hpp"
-#include "sim/system/file.hpp"
 
 namespace halfway::report {
 
@@ -20,12 +20,12 @@ Report write_report(const ReportSettings& settings) {
   if (const auto folder = settings.page.parent_path(); !folder.empty()) must(make_folders(folder));
   const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   Page page{settings, {}, Json::object(), Json::object(), scratch.path()};
-  for (const auto& [file, name] : {std::pair{"page.css", "style"}, std::pair{"page.js", "script"}})
+  for (const auto& [file, name] : {std::pair{"report.css", "style"}, std::pair{"report.js", "script"}})
     page.view[name] = must(read_file(here / file));
   for (const auto add : {add_frames, add_study, add_figures, add_hardware, add_pages}) add(page);
   page.view["commit"] = commit_of(settings.folders.source);
   page.view["data"] = script_safe(page.data.dump());
-  const auto text = must(filled_template(here / "page.html.mustache", page.view, Escape::html));
+  const auto text = must(filled_template(here / "report.html.mustache", page.view, Escape::html));
   must(write_file(settings.page, text));
   page.report.bytes = text.size();
   return page.report;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::report {
 

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::report {
 namespace {
@@ -135,7 +135,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
   EXPECT_THAT(part("id=\"study/of\"", "</p>"),
               AllOf(HasSubstr("<strong>ball</strong>"), HasSubstr("<code>77</code>"),
                     HasSubstr("7 points, of no space"), HasSubstr("GHDL 9, Verilator 8")));
-  const std::string other = "The study is of the scene ball, not of sim/studies/sphere.toml";
+  const std::string other = "The study is of the scene ball, not of sim/study/spaces/sphere.toml";
   EXPECT_THAT(page(), HasSubstr(other));
   EXPECT_THAT(outcome.output, HasSubstr(other));
   // A point's panel gives the reason for a missing clock.
@@ -150,7 +150,7 @@ TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
   put("study/study.csv", front);
   const Outcome outcome = report();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(page(), HasSubstr("points of <code>sim/studies/small.toml</code>, in a table of 20"));
+  EXPECT_THAT(page(), HasSubstr("points of <code>sim/study/spaces/small.toml</code>, in a table of 20"));
   EXPECT_THAT(outcome.output, Not(HasSubstr("The study is of the scene")));
 }
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "sim/os/must.hpp"
 #include "sim/report/report.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway::report {
 
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 struct Page {
   const ReportSettings& settings;
   Report report;
-  Json view;                      ///< values for page.html.mustache, by section
+  Json view;                      ///< values for report.html.mustache, by section
   Json data;                      ///< data for the page's script
   std::filesystem::path scratch;  ///< a folder for intermediate files
 

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <string>
 
-#include "sim/system/csv.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/os/csv.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway::report {
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <numeric>
 
-#include "sim/report/front.hpp"
-#include "sim/report/plot.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/report/front_plot.hpp"
+#include "sim/report/linked_plot.hpp"
 #include "sim/study/front.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway::report {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/system/csv.hpp"
+#include "sim/os/csv.hpp"
 
 namespace halfway::report {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

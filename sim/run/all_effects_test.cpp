@@ -16,11 +16,11 @@
 #include "plan/plan.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "setup/setup.hpp"
-#include "setup/test/random_solids.hpp"
-#include "sim/compare/limits.hpp"
+#include "shading/test/random_solids.hpp"
+#include "sim/driver/limits.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
+#include "sim/os/must.hpp"
 #include "sim/run/scene_stream.hpp"
-#include "sim/system/must.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/run/open_engine.hpp"
 
-#include "sim/compare/limits.hpp"
-#include "sim/lanes/lane_simulator.hpp"
-#include "sim/run/ghdl_engine.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
+#include "sim/driver/limits.hpp"
+#include "sim/engines/ghdl/ghdl_engine.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
+#include "sim/extras/lanes/lane_simulator.hpp"
 
 namespace halfway {
 

@@ -9,9 +9,9 @@
 
 #include "common/result.hpp"
 #include "plan/hardware_key.hpp"
-#include "sim/engine/engine.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/lanes/lane_library.hpp"
+#include "sim/driver/engine.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/extras/lanes/lane_library.hpp"
 
 namespace halfway {
 

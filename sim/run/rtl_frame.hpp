@@ -14,12 +14,12 @@
 #include "common/result.hpp"
 #include "golden_run/golden_run.hpp"
 #include "scene/scene.hpp"
-#include "sim/compare/hardware_frame.hpp"
-#include "sim/compare/stream_comparator.hpp"
-#include "sim/engine/engine.hpp"
+#include "sim/driver/engine.hpp"
+#include "sim/driver/hardware_frame.hpp"
+#include "sim/driver/stream_comparator.hpp"
+#include "sim/files/trace.hpp"
+#include "sim/os/seconds.hpp"
 #include "sim/run/scene_stream.hpp"
-#include "sim/stream_files/trace.hpp"
-#include "sim/system/seconds.hpp"
 
 namespace halfway {
 

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "plan/plan.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

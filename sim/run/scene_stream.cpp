@@ -9,9 +9,9 @@
 #include <span>
 
 #include "golden_run/golden_run.hpp"
-#include "sim/formats/made_formats.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/threads.hpp"
+#include "sim/generator/word_lengths/made_formats.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway {
 namespace {

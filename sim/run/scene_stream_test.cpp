@@ -9,9 +9,9 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "setup/check_counts.hpp"
-#include "setup/test/random_solids.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
+#include "shading/test/random_solids.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

@@ -16,18 +16,18 @@
 #include "setup/check_counts.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
-#include "sim/pictures/image.hpp"
+#include "sim/files/image.hpp"
+#include "sim/files/init_file.hpp"
+#include "sim/files/trace.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/folder_lock.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/waveform.hpp"
-#include "sim/stream_files/init_file.hpp"
-#include "sim/stream_files/trace.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/folder_lock.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/threads.hpp"
-#include "tables/cosine.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway {
 namespace {
@@ -190,7 +190,7 @@ class Simulation {
     note(fmt::format(
         "{} factors exceed {:.0f} times white and were clamped to it: whole lines are too dark, not only "
         "pixels above white",
-        clamped, (exact ? c_largest_factor<golden::Exact> : c_largest_factor<golden::Published>) / 255.0));
+        clamped, (exact ? c_largest_factor<words::Exact> : c_largest_factor<words::Published>) / 255.0));
   }
 
   ReferenceImage draw_reference() const {

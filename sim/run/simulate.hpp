@@ -13,9 +13,9 @@
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
-#include "sim/engine/engine.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/ghdl/hardware_units.hpp"
+#include "sim/driver/engine.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/hardware_units.hpp"
 #include "sim/run/result_files.hpp"
 #include "sim/run/rtl_frame.hpp"
 

@@ -5,11 +5,11 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/compare/limits.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/ghdl/vcd.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/driver/limits.hpp"
+#include "sim/engines/ghdl/ghdl_runner.hpp"
+#include "sim/engines/ghdl/vcd.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -21,7 +21,7 @@ std::string in_testbench(const std::string& path) {
   return "frame_tb/dut/" + path;
 }
 
-// A trace of tb/frame_tb.vhd. GHDL writes values in full.
+// A trace of tb/rtl/frame_tb.vhd. GHDL writes values in full.
 class VcdTrace final : public SignalTrace {
  public:
   explicit VcdTrace(SampledSignals sampled) : sampled_(std::move(sampled)) {}

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "plan/hardware_key.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/stages/stages.hpp"
-#include "sim/stream_files/init_file.hpp"
+#include "sim/driver/stages.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/files/init_file.hpp"
 
 namespace halfway {
 

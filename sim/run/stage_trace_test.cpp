@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "plan/plan.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
 #include "sim/run/scene_stream.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {

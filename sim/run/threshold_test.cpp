@@ -8,11 +8,11 @@
 #include "frame/assemble.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
+#include "projection/project.hpp"
 #include "reference/renderer.hpp"
-#include "setup/project.hpp"
 #include "setup/setup.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

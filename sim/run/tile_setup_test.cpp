@@ -13,11 +13,11 @@
 
 #include "frame/assemble.hpp"
 #include "plan/plan.hpp"
-#include "setup/test/random_solids.hpp"
+#include "shading/test/random_solids.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
 #include "sim/run/scene_stream.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/source_folder.hpp"
 
 namespace halfway {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <memory>
 
-#include "sim/formats/made_formats.hpp"
+#include "sim/generator/word_lengths/made_formats.hpp"
+#include "sim/os/must.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/tile_setup.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway {
 

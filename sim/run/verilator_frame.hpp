@@ -11,7 +11,7 @@
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

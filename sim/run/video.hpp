@@ -6,9 +6,9 @@
 #include <future>
 
 #include "frame/frame.hpp"
-#include "sim/system/descriptor.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/os/descriptor.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway {
 

@@ -13,17 +13,17 @@
 #include <optional>
 #include <span>
 
+#include "projection/project.hpp"
 #include "reference/renderer.hpp"
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
-#include "setup/project.hpp"
 #include "setup/spherical_setup.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {

@@ -12,8 +12,8 @@
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
-#include "sim/engine/engine.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/driver/engine.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/run/rtl_frame.hpp"
 
 namespace halfway {

@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "golden_run/golden_run.hpp"
-#include "sim/compare/limits.hpp"
-#include "sim/ghdl/ghdl_runner.hpp"
-#include "sim/stages/vectors_around.hpp"
-#include "sim/stream_files/init_file.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/verilator/verilator_simulator.hpp"
+#include "sim/driver/limits.hpp"
+#include "sim/driver/vectors_around.hpp"
+#include "sim/engines/ghdl/ghdl_runner.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
+#include "sim/files/init_file.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {

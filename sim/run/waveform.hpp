@@ -8,7 +8,7 @@
 #include <string>
 
 #include "plan/hardware_key.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/run/result_files.hpp"
 
 namespace halfway {

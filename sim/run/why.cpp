@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "plan/plan.hpp"
+#include "sim/os/must.hpp"
 #include "sim/run/open_engine.hpp"
 #include "sim/run/rtl_frame.hpp"
 #include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/run/stage_trace.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway {
 namespace {

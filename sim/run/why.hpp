@@ -14,9 +14,9 @@
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
-#include "sim/compare/stream_comparator.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/stages/pixel_way.hpp"
+#include "sim/driver/pixel_way.hpp"
+#include "sim/driver/stream_comparator.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 

@@ -11,11 +11,11 @@
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
-#include "golden/formats.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/toml_file.hpp"
-#include "tables/cosine.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/toml_file.hpp"
+#include "words/formats.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway::study {
 namespace {
@@ -165,15 +165,15 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   };
   length(
       "angle_bits", tables::c_angle_range, [](Method m) { return m == Method::spherical; },
-      &tables::WordLengths::angle_bits, golden::Exact::c_angle_fraction_bits,
-      golden::Published::c_angle_fraction_bits);
+      &tables::WordLengths::angle_bits, words::Exact::c_angle_fraction_bits,
+      words::Published::c_angle_fraction_bits);
   length(
       "fraction_bits", tables::c_fraction_range,
       [](Method m) { return m == Method::planes || m == Method::quadratic || m == Method::adaptive; },
-      &tables::WordLengths::fraction_bits, golden::Exact::c_intensity_fraction_bits,
-      golden::Published::c_intensity_fraction_bits);
+      &tables::WordLengths::fraction_bits, words::Exact::c_intensity_fraction_bits,
+      words::Published::c_intensity_fraction_bits);
   length("seed_bits", tables::c_seed_range, is_processors, &tables::WordLengths::seed_bits,
-         golden::Exact::c_root_entry_fraction_bits, golden::Published::c_root_entry_fraction_bits);
+         words::Exact::c_root_entry_fraction_bits, words::Published::c_root_entry_fraction_bits);
   multiply("newton", [&](DesignPoint& p, const toml::node& node) {
     const auto newton = node.value_exact<bool>();
     if (!newton) sweep.fail("newton", "takes true or false");

@@ -12,7 +12,7 @@
 #include "frame/tile.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
-#include "tables/word_lengths.hpp"
+#include "words/generator/word_lengths.hpp"
 
 namespace halfway::study {
 
@@ -89,7 +89,7 @@ std::vector<DesignPoint> ordered(std::vector<DesignPoint> points);
 inline constexpr std::uint32_t c_least_tile = 16;
 
 /// Read the points of a space: all sweeps, each the product of its lists, without duplicates. A space is a
-/// TOML file, see sim/studies/README.md. Throws Failure with file and line.
+/// TOML file, see sim/study/spaces/README.md. Throws Failure with file and line.
 std::vector<DesignPoint> read_space(const std::filesystem::path& path);
 
 }  // namespace halfway::study

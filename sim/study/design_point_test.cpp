@@ -7,8 +7,8 @@
 
 #include <set>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -100,7 +100,7 @@ TEST_F(SpaceTest, VariesTestsAndEndsOfTheMethodsThatHaveThem) {
 // The space for queries varies the tables' lengths. The full space varies every parameter of the other
 // spaces, including all word lengths.
 TEST(Spaces, VaryTheExpectedParameters) {
-  const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/studies";
+  const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/study/spaces";
   const auto designs_of = [&](const char* file) {
     const auto points = read_space(studies / file);
     std::set<std::string> designs;

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "sim/os/csv.hpp"
 #include "sim/study/front.hpp"
-#include "sim/system/csv.hpp"
 
 namespace halfway::study {
 namespace {

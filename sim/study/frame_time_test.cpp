@@ -4,12 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/scene_files/load_scene.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/csv.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/pictures.hpp"
-#include "sim/system/csv.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -141,7 +141,7 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
 TEST(HostTimes, AreMeasuredForHardwareAndSoftware) {
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const SimulatorFolders folders{source, source / "build/cache"};
-  const std::string name = source / "sim/studies/sphere.toml";
+  const std::string name = source / "sim/study/spaces/sphere.toml";
   const auto time_of = [&](const DesignPoint& point) { return host_time(point, name, folders); };
   const HostTime coarse = time_of({.method = Method::quadratic, .tessellation = 0.5});
   const HostTime fine = time_of({.method = Method::quadratic, .tessellation = 3});

@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "plan/own_bells.hpp"
-#include "sim/formats/made_tables.hpp"
+#include "sim/cost/netlist_identity.hpp"
+#include "sim/engines/verilator/shader_netlist.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/study/pictures.hpp"
-#include "sim/synth/netlist_identity.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
-#include "sim/system/threads.hpp"
-#include "sim/verilator/shader_netlist.hpp"
 
 namespace halfway::study {
 

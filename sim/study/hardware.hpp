@@ -14,14 +14,14 @@
 
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
-#include "sim/costs/cells.hpp"
-#include "sim/formats/made_formats.hpp"
-#include "sim/formats/made_tables.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/cost/cells.hpp"
+#include "sim/cost/clock_store.hpp"
+#include "sim/cost/synthesis.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/generator/word_lengths/made_formats.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/record.hpp"
-#include "sim/synth/clock_store.hpp"
-#include "sim/synth/synthesis.hpp"
 
 namespace halfway::study {
 

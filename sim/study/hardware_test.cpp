@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "sim/cost/clock_store.hpp"
+#include "sim/cost/netlist_identity.hpp"
+#include "sim/engines/verilator/netlist.hpp"
+#include "sim/os/test/source_folder.hpp"
+#include "sim/os/test/test_files.hpp"
 #include "sim/study/pictures.hpp"
 #include "sim/study/study.hpp"
-#include "sim/synth/clock_store.hpp"
-#include "sim/synth/netlist_identity.hpp"
-#include "sim/system/test/source_folder.hpp"
-#include "sim/system/test/test_files.hpp"
-#include "sim/verilator/netlist.hpp"
 
 namespace halfway::study {
 namespace {
@@ -104,7 +104,7 @@ class HardwareFiguresTest : public ::testing::Test {
   }
 
   const std::string path_ = std::getenv("PATH");
-  const std::string scene_ = c_source_folder / "sim/studies/sphere.toml";
+  const std::string scene_ = c_source_folder / "sim/study/spaces/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
   const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
   SimulatorFolders folders_;
@@ -190,10 +190,10 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 
 // The stored clocks must be of the netlists of the current RTL.
 TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
-  const auto points = read_space(c_source_folder / "sim/studies/small.toml");
+  const auto points = read_space(c_source_folder / "sim/study/spaces/small.toml");
   std::size_t clocks = 0;
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
-  const std::string scene = c_source_folder / "sim/studies/sphere.toml";
+  const std::string scene = c_source_folder / "sim/study/spaces/sphere.toml";
   for (const HardwareSource& source : hardware_of_space(scene, points, folders)) {
     if (source.hardware.key.shader == Shader::processors) continue;
     const auto figures = stored_figures(source, folders);

@@ -21,15 +21,15 @@
 #include <sstream>
 #include <string_view>
 
+#include "projection/project.hpp"
 #include "reference/renderer.hpp"
-#include "setup/project.hpp"
 #include "setup/spherical_setup.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/sanitizers.hpp"
+#include "sim/os/subprocess.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/pictures.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/sanitizers.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::study {
 namespace {

@@ -12,8 +12,8 @@
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
-#include "sim/formats/made_formats.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/generator/word_lengths/made_formats.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/measure.hpp"
 

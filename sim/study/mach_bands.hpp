@@ -6,8 +6,8 @@
 #include <span>
 
 #include "frame/frame.hpp"
+#include "projection/screen_triangle.hpp"
 #include "scene/scene.hpp"
-#include "setup/screen_triangle.hpp"
 
 namespace halfway::study {
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "setup/project.hpp"
+#include "projection/project.hpp"
 
 namespace halfway::study {
 namespace {

@@ -5,10 +5,10 @@
 #include <array>
 #include <utility>
 
-#include "sim/pictures/flip.hpp"
+#include "sim/files/flip.hpp"
+#include "sim/os/must.hpp"
 #include "sim/run/verilator_frame.hpp"
 #include "sim/study/hardware.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "setup/project.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/must.hpp"
+#include "projection/project.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::study {
 namespace {

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "projection/screen_triangle.hpp"
 #include "reference/renderer.hpp"
 #include "scene/scene.hpp"
-#include "setup/screen_triangle.hpp"
 #include "sim/study/design_point.hpp"
 
 namespace halfway::study {

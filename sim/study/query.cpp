@@ -12,7 +12,7 @@
 #include <set>
 #include <utility>
 
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::study {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "common/test/is_error.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::study {
 namespace {

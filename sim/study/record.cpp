@@ -12,16 +12,16 @@
 #include <vector>
 
 #include "scene/lights.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/mesa/mesa_picture.hpp"
-#include "sim/pictures/image.hpp"
-#include "sim/pictures/image_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/engines/mesa/mesa_picture.hpp"
+#include "sim/files/image.hpp"
+#include "sim/files/image_library.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/shared_library.hpp"
+#include "sim/os/subprocess.hpp"
 #include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/shared_library.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::study {
 namespace {

@@ -15,17 +15,17 @@
 #include <vector>
 
 #include "scene/lights.hpp"
-#include "sim/pictures/image_library.hpp"
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/source_folder.hpp"
+#include "sim/files/image_library.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
 
 Scene scene_of_everything() {
-  auto scene = must(load_scene((c_source_folder / "sim/studies/sphere.toml").string(),
+  auto scene = must(load_scene((c_source_folder / "sim/study/spaces/sphere.toml").string(),
                                c_source_folder / "sim/scenes", {.tessellation = 0.25}));
   scene.positional.resize(2);
   scene.spots.resize(2);

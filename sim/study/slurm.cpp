@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway::study {
 namespace {

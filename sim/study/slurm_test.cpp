@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests of a job array's script, and of the array run by a shell instead of Slurm. tb/slurm runs it in a real
-// Slurm.
+// Tests of a job array's script, and of the array run by a shell instead of Slurm. tb/project/slurm runs it
+// in a real Slurm.
 #include "sim/study/slurm.hpp"
 
 #include <gmock/gmock.h>
@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <string>
 
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
 #include "sim/study/stand_in_slurm_test.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
 
 namespace halfway::study {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "sim/system/test/test_files.hpp"
+#include "sim/os/test/test_files.hpp"
 
 namespace halfway::study {
 

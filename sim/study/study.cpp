@@ -9,17 +9,17 @@
 #include <set>
 #include <span>
 
-#include "sim/scene_files/load_scene.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/measure.hpp"
 #include "sim/study/pictures.hpp"
 #include "sim/study/pieces.hpp"
 #include "sim/study/tile_record.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
-#include "sim/system/threads.hpp"
 
 namespace halfway::study {
 namespace {

@@ -11,16 +11,16 @@
 #include <utility>
 
 #include "common/test/is_error.hpp"
-#include "sim/formats/made_tables.hpp"
-#include "sim/pictures/image.hpp"
+#include "sim/files/image.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/sanitizers.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/os/test/source_folder.hpp"
 #include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/table.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/sanitizers.hpp"
-#include "sim/system/subprocess.hpp"
-#include "sim/system/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
@@ -36,7 +36,7 @@ std::string table_of(const Study& study) {
 class StudyTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    settings_.scene = c_source_folder / "sim/studies/sphere.toml";
+    settings_.scene = c_source_folder / "sim/study/spaces/sphere.toml";
     settings_.out = folder_.path();
     settings_.threads = 2;
     settings_.folders = {c_source_folder, c_source_folder / "build" / "cache"};

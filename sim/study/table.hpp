@@ -11,8 +11,8 @@
 
 namespace halfway::study {
 
-/// A header line with the names of the columns, then one line per point. sim/studies/README.md describes the
-/// columns. Unknown values are empty. The column for the Pareto front is computed from `markets`.
+/// A header line with the names of the columns, then one line per point. sim/study/spaces/README.md describes
+/// the columns. Unknown values are empty. The column for the Pareto front is computed from `markets`.
 std::string to_csv(const Provenance& provenance, std::span<const Record> records,
                    const HardwareTable& hardware, std::span<const Market> markets);
 

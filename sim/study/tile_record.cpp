@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "sim/pictures/image.hpp"
+#include "sim/files/image.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 #include "sim/study/figures.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
 
 namespace halfway::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::mutants {
 namespace {
@@ -21,7 +21,7 @@ std::vector<std::string> words_of(const toml::table& table, const char* name) {
   return {std::istream_iterator<std::string>(words), {}};
 }
 
-// The columns that the section of an entity in tb/rows.toml names.
+// The columns that the section of an entity in tb/vectors/rows.toml names.
 void take_rows(const toml::table& folders, Design& design) {
   for (const auto& [folder, entities] : folders) {
     const toml::table* section = (*entities.as_table())[design.entity].as_table();
@@ -48,7 +48,7 @@ std::vector<Without> read_without(const std::filesystem::path& file) {
 std::vector<Design> read_designs(const std::filesystem::path& source) {
   std::vector<Design> designs;
   const toml::table all = read_toml(source / "tb/mutants/designs.toml");
-  const toml::table testbenches = read_toml(source / "tb/rows.toml");
+  const toml::table testbenches = read_toml(source / "tb/vectors/rows.toml");
   for (const toml::node& node : *all["entity"].as_array()) {
     const toml::table& entity = *node.as_table();
     Design common;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/system/toml_file.hpp"
+#include "sim/os/toml_file.hpp"
 
 namespace halfway::mutants {
 

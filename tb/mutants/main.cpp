@@ -12,16 +12,16 @@
 #include <optional>
 #include <set>
 
+#include "evidence/measured.hpp"
 #include "mutants/design.hpp"
 #include "mutants/netlist_faults.hpp"
 #include "mutants/replay.hpp"
 #include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
-#include "page/measured.hpp"
-#include "sim/program/program.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/threads.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/program.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway::mutants {
 namespace {

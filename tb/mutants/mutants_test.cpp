@@ -13,8 +13,8 @@
 #include "mutants/netlist_faults.hpp"
 #include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::mutants {
 namespace {

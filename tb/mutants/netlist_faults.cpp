@@ -8,11 +8,11 @@
 #include <regex>
 #include <sstream>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
-#include "sim/verilator/netlist.hpp"
-#include "sim/verilator/verilated_library.hpp"
+#include "sim/engines/verilator/netlist.hpp"
+#include "sim/engines/verilator/verilated_library.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway::mutants {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "mutants/design.hpp"
 #include "mutants/replay.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::mutants {
 

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <string_view>
 
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::mutants {
 namespace {
@@ -87,7 +87,7 @@ Word packed(const Word& padded, unsigned words, std::uint32_t bits) {
   return word;
 }
 
-/// xorshift32 (Marsaglia 2003), as in tb/tb_pkg.vhd.
+/// xorshift32 (Marsaglia 2003), as in tb/rtl/tb_pkg.vhd.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : state_(seed) {}

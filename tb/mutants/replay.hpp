@@ -11,7 +11,7 @@
 
 #include "mutants/design.hpp"
 #include "mutants/model_harness.hpp"
-#include "sim/system/shared_library.hpp"
+#include "sim/os/shared_library.hpp"
 
 namespace halfway::mutants {
 
@@ -26,7 +26,7 @@ struct VectorFile {
 
 // Readers throw Failure.
 
-/// Reads a file in the format of sim/stream_files/vector_file.hpp. A column "name/3" joins three words.
+/// Reads a file in the format of sim/files/vector_file.hpp. A column "name/3" joins three words.
 VectorFile read_vectors(const std::filesystem::path& file, const std::string& columns, unsigned skip);
 
 /// The vector files of a design. They are read once for all faults.

@@ -9,8 +9,8 @@
 #include <map>
 #include <sstream>
 
-#include "sim/pages/template.hpp"
-#include "sim/system/file.hpp"
+#include "sim/files/template.hpp"
+#include "sim/os/file.hpp"
 
 namespace halfway::mutants {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "evidence/page.hpp"
+#include "evidence/thresholds.hpp"
 #include "mutants/design.hpp"
-#include "page/page.hpp"
-#include "page/thresholds.hpp"
 
 namespace halfway::mutants {
 

@@ -7,16 +7,16 @@
 #include <iterator>
 
 #include "mutants/design.hpp"
-#include "rows/rows.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
+#include "vectors/rows.hpp"
 
 namespace halfway::mutants {
 namespace {
 
-/// The testbench of the entity: a file of tb, or written from tb/rows.toml.
+/// The testbench of the entity: a file of tb, or written from tb/vectors/rows.toml.
 VhdlSource testbench_of(const std::string& entity, const std::filesystem::path& source) {
   const std::string name = entity + "_tb.vhd";
   for (const auto& file : must(files_below(source / "tb", ".vhd")))
@@ -24,7 +24,7 @@ VhdlSource testbench_of(const std::string& entity, const std::filesystem::path& 
       return must(read_vhdl_source(source, (std::filesystem::path("tb") / file).string()));
   const auto written = rows::testbenches(source);
   if (const auto found = written.find(entity); found != written.end())
-    return {"tb/rows/" + name, found->second};
+    return {"tb/vectors/" + name, found->second};
   throw Failure{bad_input(fmt::format("source_faults.toml: {}: there is no testbench of this name", entity))};
 }
 
@@ -76,9 +76,9 @@ TestEnd run_testbench(const SourceFault& fault, const std::filesystem::path& sou
   // Copy the sources that the testbench may need, the faulty one with its fault.
   std::vector<VhdlSource> sources = must(read_rtl_sources(source));
   sources.push_back(testbench_of(fault.test, source));
-  for (const char* name : {"tb/tb_pkg.vhd", "tb/tb_processors_pkg.vhd", "tb/tb_shaders_pkg.vhd",
-                           "tb/stream/stream_source.vhd", "tb/stream/stream_sink.vhd",
-                           "tb/shaders/shader_checker.vhd", "tb/illumination/processor_checker.vhd"})
+  for (const char* name : {"tb/rtl/tb_pkg.vhd", "tb/rtl/tb_processors_pkg.vhd", "tb/rtl/tb_shaders_pkg.vhd",
+                           "tb/rtl/stream/stream_source.vhd", "tb/rtl/stream/stream_sink.vhd",
+                           "tb/rtl/shaders/shader_checker.vhd", "tb/rtl/illumination/processor_checker.vhd"})
     sources.push_back(must(read_vhdl_source(source, name)));
   std::vector<std::string> import{"ghdl", "-i", "--std=08"};
   for (const VhdlSource& one : sources) {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 
-#include "golden/cosine_tables.hpp"
 #include "golden/function_rom.hpp"
+#include "words/cosine_tables.hpp"
 
 namespace halfway::proofs {
 namespace {
@@ -20,7 +20,7 @@ std::string value_of(const Generics& generics, std::string_view name) {
 }
 
 Result<GoldenTable> cosine_table(const Generics& generics) {
-  for (const golden::CosineTable& table : golden::c_cosine_tables)
+  for (const words::CosineTable& table : words::c_cosine_tables)
     if (value_of(generics, "g_exact") == (table.exact ? "true" : "false") &&
         value_of(generics, "g_power") == std::to_string(table.power) &&
         value_of(generics, "g_address_bits") == std::to_string(table.address_bits) &&
@@ -31,8 +31,8 @@ Result<GoldenTable> cosine_table(const Generics& generics) {
 
 // An entry is the slope, if the table has one, followed by the value.
 template <class Formats>
-GoldenTable entries_of(golden::Function function) {
-  const golden::FunctionTable& table = golden::function_table<Formats>(function);
+GoldenTable entries_of(words::Function function) {
+  const words::FunctionTable& table = golden::function_table<Formats>(function);
   GoldenTable result{{}, table.slope_bits + table.value_bits};
   for (std::uint32_t address = 0; address < 1U << table.address_bits; ++address) {
     const auto sample = golden::function_rom<Formats>(function, address);
@@ -45,9 +45,9 @@ Result<GoldenTable> function_table(const Generics& generics) {
   constexpr int c_functions = 3;
   for (int which = 0; which < c_functions; ++which) {
     if (value_of(generics, "g_which") != std::to_string(which)) continue;
-    const auto function = static_cast<golden::Function>(which);
-    if (value_of(generics, "g_exact") == "true") return entries_of<golden::Exact>(function);
-    if (value_of(generics, "g_exact") == "false") return entries_of<golden::Published>(function);
+    const auto function = static_cast<words::Function>(which);
+    if (value_of(generics, "g_exact") == "true") return entries_of<words::Exact>(function);
+    if (value_of(generics, "g_exact") == "false") return entries_of<words::Published>(function);
   }
   return bad_input("no function table of the golden model has these generics");
 }

@@ -13,13 +13,13 @@
 #include <string_view>
 #include <vector>
 
-#include "page/measured.hpp"
+#include "evidence/measured.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
-#include "sim/program/program.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/threads.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/program.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 #include "text.hpp"
 
 namespace halfway::proofs {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "prover.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
-#include "sim/system/test/source_folder.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/os/test/source_folder.hpp"
 
 namespace halfway::proofs {
 namespace {
@@ -25,7 +25,7 @@ class ProofProgram : public ::testing::Test {
     std::filesystem::create_directories(source() / "tb");
     constexpr auto c_all = std::filesystem::copy_options::recursive;
     std::filesystem::copy(c_source_folder / "rtl", source() / "rtl", c_all);
-    std::filesystem::copy(c_source_folder / "tb/proofs", source() / "tb/proofs", c_all);
+    std::filesystem::copy(c_source_folder / "tb/rtl", source() / "tb/rtl", c_all);
     std::filesystem::create_directories(source() / "docs/results");
     std::filesystem::copy(c_source_folder / "docs/results/proofs.md", page());
   }
@@ -42,9 +42,9 @@ class ProofProgram : public ::testing::Test {
 
   // Removes the units and descriptions of all other proofs.
   void keep_only(const std::set<std::string>& proofs) const {
-    for (const auto& file : must(files_below(source() / "tb/proofs")))
+    for (const auto& file : must(files_below(source() / "tb/rtl")))
       if (file.has_parent_path() && !proofs.contains(file.stem()))
-        std::filesystem::remove(source() / "tb/proofs" / file);
+        std::filesystem::remove(source() / "tb/rtl" / file);
   }
 
   void commit() const {
@@ -90,14 +90,14 @@ TEST_F(ProofProgram, EndsWithOneWhenAPropertyIsFalse) {
 }
 
 TEST_F(ProofProgram, EndsWithOneWhenAFaultIsNotRefuted) {
-  replace("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = value");
+  replace("tb/rtl/stream/parameter_register.psl", "value = ghost_word", "value = value");
   const Outcome outcome = run({}, "parameter_register");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("does NOT refute"));
 }
 
 TEST_F(ProofProgram, EndsWithThreeWhenAUnitDoesNotCompile) {
-  replace("tb/proofs/stream/parameter_register.psl", "value = ghost_word", "value = ghost_words");
+  replace("tb/rtl/stream/parameter_register.psl", "value = ghost_word", "value = ghost_words");
   EXPECT_EQ(run({"--no-faults"}, "parameter_register").exit_code, 3);
 }
 
@@ -120,7 +120,7 @@ TEST_F(ProofProgram, EndsWithTwoOnBadUsage) {
 }
 
 TEST_F(ProofProgram, EndsWithTwoWhenTheRtlHasNotTheTextOfAFault) {
-  replace("tb/proofs/stream/parameter_register.toml", "if load = '1' then", "if load = '2' then");
+  replace("tb/rtl/stream/parameter_register.toml", "if load = '1' then", "if load = '2' then");
   const Outcome outcome = run({}, "parameter_register");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("parameter_register.toml:11: `if load = '2' then` occurs 0 times"));

@@ -37,7 +37,7 @@ struct Format {
 struct Proof {
   std::string name{};      ///< of its description without `.toml`, and its number if there are several
   std::string entity;      ///< in rtl/, with its folder and without `.vhd`
-  std::string unit;        ///< in tb/proofs/: the PSL unit, or Gappa's text
+  std::string unit;        ///< in tb/rtl/: the PSL unit, or Gappa's text
   std::string property{};  ///< one sentence, for the page
   Method method = Method::induction;
   int clocks = 0;        ///< of induction and bounded proofs
@@ -47,7 +47,7 @@ struct Proof {
   std::vector<Format> formats{};         ///< narrower formats, where the solver needs them
   std::vector<Format> fault_formats{};   ///< the same, for faults
   bool any_products = false;             ///< products are arbitrary words
-  std::vector<std::string> contracts{};  ///< in tb/proofs/: architectures that replace those of the RTL and
+  std::vector<std::string> contracts{};  ///< in tb/rtl/: architectures that replace those of the RTL and
                                          ///< put out anything that their entity's contract allows
   std::vector<std::uint64_t> table{};    ///< entries of the golden model's table, for `$entries` in the unit
   int table_bits = 0;                    ///< of one entry

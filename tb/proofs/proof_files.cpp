@@ -12,14 +12,14 @@
 #include <string_view>
 
 #include "golden_table.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "tables/formats.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "words/generator/formats.hpp"
 
 namespace halfway::proofs {
 namespace {
 
-constexpr const char* c_folder = "tb/proofs";
+constexpr const char* c_folder = "tb/rtl";
 constexpr int c_fault_clocks = 10;  // unless the file says otherwise
 constexpr int c_most_clocks = 1000;
 constexpr std::array<std::string_view, 5> c_methods = {"induction", "bounded", "bounded_abc", "pdr", "gappa"};
@@ -47,7 +47,7 @@ bool is_format(std::string_view name) {
 // Reads one file. Throws Failure with file and line.
 class ProofFile {
  public:
-  // `name` is relative to tb/proofs.
+  // `name` is relative to tb/rtl.
   ProofFile(const std::filesystem::path& source, const std::filesystem::path& name)
       : source_(source), name_(name), file_((c_folder / name).string()) {}
 

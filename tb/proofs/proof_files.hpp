@@ -10,7 +10,7 @@
 
 namespace halfway::proofs {
 
-/// The proofs of every file below tb/proofs of the project at `source`, by path. An unknown key, a value of
+/// The proofs of every file below tb/rtl of the project at `source`, by path. An unknown key, a value of
 /// the wrong kind, a file without a unit and a unit that no file describes throw Failure.
 std::vector<Proof> read_proofs(const std::filesystem::path& source);
 

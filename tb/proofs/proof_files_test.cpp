@@ -6,10 +6,10 @@
 
 #include <string>
 
-#include "golden/cosine_tables.hpp"
 #include "prover.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "words/cosine_tables.hpp"
 
 namespace halfway::proofs {
 namespace {
@@ -35,7 +35,7 @@ class ProofFiles : public ::testing::Test {
  protected:
   ProofFiles() {
     write("rtl/raster/box.vhd", "");
-    write("tb/proofs/raster/box.psl", "");
+    write("tb/rtl/raster/box.psl", "");
   }
 
   void write(const std::string& name, const std::string& text) const {
@@ -43,7 +43,7 @@ class ProofFiles : public ::testing::Test {
   }
 
   std::vector<Proof> read(const std::string& toml) const {
-    write("tb/proofs/raster/box.toml", toml);
+    write("tb/rtl/raster/box.toml", toml);
     return read_proofs(folder_.path());
   }
 
@@ -56,7 +56,7 @@ class ProofFiles : public ::testing::Test {
 };
 
 TEST_F(ProofFiles, ReadsEveryKey) {
-  write("tb/proofs/raster/any.psl", "");
+  write("tb/rtl/raster/any.psl", "");
   const auto proofs = read(
       "entity = \"box\"\n[[proof]]\nproperty = \"It holds\"\nmethod = \"bounded\"\nclocks = 3\nfault_clocks "
       "= 5\n"
@@ -89,7 +89,7 @@ TEST_F(ProofFiles, ReadsEveryKey) {
   EXPECT_EQ(proof.faults[0].occurrences, 1);
   EXPECT_EQ(proof.faults[1].file, "x/y.vhd");
   EXPECT_EQ(proof.faults[1].occurrences, 2);
-  EXPECT_EQ(proof.faults[1].where, "tb/proofs/raster/box.toml:14");
+  EXPECT_EQ(proof.faults[1].where, "tb/rtl/raster/box.toml:14");
 }
 
 TEST_F(ProofFiles, TakesValuesOfTheFileUnlessAProofHasItsOwn) {
@@ -124,7 +124,7 @@ TEST_F(ProofFiles, NarrowsFormatsForFaultsAlone) {
 
 TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
   const std::string proof = c_proof;
-  const std::string file = "tb/proofs/raster/box.toml";
+  const std::string file = "tb/rtl/raster/box.toml";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"a = 1\nb = ]\n", file + ":2: bad TOML: "},
       {"depth = 3\n" + proof, file + ":1: unknown key 'depth'; the keys here are entity, "},
@@ -157,7 +157,7 @@ TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
       {proof + "formats = { depth = [1] }\n", file + ":8: depth must be two numbers: "},
       {proof + "formats = { depth = [1, 2] }\nfault_formats = { depth = [1, 2] }\n",
        file + ":9: formats hold with the faults, too; "},
-      {proof + "contracts = [\"raster/none.psl\"]\n", file + ":8: tb/proofs/raster/none.psl does not exist"},
+      {proof + "contracts = [\"raster/none.psl\"]\n", file + ":8: tb/rtl/raster/none.psl does not exist"},
       {proof + "golden_table = \"sine\"\n", file + ":8: golden_table: 'sine' is no ROM; "},
       {proof + "golden_table = \"cosine\"\n", file + ":8: golden_table: no cosine table "},
       {proof + "golden_table = \"function\"\n", file + ":8: golden_table: no function table "},
@@ -167,24 +167,24 @@ TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
 
 TEST_F(ProofFiles, RefusesAFileWithoutAUnitAndAUnitWithoutAFile) {
   EXPECT_EQ(error(c_proof), "no error");
-  write("tb/proofs/raster/lost.psl", "");
-  EXPECT_THAT(error(c_proof), StartsWith("tb/proofs/raster/lost.psl: no proof uses it; "));
+  write("tb/rtl/raster/lost.psl", "");
+  EXPECT_THAT(error(c_proof), StartsWith("tb/rtl/raster/lost.psl: no proof uses it; "));
   EXPECT_EQ(error(std::string(c_proof) + "contracts = [\"raster/lost.psl\"]\n"), "no error");
-  std::filesystem::rename(folder_.path() / "tb/proofs/raster/lost.psl",
-                          folder_.path() / "tb/proofs/raster/box.gappa");
+  std::filesystem::rename(folder_.path() / "tb/rtl/raster/lost.psl",
+                          folder_.path() / "tb/rtl/raster/box.gappa");
   EXPECT_THAT(error(c_proof), HasSubstr("box.toml: two units next to it; "));
-  std::filesystem::remove(folder_.path() / "tb/proofs/raster/box.gappa");
-  std::filesystem::remove(folder_.path() / "tb/proofs/raster/box.psl");
+  std::filesystem::remove(folder_.path() / "tb/rtl/raster/box.gappa");
+  std::filesystem::remove(folder_.path() / "tb/rtl/raster/box.psl");
   EXPECT_THAT(error(c_proof), HasSubstr("box.toml: no unit next to it; "));
 }
 
 TEST_F(ProofFiles, TakesTheUnitThatItNames) {
-  write("tb/proofs/raster/both.psl", "");
+  write("tb/rtl/raster/both.psl", "");
   EXPECT_THAT(error(c_proof), HasSubstr("both.psl: no proof uses it"));
-  write("tb/proofs/raster/bax.toml", std::string("unit = \"box.psl\"\n") + c_proof);
+  write("tb/rtl/raster/bax.toml", std::string("unit = \"box.psl\"\n") + c_proof);
   EXPECT_EQ(read(std::string("unit = \"both.psl\"\n") + c_proof).back().unit, "raster/both.psl");
   EXPECT_THAT(error(std::string("unit = \"none.psl\"\n") + c_proof),
-              StartsWith("tb/proofs/raster/box.toml:1: tb/proofs/raster/none.psl does not exist"));
+              StartsWith("tb/rtl/raster/box.toml:1: tb/rtl/raster/none.psl does not exist"));
 }
 
 TEST_F(ProofFiles, GivesTheEntriesOfAGoldenTable) {
@@ -192,7 +192,7 @@ TEST_F(ProofFiles, GivesTheEntriesOfAGoldenTable) {
       read(std::string(c_proof) +
            "golden_table = \"cosine\"\n"
            "generics = { g_exact = false, g_power = 2, g_address_bits = 6, g_data_bits = 6 }\n");
-  const auto& entries = golden::c_published_cosine_2_6_6;
+  const auto& entries = words::c_published_cosine_2_6_6;
   EXPECT_THAT(proofs.front().table, testing::ElementsAreArray(entries.begin(), entries.end()));
   EXPECT_EQ(proofs.front().table_bits, 6);
 }

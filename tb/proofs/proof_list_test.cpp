@@ -8,12 +8,12 @@
 #include <set>
 #include <string>
 
-#include "golden/cosine_tables.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/test/source_folder.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
+#include "words/cosine_tables.hpp"
 
 namespace halfway::proofs {
 namespace {
@@ -62,7 +62,7 @@ class ProofList : public ::testing::Test {
       if (proof.entity == entity) names.insert(proof.unit);
     std::string units;
     for (const std::string& name : names)
-      units += without_comments(must(read_file(c_source_folder / "tb/proofs" / name)));
+      units += without_comments(must(read_file(c_source_folder / "tb/rtl" / name)));
     return units;
   }
 
@@ -120,10 +120,10 @@ TEST_F(ProofList, ComparesEveryTableWithTheGoldenModel) {
     if (proof.entity == "tables/function_rom" && !proof.table.empty())
       functions.insert(fmt::format("{}", fmt::join(proof.generics, " ")));
   }
-  for (const golden::CosineTable& table : golden::c_cosine_tables)
+  for (const words::CosineTable& table : words::c_cosine_tables)
     EXPECT_TRUE(cosines.contains({table.entries.begin(), table.entries.end()}))
         << "power " << table.power << ", " << table.address_bits << " by " << table.data_bits
-        << " bits: tb/proofs/tables/cosine_rom.toml has no proof of it; add one";
+        << " bits: tb/rtl/tables/cosine_rom.toml has no proof of it; add one";
   EXPECT_EQ(functions.size(), 6U);  // three functions in two presets
 }
 

@@ -8,11 +8,11 @@
 #include <regex>
 
 #include "formal_verilog.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/must.hpp"
-#include "sim/system/subprocess.hpp"
-#include "tables/formats.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
 #include "text.hpp"
+#include "words/generator/formats.hpp"
 
 namespace halfway::proofs {
 namespace {
@@ -23,7 +23,7 @@ constexpr const char* c_timed_out = "no answer within 60 minutes";
 constexpr const char* c_formats = "rtl/tables/formats_pkg.vhd";
 
 std::string read_unit(const Folders& folders, const std::string& name) {
-  return must(read_file(folders.source / "tb/proofs" / name));
+  return must(read_file(folders.source / "tb/rtl" / name));
 }
 
 ProcessEnd run(const std::filesystem::path& folder, std::vector<std::string> arguments,
@@ -130,9 +130,8 @@ Unit make_unit(const Folders& folders, const Proof& proof) {
   replace(text, "$entity", entity_of(proof));
   replace(text, "$entries\n", vhdl_of_table(proof));
   if (contains(text, " case "))
-    throw Failure{bad_input(
-        fmt::format("tb/proofs/{}: GHDL drops what follows `when others`; write if and elsif instead of case",
-                    proof.unit))};
+    throw Failure{bad_input(fmt::format(
+        "tb/rtl/{}: GHDL drops what follows `when others`; write if and elsif instead of case", proof.unit))};
   Unit unit{.text = {}, .top = top_of(proof, text), .counts = {}};
   // GHDL takes the architecture that it analyses last.
   for (const std::string& contract : proof.contracts) unit.text += with_clock(read_unit(folders, contract));
@@ -253,7 +252,7 @@ std::string with_formats(std::string text, std::string_view package, const std::
     const std::size_t comma = format.find(", ");
     if (!found[2].matched || comma == std::string_view::npos)
       throw Failure{bad_input(fmt::format(
-          "tb/proofs/{}: ${}: {}", unit, name,
+          "tb/rtl/{}: ${}: {}", unit, name,
           found[2].matched ? "formats_pkg has no such format" : "write .bits or .fraction after it"))};
     const bool is_fraction = found[2] == ".fraction";
     text.replace(static_cast<std::size_t>(found.position()), static_cast<std::size_t>(found.length()),

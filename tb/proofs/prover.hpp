@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "proof.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::proofs {
 

@@ -8,7 +8,7 @@
 #include "golden/multiplier.hpp"
 #include "golden/saturate.hpp"
 #include "golden/saturating_sum.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/pipeline.hpp"
 #include "vectors/random.hpp"
@@ -16,13 +16,13 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Exact, golden::Published;
+using words::Exact, words::Published;
 
 template <int W, int FractionBits, int ResultBits>
 void write_saturate(const Folder& folder) {
   VectorFile file;
   const auto add = [&](std::uint64_t bits) {
-    const auto value = golden::Word<W>::from_bits(bits);
+    const auto value = words::Word<W>::from_bits(bits);
     file.word(value).word(golden::saturate<W, FractionBits, ResultBits>(value), ResultBits).end_vector();
   };
   if constexpr (W <= 16) {
@@ -84,7 +84,7 @@ void write_angle_address(const Folder& folder, int address_bits) {
   constexpr int c_bits = Preset::c_angle_bits, c_fraction = Preset::c_angle_fraction_bits;
   VectorFile file;
   const auto add = [&](std::uint64_t bits) {
-    const auto angle = golden::Word<c_bits>::from_bits(bits);
+    const auto angle = words::Word<c_bits>::from_bits(bits);
     const auto [address, in_range] = golden::angle_address<Preset>(angle, address_bits);
     file.word(angle).word(address, address_bits).flag(in_range).end_vector();
   };
@@ -124,7 +124,7 @@ void write_sum_of(const Folder& folder, int terms, int term_bits, int fraction_b
     for (int i = 0; i < terms; ++i) {
       const std::uint64_t value = values[i];
       sum.add(value);
-      golden::set_bits(flat, {"term", i * term_bits, term_bits, false, 0}, value);
+      words::set_bits(flat, {"term", i * term_bits, term_bits, false, 0}, value);
     }
     Flat inputs;
     inputs.words = flat;
@@ -133,11 +133,11 @@ void write_sum_of(const Folder& folder, int terms, int term_bits, int fraction_b
   };
   if (terms * term_bits <= 16) {
     for (std::uint64_t all = 0; all < std::uint64_t{1} << terms * term_bits; ++all) {
-      for (int i = 0; i < terms; ++i) values[i] = golden::low_bits(all >> i * term_bits, term_bits);
+      for (int i = 0; i < terms; ++i) values[i] = words::low_bits(all >> i * term_bits, term_bits);
       add();
     }
   } else {
-    const std::uint64_t largest = golden::low_bits(~std::uint64_t{0}, term_bits);
+    const std::uint64_t largest = words::low_bits(~std::uint64_t{0}, term_bits);
     const int sum_bits = static_cast<int>(std::bit_width(largest * values.size()));
     for (int i = 0; i < 4000; ++i) {
       switch (random.between(0, 7)) {

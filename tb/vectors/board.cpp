@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/board_pixel.hpp"
 #include "golden/quadratic_shader.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
@@ -61,16 +61,16 @@ void write_scan_out(const Folder& folder) {
 
 // Init vectors of large triangles inside the frame, for planes of three channels.
 void write_drawing_rate(const Folder& folder) {
-  using Shader = golden::QuadraticShader<golden::Exact, 3, 1>;
+  using Shader = golden::QuadraticShader<words::Exact, 3, 1>;
   constexpr std::size_t c_triangles = 3;
   constexpr std::int64_t c_least_pixels = 3000;
   Random random(3);
   VectorFile file;
   while (file.size() < c_triangles) {
-    const InitVector init = random_triangle<golden::Exact>(random, Mix::dense, Shader::c_init_bits);
+    const InitVector init = random_triangle<words::Exact>(random, Mix::dense, Shader::c_init_bits);
     std::int64_t pixels = 0;
     bool inside = true;
-    for (const WalkedLine& line : walk_lines<golden::Exact>(init)) {
+    for (const WalkedLine& line : walk_lines<words::Exact>(init)) {
       pixels += line.pixels();
       for (const std::int64_t x : {line.start.value(), line.stop.value()})
         inside = inside && line.y < golden::c_board_height && x >= 0 && x < golden::c_board_width;

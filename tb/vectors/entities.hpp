@@ -8,8 +8,8 @@
 #include <tuple>
 #include <vector>
 
-#include "golden/formats.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
+#include "words/formats.hpp"
 
 namespace halfway::vectors {
 
@@ -24,8 +24,8 @@ struct Entity {
 template <class Write>
 auto in_both_presets(const Write& write) {
   return [write](const Folder& folder) {
-    write.template operator()<golden::Exact>(folder);
-    write.template operator()<golden::Published>(folder);
+    write.template operator()<words::Exact>(folder);
+    write.template operator()<words::Published>(folder);
   };
 }
 

@@ -9,7 +9,7 @@
 
 #include "golden/shading_processor.hpp"
 #include "plan/processor_clocks.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/axes.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/pipeline.hpp"
@@ -20,14 +20,14 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Axes, golden::Exact, golden::Published, golden::Term;
+using golden::Axes, words::Exact, words::Published, words::Term;
 
 constexpr int c_lines = 1000;  // per file
 
 /// What a processor can do, from the definition of its term.
 template <class Preset>
 struct Abilities {
-  static constexpr bool c_exact = golden::ProcessorsLayout<Preset>::c_exact;
+  static constexpr bool c_exact = words::ProcessorsLayout<Preset>::c_exact;
 
   Term term;
   bool positional, spots;  ///< what its light can be
@@ -40,7 +40,7 @@ struct Abilities {
     switch (term) {
       case Term::ambient:
         first = p.config.normalize;
-        second = golden::ProcessorsLayout<Preset>(p.config).has_view();
+        second = words::ProcessorsLayout<Preset>(p.config).has_view();
         break;
       case Term::diffuse:
         first = positional;
@@ -63,7 +63,7 @@ void write_preset(const Folder& folder, const Has& has, const Write& write) {
   for (const Processor& processor : processors()) {
     const Abilities<Preset> can(processor);
     if (!has(can)) continue;
-    Random random(golden::ProcessorsLayout<Preset>(processor.config).token_bits() * 100 +
+    Random random(words::ProcessorsLayout<Preset>(processor.config).token_bits() * 100 +
                   static_cast<int>(processor.term) * 10 + processor.light);
     VectorFile file;
     write.template operator()<Preset>(processor, can, random, file);
@@ -164,11 +164,11 @@ struct Words {
   Flat token_words, light_words;
 
   Words(TokenMaker<Preset>& maker, const Processor& p) {
-    light = maker.load(golden::Command::define, static_cast<std::uint32_t>(p.light)).light;
+    light = maker.load(words::Command::define, static_cast<std::uint32_t>(p.light)).light;
     light_words = vectors::light_words(maker, p.config, light);
     token = maker.object();
     if (p.term != Term::ambient) token = maker.behind_ambient(token);
-    const int bits = golden::ProcessorsLayout<Preset>(p.config).token_bits();
+    const int bits = words::ProcessorsLayout<Preset>(p.config).token_bits();
     token_words = flat(maker.words(token, bits), bits);
     // What the hardware lacks reads as 0.
     token = golden::ShadingToken<Preset>::decode(p.config, token_words.words);
@@ -205,7 +205,7 @@ Axes shifted_of(const Axes& v, int bits) {
 
 template <class Preset>
 std::uint32_t square_of(std::int64_t dot) {
-  return static_cast<std::uint32_t>(golden::low_bits(
+  return static_cast<std::uint32_t>(words::low_bits(
       dot >> (2 * (Preset::c_direction_bits - 1) - Preset::c_square_fraction_bits), Preset::c_square_bits));
 }
 

@@ -13,7 +13,7 @@
 #include "golden/diffuse_slice.hpp"
 #include "golden/specular_slice.hpp"
 #include "golden/spherical_light.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/light_parts.hpp"
 #include "vectors/pipeline.hpp"
@@ -22,7 +22,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::ColourTerms, golden::Exact, golden::Published;
+using golden::ColourTerms, words::Exact, words::Published;
 
 struct SpanStrobes {
   bool span_load, span_step, sample_step;
@@ -129,10 +129,10 @@ void write_specular(const Folder& folder, const SliceSize& size) {
                                   size.address_bits, size.data_bits));
 }
 
-// A light. tb/rows.toml has the same list.
+// A light. tb/vectors/rows.toml has the same list.
 struct LightWords {
   const char* name;
-  golden::SphericalConfig config;
+  words::SphericalConfig config;
 };
 
 constexpr LightWords c_exact_lights[] = {
@@ -151,8 +151,8 @@ constexpr LightWords c_published_lights[] = {
 template <class Preset>
 void write_light(const Folder& folder, const LightWords& light) {
   using Groups = std::vector<ColourTerms>;
-  const golden::SphericalConfig& config = light.config;
-  const golden::SphericalLayout<Preset> layout(config);
+  const words::SphericalConfig& config = light.config;
+  const words::SphericalLayout<Preset> layout(config);
   const int bits = layout.record_bits();
   Random random(bits);
   VectorFile file;
@@ -215,7 +215,7 @@ void write_colour_sum_of(const Folder& folder, int channels, int terms, int data
       for (int c = 0; c < channels; ++c) {
         // Sums around white, few of them far above.
         group[c] = random.one_in(16) ? random.word(bits)
-                                     : golden::low_bits(random.between(0, 2 * white / terms), bits);
+                                     : words::low_bits(random.between(0, 2 * white / terms), bits);
         words.add(group[c], bits);
       }
       sum.add(group);
@@ -229,7 +229,7 @@ void write_colour_sum_of(const Folder& folder, int channels, int terms, int data
 
 // A line: checked, enable, address; sample, before the edge.
 void write_cosine_rom(const Folder& folder) {
-  for (const golden::CosineTable& table : golden::c_cosine_tables) {
+  for (const words::CosineTable& table : words::c_cosine_tables) {
     VectorFile file;
     Random random(table.entries.size());
     const golden::CosineRom twin(table.exact, table.power, table.address_bits, table.data_bits);

@@ -8,7 +8,7 @@
 #include "golden/part_interpolator.hpp"
 #include "golden/quadratic_interpolator.hpp"
 #include "golden/z_interpolator.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/skew.hpp"
@@ -16,7 +16,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Exact, golden::Published;
+using words::Exact, words::Published;
 
 // A line: checked, load, start, step, increment; value, before the edge that may load or step.
 template <int W>
@@ -126,7 +126,7 @@ void write_skewed_strobe(const Folder& folder, int parts) {
   Skew skew(parts, parts);
   write_skewed(folder, file, 1, parts, [&](int) {
     const bool strobe = random.one_in(2);
-    file.flag(strobe).word(skew(strobe ? golden::low_bits(~std::uint64_t{0}, parts) : 0), parts);
+    file.flag(strobe).word(skew(strobe ? words::low_bits(~std::uint64_t{0}, parts) : 0), parts);
   });
 }
 
@@ -195,11 +195,11 @@ void write_plane(const std::filesystem::path& path) {
   constexpr int c_bits = (Carries ? 4 : 3) * W;
   Random random(W);
   golden::PlaneInterpolator<W> twin;
-  std::array<golden::Word<W>, 4> words;
+  std::array<words::Word<W>, 4> words;
   const auto draw = [&](auto& plane) {
     for (int w = 0; w < 4; ++w) {
       words[w] = random.word<W>();
-      if (w * W < c_bits) golden::set_bits(plane, {"", w * W, W, true, 0}, words[w].bits());
+      if (w * W < c_bits) words::set_bits(plane, {"", w * W, W, true, 0}, words[w].bits());
     }
   };
   write_strobed<c_bits>(path, random, 2500, twin, draw, [&](const auto&) {
@@ -214,7 +214,7 @@ void write_z(const Folder& folder) {
   golden::ZInterpolator<Preset> twin;
   const auto draw = [&](auto& init) {
     random.fill(init);
-    for (const golden::Field* field : {&At::z, &At::z_dx, &At::z_de0})
+    for (const words::Field* field : {&At::z, &At::z_dx, &At::z_de0})
       set_bits(init, *field, random.word(field->bits));
   };
   write_strobed<Preset::c_init_header_bits>(folder / (std::string(Preset::c_name) + ".txt"), random, 2500,
@@ -227,7 +227,7 @@ void write_quadratic(const Folder& folder) {
   golden::QuadraticInterpolator<Preset> twin;
   const auto draw = [&](auto& init) {
     random.fill(init);
-    for (const golden::Field& field : Preset::c_init_channel) set_bits(init, field, random.word(field.bits));
+    for (const words::Field& field : Preset::c_init_channel) set_bits(init, field, random.word(field.bits));
   };
   write_strobed<Preset::c_init_channel_bits>(folder / (std::string(Preset::c_name) + ".txt"), random, 3000,
                                              twin, draw, [&](const auto& init) { twin.line_load(init, 0); });

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "golden/formats.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
+#include "words/formats.hpp"
 
 namespace halfway::vectors {
 
 /// Colour terms, a few of which add up to white, for `terms` terms per pixel. Some are random words.
-inline void put_colour(InitVector& vector, const golden::Field& field, Random& random, int terms, int low) {
+inline void put_colour(InitVector& vector, const words::Field& field, Random& random, int terms, int low) {
   const std::int64_t most = (std::int64_t{300} << field.fraction_bits) / terms;
   const auto word =
       random.one_in(8) ? random.word(field.bits) : static_cast<std::uint64_t>(random.between(0, most));
@@ -47,7 +47,7 @@ void put_diffuse_part(InitVector& vector, Random& random, int channels, int term
 template <class Preset>
 void put_specular_part(InitVector& vector, Random& random, int channels, int terms, int low) {
   put_angle<typename Preset::specular_header_at>(vector, random, low);
-  if constexpr (std::is_same_v<Preset, golden::Exact>) {
+  if constexpr (std::is_same_v<Preset, words::Exact>) {
     const auto power = random.one_in(6) ? random.bits(Preset::c_power_bits)
                                         : static_cast<std::uint64_t>(random.between(0, 4));
     set_bits(vector, Preset::specular_header_at::power, power, low);

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "sim/stream_files/table4.hpp"
+#include "sim/files/table4.hpp"
 #include "vectors/entities.hpp"
 
 namespace halfway::vectors {

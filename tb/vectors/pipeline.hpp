@@ -8,7 +8,7 @@
 
 #include "golden/delay_line.hpp"
 #include "golden/vector_shift.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 
 namespace halfway::vectors {
 
@@ -21,7 +21,7 @@ struct Flat {
   Flat(std::uint64_t value, int width) { add(value, width); }
   Flat& add(std::uint64_t value, int width) {
     words.resize(static_cast<std::size_t>(bits + width + 31) / 32);
-    golden::set_bits(words, {"", bits, width, false, 0}, golden::low_bits(value, width));
+    words::set_bits(words, {"", bits, width, false, 0}, words::low_bits(value, width));
     bits += width;
     return *this;
   }

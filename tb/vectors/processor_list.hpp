@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shading processors that the testbenches run, and the names of their files. tb/tb_processors_pkg.vhd
+// The shading processors that the testbenches run, and the names of their files. tb/rtl/tb_processors_pkg.vhd
 // has the same list.
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace halfway::vectors {
 
 struct Processor {
-  golden::ProcessorsConfig config;
-  golden::Term term;
+  words::ProcessorsConfig config;
+  words::Term term;
   int light;  ///< 0 for the ambient processor
 };
 
 /// Preset, channels, lights of each kind and effects.
 template <class Preset>
-std::string name_of(const golden::ProcessorsConfig& c) {
+std::string name_of(const words::ProcessorsConfig& c) {
   return fmt::format("{}_{}{}{}{}{:d}{:d}{:d}{:d}", Preset::c_name, c.channels, c.directional, c.positional,
                      c.spots, c.diffuse, c.specular, c.normalize, c.shadows);
 }
@@ -33,17 +33,17 @@ std::string name_of(const Processor& processor) {
 /// Every processor of seven pipelines: one with all effects, the paper's version I, one with only a
 /// positional light, one with only a spot, and three with single effects.
 inline std::vector<Processor> processors() {
-  constexpr golden::ProcessorsConfig c_configs[] = {
+  constexpr words::ProcessorsConfig c_configs[] = {
       {3, 1, 1, 1, true, true, true, true},    {3, 1, 0, 0, true, true, false, false},
       {3, 0, 1, 0, true, true, true, false},   {1, 0, 0, 1, true, false, false, false},
       {1, 1, 0, 0, true, false, false, false}, {1, 0, 1, 1, false, true, false, false},
       {1, 1, 0, 0, true, false, true, false}};
   std::vector<Processor> all;
-  for (const golden::ProcessorsConfig& config : c_configs) {
-    all.push_back({config, golden::Term::ambient, 0});
+  for (const words::ProcessorsConfig& config : c_configs) {
+    all.push_back({config, words::Term::ambient, 0});
     for (int light = 1; light <= config.lights(); ++light) {
-      if (config.diffuse) all.push_back({config, golden::Term::diffuse, light});
-      if (config.specular) all.push_back({config, golden::Term::specular, light});
+      if (config.diffuse) all.push_back({config, words::Term::diffuse, light});
+      if (config.specular) all.push_back({config, words::Term::specular, light});
     }
   }
   return all;

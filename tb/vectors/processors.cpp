@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "golden/shading_pipeline.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/pipeline.hpp"
 #include "vectors/processor_list.hpp"
@@ -17,7 +17,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Axes, golden::Command, golden::Exact, golden::ProcessorsConfig, golden::Published, golden::Term;
+using golden::Axes, words::Command, words::Exact, words::ProcessorsConfig, words::Published, words::Term;
 
 // More shadow polygons of one column than its count can represent.
 constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
@@ -26,7 +26,7 @@ constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
 template <class Preset>
 void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults) {
   const auto& [config, term, light] = processor;
-  const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
+  const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits * 8 + static_cast<int>(term) * 3 + light);
   golden::ShadingProcessor<Preset> twin(config, term, light);
   VectorFile file;
@@ -72,8 +72,8 @@ Flat flat_terms(const golden::Terms& terms) {
 // Inputs: light, token; of the output token: terms, N, view vector (published: 0).
 template <class Preset>
 void write_ambient_term_of(const Folder& folder) {
-  constexpr bool c_exact = golden::ProcessorsLayout<Preset>::c_exact;
-  const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
+  constexpr bool c_exact = words::ProcessorsLayout<Preset>::c_exact;
+  const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), 5);
   const golden::AmbientTerm<Preset> twin(part_config());
   Pipeline pipeline(c_exact ? 8 : 5);
@@ -99,7 +99,7 @@ void write_ambient_term_of(const Folder& folder) {
 // Inputs: light, token; above, terms (0 if the light is not above the horizon).
 template <class Preset>
 void write_light_term_of(const Folder& folder, Term term, int light_number, int latency) {
-  const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
+  const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), latency);
   const golden::LightTerm<Preset> twin(part_config(), term, light_number);
   Pipeline pipeline(latency);
@@ -128,7 +128,7 @@ template <class Preset>
 void write_light_state_of(const Folder& folder) {
   constexpr int c_tokens = 1500;
   constexpr std::uint32_t c_light = 2;
-  const int bits = golden::ProcessorsLayout<Preset>(part_config()).token_bits();
+  const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), 6);
   golden::LightState<Preset> twin(true, c_light);
   VectorFile file;
@@ -152,7 +152,7 @@ void write_light_state_of(const Folder& folder) {
 // A line: token, comes; the output object (valid if comes), fault afterwards.
 template <class Preset>
 void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool faults, int tokens) {
-  const int bits = golden::ProcessorsLayout<Preset>(config).token_bits();
+  const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits);
   golden::ShadingPipeline<Preset> twin(config);
   VectorFile file;
@@ -175,7 +175,7 @@ void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool f
 
 template <class Preset>
 void write_pipelines(const Folder& folder, int tokens, bool faults) {
-  // The list of tb/shaders/shading_pipeline_tb.vhd.
+  // The list of tb/rtl/shaders/shading_pipeline_tb.vhd.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
@@ -189,7 +189,7 @@ void write_light_term(const Folder& folder) {
     Term term;
     int light, exact, published;  // clocks
   };
-  // A directional light, a positional light, a spot. The list of tb/rows.toml.
+  // A directional light, a positional light, a spot. The list of tb/vectors/rows.toml.
   constexpr Case c_cases[] = {{Term::diffuse, 1, 3, 3},   {Term::specular, 1, 17, 4},
                               {Term::diffuse, 2, 13, 9},  {Term::specular, 2, 27, 10},
                               {Term::diffuse, 3, 17, 13}, {Term::specular, 3, 28, 13}};

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/processor_list.hpp"
 #include "vectors/random.hpp"
@@ -17,12 +17,12 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Command, golden::Exact, golden::Field, golden::Published, golden::set_bits;
+using words::Command, words::Exact, words::Field, words::Published, words::set_bits;
 
-// tb/shaders/processors_shader_tb.vhd has the same list.
+// tb/rtl/shaders/processors_shader_tb.vhd has the same list.
 struct Processors {
   const char* name;
-  golden::ProcessorsConfig config;
+  words::ProcessorsConfig config;
   std::int64_t pixels;
 };
 
@@ -151,12 +151,12 @@ class Host {
     return words;
   }
   int load_bits() const {
-    using Layout = golden::ProcessorsLayout<Preset>;
+    using Layout = words::ProcessorsLayout<Preset>;
     return Layout::light_colour_low(p_.config.channels);
   }
   // The expected outputs of the shader's parts for the vector.
   void send_to_parts(const InitVector& vector) {
-    const auto command = static_cast<Command>(golden::get_bits(vector, Preset::request_header_at::command));
+    const auto command = static_cast<Command>(words::get_bits(vector, Preset::request_header_at::command));
     const bool loads = command >= Command::new_frame && command <= Command::remove;
     const auto order = [&](bool load, const std::vector<std::uint32_t>& in,
                            const std::vector<std::uint32_t>& out) {
@@ -168,7 +168,7 @@ class Host {
       std::vector<std::uint32_t> words(static_cast<std::size_t>(layout_.token_bits() + 31) / 32);
       for (int low = 0; low < load_bits(); low += 8) {
         const Field field{"", low, std::min(8, load_bits() - low), false, 0};
-        set_bits(words, field, golden::get_bits(vector, field));
+        set_bits(words, field, words::get_bits(vector, field));
       }
       order(true, words, words);
       return;
@@ -307,7 +307,7 @@ class Host {
   }
 
   const Processors& p_;
-  golden::ProcessorsLayout<Preset> layout_;
+  words::ProcessorsLayout<Preset> layout_;
   Shader twin_;
   golden::TokenRasterizer<Preset> rasterizer_;
   Random random_;
@@ -327,7 +327,7 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
 }
 
 // The parts of the shader with all words of tokens and with shadows, in both presets.
-// tb/tb_processors_pkg.vhd has the same list.
+// tb/rtl/tb_processors_pkg.vhd has the same list.
 template <class Write>
 void write_parts(const Write& write) {
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {

@@ -9,7 +9,7 @@
 #include "golden/line_counter.hpp"
 #include "golden/object_stage.hpp"
 #include "golden/slope_walker.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 #include "vectors/triangles.hpp"
@@ -17,7 +17,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::EdgeStart, golden::Exact, golden::Published, golden::SpanXWord;
+using golden::EdgeStart, words::Exact, words::Published, golden::SpanXWord;
 
 EdgeStart edge_start(const EdgeSection& s) {
   return {SpanXWord::from_bits(s.pixel),           SpanXWord::from_bits(s.quotient),
@@ -220,7 +220,7 @@ struct LineRecord {
 template <class Preset>
 void write_objects(const Folder& folder) {
   using At = typename Preset::pixel_header_at;
-  using golden::Command;
+  using words::Command;
   constexpr int c_bits = Preset::c_pixel_header_bits + 37;
   Random random(57);
   VectorFile in, out;

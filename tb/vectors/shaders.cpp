@@ -8,7 +8,7 @@
 
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/light_parts.hpp"
 #include "vectors/random.hpp"
@@ -17,7 +17,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Exact, golden::Published;
+using words::Exact, words::Published;
 
 constexpr std::pair<Mix, const char*> c_sets[] = {{Mix::dense, "dense"}, {Mix::mixed, "mixed"}};
 
@@ -28,10 +28,10 @@ void add_clock(VectorFile& file, std::int64_t clock) {
 // Colours that change slowly over the triangle. One channel in six keeps random words.
 template <class Preset, int Degree>
 void put_colours(InitVector& init, Random& random, int channels) {
-  using Layout = golden::QuadraticLayout<Preset, Degree>;
+  using Layout = words::QuadraticLayout<Preset, Degree>;
   for (int c = 0; c < channels; ++c) {
     if (random.one_in(6)) continue;
-    for (const golden::Field& field : Preset::c_init_channel) {
+    for (const words::Field& field : Preset::c_init_channel) {
       if (!Layout::has(field)) continue;
       // Limits: 512 steps for the value, 16 for first differences, 1 for second differences.
       const bool value = field.name == "value", second = field.name.size() > 3 || field.name == "dxx";
@@ -107,10 +107,10 @@ void write_quadratic(const Folder& folder) {
   }
 }
 
-// A configuration of the spherical shader. tb/shaders/spherical_shader_tb.vhd has the same list.
+// A configuration of the spherical shader. tb/rtl/shaders/spherical_shader_tb.vhd has the same list.
 struct Spherical {
   const char* name;
-  golden::SphericalConfig config;
+  words::SphericalConfig config;
   std::int64_t pixels;
 };
 
@@ -131,8 +131,8 @@ constexpr Spherical c_published_spherical[] = {
 };
 
 template <class Preset>
-InitVector random_record(const golden::SphericalConfig& config, Random& random) {
-  const golden::SphericalLayout<Preset> layout(config);
+InitVector random_record(const words::SphericalConfig& config, Random& random) {
+  const words::SphericalLayout<Preset> layout(config);
   const int terms = 1 + 2 * config.lights;
   InitVector record = random_vector(random, layout.init_bits());
   for (int light = 0; light < config.lights; ++light) {
@@ -147,7 +147,7 @@ InitVector random_record(const golden::SphericalConfig& config, Random& random) 
 template <class Preset>
 void write_spherical(const Folder& folder, const Spherical& spherical) {
   using Shader = golden::SphericalShader<Preset>;
-  const golden::SphericalLayout<Preset> layout(spherical.config);
+  const words::SphericalLayout<Preset> layout(spherical.config);
   // Choose the seed so that the first triangle of each set covers a pixel on its first line: the checker
   // measures the latency there.
   Random random(layout.init_bits() + 3);

@@ -18,7 +18,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Axes, golden::Exact, golden::Published;
+using golden::Axes, words::Exact, words::Published;
 
 template <class Preset>
 std::string file_of() {
@@ -27,8 +27,8 @@ std::string file_of() {
 
 // Inputs: address.
 template <class Preset>
-void write_function_rom(const Folder& folder, golden::Function function) {
-  const golden::FunctionTable& table = golden::function_table<Preset>(function);
+void write_function_rom(const Folder& folder, words::Function function) {
+  const words::FunctionTable& table = golden::function_table<Preset>(function);
   Random random(table.value_bits);
   Pipeline pipeline(1);
   const auto add = [&](bool enable, std::uint32_t address) {
@@ -120,7 +120,7 @@ void write_reciprocal_root_of(const Folder& folder, int latency) {
   Random random(c_bits);
   Pipeline pipeline(latency);
   const auto add = [&](bool enable, std::uint64_t bits) {
-    const auto square = static_cast<std::uint32_t>(golden::low_bits(bits, c_bits));
+    const auto square = static_cast<std::uint32_t>(words::low_bits(bits, c_bits));
     using Root = golden::ReciprocalRoot<Preset>;
     pipeline.clock(enable, {{square, c_bits}}, {Root::reciprocal(square), Root::c_bits});
   };
@@ -144,7 +144,7 @@ void write_power_of(const Folder& folder, int latency) {
   Random random(Preset::c_exponent_bits);
   Pipeline pipeline(latency);
   const auto add = [&](bool enable, std::uint32_t base, std::uint64_t exponent) {
-    const auto m = static_cast<std::uint32_t>(golden::low_bits(exponent, Preset::c_exponent_bits));
+    const auto m = static_cast<std::uint32_t>(words::low_bits(exponent, Preset::c_exponent_bits));
     pipeline.clock(enable, {{base, Power::c_base_fraction + 1}, {m, Preset::c_exponent_bits}},
                    {Power::power(base, m), Preset::c_weight_bits});
   };
@@ -253,7 +253,7 @@ std::vector<Entity> shading_entities() {
   return {
       {"function_rom", in_both_presets([]<class P>(const Folder& f) {
          for (const auto function :
-              {golden::Function::reciprocal_root, golden::Function::logarithm, golden::Function::decay})
+              {words::Function::reciprocal_root, words::Function::logarithm, words::Function::decay})
            write_function_rom<P>(f, function);
        })},
       {"dot_product", of_sizes(write_dot_product_of, {4, 16, 24, 30})},

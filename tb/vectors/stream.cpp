@@ -5,7 +5,7 @@
 #include "golden/parameter_register.hpp"
 #include "golden/stream_queue.hpp"
 #include "golden/stream_register.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/random.hpp"
 

@@ -16,7 +16,7 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Axes, golden::Exact, golden::Published;
+using golden::Axes, words::Exact, words::Published;
 
 // Number of points for which a light is constant; number of lights.
 constexpr int c_points = 100, c_lights = 40;

@@ -21,7 +21,7 @@ class TokenMaker {
  public:
   using Token = golden::ShadingToken<Preset>;
 
-  TokenMaker(const golden::ProcessorsConfig& config, std::uint64_t seed) : config_(config), random_(seed) {
+  TokenMaker(const words::ProcessorsConfig& config, std::uint64_t seed) : config_(config), random_(seed) {
     turn();
   }
 
@@ -31,14 +31,14 @@ class TokenMaker {
     const auto number = static_cast<std::uint32_t>(random_.one_in(4) ? random_.between(0, config_.lights())
                                                                      : std::int64_t{light});
     const int choice = static_cast<int>(random_.between(0, 31));
-    if (choice == 0) return load(golden::Command::remove, number);
-    if (choice <= 2) return load(golden::Command::redefine, number);
-    if (choice <= 4) return load(golden::Command::define, number);
-    if (choice == 5 && random_.one_in(3)) return load(golden::Command::new_frame, number);
+    if (choice == 0) return load(words::Command::remove, number);
+    if (choice <= 2) return load(words::Command::redefine, number);
+    if (choice <= 4) return load(words::Command::define, number);
+    if (choice == 5 && random_.one_in(3)) return load(words::Command::new_frame, number);
     if (config_.shadows && choice <= 14) return shadow(number);
     return object();
   }
-  Token load(golden::Command command, std::uint32_t light) {
+  Token load(words::Command command, std::uint32_t light) {
     Token token;
     token.command = command;
     token.light_number = light;
@@ -61,7 +61,7 @@ class TokenMaker {
   }
   Token shadow(std::uint32_t light) {
     Token token = at_pixel();
-    token.command = golden::Command::shadow;
+    token.command = words::Command::shadow;
     token.light_number = light;
     token.opens = random_.one_in(2);
     return token;
@@ -75,7 +75,7 @@ class TokenMaker {
   }
   Token object() {
     Token token = at_pixel();
-    token.command = static_cast<golden::Command>(random_.between(0, 2));
+    token.command = static_cast<words::Command>(random_.between(0, 2));
     token.normalize = !random_.one_in(3);
     token.normal = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, 1);
     token.place = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, random_.one_in(2) ? -0.6 : 0.3);
@@ -150,18 +150,18 @@ class TokenMaker {
     return token;
   }
 
-  golden::ProcessorsConfig config_;
+  words::ProcessorsConfig config_;
   Random random_;
   std::array<double, 3> base_{};
 };
 
 /// The words of a light: those of the token that defines it, without the header.
 template <class Preset>
-Flat light_words(TokenMaker<Preset>& maker, const golden::ProcessorsConfig& config,
+Flat light_words(TokenMaker<Preset>& maker, const words::ProcessorsConfig& config,
                  const golden::ShadingLight& light) {
-  using Layout = golden::ProcessorsLayout<Preset>;
+  using Layout = words::ProcessorsLayout<Preset>;
   golden::ShadingToken<Preset> token;
-  token.command = golden::Command::define;
+  token.command = words::Command::define;
   token.light = light;
   const int bits = Layout(config).token_bits();
   const auto words = maker.words(token, bits);
@@ -170,7 +170,7 @@ Flat light_words(TokenMaker<Preset>& maker, const golden::ProcessorsConfig& conf
   const int last = Layout::light_colour_low(config.channels);
   for (int low = first; low < last; low += 16) {
     const int width = std::min(16, last - low);
-    all.add(golden::get_bits(words, {"", low, width, false, 0}), width);
+    all.add(words::get_bits(words, {"", low, width, false, 0}), width);
   }
   return all;
 }

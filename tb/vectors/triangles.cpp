@@ -6,12 +6,12 @@
 namespace halfway::vectors {
 namespace {
 
-using golden::Exact, golden::Published;
+using words::Exact, words::Published;
 
 template <class Preset>
 InitVector random_words(Random& random, int init_bits) {
   InitVector init = random_vector(random, init_bits);
-  for (const golden::Field& field : Preset::c_init_header) set_bits(init, field, random.word(field.bits));
+  for (const words::Field& field : Preset::c_init_header) set_bits(init, field, random.word(field.bits));
   return init;
 }
 
@@ -23,10 +23,10 @@ void put_garbage_lines(InitVector& init, Random& random) {
   if (random.one_in(4)) return;
   // Keep spans short, so that many fit: put the stop edge near the start edge.
   const auto start = get_bits(init, At::start_x);
-  for (const golden::Field* stop : {&At::upper_x, &At::lower_x})
+  for (const words::Field* stop : {&At::upper_x, &At::lower_x})
     set_bits(init, *stop, start + static_cast<std::uint64_t>(random.between(-9, 9)));
   const auto quotient = get_bits(init, At::start_quotient);
-  for (const golden::Field* stop : {&At::upper_quotient, &At::lower_quotient})
+  for (const words::Field* stop : {&At::upper_quotient, &At::lower_quotient})
     set_bits(init, *stop, quotient + static_cast<std::uint64_t>(random.between(-2, 2)));
 }
 
@@ -35,7 +35,7 @@ void put_garbage_lines(InitVector& init, Random& random) {
 InitVector random_vector(Random& random, int bits) {
   InitVector vector(static_cast<std::size_t>(bits + 31) / 32);
   random.fill(vector);
-  if (bits % 32 != 0) vector.back() = static_cast<std::uint32_t>(golden::low_bits(vector.back(), bits % 32));
+  if (bits % 32 != 0) vector.back() = static_cast<std::uint32_t>(words::low_bits(vector.back(), bits % 32));
   return vector;
 }
 
@@ -83,8 +83,8 @@ Walks random_walks(Random& random) {
 
 void put_walk(InitVector& init, const Walk& walk) {
   using At = Exact::init_header_at;
-  const auto put = [&](const golden::Field& field, std::int64_t value) { set_bits(init, field, value); };
-  const auto put_section = [&](const EdgeSection& s, const golden::Field* x) {
+  const auto put = [&](const words::Field& field, std::int64_t value) { set_bits(init, field, value); };
+  const auto put_section = [&](const EdgeSection& s, const words::Field* x) {
     // The fields of a section in their order: x, quotient, remainder, divisor, error, carry.
     const std::int64_t values[] = {s.pixel, s.quotient, s.remainder, s.divisor, s.error, s.carry};
     for (std::size_t i = 0; i < std::size(values); ++i) put(x[i], values[i]);
@@ -115,7 +115,7 @@ template <>
 InitVector random_triangle<Published>(Random& random, Mix mix, int init_bits) {
   using At = Published::init_header_at;
   InitVector init = random_words<Published>(random, init_bits);
-  const auto put = [&](const golden::Field& field, std::int64_t value) { set_bits(init, field, value); };
+  const auto put = [&](const words::Field& field, std::int64_t value) { set_bits(init, field, value); };
   constexpr std::int64_t c_one = std::int64_t{1} << Published::c_edge_x_fraction_bits;
   put(At::upper_lines, random.between(1, random.one_in(3) ? 20 : 6));
   if (mix == Mix::mixed && random.one_in(8)) return init;

@@ -10,7 +10,7 @@
 #include "golden/triangle_walker.hpp"
 #include "golden/walker_clock.hpp"
 #include "setup/walk.hpp"
-#include "sim/stream_files/vector_file.hpp"
+#include "sim/files/vector_file.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
@@ -86,9 +86,9 @@ enum class Mix {
 template <class Preset>
 InitVector random_triangle(Random& random, Mix mix, int init_bits);
 template <>
-InitVector random_triangle<golden::Exact>(Random& random, Mix mix, int init_bits);
+InitVector random_triangle<words::Exact>(Random& random, Mix mix, int init_bits);
 template <>
-InitVector random_triangle<golden::Published>(Random& random, Mix mix, int init_bits);
+InitVector random_triangle<words::Published>(Random& random, Mix mix, int init_bits);
 
 /// Triangles of approximately `pixels` pixels in total. Header bits that the walker does not read, and all
 /// bits after the header, are random.

@@ -13,8 +13,8 @@
 #include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
-#include "sim/system/must.hpp"
-#include "tables/cosine.hpp"
+#include "sim/os/must.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "plan/plan.hpp"
-#include "sim/system/must.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 

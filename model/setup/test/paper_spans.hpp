@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "projection/project.hpp"
 #include "scene/lights.hpp"
-#include "setup/project.hpp"
 #include "setup/test/pixels.hpp"
 #include "shading/effects.hpp"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "frame/fragment.hpp"
-#include "setup/edge.hpp"
-#include "setup/init_vector.hpp"
-#include "setup/project.hpp"
+#include "projection/edge.hpp"
+#include "projection/project.hpp"
+#include "setup/walk_header.hpp"
 
 namespace halfway {
 

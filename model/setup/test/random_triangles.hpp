@@ -10,9 +10,9 @@
 #include <random>
 #include <span>
 
-#include "golden/word.hpp"
-#include "setup/edge.hpp"
+#include "projection/edge.hpp"
 #include "setup/walk.hpp"
+#include "words/word.hpp"
 
 namespace halfway {
 
@@ -118,7 +118,7 @@ class RandomTriangles {
 };
 
 /// True if `value` fits the field without wrapping.
-inline bool fits(const golden::Field& field, std::int64_t value) {
+inline bool fits(const words::Field& field, std::int64_t value) {
   const std::int64_t least = field.is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
   const std::int64_t greatest = (std::int64_t{1} << (field.is_signed ? field.bits - 1 : field.bits)) - 1;
   return value >= least && value <= greatest;
@@ -126,10 +126,10 @@ inline bool fits(const golden::Field& field, std::int64_t value) {
 
 /// Writes a walk into the header of an init vector; every word must fit its format.
 inline void put_walk(std::span<std::uint32_t> words, const Walk& walk) {
-  using At = golden::Exact::init_header_at;
-  const auto put = [&](const golden::Field& field, std::int64_t value) {
+  using At = words::Exact::init_header_at;
+  const auto put = [&](const words::Field& field, std::int64_t value) {
     EXPECT_TRUE(fits(field, value)) << field.name << ' ' << value;
-    golden::set_bits(words, field, static_cast<std::uint64_t>(value));
+    words::set_bits(words, field, static_cast<std::uint64_t>(value));
   };
   put(At::y, walk.y);
   put(At::upper_lines, walk.upper_lines);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <random>
 
-#include "sim/scene_files/load_scene.hpp"
-#include "sim/system/seconds.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/seconds.hpp"
 
 namespace halfway {
 

@@ -16,8 +16,8 @@
 #include "golden_run/golden_run.hpp"
 #include "scene/scene.hpp"
 #include "sim/bench/workload.hpp"
-#include "sim/ghdl/ghdl_library.hpp"
-#include "sim/system/must.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 

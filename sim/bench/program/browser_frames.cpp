@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include "sim/bench/program/bench.hpp"
-#include "sim/live/live_page.hpp"
-#include "sim/pages/headless_browser.hpp"
-#include "sim/system/file.hpp"
+#include "sim/extras/live/live_page.hpp"
+#include "sim/files/headless_browser.hpp"
+#include "sim/os/file.hpp"
 
 namespace halfway {
 namespace {

@@ -12,12 +12,12 @@
 #include <thread>
 
 #include "sim/bench/program/bench.hpp"
-#include "sim/ghdl/rtl_hash.hpp"
-#include "sim/pages/template.hpp"
-#include "sim/program/program.hpp"
-#include "sim/system/file.hpp"
-#include "sim/system/machine.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/engines/ghdl/rtl_hash.hpp"
+#include "sim/files/template.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/machine.hpp"
+#include "sim/os/program.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway {
 namespace {
@@ -66,7 +66,7 @@ void run(const Options& options) {
   speed["load"]["after"] = text(load()[0]);
   speed["load"]["long"] = text(load()[2]);
 
-  const std::string page = must(filled_template(c_source / "sim/bench/page.md.mustache", speed));
+  const std::string page = must(filled_template(c_source / "sim/bench/speed.md.mustache", speed));
   fmt::print("\n{}", page);
   if (!options.page.empty()) must(write_file(options.page, page));
 }

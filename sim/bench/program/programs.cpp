@@ -8,8 +8,8 @@
 #include <regex>
 
 #include "sim/bench/program/bench.hpp"
-#include "sim/system/seconds.hpp"
-#include "sim/system/subprocess.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/os/subprocess.hpp"
 
 namespace halfway {
 namespace {

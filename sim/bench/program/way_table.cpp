@@ -4,7 +4,7 @@
 
 #include "sim/bench/program/bench.hpp"
 #include "sim/bench/ways.hpp"
-#include "sim/system/threads.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway {
 namespace {

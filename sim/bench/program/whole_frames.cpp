@@ -6,8 +6,8 @@
 
 #include "sim/bench/program/bench.hpp"
 #include "sim/bench/ways.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/system/threads.hpp"
 
 namespace halfway {
 namespace {

@@ -1,0 +1,540 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/project.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <limits>
+#include <map>
+#include <random>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "scene/builtin_meshes.hpp"
+#include "scene/test/add_mesh.hpp"
+#include "setup/test/pixels.hpp"
+
+namespace halfway {
+namespace {
+
+std::vector<int> coverage(std::span<const ScreenTriangle> triangles, FrameSize frame) {
+  std::vector<int> count(std::size_t{frame.width} * frame.height);
+  for (const ScreenTriangle& t : triangles)
+    for_each_pixel(t, frame,
+                   [&](std::uint32_t x, std::uint32_t y) { ++count[std::size_t{y} * frame.width + x]; });
+  return count;
+}
+
+void expect_sound(std::span<const ScreenTriangle> triangles, FrameSize frame, ProjectionOptions options) {
+  const std::int32_t unit = 1 << options.subpixel_bits;
+  const int last = options.clip_to_frame && options.subpixel_bits == 0 ? 1 : 0;
+  const std::int32_t low = options.clip_to_frame ? 0 : c_guard_begin * unit;
+  const std::int32_t high_x =
+      options.clip_to_frame ? static_cast<std::int32_t>(frame.width) * unit - last : c_guard_end * unit;
+  const std::int32_t high_y =
+      options.clip_to_frame ? static_cast<std::int32_t>(frame.height) * unit - last : c_guard_end * unit;
+  for (const ScreenTriangle& t : triangles) {
+    ASSERT_GT(t.twice_area(), 0);
+    for (const ScreenVertex& v : t.vertex) {
+      ASSERT_GE(v.x, low);
+      ASSERT_GE(v.y, low);
+      ASSERT_LE(v.x, high_x);
+      ASSERT_LE(v.y, high_y);
+      ASSERT_GE(v.z, 0.0);
+      ASSERT_LE(v.z, 1.0);
+      ASSERT_GT(v.inverse_w, 0.0);
+      ASSERT_TRUE(std::isfinite(v.inverse_w));
+    }
+  }
+}
+
+Scene empty_scene() {
+  Scene scene;
+  scene.camera.near = 0.5;
+  scene.camera.far = 100.0;
+  scene.materials.emplace_back();
+  return scene;
+}
+
+Scene one_triangle(std::array<glm::dvec3, 3> corners) {
+  Scene scene = empty_scene();
+  scene.positions_world.assign(corners.begin(), corners.end());
+  scene.normals_world = {{0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
+  return scene;
+}
+
+TEST(Project, AVertexLandsWhereTheCameraPutsIt) {
+  // Vertical field of view 90 degrees: at distance 5 the frame is 10 high, 64 pixels. x points right, y down.
+  Scene scene = one_triangle({{{0, 0, 0}, {2.5, 0, 0}, {0, 1.25, 0}}});
+  scene.camera.vertical_fov_degrees = 90.0;
+  const Projector projector(scene, {96, 64}, {});
+  const auto triangles = projector.project_all();
+  ASSERT_EQ(triangles.size(), 1u);
+  const auto& [a, b, c] = triangles[0].vertex;  // reversed order: y points down
+  EXPECT_EQ(a.x, 48 * 16);
+  EXPECT_EQ(a.y, 32 * 16);
+  EXPECT_EQ(b.x, 48 * 16);
+  EXPECT_EQ(b.y, 24 * 16);
+  EXPECT_EQ(c.x, 64 * 16);
+  EXPECT_EQ(c.y, 32 * 16);
+  EXPECT_DOUBLE_EQ(a.inverse_w, 0.2);
+  EXPECT_DOUBLE_EQ(a.z, 100.0 * 4.5 / (5.0 * 99.5));
+  EXPECT_EQ(a.position_world, glm::dvec3(0.0));
+}
+
+TEST(Project, WithoutSubpixelsAVertexIsThePixelItFallsIn) {
+  Scene scene = one_triangle({{{-5, -5, 0}, {5, -5, 0}, {1.36, 5, 0}}});
+  scene.camera.vertical_fov_degrees = 90.0;
+  const Projector projector(scene, {64, 64}, {.subpixel_bits = 0, .clip_to_frame = true});
+  const auto triangles = projector.project_all();
+  ASSERT_EQ(triangles.size(), 1u);
+  EXPECT_EQ(triangles[0].vertex[0].x, 0);
+  EXPECT_EQ(triangles[0].vertex[0].y, 63);  // y = 64.0 is the end of the frame; its last pixel is 63
+  EXPECT_EQ(triangles[0].vertex[1].x, 40);  // 32 + 1.36 * 6.4 = 40.704
+  EXPECT_EQ(triangles[0].vertex[1].y, 0);
+  EXPECT_EQ(triangles[0].vertex[2].x, 63);
+}
+
+TEST(Project, CountsTheReasonsIfNothingIsVisible) {
+  const auto counts_of = [](std::array<glm::dvec3, 3> corners) {
+    const Scene scene = one_triangle(corners);
+    ProjectionCounts counts;
+    const auto triangles = Projector(scene, {64, 64}, {}).project_all(&counts);
+    EXPECT_EQ(triangles.empty(), counts.visible == 0);
+    return counts;
+  };
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).visible, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}}).back_facing, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 4.6}, {1, 0, 9}, {0, 1, 5}}}).behind_near, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, -96}, {1, 0, -100}, {0, 1, -200}}}).outside, 1u);
+  EXPECT_EQ(counts_of({{{90, 0, 0}, {91, 0, 0}, {90, 1, 0}}}).outside, 1u);
+  EXPECT_EQ(counts_of({{{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1e9, 0}}}).outside, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {1e-5, 0, 0}, {0, 1e-5, 0}}}).degenerate, 1u);
+  EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 1, 0}, {2, 2, 0}}}).degenerate, 1u);
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (double bad : {nan, inf, -inf, 1e200, -1e300})
+    EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 0, 0}, {0, bad, 0}}}).unrepresentable, 1u) << bad;
+}
+
+TEST(Project, ACornerNearInfinityIsCutCorrectly) {
+  // A band of 45 degrees from the middle of the frame up to one of its corners, and its mirror image.
+  const FrameSize frame{64, 64};
+  for (const bool to_the_left : {false, true}) {
+    const double side = to_the_left ? -1.0 : 1.0;
+    const glm::dvec3 inner{-0.1 * side, 0, 0}, outer{side, 0, 0}, far{1e60 * side, 1e60, 0};
+    Scene scene = to_the_left ? one_triangle({{inner, far, outer}}) : one_triangle({{inner, outer, far}});
+    scene.camera.vertical_fov_degrees = 90.0;
+    for (bool clip_to_frame : {false, true}) {
+      const auto triangles = Projector(scene, frame, {.clip_to_frame = clip_to_frame}).project_all();
+      const std::vector<int> count = coverage(triangles, frame);
+      for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {  // relative to the diagonal the band covers -0.625 to 6.375 pixels
+          const double from_middle = (x + 0.5 - 32.0) * side - (32.0 - (y + 0.5));
+          const bool covered = y < 32 && from_middle > -0.625 && from_middle < 6.375;
+          ASSERT_EQ(count[static_cast<std::size_t>(y * 64 + x)], covered ? 1 : 0) << x << ',' << y;
+        }
+    }
+  }
+  // With two such corners, no digits remain that determine the position of the edge between them.
+  const Scene scene = one_triangle({{{0, 0, 0}, {1e60, 0, 0}, {-1e60, 1e60, 3}}});
+  ProjectionCounts counts;
+  EXPECT_TRUE(Projector(scene, frame, {}).project_all(&counts).empty());
+  EXPECT_EQ(counts.unrepresentable, 1u);
+}
+
+TEST(Project, ACameraWithoutAViewDrawsNothingAndReportsIt) {
+  Scene scene = one_triangle({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
+  scene.camera.up_world = {0, 0, 1};  // along the viewing axis
+  ProjectionCounts counts;
+  EXPECT_TRUE(Projector(scene, {64, 64}, {}).project_all(&counts).empty());
+  EXPECT_EQ(counts.unrepresentable, 1u);
+  scene.camera.up_world = {0, 1, 0};
+  for (int bits : {-1, 10, 1000}) {
+    counts = {};
+    EXPECT_TRUE(Projector(scene, {64, 64}, {.subpixel_bits = bits}).project_all(&counts).empty());
+    EXPECT_EQ(counts.unrepresentable, 1u);
+  }
+}
+
+/// Ground in the world's plane y = 0, cells jittered within the plane, `half` units to each side of the
+/// origin.
+Scene ground_scene(unsigned seed, int cells, double half) {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.normals_world = {{0, 1, 0}};
+  std::mt19937 random(seed);
+  const double cell = 2.0 * half / cells;
+  std::uniform_real_distribution<double> jitter(-0.3 * cell, 0.3 * cell);
+  for (int j = 0; j <= cells; ++j)
+    for (int i = 0; i <= cells; ++i)
+      scene.positions_world.emplace_back(-half + i * cell + jitter(random), 0.0,
+                                         -half + j * cell + jitter(random));
+  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (cells + 1) + i); };
+  for (int j = 0; j < cells; ++j)
+    for (int i = 0; i < cells; ++i) {
+      const std::uint32_t a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      // Counter-clockwise seen from above; z points towards the viewer.
+      if (random() % 2)
+        scene.triangles.insert(scene.triangles.end(), {{{a, d, c}, {0, 0, 0}, 0}, {{a, c, b}, {0, 0, 0}, 0}});
+      else
+        scene.triangles.insert(scene.triangles.end(), {{{a, d, b}, {0, 0, 0}, 0}, {{b, d, c}, {0, 0, 0}, 0}});
+    }
+  return scene;
+}
+
+/// Ground that extends from behind the eye to beyond the far plane, so that triangles cross the near plane,
+/// the far plane, the guard band and the frame.
+struct GroundView {
+  Scene scene;
+  FrameSize frame;
+  ViewBasis basis;
+  double focal;
+
+  GroundView(std::mt19937& random, unsigned seed, FrameSize size, glm::dvec3 down, double near)
+      : scene(ground_scene(seed, 5, 40.0)), frame(size) {
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    Camera& camera = scene.camera;
+    camera.eye_world = {3.0 * unit(random), down.y < 0.0 ? 1.0 : -1.0, 3.0 * unit(random)};
+    camera.target_world = camera.eye_world + glm::dvec3(unit(random), 0.0, 0.0) + down;
+    camera.up_world = {0.6 * unit(random), 1.0, 0.0};
+    camera.vertical_fov_degrees = 75.0;
+    camera.near = near;
+    camera.far = 12.0;
+    basis = view_basis(camera);
+    focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
+  }
+  enum Depth { no_ground, before_near, visible, beyond_far };
+  /// What the ray through this place of the screen meets.
+  Depth at(double x, double y) const {
+    const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
+                           (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
+    const double distance = -scene.camera.eye_world.y / ray.y;  // along the viewing axis
+    if (!(distance > 0.0)) return no_ground;
+    return distance < scene.camera.near ? before_near : distance <= scene.camera.far ? visible : beyond_far;
+  }
+  /// What the rays around a pixel's centre meet. Snapped borders move by up to 1/32 of a pixel.
+  std::array<Depth, 4> around(std::uint32_t x, std::uint32_t y) const {
+    constexpr double c_low = 0.5 - 1.0 / 16.0, c_high = 0.5 + 1.0 / 16.0;
+    return {at(x + c_low, y + c_low), at(x + c_low, y + c_high), at(x + c_high, y + c_low),
+            at(x + c_high, y + c_high)};
+  }
+};
+
+// The ray through each pixel determines whether it must show ground.
+TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
+  std::mt19937 random(99);
+  int clipped_at_guard = 0, clipped_at_near = 0;
+  for (unsigned round = 0; round < 60; ++round) {
+    const GroundView view(random, round, {round % 2 ? 120u : 1000u, round % 2 ? 90u : 700u},
+                          {0.0, -0.45, -1.0}, 0.8);
+    for (bool clip_to_frame : {false, true}) {
+      const ProjectionOptions options{.subpixel_bits = 4, .clip_to_frame = clip_to_frame};
+      const auto triangles = Projector(view.scene, view.frame, options).project_all();
+      expect_sound(triangles, view.frame, options);
+      if (HasFatalFailure()) return;
+      for (const ScreenTriangle& t : triangles)
+        for (const ScreenVertex& v : t.vertex) {
+          clipped_at_guard += !clip_to_frame && (v.x == c_guard_begin * 16 || v.x == c_guard_end * 16 ||
+                                                 v.y == c_guard_begin * 16 || v.y == c_guard_end * 16);
+          clipped_at_near += std::abs(v.inverse_w * view.scene.camera.near - 1.0) < 1e-9;
+        }
+      const std::vector<int> count = coverage(triangles, view.frame);
+      for (std::uint32_t y = 0; y < view.frame.height; ++y)
+        for (std::uint32_t x = 0; x < view.frame.width; ++x) {
+          const int here = count[std::size_t{y} * view.frame.width + x];
+          const bool inside = view.at(x + 0.5, y + 0.5) == GroundView::visible;
+          const auto around = view.around(x, y);
+          if (std::ranges::count(around, GroundView::visible) == (inside ? 4 : 0)) {
+            ASSERT_EQ(here, inside ? 1 : 0) << "round " << round << " pixel " << x << ',' << y;
+          } else {
+            ASSERT_LE(here, 1);
+          }
+        }
+    }
+  }
+  // The scenes must contain enough such cases for the test to be meaningful.
+  EXPECT_GT(clipped_at_guard, 100);
+  EXPECT_GT(clipped_at_near, 100);
+}
+
+// Vertices that neighbours share are projected once. Frame, near plane and guard band cut some triangles.
+TEST(MeshProjector, ProjectsAsItsProjector) {
+  Scene scene = empty_scene();
+  add_mesh(scene, make_uv_sphere(60, 30, 1.0));
+  scene.camera.eye_world = {0.0, 0.0, 2.0};
+  std::size_t whole = 0, pieces = 0;
+  for (const double near : {0.1, 1.05, 1.2})
+    for (const ProjectionOptions options : {ProjectionOptions{4, false}, ProjectionOptions{0, true}}) {
+      scene.camera.near = near;
+      const Projector projector(scene, {97, 61}, options);
+      MeshProjector mesh_projector(projector);
+      ProjectionCounts counts, expected_counts;
+      for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+        const std::span<const ScreenTriangle> triangles = mesh_projector.project(i, counts);
+        std::vector<ScreenTriangle> expected;
+        projector.project(i, expected, expected_counts);
+        ASSERT_EQ(triangles.size(), expected.size());
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+          const ScreenTriangle &got = triangles[k], &want = expected[k];
+          whole += got.is_whole;
+          ++pieces;
+          ASSERT_EQ(got.source, want.source);
+          for (std::size_t v = 0; v < 3; ++v) {
+            const ScreenVertex &a = got.vertex[v], &b = want.vertex[v];
+            ASSERT_EQ(std::tuple(a.x, a.y, a.z, a.inverse_w), std::tuple(b.x, b.y, b.z, b.inverse_w));
+            ASSERT_EQ(a.position_world, b.position_world);
+            ASSERT_EQ(a.normal_world, b.normal_world);
+            const std::uint32_t corner = scene.triangles[i].position[(3 - v) % 3];
+            if (got.is_whole) {
+              ASSERT_EQ(a.position_world, scene.positions_world[corner]);
+            }
+          }
+        }
+      }
+      const auto all = [](const ProjectionCounts& n) {
+        return std::tuple(n.visible, n.back_facing, n.behind_near, n.outside, n.degenerate,
+                          n.unrepresentable);
+      };
+      EXPECT_EQ(all(counts), all(expected_counts));
+      EXPECT_GT(counts.back_facing, 0U);
+    }
+  EXPECT_GT(whole, 500U);
+  EXPECT_GT(pieces, whole + 100);
+}
+
+TEST(Project, TwoSidedAddsTheBackFaces) {
+  const FrameSize frame{160, 120};
+  for (const double x : {-3.0, -1.0, 0.5, 2.5}) {
+    Scene scene = empty_scene();
+    add_mesh(scene, make_uv_sphere(24, 16, 1.0));
+    scene.camera.eye_world = {x, 1.5, 3.0};
+    const Projector projector(scene, frame, {});
+    int fronts = 0, backs = 0;
+    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+      std::vector<ScreenTriangle> seen;
+      projector.project(i, seen);
+      const auto& [a, b, c] = scene.triangles[i].position;
+      const auto& p = scene.positions_world;
+      for (const bool is_turned : {false, true}) {
+        std::vector<TwoSidedTriangle> both;
+        ProjectionCounts counts;
+        projector.project_two_sided({p[a], p[is_turned ? c : b], p[is_turned ? b : c]}, i,
+                                    DepthSlice::visible, both, counts);
+        ASSERT_LE(both.size(), 1u);
+        ASSERT_EQ(counts.visible + counts.degenerate, 1u);
+        ASSERT_EQ(counts.visible, both.size());
+        if (both.empty()) {
+          ASSERT_TRUE(seen.empty());
+          continue;
+        }
+        ASSERT_GT(both[0].triangle.twice_area(), 0);
+        ASSERT_EQ(both[0].triangle.source, i);
+        ASSERT_EQ(both[0].faces_eye, seen.empty() == is_turned);
+        ++(both[0].faces_eye ? fronts : backs);
+        if (seen.empty()) continue;
+        for (const ScreenVertex& v : both[0].triangle.vertex) {
+          const auto same = std::find_if(seen[0].vertex.begin(), seen[0].vertex.end(),
+                                         [&](const auto& s) { return s.position_world == v.position_world; });
+          ASSERT_NE(same, seen[0].vertex.end());
+          ASSERT_EQ(std::tuple(same->x, same->y, same->z, same->inverse_w),
+                    std::tuple(v.x, v.y, v.z, v.inverse_w));
+        }
+      }
+    }
+    EXPECT_EQ(fronts, backs);
+    EXPECT_GT(fronts, 400);
+  }
+}
+
+// The part in front of the near plane and the visible part meet without a gap, and cover everything that a
+// ray from the eye meets before the far plane.
+TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
+  std::mt19937 random(31);
+  int in_both_slices = 0;
+  for (unsigned round = 0; round < 40; ++round) {
+    const GroundView view(random, round, {120, 90}, {0.0, round % 2 ? -0.7 : 0.7, -1.0}, 2.0);
+    const Projector projector(view.scene, view.frame, {});
+    ProjectionCounts counts;
+    // How often each pixel is covered, by slice. A sliver reversed by snapping counts negatively: its
+    // neighbours cover the same pixels twice.
+    std::array<std::vector<int>, 2> covered;
+    covered.fill(std::vector<int>(std::size_t{view.frame.width} * view.frame.height));
+    for (std::uint32_t i = 0; i < view.scene.triangles.size(); ++i)
+      for (const DepthSlice slice : {DepthSlice::visible, DepthSlice::before_near}) {
+        const bool is_near = slice == DepthSlice::before_near;
+        std::vector<TwoSidedTriangle> pieces;
+        const auto& [a, b, c] = view.scene.triangles[i].position;
+        const auto& p = view.scene.positions_world;
+        projector.project_two_sided({p[a], p[b], p[c]}, i, slice, pieces, counts);
+        for (const TwoSidedTriangle& piece : pieces) {
+          expect_sound(std::span(&piece.triangle, 1), view.frame, {});
+          if (HasFatalFailure()) return;
+          for (const ScreenVertex& v : piece.triangle.vertex) ASSERT_TRUE(v.z == 0.0 || !is_near) << v.z;
+          const int sign = piece.faces_eye == (view.scene.camera.eye_world.y > 0.0) ? 1 : -1;
+          for_each_pixel(piece.triangle, view.frame, [&](std::uint32_t x, std::uint32_t y) {
+            covered[is_near][std::size_t{y} * view.frame.width + x] += sign;
+          });
+        }
+      }
+    ASSERT_EQ(counts.unrepresentable, 0u);
+    for (std::uint32_t y = 0; y < view.frame.height; ++y)
+      for (std::uint32_t x = 0; x < view.frame.width; ++x) {
+        const std::size_t pixel = std::size_t{y} * view.frame.width + x;
+        const auto here = view.at(x + 0.5, y + 0.5);
+        bool near_border = false, near_far_border = false;
+        for (const auto neighbour : view.around(x, y)) {
+          near_border |= neighbour != here;
+          near_far_border |= neighbour != here && std::max(neighbour, here) != GroundView::visible;
+        }
+        const bool is_covered = here == GroundView::before_near || here == GroundView::visible;
+        if (!near_far_border) {
+          ASSERT_EQ(covered[0][pixel] + covered[1][pixel], is_covered) << round << " pixel " << x << ',' << y;
+        }
+        if (!near_border) {
+          ASSERT_EQ(covered[1][pixel], here == GroundView::before_near)
+              << round << " pixel " << x << ',' << y;
+        }
+        in_both_slices += near_border && is_covered;
+      }
+  }
+  EXPECT_GT(in_both_slices, 200);
+}
+
+// Two triangles at one edge, with opposite directions of the edge, in any position: the cut points on the
+// edge are equal.
+TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto point = [&] { return glm::dvec3(9 * unit(random), 9 * unit(random), 9 * unit(random)); };
+  int cuts = 0;
+  for (int round = 0; round < 3000; ++round) {
+    Scene scene = one_triangle({point(), point(), point()});
+    scene.positions_world.push_back(point());
+    scene.camera.far = 11.0;
+    const FrameSize frame{64, 48};
+    // Find cut points by their approximate place along the edge, and compare their coordinates exactly.
+    const auto cut_points = [&](SceneTriangle t) {
+      scene.triangles = {t};
+      std::map<std::int64_t, std::array<double, 5>> found;
+      for (int turn = 0; turn < 2; ++turn) {  // seen from both sides
+        if (turn) std::swap(scene.triangles[0].position[1], scene.triangles[0].position[2]);
+        for (const ScreenTriangle& s :
+             Projector(scene, frame, {.clip_to_frame = round % 2 == 0}).project_all())
+          for (const ScreenVertex& v : s.vertex) {
+            const glm::dvec3 p = v.position_world, a = scene.positions_world[0], b = scene.positions_world[1];
+            const double along = glm::dot(p - a, b - a) / glm::dot(b - a, b - a);
+            if (glm::length(p - (a + along * (b - a))) < 1e-12 && along > 1e-9 && along < 1 - 1e-9)
+              found[std::llround(along * 1e7)] = {double(v.x), double(v.y), p.x, p.y, p.z};
+          }
+      }
+      return found;
+    };
+    const auto first = cut_points({{0, 1, 2}, {0, 0, 0}, 0});
+    const auto second = cut_points({{1, 0, 3}, {0, 0, 0}, 0});
+    for (const auto& [along, point_of_first] : first)
+      if (const auto it = second.find(along);
+          it != second.end()) {  // the piece of the other may have zero area after snapping
+        ASSERT_EQ(point_of_first, it->second) << round;
+        ++cuts;
+      }
+  }
+  EXPECT_GT(cuts, 300);
+}
+
+/// A triangle with vertices exactly on snapped coordinates, projected back from the screen to the world.
+struct Unprojected {
+  Scene scene;
+  ScreenTriangle triangle;
+  ViewBasis basis;
+  double focal;
+  glm::dvec3 ray(double x, double y) const {
+    return (x - 32.0) / focal * basis.right_world - (y - 32.0) / focal * basis.up_world -
+           basis.backward_world;
+  }
+};
+
+Unprojected unprojected(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::uniform_int_distribution<std::int32_t> coordinate(0, 64 * 16);
+  Unprojected u;
+  u.scene.camera.eye_world = {unit(random), unit(random), 5.0};
+  u.scene.camera.near = 1.0;
+  u.scene.camera.far = 20.0;
+  u.basis = view_basis(u.scene.camera);
+  u.focal = 32.0 / std::tan(glm::radians(20.0));
+  do {
+    for (ScreenVertex& v : u.triangle.vertex) {
+      v.x = coordinate(random);
+      v.y = coordinate(random);
+      const double w = 6.0 + 5.0 * unit(random);
+      v.z = 20.0 * (w - 1.0) / (w * 19.0);
+      v.inverse_w = 1.0 / w;
+      v.position_world = u.scene.camera.eye_world + w * u.ray(v.x / 16.0, v.y / 16.0);
+      v.normal_world = glm::normalize(glm::dvec3(unit(random), unit(random), 1.5));
+    }
+  } while (u.triangle.twice_area() < 64 * 256);
+  return u;
+}
+
+TEST(SurfacePoint, IsWhereTheRayMeetsTheTriangle) {
+  std::mt19937 random(17);
+  for (int round = 0; round < 200; ++round) {
+    const Unprojected u = unprojected(random);
+    const auto &a = u.triangle.vertex[0], &b = u.triangle.vertex[1], &c = u.triangle.vertex[2];
+    const glm::dvec3 normal =
+        glm::cross(b.position_world - a.position_world, c.position_world - a.position_world);
+    for_each_span({ScreenPoint{a.x, a.y}, ScreenPoint{b.x, b.y}, ScreenPoint{c.x, c.y}}, 4, {64, 64},
+                  [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+                    const std::uint32_t x = (begin + end) / 2;
+                    const glm::dvec3 weights =
+                        barycentric_screen(u.triangle, (2 * x + 1) << 4, (2 * y + 1) << 4);
+                    EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0, 1e-15);
+                    const glm::dvec3 ray = u.ray(x + 0.5, y + 0.5);
+                    const glm::dvec3 eye = u.scene.camera.eye_world;
+                    const double w = glm::dot(normal, a.position_world - eye) / glm::dot(normal, ray);
+                    const SurfacePoint point = surface_point(u.triangle, weights);
+                    EXPECT_LT(glm::length(point.position_world - (eye + w * ray)), 1e-10 * w);
+                    EXPECT_NEAR(point.z, 20.0 * (w - 1.0) / (w * 19.0), 1e-11);
+                    EXPECT_NEAR(point.inverse_w * w, 1.0, 1e-11);
+                    EXPECT_NEAR(glm::length(point.normal_world), 1.0, 1e-14);
+                  });
+  }
+}
+
+TEST(SurfacePoint, BarycentricsAreExactAtVerticesAndMidpoints) {
+  std::mt19937 random(18);
+  for (int round = 0; round < 200; ++round) {
+    const ScreenTriangle t = unprojected(random).triangle;
+    const auto& [a, b, c] = t.vertex;
+    EXPECT_EQ(barycentric_screen(t, 2 * a.x, 2 * a.y), glm::dvec3(1, 0, 0));
+    EXPECT_EQ(barycentric_screen(t, 2 * b.x, 2 * b.y), glm::dvec3(0, 1, 0));
+    EXPECT_EQ(barycentric_screen(t, 2 * c.x, 2 * c.y), glm::dvec3(0, 0, 1));
+    EXPECT_EQ(barycentric_screen(t, b.x + c.x, b.y + c.y), glm::dvec3(0, 0.5, 0.5));
+  }
+}
+
+TEST(SurfacePoint, OpposedNormalsFallBackToTheTrianglesOwn) {
+  Scene scene = one_triangle({{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}}});
+  auto triangle = Projector(scene, {64, 64}, {}).project_all().at(0);
+  triangle.vertex[0].normal_world = {1, 0, 0};
+  triangle.vertex[1].normal_world = {-1, 0, 0};
+  EXPECT_EQ(surface_point(triangle, {0.5, 0.5, 0.0}).normal_world, glm::dvec3(0, 0, 1));  // towards the eye
+  // One rounding next to it, the direction is still noise.
+  EXPECT_EQ(surface_point(triangle, {0.5 + 1e-15, 0.5 - 1e-15, 0.0}).normal_world, glm::dvec3(0, 0, 1));
+  EXPECT_FALSE(surface_point(triangle, {0.5, 0.5, 0.0}).is_smooth());
+  EXPECT_NEAR(surface_point(triangle, {0.6, 0.4, 0.0}).normal_world.x, 1.0, 1e-15);
+  EXPECT_NEAR(surface_point(triangle, {0.6, 0.4, 0.0}).normal_length, 0.2, 1e-15);
+  // If the corners have no normal either, the result is still a unit vector.
+  for (ScreenVertex& v : triangle.vertex) v.position_world = v.normal_world = glm::dvec3(0.0);
+  EXPECT_EQ(glm::length(surface_point(triangle, {0.2, 0.3, 0.5}).normal_world), 1.0);
+}
+
+}  // namespace
+}  // namespace halfway

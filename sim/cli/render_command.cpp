@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway render`: software pictures only, by the reference, Gouraud shading, the golden model, or spherical
+// interpolation in double.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "frame/assemble.hpp"
+#include "frame/metrics.hpp"
+#include "plan/plan.hpp"
+#include "reference/renderer.hpp"
+#include "reference/spherical_renderer.hpp"
+#include "setup/check_counts.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/files/image.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/threads.hpp"
+#include "sim/run/scene_stream.hpp"
+
+namespace halfway::cli {
+namespace {
+
+constexpr std::array<std::string_view, 5> c_methods{"reference", "gouraud", "golden", "spherical-fixed",
+                                                    "spherical-both"};
+
+struct RenderCommand {
+  DrawOptions draw;
+  std::string scene;
+  std::string method = "reference";
+  std::string file;
+};
+
+Frame golden_frame(const Scene& scene, const DrawSettings& draw) {
+  const auto plan = must(plan_scene(scene, draw.plan));
+  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan.key, draw.setup);
+  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene.name, note));
+  SceneStream stream(*setup, plan.key, draw.threads);
+  FrameAssembler assembler(draw.size, scene.background);
+  Progress progress(scene.name);
+  for (Batch batch; stream.next(batch);) {
+    progress.show(batch.done);
+    must(check_shadow_counts(scene, stream.counts(), stream.fault()));
+    must(assembler.add(batch.golden));
+  }
+  return assembler.frame();
+}
+
+void run(const Folders& folders, const RenderCommand& command) {
+  const bool spherical = command.method.starts_with("spherical-");
+  DrawOptions options_given = command.draw;
+  // these methods take the options of the spherical shader
+  if (spherical) options_given.shader = to_string(Shader::spherical);
+  const auto draw = checked(options_given);
+  if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
+    throw Failure{bad_input(
+        fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", ")))};
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  for (const std::string& note : scene.notes) say(note);
+
+  const std::vector<ScreenTriangle> triangles = Projector(scene, draw.size, {}).project_all();
+  const RenderOptions options{.frame = draw.size, .subpixel_bits = 4, .workers = on_threads(draw.threads)};
+  const ReferenceImage reference = render_reference(scene, triangles, options);
+  Frame frame = reference.frame;
+  if (command.method == "gouraud") frame = render_gouraud(scene, triangles, options).frame;
+  if (spherical) {
+    const SphericalMethod method{
+        command.method == "spherical-fixed" ? VectorScheme::one_fixed : VectorScheme::both_interpolated,
+        draw.setup.spherical.ends};
+    frame = render_spherical(scene, triangles, options, method).frame;
+  }
+  if (command.method == "golden") {
+    frame = golden_frame(scene, draw);
+  }
+  const std::string file =
+      command.file.empty() ? fmt::format("{}-{}.png", scene.name, command.method) : command.file;
+  must(write_png(file, frame));
+  const auto distance = must(frame_distance(frame, reference.frame, reference.mask));
+  fmt::print("{}: {} against the reference: PSNR {:.2f} dB, largest error {}/255\n", file, command.method,
+             distance.psnr_db, distance.max_lsb);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, const Folders& folders, int&) {
+  CLI::App* sub = app.add_subcommand("render", "draw a scene in software and compare it with the reference");
+  auto command = std::make_shared<RenderCommand>();
+  sub->add_option("scene", command->scene, "as for sim")->required();
+  command->draw.add_to(*sub);
+  sub->add_option("--method", command->method,
+                  "reference, gouraud or golden; spherical-fixed or spherical-both: spherical interpolation\n"
+                  "in double, with one vector fixed or both interpolated")
+      ->capture_default_str();
+  sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
+  sub->callback([=, &folders] { run(folders, *command); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway sim`: scenes through golden model, GHDL and Verilator.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <future>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+
+#include "common/to_integer.hpp"
+#include "plan/own_bells.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/generator/generated_files.hpp"
+#include "sim/generator/word_lengths/compiled_sizes.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/printable.hpp"
+#include "sim/run/simulate.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct SimOptions {
+  DrawOptions draw;
+  std::vector<std::string> scenes;
+  std::vector<std::string> simulators;
+  std::uint32_t stall_seed = 0;
+  bool own_tables = false;
+};
+
+// The current step of each scene, on one line of a terminal.
+class Board {
+ public:
+  explicit Board(const std::vector<std::string>& scenes)
+      : scenes_(scenes), states_(scenes.size()), progress_("sim") {}
+
+  void show(std::size_t scene, std::string state) {
+    const std::scoped_lock lock(mutex_);
+    if (states_[scene] == state) return;
+    states_[scene] = std::move(state);
+    std::string text;
+    for (std::size_t i = 0; i < scenes_.size(); ++i)
+      if (!states_[i].empty())
+        text += fmt::format("{}{} {}", text.empty() ? "" : " | ", scenes_[i], states_[i]);
+    progress_.show(text);
+  }
+  void clear() {
+    const std::scoped_lock lock(mutex_);
+    progress_.clear();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> scenes_, states_;
+  Progress progress_;
+};
+
+struct Drawn {
+  SceneSummary summary;
+  std::vector<std::string> notes;
+};
+
+// Preset exact of the spherical shader, with a table for each exponent of the scene: in memory for the golden
+// model, and in a copy of the RTL in the cache.
+void take_own_tables(const Scene& scene, SimulateSettings& settings,
+                     std::optional<tables::MadeTables>& made) {
+  std::vector<double> own = must(own_exponents(scene));
+  const TableSize size =
+      settings.plan.tables.value_or(TableSize{tables::c_own_size.address_bits, tables::c_own_size.data_bits});
+  const tables::CosineSize made_size{size.address_bits, size.data_bits};
+  made.emplace(true, made_size, own);
+  settings.folders.source =
+      must(tables::rtl_with(true, made_size, {}, settings.folders.source, settings.folders.cache, own));
+  settings.plan.tables = size;
+  settings.plan.made_tables = made->tables();
+  settings.plan.own = std::move(own);
+}
+
+Drawn draw_scene(const std::string& name, std::size_t number, const Folders& folders,
+                 SimulateSettings settings, bool own_tables, Board& board) {
+  board.show(number, "loading");
+  const Scene scene = must(load_scene(name, folders.scenes()));
+  std::optional<tables::MadeTables> made;
+  if (own_tables) take_own_tables(scene, settings, made);
+  settings.on_progress = [&](const std::string& what, double done) {
+    board.show(number, done < 0.0 ? what : fmt::format("{} {} %", what, to_integer<int>(100.0 * done)));
+  };
+  settings.on_wait = [&](const std::filesystem::path& folder) {
+    board.clear();
+    say_waiting(folder);
+  };
+  auto summary = caught([&] { return simulate(scene, settings); });
+  board.show(number, "");
+  return {must(std::move(summary)), scene.notes};
+}
+
+// The scene's outcome, when it is drawn. Each exception becomes an error.
+Result<Drawn> outcome_of(std::promise<Drawn>& promise) {
+  try {
+    return promise.get_future().get();
+  } catch (const Failure& failure) {
+    return failure.error;
+  } catch (const std::bad_alloc&) {
+    return tool_failed(
+        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit");
+  } catch (const std::exception& error) {
+    return tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()));
+  }
+}
+
+// Returns true if at least one fragment was compared and all are equal.
+bool print(const Drawn& drawn) {
+  for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
+    for (const std::string& note : *notes) say(note);
+  fmt::print("{}\n", printable(to_line(drawn.summary)));
+  std::fflush(stdout);
+  for (const SimulatorRun& run : drawn.summary.runs) {
+    if (run.equal()) continue;
+    say(fmt::format("{}: {} differs from the golden model", drawn.summary.scene, run.simulator));
+    if (!run.fault.empty()) say("  " + run.fault);
+    fmt::print(stderr, "{}", run.description);
+    for (const auto& path : run.evidence) say("  see " + path.string());
+  }
+  const auto nothing = drawn.summary.nothing_compared();
+  if (nothing) say(fmt::format("{}: {}", drawn.summary.scene, *nothing));
+  return drawn.summary.equal() && !nothing;
+}
+
+int run(const Folders& folders, const SimOptions& options) {
+  const DrawSettings draw = checked(options.draw);
+  if (options.own_tables && (draw.plan.shader != Shader::spherical || draw.plan.preset != Preset::exact))
+    throw Failure{bad_input("--own-tables belongs to the spherical shader in preset exact")};
+  SimulateSettings settings{.plan = draw.plan,
+                            .size = draw.size,
+                            .setup = draw.setup,
+                            .threads = draw.threads,
+                            .engines = checked_simulators(options.simulators),
+                            .stall_seed = options.stall_seed,
+                            .out = draw.out,
+                            .folders = {folders.source, folders.cache()}};
+  const std::vector<std::string> scenes = options.scenes.empty() ? builtin_scenes(folders) : options.scenes;
+
+  // Results are stored under the scene's name, so two scenes must not have the same one.
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (result_name(scenes[i]) == result_name(scenes[j]))
+        throw Failure{
+            bad_input(fmt::format("{}: its results would overwrite those of {}; draw them one at a time, or "
+                                  "into another --out",
+                                  scenes[i], scenes[j]))};
+
+  for (const std::string& scene : scenes) {
+    const auto files = ResultFiles::of(settings.out, result_name(scene), settings.plan);
+    forget_summary(files, [&] { say_waiting(files.folder); });
+  }
+
+  // Run scenes in parallel: GHDL uses one core and takes most of the time.
+  const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw.threads);
+  settings.threads = std::max(1U, draw.threads / workers);
+  Board board(scenes);
+  std::vector<std::promise<Drawn>> outcomes(scenes.size());
+  std::atomic<std::size_t> next = 0;
+  std::atomic<bool> stop = false;
+  std::vector<std::jthread> pool;
+  for (unsigned i = 0; i < workers; ++i)
+    pool.emplace_back([&] {
+      for (std::size_t n = next++; n < scenes.size(); n = next++) try {
+          if (stop) return;
+          outcomes[n].set_value(draw_scene(scenes[n], n, folders, settings, options.own_tables, board));
+        } catch (...) {
+          outcomes[n].set_exception(std::current_exception());
+        }
+    });
+
+  // Frames may be equal although a generated file was changed: for example, a wrong table entry for an angle
+  // that no scene contains.
+  bool equal = true;
+  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
+    board.clear();
+    fmt::print(stderr, "{}\n", message);
+    equal = false;
+  }
+  for (std::size_t n = 0; n < scenes.size(); ++n) {
+    const auto outcome = outcome_of(outcomes[n]);
+    board.clear();
+    if (!outcome) {
+      stop = true;
+      return report(outcome.error());
+    }
+    equal = print(*outcome) && equal;
+  }
+  return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("sim", "draw scenes by golden model, GHDL and Verilator and compare");
+  auto options = std::make_shared<SimOptions>();
+  command->add_option("scene", options->scenes,
+                      "a built-in scene's name, a scene file (.toml) or a mesh (.obj .ply .stl .gltf .glb);\n"
+                      "default: all built-in scenes");
+  options->draw.add_to(*command);
+  command->add_option("--simulator", options->simulators,
+                      "ghdl or verilator (default: both), or lanes: many copies of the RTL at once (see\n"
+                      "sim/extras/lanes), which report no cycles");
+  command->add_flag(
+      "--own-tables", options->own_tables,
+      fmt::format("spherical, preset exact: a table of cos^n for each exponent n of the scene, up "
+                  "to {},\nof {}/{} address/data bits or the size given: within one colour step",
+                  tables::c_most_own_tables, tables::c_own_size.address_bits, tables::c_own_size.data_bits));
+  command
+      ->add_option("--stalls", options->stall_seed,
+                   "stall both streams at random, with this seed (0: full speed)")
+      ->capture_default_str();
+  command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway verilog`: the hardware of a scene as plain Verilog, for designs and tools without VHDL.
+#include <fmt/format.h>
+
+#include <memory>
+#include <regex>
+
+#include "plan/plan.hpp"
+#include "sim/cli/options.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/engines/verilator/netlist.hpp"
+#include "sim/engines/verilator/shader_netlist.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/printable.hpp"
+
+namespace halfway::cli {
+namespace {
+
+struct VerilogCommand {
+  DrawOptions draw;
+  std::string scene = "spheres";
+  bool axi = false;  // the top with AXI4-Stream ports
+};
+
+struct Port {
+  std::string direction, name;
+  unsigned bits;
+};
+
+// The ports of the module, in the netlist's order.
+std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
+  static const std::regex c_port(R"((input|output)\s+(?:\[(\d+):0\]\s+)?(\w+))");
+  const std::size_t begin = netlist.find("\nmodule " + top + "\n");
+  if (begin == std::string::npos) return {};
+  const std::string header = netlist.substr(begin, netlist.find(';', begin) - begin);
+  std::vector<Port> ports;
+  for (std::sregex_iterator at(header.begin(), header.end(), c_port), last; at != last; ++at)
+    ports.push_back(
+        {(*at)[1], (*at)[3], (*at)[2].matched ? static_cast<unsigned>(std::stoul((*at)[2].str())) + 1 : 1U});
+  return ports;
+}
+
+std::string netlist_of_top(const HardwareKey& key, const std::string& top, const Folders& folders) {
+  const GhdlLibrary library = must(rtl_library({folders.source, folders.cache()}));
+  return must(mend_netlist(must(library.synthesize(top, key.generics()))));
+}
+
+// The options that select the hardware, as on the command line.
+std::string command_line(const VerilogCommand& command) {
+  const DrawOptions& draw = command.draw;
+  std::string line = fmt::format("halfway verilog {} --shader {} --preset {}", printable(command.scene),
+                                 draw.shader, draw.preset);
+  if (draw.degree) line += fmt::format(" --degree {}", *draw.degree);
+  if (draw.form) line += fmt::format(" --form {}", *draw.form);
+  if (draw.address_bits) line += fmt::format(" --address-bits {}", *draw.address_bits);
+  if (draw.data_bits) line += fmt::format(" --data-bits {}", *draw.data_bits);
+  if (draw.all_effects) line += " --all-effects";
+  if (draw.lights) line += fmt::format(" --lights {}", *draw.lights);
+  return line + (command.axi ? " --axi" : "");
+}
+
+std::string header(const VerilogCommand& command, const HardwareKey& key, const std::string& top,
+                   const std::vector<Port>& ports, const std::string& version) {
+  std::string text = fmt::format(
+      "// SPDX-License-Identifier: Apache-2.0\n// {}, hardware key {}: written by Halfway {} with\n//   {}\n"
+      "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
+      top, key.name(), version, command_line(command));
+  for (const auto& [name, value] : key.generics()) text += fmt::format(" {}={}", name, value);
+  text += "\n// Ports, in this order:\n";
+  for (const Port& port : ports)
+    text += fmt::format("//   {:<6}  {:>5}  {}\n", port.direction, port.bits, port.name);
+  return text;
+}
+
+void run(const Folders& folders, const VerilogCommand& command, const std::string& version) {
+  const auto draw = checked(command.draw);
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  const auto plan = must(plan_scene(scene, draw.plan));
+  const HardwareKey& key = plan.key;
+  const std::string top = command.axi ? fmt::format("{}_axi", to_string(key.shader)) : key.entity();
+  const auto netlist = netlist_of_top(key, top, folders);
+  const std::vector<Port> ports = ports_of(netlist, top);
+  if (ports.empty())
+    throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), top))};
+
+  const std::filesystem::path folder = draw.out / key.name();
+  const std::filesystem::path file = folder / (top + ".v"), list = folder / (top + ".f");
+  must(make_folders(folder));
+  must(write_file(file, header(command, key, top, ports, version) + netlist));
+  must(write_file(list, top + ".v\n"));
+  fmt::print("{}: module {} with {} ports\n{}: the list of files\n", file.string(), top, ports.size(),
+             list.string());
+}
+
+}  // namespace
+
+void add_verilog(CLI::App& app, const Folders& folders, int&) {
+  CLI::App* sub =
+      app.add_subcommand("verilog", "write the hardware of a scene as Verilog, with a list of files");
+  auto command = std::make_shared<VerilogCommand>();
+  command->draw.out = "build/verilog";
+  sub->add_option("scene", command->scene, "as for sim")->capture_default_str();
+  command->draw.add_to(*sub);
+  sub->add_flag("--axi", command->axi, "the top with AXI4-Stream ports");
+  sub->callback([=, &app, &folders] { run(folders, *command, app.version()); });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: Apache-2.0
+// `halfway view`: a scene from all sides, drawn by the RTL in Verilator or lanes as fast as possible.
+#include <fmt/format.h>
+#include <malloc.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <regex>
+#include <string_view>
+
+#include "sim/cli/options.hpp"
+#include "sim/files/image.hpp"
+#include "sim/files/image_library.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/files/terminal_picture.hpp"
+#include "sim/generator/generated_files.hpp"
+#include "sim/generator/word_lengths/compiled_sizes.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/folder_lock.hpp"
+#include "sim/os/interruption.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/printable.hpp"
+#include "sim/os/seconds.hpp"
+#include "sim/run/result_files.hpp"
+#include "sim/run/video.hpp"
+#include "sim/run/view.hpp"
+
+namespace halfway::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr unsigned c_usual_rate = 16;  // as in the papers
+constexpr unsigned c_most_rate = 1000, c_most_columns = 4096;
+
+// Buffers for a frame's fragments are allocated and freed for each frame. Keep freed memory: otherwise the
+// system would have to map all its pages again.
+void keep_freed_memory() {
+  constexpr int c_most_kept = 256 << 20, c_largest_threshold = 32 << 20;
+  ::mallopt(M_TRIM_THRESHOLD, c_most_kept);
+  ::mallopt(M_MMAP_THRESHOLD, c_largest_threshold);
+}
+
+struct ViewCommand {
+  DrawOptions draw;
+  bool out_given = false;
+  std::string scene;
+  std::int64_t frames = 36;
+  std::string engine = "auto";
+  bool no_compare = false;
+  std::optional<std::string> format;
+  std::optional<std::string> video;
+  std::optional<std::int64_t> rate;
+  bool terminal = false;
+  std::optional<std::int64_t> columns;
+  std::optional<std::string> colours;
+};
+
+// Where the frames are written.
+struct Outputs {
+  bool images = false, ppm = false;
+  std::filesystem::path folder;  ///< of images
+  std::optional<std::filesystem::path> video;
+  unsigned rate = c_usual_rate;
+  bool terminal = false;
+  std::optional<std::uint32_t> columns;  ///< std::nullopt: those of the terminal
+  TerminalColours colours = TerminalColours::full;
+
+  std::string name_of(std::uint32_t number) const {
+    return fmt::format("frame_{:04}.{}", number, ppm ? "ppm" : "png");
+  }
+};
+
+void check_range(const char* option, const std::optional<std::int64_t>& value, std::int64_t greatest) {
+  if (value && (*value < 1 || *value > greatest))
+    throw Failure{bad_input(fmt::format("{}: {} is not 1 to {}", option, *value, greatest))};
+}
+
+TerminalColours colours_of_terminal() {
+  const char* said = std::getenv("COLORTERM");
+  const std::string_view text = said == nullptr ? "" : said;
+  return text == "truecolor" || text == "24bit" ? TerminalColours::full : TerminalColours::palette;
+}
+
+Outputs checked(const ViewCommand& c) {
+  check_range("--frames", c.frames, c_most_view_frames);
+  check_range("--rate", c.rate, c_most_rate);
+  check_range("--columns", c.columns, c_most_columns);
+  Outputs o;
+  o.images = c.out_given || (!c.video && !c.terminal);
+  if (c.format && !o.images)
+    throw Failure{bad_input("--format is of images, and none are asked for; give --out as well")};
+  if (c.format && *c.format != "png" && *c.format != "ppm")
+    throw Failure{bad_input(fmt::format("--format: '{}' is not a format; take png or ppm", *c.format))};
+  o.ppm = c.format == "ppm";
+  if (c.rate && !c.video) throw Failure{bad_input("--rate goes with --video; give both")};
+  if (c.rate) o.rate = static_cast<unsigned>(*c.rate);
+  if (c.video) {
+    o.video = *c.video;
+    VideoWriter::check(*o.video);
+  }
+  if (c.columns && !c.terminal) throw Failure{bad_input("--columns goes with --terminal; give both")};
+  if (c.colours && !c.terminal) throw Failure{bad_input("--colours goes with --terminal; give both")};
+  o.terminal = c.terminal;
+  if (c.columns) o.columns = static_cast<std::uint32_t>(*c.columns);
+  if (o.terminal && !o.columns && isatty(STDOUT_FILENO) == 0)
+    throw Failure{bad_input(
+        "--terminal: standard output is no terminal; with --columns the pictures are still written")};
+  o.colours = colours_of_terminal();
+  if (c.colours == "24bit")
+    o.colours = TerminalColours::full;
+  else if (c.colours == "256")
+    o.colours = TerminalColours::palette;
+  else if (c.colours)
+    throw Failure{bad_input(fmt::format("--colours: '{}' is not a kind; take 24bit or 256", *c.colours))};
+  return o;
+}
+
+// std::nullopt: the fastest available engine.
+std::optional<EngineKind> checked_engine(const std::string& name) {
+  if (name == "auto") return std::optional<EngineKind>();
+  for (const EngineKind kind : {EngineKind::verilator, EngineKind::lanes})
+    if (name == to_string(kind)) return std::optional(kind);
+  throw Failure{bad_input(fmt::format("--simulator: '{}' is none of auto, verilator and lanes", name))};
+}
+
+// Removes the frames of an earlier turn, which may have had more frames, and unfinished files of a killed
+// run.
+void forget_frames(const std::filesystem::path& folder) {
+  const std::regex ours("frame_[0-9]{4}\\.(png|ppm)(\\.part-.*)?");
+  std::error_code error;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;) {
+    const std::filesystem::path path = entry->path();
+    entry.increment(error);
+    if (error || !std::regex_match(path.filename().string(), ours)) continue;
+    if (!std::filesystem::remove(path, error) && error) break;
+  }
+  if (error)
+    throw Failure{
+        tool_failed(fmt::format("{}: cannot remove old frames: {}", folder.string(), error.message()))};
+}
+
+// Half blocks on standard output. On a terminal each picture overwrites the previous one.
+class Screen {
+ public:
+  explicit Screen(const Outputs& outputs) : o_(outputs), terminal_(isatty(STDOUT_FILENO) != 0) {}
+  ~Screen() { leave(); }
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+
+  void show(const Frame& frame, const std::string& caption) {
+    std::uint32_t columns = o_.columns.value_or(80), lines = c_most_columns;
+    struct winsize window {};
+    if (terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col != 0 &&
+        window.ws_row > 1) {
+      if (!o_.columns) columns = window.ws_col;
+      lines = window.ws_row - 1U;  // the last one shows the caption
+    }
+    std::string text;
+    if (terminal_) text += entered_ ? "\033[H" : "\033[?25l\033[2J\033[H";
+    entered_ = true;
+    text += terminal_picture(frame, fitting_size(frame.size, columns, lines), o_.colours);
+    if (terminal_)
+      text += fmt::format("\033[K{}\033[J", caption.substr(0, columns));
+    else
+      text += caption + "\n";
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+      throw Failure{tool_failed(fmt::format("standard output: {}", std::strerror(errno)))};
+  }
+  /// Restores the terminal below the last picture.
+  void leave() {
+    constexpr std::string_view c_restore = "\033[0m\033[?25h\n";
+    if (terminal_ && entered_ && ::write(STDOUT_FILENO, c_restore.data(), c_restore.size()) < 0) return;
+    entered_ = false;
+  }
+
+ private:
+  const Outputs& o_;
+  bool terminal_;
+  bool entered_ = false;
+};
+
+void print_difference(const ViewSummary& s) {
+  const ViewDifference& d = *s.difference;
+  say(fmt::format("{}: frame {}: {} differs from the golden model", s.scene, d.frame, d.run.simulator));
+  if (!d.run.fault.empty()) say("  " + d.run.fault);
+  fmt::print(stderr, "{}", d.run.description);
+  const glm::dvec3 eye = d.camera.eye_world;
+  say(fmt::format("  halfway sim and halfway why show more, of the scene with eye = [{}, {}, {}] in [camera]",
+                  eye.x, eye.y, eye.z));
+}
+
+class View {
+ public:
+  View(const ViewCommand& command, const Folders& folders, const DrawSettings& draw,
+       std::optional<EngineKind> engine, Outputs outputs)
+      : c_(command),
+        folders_(folders),
+        draw_(draw),
+        engine_(engine),
+        o_(std::move(outputs)),
+        screen_(o_),
+        progress_("view") {}
+
+  /// True if all frames were compared and are equal.
+  bool run() {
+    const auto scene = must(load_scene(c_.scene, folders_.scenes()));
+    for (const std::string& note : scene.notes) say(note);
+    const auto lock = prepare_folder(scene.name);
+    // Load the library now: it takes as long as many small frames, and it may be missing.
+    if (o_.images && !o_.ppm) must(image_library());
+
+    ViewSettings settings;
+    settings.plan = draw_.plan;
+    settings.size = draw_.size;
+    settings.setup = draw_.setup;
+    settings.threads = draw_.threads;
+    settings.frames = static_cast<std::uint32_t>(c_.frames);
+    settings.compare = !c_.no_compare;
+    settings.folders = {folders_.source, folders_.cache()};
+    settings.engine = engine_;
+    settings.on_build = [&](const std::string& key, EngineKind engine) {
+      progress_.show(fmt::format("building {} for {}", key, title(engine)));
+    };
+    std::optional<Interruption> interruption;
+    settings.on_ready = [&] {
+      progress_.clear();
+      interruption.emplace([this] { tidy(); });
+      start_ = Clock::now();
+      if (!o_.video) return;
+      const auto writing = interruption->writing();
+      video_.emplace(*o_.video, draw_.size, o_.rate);
+    };
+    if (o_.images)
+      settings.on_drawn = [&](std::uint32_t number, const Frame& frame) {
+        const auto writing = interruption->writing();
+        const auto path = o_.folder / o_.name_of(number);
+        must(o_.ppm ? write_ppm(path, frame) : write_png(path, frame, Compression::quick));
+      };
+    settings.on_next = [&](std::uint32_t number, const Frame& frame) {
+      const auto writing = interruption->writing();
+      next(number, frame);
+    };
+
+    auto drawn = caught([&] { return view(scene, settings); });
+    // Not acquired after a signal: the interrupted work must not be reported as an error.
+    std::shared_lock<std::shared_timed_mutex> writing;
+    if (interruption) writing = interruption->writing();
+    progress_.clear();
+    const ViewSummary summary = must(std::move(drawn));
+    if (o_.terminal) screen_.leave();
+    for (const std::string& note : summary.notes) say(note);
+    fmt::print("{}", printable(to_lines(summary)));
+    const auto nothing = summary.nothing_compared();
+    if (nothing) say(fmt::format("{}: {}", summary.scene, *nothing));
+    if (summary.difference) {
+      print_difference(summary);
+      video_.reset();
+    }
+    if (o_.images)
+      fmt::print("{} to {}\n", printable((o_.folder / o_.name_of(0)).string()),
+                 o_.name_of(std::max(summary.frames, 1U) - 1));
+    if (video_) {
+      video_->commit();
+      fmt::print("{}: {} frames a second\n", printable(o_.video->string()), o_.rate);
+    }
+    return !summary.difference.has_value() && !nothing;
+  }
+
+ private:
+  // Locks the folder while frames are written to it. Without images no folder is locked.
+  std::optional<FolderLock> prepare_folder(const std::string& scene) {
+    if (!o_.images) return std::nullopt;
+    o_.folder = c_.out_given ? draw_.out : ResultFiles::of(draw_.out, scene, draw_.plan).folder / "view";
+    must(TemporaryFolder::make(o_.folder));
+    auto lock = must(FolderLock::take(o_.folder, [&] {
+      say(fmt::format("waiting for {} (another halfway view draws into it)", o_.folder.string()));
+    }));
+    forget_frames(o_.folder);
+    return lock;
+  }
+
+  void next(std::uint32_t number, const Frame& frame) {
+    const double seconds = seconds_since(start_);
+    const std::string so_far =
+        fmt::format("frame {} of {}, {:.1f} frames a second", number + 1, c_.frames, (number + 1) / seconds);
+    if (video_) video_->add(frame);
+    if (o_.terminal) return screen_.show(frame, so_far);
+    progress_.show(so_far);
+  }
+
+  // Called before a signal ends the process.
+  void tidy() {
+    if (video_) video_->abandon();
+    if (o_.terminal) screen_.leave();
+  }
+
+  const ViewCommand& c_;
+  const Folders& folders_;
+  const DrawSettings& draw_;
+  std::optional<EngineKind> engine_;
+  Outputs o_;
+  Screen screen_;
+  Progress progress_;
+  std::optional<VideoWriter> video_;
+  Clock::time_point start_;
+};
+
+int run(const Folders& folders, const ViewCommand& command) {
+  const DrawSettings draw = checked(command.draw);
+  const std::optional<EngineKind> engine = checked_engine(command.engine);
+  Outputs outputs = checked(command);
+  keep_freed_memory();
+  bool right = View(command, folders, draw, engine, std::move(outputs)).run();
+  // As in sim_command.cpp: frames may be equal although a generated file was changed.
+  for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
+    fmt::print(stderr, "{}\n", message);
+    right = false;
+  }
+  return static_cast<int>(right ? ExitCode::equal : ExitCode::differs);
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
+  CLI::App* sub = app.add_subcommand(
+      "view",
+      "draw a scene from all sides by the RTL in Verilator or lanes: images, a video, or the terminal");
+  auto command = std::make_shared<ViewCommand>();
+  sub->add_option("scene", command->scene, "as for sim")->required();
+  command->draw.add_to(*sub);
+  CLI::Option* out = sub->get_option("--out");
+  out->description(
+      "folder for frame_0000.png and so on; older frames in it are removed (default:\n"
+      "build/out/<scene>/<shader>/view; none with --video or --terminal)");
+  out->default_str("");
+  sub->get_option("--threads")->description("threads, each of which draws whole frames (0: all cores)");
+  sub->add_option(
+         "--frames", command->frames,
+         fmt::format("frames of one turn of the camera around its target, 1 to {}", c_most_view_frames))
+      ->capture_default_str();
+  sub->add_option("--format", command->format, "format of images: png or ppm (default: png)");
+  sub->add_option("--video", command->video, "file for a video, by ffmpeg, such as turn.mp4");
+  sub->add_option("--rate", command->rate,
+                  fmt::format("frames per second of the video, 1 to {} (default: {}, as in the papers)",
+                              c_most_rate, c_usual_rate));
+  sub->add_flag("--terminal", command->terminal, "draw in the terminal, by half blocks");
+  sub->add_option("--columns", command->columns,
+                  "with --terminal: width of the pictures; they are then also written without a terminal\n"
+                  "(default: the terminal's)");
+  sub->add_option("--colours", command->colours, "with --terminal: 24bit or 256 (default: by COLORTERM)");
+  sub->add_option("--simulator", command->engine,
+                  "verilator; lanes: many copies of the RTL in one vector, faster, but longer to build; or\n"
+                  "auto: lanes from 2^26 pixels of all frames on")
+      ->capture_default_str();
+  sub->add_flag("--no-compare", command->no_compare,
+                "do not compare with the golden model: faster, but the frames are not checked");
+  sub->callback([=, &folders, &exit_code] {
+    command->out_given = out->count() != 0;
+    exit_code = run(folders, *command);
+  });
+}
+
+}  // namespace halfway::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cost/clock_store.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/os/file.hpp"
+
+namespace halfway::synth {
+namespace {
+
+TEST(ClockStore, ReadsWhatItWrites) {
+  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const std::filesystem::path root = folder->path();
+  EXPECT_TRUE(read_clocks(root)->empty());
+  ASSERT_TRUE(make_folders((root / c_clocks).parent_path()));
+  ASSERT_TRUE(write_clocks(root, {{"a", {{1, 2, 3, 4}, 87.54, 3, "GHDL 2, Yosys 1", "ab"}},
+                                  {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
+  const auto clocks = read_clocks(root);
+  ASSERT_TRUE(clocks) << clocks.error().message;
+  ASSERT_EQ(clocks->size(), 2U);
+  const StoredClock& a = clocks->at("a");
+  EXPECT_EQ(a.cells, (Ice40Cells{1, 2, 3, 4}));
+  EXPECT_EQ(a.mhz, 87.5);
+  EXPECT_EQ(a.seeds, 3U);
+  EXPECT_EQ(a.tools, "GHDL 2, Yosys 1");
+  EXPECT_EQ(a.netlist, "ab");
+  EXPECT_EQ(clocks->at("large").mhz, 0);
+
+  const auto text = read_file(root / c_clocks);
+  ASSERT_TRUE(text);
+  for (const char* line :
+       {"a,1,2,3,4,5,6,,ef\n", "b,1,2,x,4,5,6,,ef\n", "b,1,2,-3,4,5,6,,ef\n", "b,1,2,3,4,5,6,,\n"}) {
+    ASSERT_TRUE(write_file(root / c_clocks, *text + line));
+    const auto wrong = read_clocks(root);
+    ASSERT_FALSE(wrong) << line;
+    EXPECT_THAT(wrong.error().message, ::testing::HasSubstr("clocks.csv:4: ")) << line;
+  }
+}
+
+}  // namespace
+}  // namespace halfway::synth

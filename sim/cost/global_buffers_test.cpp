@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks which nets of small netlists get a buffer, and, if the tools are installed, how many of the device's
+// buffers a design uses.
+#include "sim/cost/global_buffers.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/cost/synthesis.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/subprocess.hpp"
+
+namespace halfway::synth {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A module with a clock. Tests add enables.
+class Netlist {
+ public:
+  Netlist() {
+    module_["ports"]["clk"] = {{"direction", "input"}, {"bits", {c_clock}}};
+    name("clk", {c_clock});
+    module_["cells"] = json::object();
+  }
+
+  void name(const std::string& name, const std::vector<int>& bits) {
+    module_["netnames"][name] = {{"hide_name", 0}, {"bits", bits}};
+  }
+  int net() { return last_++; }
+
+  /// Add registers with this enable, each after a lookup table with `inputs`; `x` is a carry.
+  void registers(int enable, int count, const std::string& inputs = "aaax") {
+    for (int i = 0; i < count; ++i) {
+      const int carry = net(), sum = net(), output = net();
+      cell("SB_CARRY", {{"CO", {carry}}}, "CO");
+      json pins = {{"O", {sum}}};
+      for (std::size_t pin = 0; pin < inputs.size(); ++pin)
+        pins[fmt::format("I{}", pin)] = inputs[pin] == 'x'   ? json{carry}
+                                        : inputs[pin] == 'a' ? json{c_input}
+                                                             : json{std::string(1, inputs[pin])};
+      cell("SB_LUT4", pins, "O");
+      cell("SB_DFFE", {{"C", {c_clock}}, {"D", {sum}}, {"E", {enable}}, {"Q", {output}}}, "Q");
+    }
+  }
+  /// Add an enable with this name and number of full sums.
+  int enable(const std::string& named, int sums) {
+    const int enable = net();
+    name(named, {enable});
+    registers(enable, sums);
+    return enable;
+  }
+  void cell(const std::string& type, const json& pins, const std::string& output) {
+    json directions;
+    for (const auto& [pin, bits] : pins.items()) directions[pin] = pin == output ? "output" : "input";
+    module_["cells"][fmt::format("cell{}", cells_++)] = {
+        {"type", type}, {"port_directions", directions}, {"connections", pins}};
+  }
+  std::string text() const { return json{{"modules", {{"wrapped", module_}}}}.dump(); }
+
+  static constexpr int c_clock = 2, c_input = 3;
+
+ private:
+  json module_;
+  int last_ = 4, cells_ = 0;
+};
+
+// PinWidths driven by each buffer, by the buffer's name.
+struct Buffered {
+  std::map<std::string, int> pins;
+  json cells;
+  explicit Buffered(const std::string& netlist) {
+    const auto text = with_global_buffers(netlist);
+    EXPECT_TRUE(text) << text.error().message;
+    if (!text) return;
+    cells = json::parse(*text)["modules"]["wrapped"]["cells"];
+    for (const auto& [name, buffer] : cells.items()) {
+      if (buffer["type"] != "SB_GB") continue;
+      pins[name] = 0;
+      for (const json& cell : cells)
+        for (const auto& [pin, bits] : cell["connections"].items())
+          pins[name] += cell["port_directions"][pin] == "input" &&
+                        bits == buffer["connections"]["GLOBAL_BUFFER_OUTPUT"];
+    }
+  }
+  /// Loads of a net except its buffer.
+  std::vector<std::string> users(int net) const {
+    std::vector<std::string> users;
+    for (const json& cell : cells)
+      for (const auto& [pin, bits] : cell["connections"].items())
+        if (cell["type"] != "SB_GB" && cell["port_directions"][pin] == "input" && bits == json{net})
+          users.push_back(pin);
+    return users;
+  }
+};
+
+using PinWidths = std::map<std::string, int>;
+
+TEST(SynthGlobalBuffers, AreForTheClockOnlyWithoutAnEnableOfFullSums) {
+  Netlist netlist;
+  netlist.enable("few", 7);
+  const int partial = netlist.net();
+  netlist.name("partial", {partial});
+  netlist.registers(partial, 9, "0aax");
+  netlist.registers(partial, 9, "a1ax");
+  netlist.registers(partial, 9, "aa0x");
+  netlist.registers(partial, 9, "aaaa");
+  netlist.registers(partial, 9, "aaxa");
+  const Buffered buffered(netlist.text());
+  EXPECT_EQ(buffered.pins, (PinWidths{{"clk_SB_GB", 7 + 5 * 9}}));
+  EXPECT_THAT(buffered.users(Netlist::c_clock), IsEmpty());
+}
+
+TEST(SynthGlobalBuffers, AreForTheFourLargestOfFiveEnables) {
+  Netlist netlist;
+  netlist.enable("a", 9);
+  netlist.enable("b", 8);
+  netlist.enable("c", 10);
+  netlist.enable("d", 12);
+  netlist.enable("e", 11);
+  EXPECT_EQ(
+      Buffered(netlist.text()).pins,
+      (PinWidths{{"clk_SB_GB", 50}, {"a_SB_GB", 9}, {"c_SB_GB", 10}, {"d_SB_GB", 12}, {"e_SB_GB", 11}}));
+}
+
+TEST(SynthGlobalBuffers, AreForTheFirstNameOfEqualEnables) {
+  Netlist netlist;
+  const int several = netlist.enable("z", 8);
+  for (const char* name : {"e", "d", "c", "b"}) netlist.enable(name, 8);
+  EXPECT_EQ(Buffered(netlist.text()).pins,
+            (PinWidths{{"clk_SB_GB", 40}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}, {"e_SB_GB", 8}}));
+  netlist.name("a", {Netlist::c_input, several});
+  EXPECT_EQ(
+      Buffered(netlist.text()).pins,
+      (PinWidths{{"clk_SB_GB", 40}, {"a[1]_SB_GB", 8}, {"b_SB_GB", 8}, {"c_SB_GB", 8}, {"d_SB_GB", 8}}));
+}
+
+TEST(SynthGlobalBuffers, DriveOnlyTheRegistersOfAnEnable) {
+  Netlist netlist;
+  const int enable = netlist.enable("enable", 8), other = netlist.enable("other", 3);
+  netlist.registers(enable, 2, "00aa");
+  netlist.cell("SB_LUT4", {{"I0", {enable}}, {"O", {netlist.net()}}}, "O");
+  netlist.cell("SB_DFFSR", {{"C", {Netlist::c_clock}}, {"D", {Netlist::c_input}}, {"R", {enable}}}, "Q");
+  netlist.cell("SB_RAM40_4K", {{"RCLK", {Netlist::c_clock}}, {"WE", {enable}}}, "RDATA");
+  const Buffered buffered(netlist.text());
+  EXPECT_EQ(buffered.pins, (PinWidths{{"clk_SB_GB", 8 + 3 + 2 + 2}, {"enable_SB_GB", 10}}));
+  EXPECT_THAT(buffered.users(enable), ::testing::UnorderedElementsAre("I0", "R", "WE"));
+  EXPECT_THAT(buffered.users(other), ElementsAre("E", "E", "E"));
+}
+
+TEST(SynthGlobalBuffers, ADesignWithoutClockIsRefused) {
+  const json netlist = json::parse(Netlist().text());
+  const auto message = [](const std::string& text) {
+    const auto buffered = with_global_buffers(text);
+    return buffered ? std::string() : buffered.error().message;
+  };
+  EXPECT_EQ(message(netlist.dump()), "");
+  for (const json& change : json::parse(R"([{"modules": null}, {"modules": {"wrapped": null}},
+      {"modules": {"wrapped": {"cells": null}}}, {"modules": {"wrapped": {"netnames": null}}},
+      {"modules": {"wrapped": {"ports": {"clk": null}}}}, {"modules": {"wrapped": {"ports": {"clk": {"bits": []}}}}},
+      {"modules": {"wrapped": {"ports": {"clk": {"bits": ["0"]}}}}}, []])")) {
+    json changed = netlist;
+    changed.merge_patch(change);
+    EXPECT_THAT(message(changed.dump()), HasSubstr("not a netlist to place")) << change;
+  }
+  EXPECT_THAT(message(""), HasSubstr("not a netlist to place"));
+}
+
+// Two sums with one enable each, and registers with a third enable, to which nextpnr would give a buffer.
+constexpr const char* c_buffered_entity = R"(library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+
+entity sums is
+  port (
+    clk    : in  std_logic;
+    enable : in  std_logic_vector(2 downto 0);
+    flip   : in  std_logic;
+    step   : in  unsigned(35 downto 0);
+    sum    : out unsigned(23 downto 0);
+    held   : out unsigned(35 downto 0)
+  );
+end entity;
+
+architecture rtl of sums is
+  signal low, high : unsigned(11 downto 0) := (others => '0');
+begin
+  p_registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      if enable(0) = '1' then
+        low <= (low + step(11 downto 0)) xor (11 downto 0 => flip);
+      end if;
+      if enable(1) = '1' then
+        high <= (high + step(11 downto 0)) xor (11 downto 0 => flip);
+      end if;
+      if enable(2) = '1' then
+        held <= step;
+      end if;
+    end if;
+  end process;
+  sum <= high & low;
+end architecture;
+)";
+
+TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
+  for (const char* tool : {"ghdl", "yosys", "nextpnr-ice40"})
+    ASSERT_FALSE(find_program(tool).empty()) << "no " << tool << ": " << c_install_tools;
+  auto folder = TemporaryFolder::make(fs::temp_directory_path());
+  ASSERT_TRUE(folder) << folder.error().message;
+  const fs::path root = folder->path(), cache = root / "cache";
+  ASSERT_TRUE(make_folders(root / "rtl"));
+  ASSERT_TRUE(write_file(root / "rtl/files.f", "sums.vhd\n"));
+  ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_buffered_entity));
+  Synthesizer::open({root, cache}, true).pack({.name = "sums", .entity = "sums", .generics = {}});
+  std::optional<std::string> said;
+  for (const auto& kept : fs::directory_iterator(cache / "synth"))
+    if (const auto text = read_file(kept.path() / "packing")) said = *text;
+  ASSERT_TRUE(said);
+  EXPECT_THAT(*said, ::testing::ContainsRegex("SB_GB: +3/ +8 "));
+}
+
+}  // namespace
+}  // namespace halfway::synth

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that need no tool: the wrapper's text, and reading nextpnr's report.
+#include "sim/cost/synthesis.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "sim/os/must.hpp"
+
+namespace halfway::synth {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char* c_leaf_netlist =
+    "module other\n  (input  clk);\nendmodule\nmodule top\n  (input  clk,\n   input  go,\n   input  [2:0] "
+    "a,\n"
+    "   output [1:0] sum,\n   output done);\nendmodule\n";
+
+TEST(SynthWrapper, RegistersEveryPortExceptTheClock) {
+  const std::string text = wrapper(c_leaf_netlist, "top", 256);
+  EXPECT_THAT(text, HasSubstr("reg [3:0] in;"));
+  EXPECT_THAT(text, HasSubstr("assign go = {in[0]};"));
+  EXPECT_THAT(text, HasSubstr("assign a = {in[3], in[2], in[1]};"));
+  EXPECT_THAT(text, HasSubstr("assign out = {done, sum};"));
+  EXPECT_THAT(text, HasSubstr("reg [2:0] folded;"));
+  EXPECT_THAT(text, HasSubstr(".clk(clk)"));
+}
+
+TEST(SynthWrapper, ConnectsTheClockOfAxi) {
+  const std::string text = wrapper("module top\n  (input  aclk,\n   output q);\nendmodule\n", "top", 256);
+  EXPECT_THAT(text, HasSubstr(".aclk(clk)"));
+  EXPECT_THAT(text, Not(HasSubstr("assign aclk")));
+}
+
+TEST(SynthWrapper, SharesFlipFlopsOfWideInputs) {
+  const std::string text = wrapper(c_leaf_netlist, "top", 3);
+  EXPECT_THAT(text, HasSubstr("reg [2:0] in;"));
+  EXPECT_THAT(text, HasSubstr("assign a = {in[0], in[2], in[1]};"));
+}
+
+TEST(SynthWrapper, RefusesAMissingModuleOrOutput) {
+  EXPECT_THROW(wrapper(c_leaf_netlist, "absent", 256), Failure);
+  EXPECT_THROW(wrapper(c_leaf_netlist, "other", 256), Failure);  // no output
+}
+
+// Two flip-flops, with a lookup table and a carry between them.
+constexpr const char* c_wrapped = R"({"modules": {"wrapped": {"cells": {
+  "dut.first_SB_DFF_Q": {"type": "SB_DFF", "connections": {"C": [1], "D": [2], "Q": [3]}},
+  "dut.x_SB_LUT4_I0": {"type": "SB_LUT4", "connections": {"I0": [3], "O": [4]}},
+  "dut.second_SB_DFF_Q": {"type": "SB_DFF", "connections": {"C": [1], "D": [4], "Q": [5]}}},
+  "netnames": {"dut.n7_q": {"hide_name": 0, "bits": [9, 3]}, "dut.unit.first": {"hide_name": 0, "bits": [9, 3]},
+  "dut.second_SB_LUT4_O": {"hide_name": 0, "bits": [5]}, "dut.second": {"hide_name": 0, "bits": [5]}}}}})";
+constexpr const char* c_report = R"({"critical_paths": [
+  {"from": "<async>", "to": "posedge clk", "path": []},
+  {"from": "posedge clk", "to": "posedge clk", "path": [
+  {"type": "clk-to-q", "delay": 0.5, "from": {"cell": "dut.first_SB_DFF_Q_DFFLC", "port": "CLK"}, "to": {"cell": "dut.first_SB_DFF_Q_DFFLC", "port": "O"}},
+  {"type": "routing", "delay": 1.0, "net": "x", "from": {"cell": "dut.first_SB_DFF_Q_DFFLC", "port": "O"}, "to": {"cell": "c", "port": "I1"}},
+  {"type": "logic", "delay": 0.25, "from": {"cell": "c", "port": "I1"}, "to": {"cell": "c", "port": "COUT"}},
+  {"type": "logic", "delay": 0.25, "from": {"cell": "d", "port": "I3"}, "to": {"cell": "d", "port": "O"}},
+  {"type": "routing", "delay": 0.5, "net": "y", "from": {"cell": "d", "port": "O"}, "to": {"cell": "dut.x_SB_LUT4_I0_LC", "port": "I0"}},
+  {"type": "setup", "delay": 0.5, "from": {"cell": "dut.x_SB_LUT4_I0_LC", "port": "I0"}, "to": {"cell": "dut.x_SB_LUT4_I0_LC", "port": "I0"}}]}],
+  "fmax": {"clk": {"achieved": 125.5, "constraint": 200}},
+  "utilization": {"ICESTORM_LC": {"available": 7680, "used": 12}}})";
+
+TEST(SynthPlacement, ReadsClockCellsAndPath) {
+  const Placement placement = read_placement(c_report, c_wrapped, 4);
+  EXPECT_EQ(placement.seed, 4U);
+  EXPECT_EQ(placement.mhz, 125.5);
+  EXPECT_EQ(placement.cells_used, 12U);
+  EXPECT_EQ(placement.cells_there, 7680U);
+  EXPECT_EQ(placement.path.from, "unit.first[1]");
+  EXPECT_EQ(placement.path.to, "second");
+  EXPECT_EQ(placement.path.luts, 1U);
+  EXPECT_EQ(placement.path.carries, 1U);
+  EXPECT_DOUBLE_EQ(placement.path.logic, 1.5);
+  EXPECT_DOUBLE_EQ(placement.path.routing, 1.5);
+}
+
+TEST(SynthPlacement, RefusesWhatItCannotRead) {
+  EXPECT_THROW(read_placement("", c_wrapped, 1), Failure);
+  EXPECT_THROW(read_placement("{}", c_wrapped, 1), Failure);
+  EXPECT_THROW(read_placement(c_report, "{}", 1), Failure);
+}
+
+TEST(SynthCells, HaveTheReasonWhyTheyDoNotFit) {
+  EXPECT_EQ(does_not_fit({.luts = 7680, .flip_flops = 7680, .rams = 32}), "");
+  EXPECT_EQ(does_not_fit({.luts = 7681}), "does not fit the HX8K: 7681 LUTs of 7680");
+  EXPECT_EQ(does_not_fit({.flip_flops = 7681}), "does not fit the HX8K: 7681 flip-flops of 7680");
+  EXPECT_EQ(does_not_fit({.rams = 33}), "does not fit the HX8K: 33 RAMs of 32");
+}
+
+TEST(SynthPacking, ReadsNextpnrsOutput) {
+  const Packing packing = read_packing(
+      "Info: Packing..\nInfo: Device utilisation:\nInfo: \t         ICESTORM_LC:  2814/ 7680    36%\nInfo: "
+      "\t        "
+      "ICESTORM_RAM:     8/   32    25%\n");
+  EXPECT_EQ(packing.cells_used, 2814U);
+  EXPECT_EQ(packing.cells_there, 7680U);
+  EXPECT_THROW(read_packing("ERROR: no such file"), Failure);
+  EXPECT_THROW(read_packing("ICESTORM_LC: many"), Failure);
+}
+
+}  // namespace
+}  // namespace halfway::synth

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cost/yosys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
+
+namespace halfway::synth {
+
+std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                     const std::string& doing) {
+  const Command command{
+      .arguments = std::move(arguments), .working_folder = folder, .timeout = c_tool_timeout};
+  const ProcessEnd end = must(run_process(command, c_install_tools));
+  if (end.succeeded()) return end.output;
+  throw Failure{
+      tool_failed(fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing,
+                              command.arguments.front(), end.how(), end.output, to_string(command)))};
+}
+
+std::string version_of(const std::string& tool, const std::string& option) {
+  const std::string said = run_tool({tool, option}, {}, "looking for " + tool);
+  return said.substr(0, said.find('\n'));
+}
+
+Yosys Yosys::find(const std::filesystem::path& cache) {
+  return Yosys(version_of("yosys", "-V"), std::filesystem::absolute(cache));
+}
+
+std::filesystem::path Yosys::run(const std::string& name, const std::string& script, const Files& files,
+                                 const std::function<void(const std::filesystem::path&)>& check) const {
+  ContentHash hash;
+  hash.add("yosys 1").add(version_).add(script);
+  for (const auto& [file, text] : files) hash.add(file).add(text);
+  std::filesystem::path folder = cache_ / fmt::format("{}-{}", name, hash.hex());
+  make_once(folder, [&](const std::filesystem::path& fresh) {
+    for (const auto& [file, text] : files) must(write_file(fresh / file, text));
+    run_tool({"yosys", "-q", "-p", script}, fresh, name);
+    check(fresh);
+  });
+  return folder;
+}
+
+nlohmann::json read_statistics(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "cells.json";
+  const auto whole = nlohmann::json::parse(read_own_file(path), nullptr, false);
+  nlohmann::json design = whole.is_object() ? whole.value("design", nlohmann::json()) : nlohmann::json();
+  if (design.is_object() && design.value("num_cells_by_type", nlohmann::json()).is_object()) return design;
+  throw Failure{
+      tool_failed(fmt::format("{}: not the output of Yosys's stat; delete it and try again", path.string()))};
+}
+
+void count_cells(const std::filesystem::path& folder, std::initializer_list<CellKind> kinds) {
+  const nlohmann::json statistics = read_statistics(folder);
+  for (const auto& [type, count] : statistics.at("num_cells_by_type").items()) {
+    const auto kind = std::ranges::find_if(
+        kinds, [&, &name = type](const CellKind& each) { return name.starts_with(each.prefix); });
+    if (kind == kinds.end())
+      throw Failure{
+          tool_failed(fmt::format("{}: cells of type {}, which nothing counts", folder.string(), type))};
+    if (kind->number != nullptr) *kind->number += kind->weight * count.get<std::uint64_t>();
+  }
+}
+
+}  // namespace halfway::synth

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream drawn in parts must give the same fragments as in one run.
+#include "sim/engines/ghdl/ghdl_engine.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "common/test/is_error.hpp"
+#include "golden_run/golden_run.hpp"
+#include "plan/plan.hpp"
+#include "sim/files/init_file.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/run/scene_stream.hpp"
+
+namespace halfway {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+struct Stream {
+  HardwareKey key;
+  InitStream init;
+  std::vector<Fragment> golden;
+  Cuts cuts;
+};
+
+Stream stream_of(const char* name, Shader shader, FrameSize frame) {
+  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  const auto plan = must(plan_scene(scene, {.shader = shader}));
+  const auto setup = make_setup(scene, frame, plan.key, {});
+  Stream all{plan.key, {.bits = setup->init_bits(), .words = {}}, {}, Cuts(plan.key)};
+  SceneStream stream(*setup, plan.key, 2);
+  for (Batch batch; stream.next(batch);) {
+    all.init.words.insert(all.init.words.end(), batch.init_words.begin(), batch.init_words.end());
+    all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
+    all.cuts.add(batch.init_words);
+  }
+  return all;
+}
+
+// The numbers of the vectors that start a triangle.
+std::vector<std::uint64_t> triangles_of(const Stream& s) {
+  const auto golden = make_golden_model(s.key);
+  std::vector<std::uint64_t> firsts;
+  for (std::uint64_t at = 0; at < s.init.size();
+       at += golden->group(std::span(s.init.words).subspan(at * s.init.words_per_vector())))
+    firsts.push_back(at);
+  return firsts;
+}
+
+TEST(GhdlParts, BeginAtTrianglesAndHangOnTheFrameAlone) {
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const Stream s = stream_of("spheres", shader, {320, 240});
+    const std::vector<std::uint64_t> triangles = triangles_of(s);
+    const std::vector<std::uint64_t> parts = s.cuts.parts();
+    ASSERT_THAT(parts, SizeIs(::testing::AllOf(::testing::Ge(8U), ::testing::Le(24U))));
+    EXPECT_EQ(parts.front(), 0U);
+    std::vector<std::uint64_t> pixels;  // of each part
+    const auto golden = make_golden_model(s.key);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      EXPECT_TRUE(std::binary_search(triangles.begin(), triangles.end(), parts[i])) << parts[i];
+      const std::uint64_t end = i + 1 < parts.size() ? parts[i + 1] : s.init.size();
+      ASSERT_GT(end, parts[i]);
+      pixels.push_back(golden
+                           ->draw(std::span(s.init.words)
+                                      .subspan(parts[i] * s.init.words_per_vector(),
+                                               (end - parts[i]) * s.init.words_per_vector()))
+                           .size());
+    }
+    EXPECT_EQ(std::accumulate(pixels.begin(), pixels.end(), std::size_t{0}), s.golden.size());
+    // No part is long compared with the parts that remain when it starts.
+    std::uint64_t rest = s.golden.size();
+    for (const std::uint64_t part : pixels) {
+      EXPECT_LE(part, std::max<std::uint64_t>(3'500, rest / 6));
+      rest -= part;
+    }
+  }
+}
+
+TEST(GhdlParts, AreOneWhereThereIsLittleToDraw) {
+  EXPECT_THAT(stream_of("spheres", Shader::quadratic, {64, 48}).cuts.parts(), SizeIs(1));
+}
+
+TEST(GhdlParts, AreOneWhereTrianglesHangOnThoseBefore) {
+  const Stream s = stream_of("spheres", Shader::processors, {160, 120});
+  EXPECT_THAT(s.cuts.parts(), SizeIs(1));
+}
+
+TEST(GhdlParts, DrawWhatOneRunDraws) {
+  const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const SimulatorFolders folders{source, source / "build" / "cache"};
+  const auto init = scratch.path() / "init", trace = scratch.path() / "trace";
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const Stream s = stream_of("spheres", shader, {64, 48});
+    const auto runner = must(GhdlRunner::open(s.key, folders));
+    ASSERT_TRUE(write_init_file(init, s.key.name(), s.init));
+    const std::vector<std::uint64_t> triangles = triangles_of(s);
+    const auto one = must(runner.run(init, trace));
+    // The second part ends where the third starts. The last part is a single triangle.
+    const std::uint64_t parts[] = {0, triangles[1], triangles[triangles.size() / 2], triangles.back()};
+    std::vector<Fragment> drawn;
+    const auto take = [&](std::span<const Fragment> part) {
+      drawn.insert(drawn.end(), part.begin(), part.end());
+    };
+    for (const unsigned threads : {1U, 3U}) {
+      drawn.clear();
+      const auto cycles = must(run_in_parts(runner, s.key, init, parts, {}, threads, take));
+      EXPECT_GE(cycles, one.cycles);
+      EXPECT_LE(cycles, one.cycles + 3 * 16);
+      EXPECT_EQ(drawn, s.golden);
+    }
+    drawn.clear();
+    EXPECT_TRUE(is_error(run_in_parts(runner, s.key, init, parts, {.max_fragments = 10}, 2, take),
+                         ExitCode::differs, "of 4, from init vector "));
+    EXPECT_TRUE(drawn.empty());
+  }
+}
+
+// Several frames, one of them without a vector.
+TEST(GhdlEngine, DrawsInDrainAlone) {
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const Stream s = stream_of("spheres", Shader::quadratic, {64, 48});
+  auto engine = must(GhdlEngine::open(s.key, {source, source / "build" / "cache"}, 1, {}));
+  EXPECT_FALSE(engine.cycles());
+  std::uint64_t cycles = 0;
+  for (int frame = 1; frame <= 2; ++frame) {
+    std::vector<Fragment> drawn;
+    const std::size_t half = triangles_of(s)[40] * s.init.words_per_vector();
+    ASSERT_TRUE(engine.run(std::span(s.init.words).first(half), drawn, s.golden.size()));
+    ASSERT_TRUE(engine.run(std::span(s.init.words).subspan(half), drawn, s.golden.size()));
+    EXPECT_TRUE(drawn.empty());
+    const Status ended = engine.finish(drawn, s.golden.size());
+    ASSERT_TRUE(ended) << ended.error().message;
+    EXPECT_EQ(drawn, s.golden);
+    if (frame == 1) cycles = engine.cycles().value();
+    EXPECT_EQ(engine.cycles(), frame * cycles);
+    ASSERT_TRUE(engine.finish(drawn, s.golden.size()));
+    EXPECT_EQ(drawn, s.golden);
+  }
+  std::vector<Fragment> drawn;
+  ASSERT_TRUE(engine.run(s.init.words, drawn, 10));
+  EXPECT_TRUE(is_error(engine.finish(drawn, 10), ExitCode::differs));
+  EXPECT_TRUE(drawn.empty());
+}
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/engines/ghdl/ghdl_library.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr const char* c_entity = R"(library ieee;
+use ieee.std_logic_1164.all;
+entity held is
+  generic (g_bits : positive := 4);
+  port (clk : in std_logic; d : in std_logic_vector(g_bits - 1 downto 0);
+        q : out std_logic_vector(g_bits - 1 downto 0));
+end entity;
+architecture rtl of held is
+begin
+  hold : process (clk)
+  begin
+    if rising_edge(clk) then
+      q <= d;
+    end if;
+  end process;
+end architecture;
+)";
+
+TEST(GhdlLibrary, KeepsNetlistsByEntityGenericsAndSources) {
+  auto tool = must(GhdlTool::find());
+  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const auto synthesize = [&](const std::string& source, const char* bits) -> Result<std::string> {
+    const auto library = GhdlLibrary::for_synthesis(tool, {{"held.vhd", source}}, folder.path());
+    if (!library) return library.error();
+    return library->synthesize("held", {{"g_bits", bits}});
+  };
+  const auto four = synthesize(c_entity, "4"), seven = synthesize(c_entity, "7");
+  ASSERT_TRUE(four && seven) << (four ? seven : four).error().message;
+  EXPECT_NE(*four, *seven);
+  std::string other = c_entity;
+  other.replace(other.find("q <= d"), 6, "q <= not d");
+  const auto inverted = must(synthesize(other, "4"));
+  EXPECT_NE(inverted, *four);
+  // Without GHDL, only cached results are available.
+  tool.program = (folder.path() / "none").string();
+  for (const auto& [source, bits, text] : {std::tuple{std::string(c_entity), "4", *four},
+                                           {std::string(c_entity), "7", *seven},
+                                           {other, "4", inverted}}) {
+    const auto kept = must(synthesize(source, bits));
+    EXPECT_EQ(kept, text);
+  }
+  EXPECT_FALSE(synthesize(c_entity, "5"));
+}
+
+}  // namespace
+}  // namespace halfway

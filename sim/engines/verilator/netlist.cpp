@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/engines/verilator/netlist.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace halfway {
+namespace {
+
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  return lines;
+}
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+/// The line without comments `/* ... */` and `// ...`; GHDL keeps a comment on one line.
+std::string without_comments(std::string_view line) {
+  std::string code(line);
+  for (std::size_t at; (at = code.find("/*")) != std::string::npos;) {
+    const std::size_t end = code.find("*/", at + 2);
+    code.erase(at, end == std::string::npos ? std::string::npos : end + 2 - at);
+  }
+  return code.substr(0, code.find("//"));
+}
+
+Error refuse(std::size_t line_number, std::string_view line, std::string_view what) {
+  return tool_failed(
+      fmt::format("netlist.v:{}: {}; write the RTL without it: {}", line_number, what, trim(line)));
+}
+
+// Faults of GHDL 2.0.0 that are visible in the text. The first two are repaired, the others are refused.
+
+/// GHDL prints a constant of more than 32 bits as a quoted string of its digits, which Verilog reads as
+/// characters: make it a binary number. False if the string holds anything else.
+bool mend_constants(std::string& code) {
+  for (std::size_t open; (open = code.find('"')) != std::string::npos;) {
+    const std::size_t close = code.find('"', open + 1);
+    if (close == std::string::npos || close == open + 1) return false;
+    std::string digits = code.substr(open + 1, close - open - 1);
+    for (char& digit : digits) {
+      if (std::string_view("UXWZ-").find(digit) != std::string_view::npos) digit = 'x';
+      if (digit != '0' && digit != '1' && digit != 'x') return false;
+    }
+    code.replace(open, close + 1 - open, fmt::format("{}'b{}", digits.size(), digits));
+  }
+  return true;
+}
+
+/// GHDL prints bits without a driver as high impedance, which makes Verilator look for a tristate bus: make
+/// them unknown.
+void mend_undriven_bits(std::string& code) {
+  for (std::size_t at = 0; (at = code.find("'bZ", at)) != std::string::npos; ++at) code[at + 2] = 'x';
+}
+
+/// GHDL names the operation in a comment, but prints the operands without $signed.
+bool is_signed_division(std::string_view line) {
+  for (const std::string_view mark : {"// sdiv", "// smod", "// srem"})
+    if (line.find(mark) != std::string_view::npos) return true;
+  return false;
+}
+
+/// GHDL prints `>>`, which shifts zeros in, where `>>>` would repeat the sign.
+bool is_signed_right_shift(std::string_view code) {
+  const std::size_t at = code.find(" >> ");
+  return at != std::string_view::npos && code.find("$signed(") < at;
+}
+
+/// GHDL prints abs, minimum, maximum and some assignments in VHDL.
+bool is_vhdl(std::string_view text, bool in_always) {
+  for (const std::string_view vhdl : {"std_logic_vector", " when ", " abs ", "(abs ", "unsigned'", "signed'"})
+    if (text.find(vhdl) != std::string_view::npos) return true;
+  return text.find(" <= ") != std::string_view::npos && !in_always && !text.starts_with("assign ");
+}
+
+/// An `always` without `begin` holds one statement, which may be a case: only a declaration ends it for sure.
+bool ends_always(std::string_view text) {
+  return text.starts_with("assign") || text.starts_with("wire") || text.starts_with("endmodule");
+}
+
+}  // namespace
+
+unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port) {
+  const std::size_t begin = netlist.find(fmt::format("module {}\n", top));
+  if (begin == std::string_view::npos) return 0;
+  const std::string_view ports = netlist.substr(begin, netlist.find(");", begin) - begin);
+  const std::regex declaration(fmt::format(R"((input|output) +(\[(\d+):0\] +)?{}\b)", port));
+  std::cmatch found;
+  if (!std::regex_search(ports.data(), ports.data() + ports.size(), found, declaration)) return 0;
+  return found[3].matched ? static_cast<unsigned>(std::stoul(found[3])) + 1 : 1;
+}
+
+Result<std::string> mend_netlist(std::string_view netlist) {
+  std::string mended;
+  mended.reserve(netlist.size());
+  std::size_t number = 0;
+  bool in_always = false;
+  for (const std::string_view line : lines_of(netlist)) {
+    ++number;
+    if (is_signed_division(line)) return refuse(number, line, "a signed division, printed as unsigned");
+    std::string code = without_comments(line);
+    if (!mend_constants(code)) return refuse(number, line, "a quoted string");
+    mend_undriven_bits(code);
+    if (is_signed_right_shift(code))
+      return refuse(number, line, "shift_right of a signed, printed as a logical shift");
+    const std::string_view text = trim(code);
+    if (text.empty()) continue;
+    if (text.starts_with("always")) in_always = true;
+    if (is_vhdl(text, in_always)) return refuse(number, line, "VHDL text");
+    if (ends_always(text)) in_always = false;
+    (mended += code) += '\n';
+  }
+  return mended;
+}
+
+}  // namespace halfway

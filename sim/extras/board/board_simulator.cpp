@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/extras/board/board_simulator.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+
+#include "sim/extras/board/board_sources.hpp"
+#include "sim/extras/board/verilated_board.hpp"
+#include "sim/os/file.hpp"
+
+namespace halfway::board {
+namespace {
+
+/// After the host is done, the last frame must be shown: four pictures of the monitor.
+constexpr std::uint64_t c_late_clocks = 4 * 840'000;
+constexpr const char* c_testbench = "board_sim_tb";
+
+/// A line of the log of tb/rtl/board/board_sim_tb.vhd: numbers separated by blanks.
+template <class... Numbers>
+bool read_numbers(std::string_view line, Numbers&... numbers) {
+  const auto take = [&](auto& number) {
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
+    line.remove_prefix(static_cast<std::size_t>(end - line.data()));
+    return error == std::errc();
+  };
+  return (take(numbers) && ...);
+}
+
+}  // namespace
+
+Result<BoardRun> run_in_verilator(const std::vector<HostAction>& script, const RunOptions& options,
+                                  const SimulatorFolders& folders, const OnPicture& on_picture) try {
+  bool ended = false;
+  VerilatedBoard board(folders, [&](const DotPicture& dots) { ended = !on_picture(dots); });
+  SpiHost host(script, options.pause_seed);
+  BoardRun run;
+  for (SpiPins pins; !ended;) {
+    if (board.clocks() == options.most_clocks)
+      return Error{ExitCode::differs, fmt::format("board: not done after {} clocks", options.most_clocks)};
+    const bool data = board.clock(pins);
+    if (!host.done()) run.clocks = board.clocks();
+    if (board.clocks() > run.clocks + c_late_clocks) break;
+    pins = host.clock(data);
+  }
+  run.host_done = host.done();
+  run.report = host.report();
+  return run;
+} catch (const Failure& failure) {
+  return failure.error;
+}
+
+Result<BoardRun> run_in_ghdl(const std::vector<HostAction>& script, const SimulatorFolders& folders,
+                             const OnPicture& on_picture) try {
+  std::vector<VhdlSource> sources = board_sources(folders);
+  for (const char* name :
+       {"tb/rtl/tb_pkg.vhd", "tb/rtl/board/ice40_cells.vhd", c_board_top_file, "tb/rtl/board/sram_model.vhd",
+        "tb/rtl/board/board_host.vhd", "tb/rtl/board/board_sim_tb.vhd"})
+    sources.push_back(must(read_vhdl_source(folders.source, name)));
+  const TemporaryFolder scratch = must(TemporaryFolder::make(folders.cache / "board"));
+  const std::filesystem::path place = std::filesystem::absolute(scratch.path());
+  must(write_file(place / "script.txt", script_text(script)));
+  std::vector<std::string> generics = {"-gg_folder=" + place.string()};
+  for (const auto& [name, value] : board_key().generics())
+    generics.push_back(fmt::format("-g{}={}", name, value));
+  must(run_testbench(c_testbench, sources, generics, folders.cache));
+
+  // Show the log of the video pins to the monitor: the number of clocks, and the levels during them.
+  LineReader log = must(LineReader::open(place / "video.txt"));
+  Monitor monitor([&](const DotPicture& dots) { on_picture(dots); });
+  BoardRun run;
+  bool complete = false;
+  for (std::string_view line; !complete && must(log.next(line));) {
+    if (line.starts_with("end ")) {
+      complete = read_numbers(line.substr(4), run.clocks, run.report.packets, run.report.status_bytes,
+                              run.report.errors, run.report.faults, run.report.frames);
+      break;
+    }
+    std::uint64_t clocks = 0;
+    unsigned hsync = 0, vsync = 0, red = 0, green = 0, blue = 0;
+    if (!read_numbers(line, clocks, hsync, vsync, red, green, blue)) return log.at("is not a line of levels");
+    const VideoPins pins{hsync != 0, vsync != 0, static_cast<std::uint8_t>(red),
+                         static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue)};
+    for (std::uint64_t i = 0; i < clocks; ++i) monitor.clock(pins);
+  }
+  if (!complete) return log.at("the log has no last line");
+  if (!monitor.fault().empty()) return Error{ExitCode::differs, "board in GHDL: " + monitor.fault()};
+  return run;
+} catch (const Failure& failure) {
+  return failure.error;
+}
+
+}  // namespace halfway::board

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shaders in lanes: every fragment equals the golden model's, and so Verilator's, whose frames are compared
+// with the golden model by other tests.
+#include "sim/extras/lanes/lane_simulator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/test/is_error.hpp"
+#include "golden_run/golden_run.hpp"
+#include "plan/plan.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
+#include "sim/run/scene_stream.hpp"
+
+namespace halfway {
+namespace {
+
+const SimulatorFolders c_folders{c_source_folder, c_source_folder / "build" / "cache"};
+constexpr std::size_t c_most = std::size_t{1} << 24;
+
+struct Case {
+  const char* scene;
+  Shader shader;
+  Preset preset;
+};
+
+class ShadersInLanes : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    auto scene = must(load_scene(GetParam().scene, c_source_folder / "sim" / "scenes"));
+    const auto plan = must(plan_scene(scene, {.shader = GetParam().shader, .preset = GetParam().preset}));
+    key_ = plan.key;
+    add(scene, {96, 72});
+    // From nearby: large parts of the scene are outside the frame.
+    const auto middle = scene.camera.target_world;
+    scene.camera.eye_world = middle + 0.4 * (scene.camera.eye_world - middle);
+    add(scene, {48, 40});
+    golden_ = make_golden_model(key_);
+  }
+
+  void add(const Scene& scene, FrameSize size) {
+    const std::unique_ptr<halfway::Setup> setup = make_setup(scene, size, key_, {});
+    SceneStream stream(*setup, key_, 1);
+    for (Batch batch; stream.next(batch);) {
+      words_.insert(words_.end(), batch.init_words.begin(), batch.init_words.end());
+      expected_.insert(expected_.end(), batch.golden.begin(), batch.golden.end());
+    }
+    words_per_vector_ = (setup->init_bits() + 31) / 32;
+  }
+
+  HardwareKey key_;
+  std::vector<std::uint32_t> words_;
+  std::vector<Fragment> expected_;
+  std::size_t words_per_vector_ = 0;
+  std::unique_ptr<GoldenModel> golden_;
+};
+
+TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
+  for (const unsigned threads : {1U, 3U}) {
+    auto lanes = must(LaneSimulator::open(key_, c_folders, {.threads = threads, .fast = false}));
+    std::vector<Fragment> drawn;
+    const Status ran = lanes.run(words_, drawn, c_most);
+    ASSERT_TRUE(ran) << ran.error().message;
+    EXPECT_TRUE(drawn == expected_);
+    EXPECT_GE(lanes.lane_cycles(), drawn.size());
+
+    // Part by part, each of whole triangles, in other lanes of the same hardware.
+    const auto others = must(lanes.another());
+    std::span<const std::uint32_t> ahead = words_;
+    std::size_t at = 0, parts = 0;
+    const auto take = [&](std::span<const Fragment> fragments) {
+      const std::span<const Fragment> own = golden_->draw_next(ahead, fragments.size());
+      EXPECT_TRUE(std::equal(fragments.begin(), fragments.end(), own.begin(), own.end()));
+      at += fragments.size();
+      ++parts;
+    };
+    ASSERT_TRUE(others->draw(words_, c_most, take));
+    EXPECT_EQ(at, expected_.size());
+    EXPECT_GT(parts, 8U);
+    const auto ignore = [](std::span<const Fragment>) {};
+    EXPECT_FALSE(others->draw(words_, expected_.size() - 1, ignore));
+    // Interrupted within triangles, which must not appear in a later call.
+    EXPECT_FALSE(others->draw(words_, 1, ignore));
+    ahead = words_;
+    at = 0;
+    ASSERT_TRUE(others->draw(words_, c_most, take));
+    EXPECT_EQ(at, expected_.size());
+    EXPECT_TRUE(is_error(others->draw(std::span(words_).first(words_.size() - 1), c_most, ignore),
+                         ExitCode::bad_input));
+
+    // Again, in batches of no unit, one, fewer than lanes, and many, appended to the earlier fragments.
+    drawn.clear();
+    std::span<const std::uint32_t> rest = words_;
+    for (std::size_t triangles = 0; !rest.empty(); ++triangles) {
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
+        count += golden_->unit(rest.subspan(count * words_per_vector_));
+      const Status part = lanes.run(rest.first(count * words_per_vector_), drawn, c_most);
+      ASSERT_TRUE(part) << part.error().message;
+      rest = rest.subspan(count * words_per_vector_);
+    }
+    EXPECT_TRUE(drawn == expected_);
+  }
+}
+
+TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
+  for (const std::uint32_t seed : {1U, 7U}) {
+    auto lanes =
+        must(LaneSimulator::open(key_, c_folders, {.threads = 2, .stall_seed = seed, .fast = false}));
+    std::vector<Fragment> drawn;
+    const Status ran = lanes.run(words_, drawn, c_most);
+    ASSERT_TRUE(ran) << ran.error().message;
+    EXPECT_TRUE(drawn == expected_) << "seed " << seed;
+    // Half of all fragments wait at least one clock.
+    EXPECT_GT(lanes.lane_cycles(), 2 * drawn.size());
+  }
+}
+
+TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
+  for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, c_most}) {
+    for (const unsigned threads : {1U, 2U}) {
+      auto lanes = must(LaneSimulator::open(
+          key_, c_folders, {.threads = threads, .most_waiting = most_waiting, .fast = false}));
+      // Many times the fragments that a run draws before it outputs them.
+      constexpr std::size_t c_turns = 24;
+      std::vector<std::uint32_t> words;
+      for (std::size_t i = 0; i < c_turns; ++i) words.insert(words.end(), words_.begin(), words_.end());
+      std::vector<Fragment> drawn;
+      const Status ran = lanes.run(words, drawn, c_most);
+      ASSERT_TRUE(ran) << ran.error().message;
+      ASSERT_EQ(drawn.size(), c_turns * expected_.size());
+      for (std::size_t i = 0; i < c_turns; ++i)
+        ASSERT_TRUE(std::equal(expected_.begin(), expected_.end(),
+                               drawn.begin() + static_cast<std::ptrdiff_t>(i * expected_.size())))
+            << "turn " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Quick, ShadersInLanes,
+                         testing::Values(Case{"spheres", Shader::quadratic, Preset::exact},
+                                         Case{"spheres", Shader::spherical, Preset::exact},
+                                         Case{"spheres", Shader::processors, Preset::exact}));
+INSTANTIATE_TEST_SUITE_P(Whole, ShadersInLanes,
+                         testing::Values(Case{"matte", Shader::quadratic, Preset::published},
+                                         Case{"lights", Shader::spherical, Preset::published},
+                                         Case{"shadows", Shader::processors, Preset::published}));
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// The core of the page as a WebAssembly module: the core of model/ and LiveFrame, compiled for a browser.
+#pragma once
+
+#include <filesystem>
+
+#include "common/result.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+
+namespace halfway {
+
+/// The module's file in build/cache/live/core-<hash>/, compiled unless it exists. core.cpp lists its
+/// functions.
+Result<std::filesystem::path> build_core_module(const SimulatorFolders& folders);
+
+}  // namespace halfway

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/extras/live/live_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "plan/plan.hpp"
+#include "sim/extras/live/core_module.hpp"
+#include "sim/extras/live/hardware_module.hpp"
+#include "sim/extras/live_core/core_values.hpp"
+#include "sim/extras/live_core/live_frame.hpp"
+#include "sim/extras/live_core/live_scene.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/files/template.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/shared_library.hpp"
+#include "sim/os/threads.hpp"
+#include "sim/report/html.hpp"
+#include "sim/study/hardware.hpp"
+#include "words/cosine_tables.hpp"
+
+namespace halfway::live {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array c_presets = {Preset::exact, Preset::published};
+constexpr const char* c_mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+// Scenes as a mesh file makes them: one with the default material, one with a colour.
+std::vector<Scene> mesh_scenes() {
+  const auto grey = must(read_scene("mesh.obj", c_mesh, 1.0));
+  Scene coloured = grey;
+  coloured.materials.front().colour = {0.8, 0.4, 0.2};
+  return std::vector<Scene>{grey, std::move(coloured)};
+}
+
+// Sizes of the cosine tables that are built into the program, the preset's own first.
+std::vector<TableSize> table_sizes(Preset preset) {
+  const bool exact = preset == Preset::exact;
+  const words::CosineSize own = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
+  std::vector<TableSize> sizes = {{own.address_bits, own.data_bits}};
+  for (const words::CosineTable& table : words::c_cosine_tables)
+    if (const TableSize size{table.address_bits, table.data_bits};
+        table.exact == exact && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
+      sizes.push_back(size);
+  return sizes;
+}
+
+template <class Enumerators>
+Json names_of(const Enumerators& enumerators) {
+  Json names = Json::array();
+  for (const auto enumerator : enumerators) names.push_back(to_string(enumerator));
+  return names;
+}
+
+// The module, compressed, in base64. `-n` omits name and time, so that equal modules give equal pages.
+std::string packed(const std::filesystem::path& module) {
+  const auto scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path file = scratch.path() / "module.gz";
+  must(run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
+                "apt-get install gzip", module.filename().string()));
+  return report::base64_of(file);
+}
+
+// Everything on the page that depends on a key.
+struct Hardware {
+  std::string module;
+  std::optional<double> mhz;
+};
+
+std::map<std::string, Hardware> build_hardware(const std::vector<HardwareKey>& keys,
+                                               const LiveSettings& settings) {
+  std::map<std::string, Hardware> built;
+  std::mutex mutex;
+  std::size_t begun = 0;
+  must_for_each(settings.threads, keys.size(), [&](std::size_t i) {
+    const std::string name = keys[i].name();
+    {
+      const std::lock_guard lock(mutex);
+      settings.on_progress(fmt::format("hardware {} of {}: {}", ++begun, keys.size(), name));
+    }
+    std::string text = packed(must(build_hardware_module(keys[i], settings.folders)));
+    const auto figures =
+        study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders);
+    const std::lock_guard lock(mutex);
+    built.emplace(name, Hardware{std::move(text), figures.mhz});
+  });
+  return built;
+}
+
+// The hardware of the page, each key once, sorted by name. A shader that cannot draw a scene has no key for
+// it.
+std::vector<HardwareKey> live_keys(const LiveSettings& settings) {
+  std::vector<Scene> drawn;
+  if (settings.meshes) drawn = mesh_scenes();
+  for (const std::string& name : settings.scenes)
+    drawn.push_back(must(load_scene(name, settings.folders.source / "sim/scenes")));
+  std::map<std::string, HardwareKey> keys;
+  for (const Scene& scene : drawn)
+    for (const Shader shader : c_shaders)
+      for (const Preset preset : c_presets)
+        for (const TableSize size : table_sizes(preset)) {
+          PlanRequest request{.shader = shader, .preset = preset};
+          if (shader == Shader::spherical) request.tables = size;
+          if (const auto key = planned_key(scene, request)) keys.emplace(key->name(), *key);
+        }
+  std::vector<HardwareKey> sorted;
+  for (auto& [name, key] : keys) sorted.push_back(std::move(key));
+  return sorted;
+}
+
+}  // namespace
+
+LivePage write_live(const LiveSettings& settings) {
+  const std::filesystem::path sources = settings.folders.source / "sim", here = sources / "extras/live";
+  const auto keys = live_keys(settings);
+  settings.on_progress("core");
+  std::string packed_core = packed(must(build_core_module(settings.folders)));
+  const auto hardware = build_hardware(keys, settings);
+
+  // Collect the page's data.
+  Json data = {{"clocks", Json::object()},
+               {"names",
+                {{"settings", c_setting_names},
+                 {"figures", c_figure_names},
+                 {"shaders", names_of(c_shaders)},
+                 {"presets", names_of(c_presets)},
+                 {"pictures", c_picture_names}}}};
+  for (const Preset preset : c_presets)
+    for (const TableSize size : table_sizes(preset))
+      data["tables"][to_string(preset)].push_back(fmt::format("{}x{}", size.address_bits, size.data_bits));
+  Json modules = {{{"name", "core"}, {"text", std::move(packed_core)}}};
+  for (const auto& [name, built] : hardware) {
+    modules.push_back({{"name", name}, {"text", built.module}});
+    if (built.mhz) data["clocks"][name] = *built.mhz;
+  }
+  for (const std::string& name : settings.scenes)
+    data["scenes"].push_back(
+        {{"name", name + ".toml"}, {"text", must(read_file(sources / "scenes" / (name + ".toml")))}});
+
+  // Fill the template.
+  Json view = {{"commit", report::commit_of(settings.folders.source)},
+               {"data", report::script_safe(data.dump())},
+               {"modules", std::move(modules)}};
+  view["still"] = report::data_uri(settings.folders.source / "docs/results/gallery/teapot.png", "image/png");
+  for (const auto& [file, name] : {std::pair{sources / "report/report.css", "style"},
+                                   {here / "live_page.css", "style"},
+                                   {here / "live_page.js", "script"},
+                                   {here / "worker.js", "worker"}})
+    view[name] = view.value(name, "") + must(read_file(file));
+  const auto text = must(filled_template(here / "live_page.html.mustache", view, Escape::html));
+  if (const auto folder = settings.page.parent_path(); !folder.empty()) must(make_folders(folder));
+  must(write_file(settings.page, text));
+  return LivePage{text.size(), keys.size()};
+}
+
+}  // namespace halfway::live

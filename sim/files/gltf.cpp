@@ -1,0 +1,761 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/files/gltf.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh_files/bytes.hpp"
+#include "mesh_files/number.hpp"
+#include "sim/os/file.hpp"
+
+namespace halfway {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::uintmax_t c_max_buffer_bytes = std::uintmax_t{4} << 30;
+
+/// Extensions that a file may require: they change only the look of a surface.
+constexpr std::string_view c_look_extensions = "KHR_materials_";
+constexpr std::string_view c_texture_extensions[] = {"KHR_texture_transform", "KHR_texture_basisu",
+                                                     "EXT_texture_webp", "KHR_lights_punctual"};
+
+/// Exception that stops reading. `read_gltf` returns its text after the file's name.
+struct BadGltf {
+  std::string what;
+};
+
+/// An object without keys, for one that a file leaves out.
+const json& no_keys() {
+  static const json c_none = json::object();
+  return c_none;
+}
+
+/// A value of the file and its place for messages: "meshes[0].primitives[1]".
+class Item {
+ public:
+  Item(const json& value, std::string place) : value_(&value), place_(std::move(place)) {}
+
+  [[noreturn]] void fail(std::string_view what) const { throw BadGltf{fmt::format("{}: {}", place_, what)}; }
+  const std::string& place() const { return place_; }
+
+  bool has(const char* key) const { return value_->contains(key); }
+  /// The object's value under a key.
+  Item at(const char* key) const {
+    if (!has(key))
+      throw BadGltf{fmt::format("{}no {}; export the file again", place_.empty() ? "" : place_ + ": ", key)};
+    return {(*value_)[key], place_.empty() ? key : fmt::format("{}.{}", place_, key)};
+  }
+  Item object(const char* key) const {
+    Item item = at(key);
+    if (!item.value_->is_object()) item.fail("is not an object; export the file again");
+    return item;
+  }
+  /// The objects or numbers of an array; empty if there is none under the key.
+  std::vector<Item> list(const char* key) const {
+    std::vector<Item> items;
+    if (!has(key)) return items;
+    const Item array = at(key);
+    if (!array.value_->is_array()) array.fail("is not an array; export the file again");
+    for (std::size_t i = 0; i < array.value_->size(); ++i) items.push_back(array[i]);
+    return items;
+  }
+  std::vector<Item> objects(const char* key) const {
+    std::vector<Item> items = list(key);
+    for (const Item& item : items) {
+      if (!item.value_->is_object()) item.fail("is not an object; export the file again");
+    }
+    return items;
+  }
+  std::uint64_t unsigned_number() const {
+    if (!value_->is_number_unsigned()) fail("is not a whole number from 0; correct it");
+    return value_->get<std::uint64_t>();
+  }
+  std::uint64_t unsigned_number(const char* key, std::uint64_t if_missing) const {
+    return has(key) ? at(key).unsigned_number() : if_missing;
+  }
+  /// An index into a list of this length.
+  std::size_t index(std::size_t length) const {
+    const std::uint64_t index = unsigned_number();
+    if (index >= length) {
+      fail(fmt::format("is {}, but the file has {}, counted from 0; correct the index", index, length));
+    }
+    return index;
+  }
+  double number() const {
+    if (!value_->is_number()) fail("is not a number; correct it");
+    const auto number = value_->get<double>();
+    if (!std::isfinite(number)) fail("is not finite; correct it");
+    return number;
+  }
+  double number(const char* key, double if_missing) const { return has(key) ? at(key).number() : if_missing; }
+  template <std::size_t N>
+  std::array<double, N> numbers(const char* key) const {
+    const std::vector<Item> items = list(key);
+    if (items.size() != N) at(key).fail(fmt::format("has {} numbers, not {}; correct it", items.size(), N));
+    std::array<double, N> values;
+    for (std::size_t i = 0; i < N; ++i) values[i] = items[i].number();
+    return values;
+  }
+  const std::string& text() const {
+    if (!value_->is_string()) fail("is not a string; correct it");
+    return value_->get_ref<const std::string&>();
+  }
+  std::string text(const char* key, std::string_view if_missing) const {
+    return has(key) ? at(key).text() : std::string(if_missing);
+  }
+  /// The keys of an object.
+  std::vector<std::string> keys() const {
+    std::vector<std::string> keys;
+    for (const auto& entry : value_->items()) keys.push_back(entry.key());
+    return keys;
+  }
+
+ private:
+  Item operator[](std::size_t i) const { return {(*value_)[i], fmt::format("{}[{}]", place_, i)}; }
+
+  const json* value_;
+  std::string place_;
+};
+
+// ---- Container and buffers
+
+struct Chunks {
+  std::string_view json;
+  std::optional<std::string_view> binary;
+};
+
+/// Divide a .glb into its chunks. A .gltf is JSON as a whole.
+Chunks chunks_of(std::string_view bytes) {
+  constexpr std::uint32_t c_json = 0x4e4f534a, c_binary = 0x004e4942;
+  constexpr std::size_t c_header = 12, c_chunk_header = 8;
+  if (!bytes.starts_with("glTF")) return {.json = bytes, .binary = {}};
+  const auto word = [bytes](std::size_t at) {
+    return number_in<std::uint32_t>(bytes, at, ByteOrder::little);
+  };
+  if (bytes.size() < c_header + c_chunk_header) {
+    throw BadGltf{"byte 0: the file ends in its header; it is truncated, export it again"};
+  }
+  if (word(4) != 2) throw BadGltf{fmt::format("byte 4: GLB version {}; export as version 2", word(4))};
+  if (word(8) != bytes.size()) {
+    throw BadGltf{fmt::format("byte 8: its header requires {} bytes, it has {}; export it again", word(8),
+                              bytes.size())};
+  }
+  Chunks chunks;
+  std::size_t at = c_header;
+  for (int chunk = 0; at < bytes.size(); ++chunk) {
+    const std::size_t left = bytes.size() - at;
+    if (left < c_chunk_header || word(at) > left - c_chunk_header) {
+      throw BadGltf{
+          fmt::format("byte {}: chunk {} is longer than the file; export the file again", at, chunk)};
+    }
+    const std::uint32_t type = word(at + 4);
+    const std::string_view data = bytes.substr(at + c_chunk_header, word(at));
+    if ((chunk == 0) != (type == c_json)) {
+      throw BadGltf{
+          fmt::format("byte {}: the first chunk, and no other, must be JSON; export the file again", at)};
+    }
+    if (chunk == 0) chunks.json = data;
+    if (chunk == 1 && type == c_binary) chunks.binary = data;
+    at += c_chunk_header + data.size();
+  }
+  return chunks;
+}
+
+std::string decode_base64(const Item& uri, std::string_view text) {
+  const auto value_of = [](char c) {
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    return c == '+' ? 62 : c == '/' ? 63 : -1;
+  };
+  if (text.size() % 4 == 0) {
+    for (int i = 0; i < 2 && text.ends_with('='); ++i) text.remove_suffix(1);
+  }
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3 + 2);
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    const int value = value_of(c);
+    if (value < 0) uri.fail(fmt::format("{} is not base64; export the file again", halfway::quoted({&c, 1})));
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    count += 6;
+    if (count >= 8) {
+      count -= 8;
+      bytes += static_cast<char>(bits >> count);
+    }
+  }
+  if (count == 6) uri.fail("its base64 is truncated; export the file again");
+  return bytes;
+}
+
+std::string decode_percent(const Item& uri, std::string_view text) {
+  const auto value_of = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+  };
+  std::string name;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      name += text[i];
+      continue;
+    }
+    const int high = i + 2 < text.size() ? value_of(text[i + 1]) : -1;
+    const int low = i + 2 < text.size() ? value_of(text[i + 2]) : -1;
+    if (high < 0 || low < 0) uri.fail("% is not followed by two hexadecimal digits; correct it");
+    name += static_cast<char>(16 * high + low);
+    i += 2;
+  }
+  return name;
+}
+
+/// Read a buffer's file. It must be in the folder of the glTF file or below.
+std::string read_buffer_file(const Item& uri, const std::filesystem::path& folder) {
+  const std::string name = decode_percent(uri, uri.text());
+  const std::filesystem::path path(name);
+  const bool is_up = std::find(path.begin(), path.end(), "..") != path.end();
+  if (name.find(':') != std::string::npos) {
+    uri.fail(halfway::quoted(name) + " is an address; store the buffer in a file next to this one");
+  }
+  if (path.is_absolute() || is_up || name.find('\0') != std::string::npos) {
+    uri.fail(halfway::quoted(name) + " is outside of the file's folder; move the buffer next to this file");
+  }
+  // Skip pipes and devices, which may never end.
+  std::error_code fault;
+  if (!std::filesystem::is_regular_file(folder / path, fault)) {
+    uri.fail(halfway::quoted(name) + " is not a file; export the file with its buffers");
+  }
+  if (std::filesystem::file_size(folder / path, fault) > c_max_buffer_bytes || fault) {
+    uri.fail(fmt::format("{} is larger than {} GiB; reduce the mesh", halfway::quoted(name),
+                         c_max_buffer_bytes >> 30));
+  }
+  Result<std::string> bytes = read_file(folder / path);
+  if (!bytes) uri.fail(halfway::quoted(name) + " cannot be read; check its permissions");
+  return std::move(*bytes);
+}
+
+// ---- Accessors
+
+struct ComponentType {
+  std::uint64_t code;
+  std::size_t bytes;
+};
+constexpr std::uint64_t c_uint8 = 5121, c_uint16 = 5123, c_uint32 = 5125, c_float = 5126;
+constexpr ComponentType c_component_types[] = {{5120, 1},     {c_uint8, 1},  {5122, 2},
+                                               {c_uint16, 2}, {c_uint32, 4}, {c_float, 4}};
+
+/// Items of a buffer at equal distances.
+struct Span {
+  std::string_view bytes;
+  std::size_t stride = 0;
+};
+
+class GltfReader {
+ public:
+  GltfReader(const json& root, std::optional<std::string_view> binary, const std::filesystem::path& path)
+      : root_(root, ""), binary_(binary), folder_(path.parent_path()), name_(path.string()) {}
+
+  LoadedMesh read() {
+    check_asset();
+    meshes_ = root_.objects("meshes");
+    nodes_ = root_.objects("nodes");
+    accessors_ = root_.objects("accessors");
+    views_ = root_.objects("bufferViews");
+    buffers_ = root_.objects("buffers");
+    materials_ = root_.objects("materials");
+    buffer_bytes_.resize(buffers_.size());
+    loaded_.mesh.normals.emplace_back(0.0);
+    read_nodes();
+    if (loaded_.mesh.triangles.empty()) throw BadGltf{"the mesh has no faces; export it with faces"};
+    if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
+    loaded_.notes.assign(notes_.begin(), notes_.end());
+    join_positions(loaded_.mesh);
+    return std::move(loaded_);
+  }
+
+ private:
+  void note(std::string_view what) { notes_.insert(fmt::format("{}: {}", name_, what)); }
+
+  void check_asset() const {
+    const std::string version = root_.object("asset").at("version").text();
+    if (!version.starts_with("2.")) {
+      root_.at("asset").fail(fmt::format("glTF {}; export as glTF 2.0", halfway::quoted(version)));
+    }
+    for (const Item& extension : root_.list("extensionsRequired")) {
+      const std::string& name = extension.text();
+      const bool is_look = name.starts_with(c_look_extensions) ||
+                           std::find(std::begin(c_texture_extensions), std::end(c_texture_extensions),
+                                     name) != std::end(c_texture_extensions);
+      if (!is_look) extension.fail(halfway::quoted(name) + " cannot be read; export the file without it");
+    }
+  }
+
+  // ---- Nodes
+
+  /// Read the selected scene's nodes in the file's order.
+  void read_nodes() {
+    struct Pending {
+      std::size_t node;
+      glm::dmat4 to_file;
+    };
+    std::vector<Pending> pending;
+    const std::vector<Item> roots = root_nodes();
+    for (std::size_t i = roots.size(); i-- > 0;) {
+      pending.push_back({roots[i].index(nodes_.size()), glm::dmat4(1.0)});
+    }
+    // The nodes are a tree: none is reached twice.
+    std::vector<bool> is_read(nodes_.size());
+    while (!pending.empty()) {
+      const Pending next = pending.back();
+      pending.pop_back();
+      const Item& node = nodes_[next.node];
+      if (is_read[next.node]) node.fail("is reached twice; export the file with a tree of nodes");
+      is_read[next.node] = true;
+      const glm::dmat4 to_file = next.to_file * transform_of(node);
+      if (node.has("skin")) note("bones are omitted: the mesh is in its bind pose");
+      if (node.has("mesh")) add_mesh(meshes_[node.at("mesh").index(meshes_.size())], node, to_file);
+      const std::vector<Item> children = node.list("children");
+      for (std::size_t i = children.size(); i-- > 0;) {
+        pending.push_back({children[i].index(nodes_.size()), to_file});
+      }
+    }
+  }
+
+  std::vector<Item> root_nodes() {
+    const std::vector<Item> scenes = root_.objects("scenes");
+    if (root_.has("scene")) return scenes[root_.at("scene").index(scenes.size())].list("nodes");
+    if (!scenes.empty()) return scenes[0].list("nodes");
+    std::vector<bool> is_child(nodes_.size());
+    for (const Item& node : nodes_) {
+      for (const Item& child : node.list("children")) is_child[child.index(nodes_.size())] = true;
+    }
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      if (!is_child[i]) all_roots_.emplace_back(i);
+    }
+    std::vector<Item> roots;
+    for (const json& index : all_roots_) roots.emplace_back(index, "nodes");
+    return roots;
+  }
+
+  static glm::dmat4 transform_of(const Item& node) {
+    if (node.has("matrix")) {
+      if (node.has("translation") || node.has("rotation") || node.has("scale")) {
+        node.fail("has both a matrix and translation, rotation or scale; remove one");
+      }
+      const auto m = node.numbers<16>("matrix");
+      glm::dmat4 matrix;
+      for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
+      if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
+        node.at("matrix").fail("its last row is not 0 0 0 1; export the file again");
+      }
+      return matrix;
+    }
+    glm::dmat4 matrix(1.0);
+    if (node.has("translation")) {
+      const auto t = node.numbers<3>("translation");
+      matrix = glm::translate(matrix, glm::dvec3(t[0], t[1], t[2]));
+    }
+    if (node.has("rotation")) {
+      const auto r = node.numbers<4>("rotation");
+      const glm::dquat rotation(r[3], r[0], r[1], r[2]);
+      const double length = glm::length(rotation);
+      if (!(std::abs(length - 1.0) < 0.01)) {
+        node.at("rotation").fail(fmt::format("has the length {}, not 1; correct it", length));
+      }
+      matrix *= glm::mat4_cast(rotation / length);
+    }
+    if (node.has("scale")) {
+      const auto s = node.numbers<3>("scale");
+      matrix = glm::scale(matrix, glm::dvec3(s[0], s[1], s[2]));
+    }
+    return matrix;
+  }
+
+  // ---- Meshes
+
+  void add_mesh(const Item& mesh, const Item& node, const glm::dmat4& to_file) {
+    if (mesh.has("weights") || node.has("weights")) note("morph targets are left out");
+    for (const Item& primitive : mesh.objects("primitives")) {
+      Mesh part = read_primitive(primitive);
+      if (part.triangles.empty()) continue;
+      if (to_file != glm::dmat4(1.0)) {
+        const double volume = glm::determinant(to_file);
+        if (!std::isfinite(volume) || volume == 0.0) {
+          node.fail("its transform has no inverse; correct its scale, or remove the node");
+        }
+        transform(part, to_file);
+        for (const glm::dvec3& p : part.positions) {
+          constexpr double c_largest = std::numeric_limits<float>::max();
+          for (int axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(p[axis]) <= c_largest)) {
+              node.fail("its transform moves a vertex beyond the range of float; correct it");
+            }
+          }
+        }
+      }
+      append(part);
+    }
+  }
+
+  /// Read the triangles of a primitive, in the space of its node.
+  Mesh read_primitive(const Item& primitive) {
+    Mesh part;
+    const std::uint64_t mode = primitive.unsigned_number("mode", 4);
+    if (mode > 6) primitive.at("mode").fail(fmt::format("{} is not a mode of glTF; correct it", mode));
+    const Item attributes = primitive.object("attributes");
+    if (!attributes.has("POSITION")) return part;  // as the specification requires
+    const auto positions = read_vectors(attributes.at("POSITION"));
+    const bool has_normals = attributes.has("NORMAL");
+    if (attributes.has("COLOR_0")) note("vertex colours are left out");
+    if (attributes.has("JOINTS_0")) note("bones are omitted: the mesh is in its bind pose");
+    if (primitive.has("targets")) note("morph targets are left out");
+    const std::vector<std::uint32_t> corners = read_corners(primitive, positions.size());
+    if (mode < 4) {
+      ++points_and_lines_;
+      return part;
+    }
+
+    vertices_ += positions.size();
+    if (vertices_ > c_max_vertices) {
+      primitive.fail(fmt::format("more than {} vertices up to here; reduce the mesh", c_max_vertices));
+    }
+    part.positions = positions;
+    part.normals.emplace_back(0.0);
+    if (has_normals) {
+      part.normals = read_vectors(attributes.at("NORMAL"));
+      if (part.normals.size() != positions.size()) {
+        attributes.at("NORMAL").fail(fmt::format("has {} normals for {} positions; export the file again",
+                                                 part.normals.size(), positions.size()));
+      }
+    }
+    const std::uint32_t material = material_of(primitive);
+    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+      const std::array<std::uint32_t, 3> index = {corners[a], corners[b], corners[c]};
+      // Triangles that use a vertex twice connect parts of a strip.
+      if (mode != 4 && (index[0] == index[1] || index[1] == index[2] || index[2] == index[0])) return;
+      if (++triangles_ > c_max_triangles) {
+        primitive.fail(fmt::format("more than {} triangles up to here; reduce the mesh", c_max_triangles));
+      }
+      part.triangles.push_back({index, has_normals ? index : std::array<std::uint32_t, 3>{}, material});
+    };
+    if (mode == 4) {
+      if (corners.size() % 3 != 0) {
+        primitive.fail(
+            fmt::format("{} corners are not whole triangles; export the file again", corners.size()));
+      }
+      for (std::size_t i = 0; i < corners.size(); i += 3) add(i, i + 1, i + 2);
+    } else {
+      for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+        if (mode == 6) {
+          add(0, i + 1, i + 2);
+        } else if (i % 2 == 0) {
+          add(i, i + 1, i + 2);
+        } else {
+          add(i + 1, i, i + 2);
+        }
+      }
+    }
+    return part;
+  }
+
+  void append(const Mesh& part) {
+    Mesh& mesh = loaded_.mesh;
+    const auto first_position = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto first_normal = static_cast<std::uint32_t>(mesh.normals.size());
+    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+    mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
+    for (SceneTriangle triangle : part.triangles) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        triangle.position[corner] += first_position;
+        triangle.normal[corner] += first_normal;
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  }
+
+  // ---- Accessors
+
+  std::string_view buffer(const Item& index) {
+    const std::size_t i = index.index(buffers_.size());
+    const Item& buffer = buffers_[i];
+    const std::uint64_t length = buffer.at("byteLength").unsigned_number();
+    if (!buffer.has("uri")) {
+      if (i != 0 || !binary_) buffer.fail("has no uri; export the file with its buffers");
+      return checked(buffer, *binary_, length);
+    }
+    if (!buffer_bytes_[i]) {
+      const Item uri = buffer.at("uri");
+      const std::string& text = uri.text();
+      if (text.starts_with("data:")) {
+        constexpr std::string_view c_mark = ";base64,";
+        const std::size_t mark = text.find(c_mark);
+        if (mark == std::string::npos) uri.fail("its data are not base64; export the file again");
+        buffer_bytes_[i] = decode_base64(uri, std::string_view(text).substr(mark + c_mark.size()));
+      } else {
+        buffer_bytes_[i] = read_buffer_file(uri, folder_);
+      }
+    }
+    return checked(buffer, *buffer_bytes_[i], length);
+  }
+  static std::string_view checked(const Item& buffer, std::string_view bytes, std::uint64_t length) {
+    if (length > bytes.size()) {
+      buffer.fail(fmt::format("must have {} bytes, it has {}; export the file with its buffers", length,
+                              bytes.size()));
+    }
+    return bytes.substr(0, length);
+  }
+
+  /// The bytes of `count` items of `size` bytes. `item` has bufferView and byteOffset.
+  Span span_of(const Item& item, std::uint64_t count, std::size_t size, bool may_have_stride) {
+    const Item& view = views_[item.at("bufferView").index(views_.size())];
+    std::string_view bytes = buffer(view.at("buffer"));
+    const std::uint64_t view_offset = view.unsigned_number("byteOffset", 0);
+    const std::uint64_t view_length = view.at("byteLength").unsigned_number();
+    if (view_offset > bytes.size() || view_length > bytes.size() - view_offset) {
+      view.fail(fmt::format("ends after its buffer of {} bytes; export the file again", bytes.size()));
+    }
+    bytes = bytes.substr(view_offset, view_length);
+    const std::uint64_t stride = view.unsigned_number("byteStride", size);
+    if (view.has("byteStride") && (!may_have_stride || stride < size || stride > 252)) {
+      view.at("byteStride").fail(fmt::format("is {} for items of {} bytes; correct it", stride, size));
+    }
+    const std::uint64_t offset = item.unsigned_number("byteOffset", 0);
+    const bool fits = offset <= bytes.size() && bytes.size() - offset >= size &&
+                      (count - 1) <= (bytes.size() - offset - size) / stride;
+    if (!fits) {
+      item.fail(
+          fmt::format("{} items of {} bytes end after the buffer view of {} bytes; export the file again",
+                      count, size, bytes.size()));
+    }
+    return {.bytes = bytes.substr(offset), .stride = stride};
+  }
+
+  struct Accessor {
+    Item item;
+    std::uint64_t count;
+    std::uint64_t component_type;
+    std::size_t component_bytes;
+  };
+  Accessor accessor(const Item& index, std::string_view type) {
+    const Item& item = accessors_[index.index(accessors_.size())];
+    const std::uint64_t count = item.at("count").unsigned_number();
+    if (count == 0 || count > c_max_vertices) {
+      item.at("count").fail(fmt::format("{}, not 1 to {}; correct the mesh", count, c_max_vertices));
+    }
+    if (item.at("type").text() != type) {
+      item.at("type").fail(fmt::format("{} is not {}, as {} requires; export the file again",
+                                       halfway::quoted(item.at("type").text()), type, index.place()));
+    }
+    const std::uint64_t code = item.at("componentType").unsigned_number();
+    for (const ComponentType& known : c_component_types) {
+      if (known.code == code) return {item, count, code, known.bytes};
+    }
+    item.at("componentType").fail(fmt::format("{} is not a type of glTF; export the file again", code));
+  }
+
+  /// An unsigned integer of a Span.
+  static std::uint32_t integer_at(const Span& span, std::size_t i, std::uint64_t component_type) {
+    const std::size_t at = i * span.stride;
+    if (component_type == c_uint8) return number_in<std::uint8_t>(span.bytes, at, ByteOrder::little);
+    if (component_type == c_uint16) return number_in<std::uint16_t>(span.bytes, at, ByteOrder::little);
+    return number_in<std::uint32_t>(span.bytes, at, ByteOrder::little);
+  }
+  static void check_integer(const Item& item, std::uint64_t component_type) {
+    if (component_type == c_uint8 || component_type == c_uint16 || component_type == c_uint32) return;
+    item.at("componentType")
+        .fail(fmt::format("{} is not an unsigned integer; export the file again", component_type));
+  }
+
+  /// Read the file's values over those that the accessor has: `set(i, bytes, at)`.
+  template <class Set>
+  void read_sparse(const Accessor& accessor, std::size_t item_bytes, const Set& set) {
+    if (!accessor.item.has("sparse")) return;
+    const Item sparse = accessor.item.object("sparse");
+    const std::uint64_t count = sparse.at("count").unsigned_number();
+    if (count == 0 || count > accessor.count) {
+      sparse.at("count").fail(fmt::format("{}, not 1 to {}; export the file again", count, accessor.count));
+    }
+    const Item indices = sparse.object("indices");
+    const std::uint64_t type = indices.at("componentType").unsigned_number();
+    check_integer(indices, type);
+    const std::size_t index_bytes = type == c_uint8 ? 1 : type == c_uint16 ? 2 : 4;
+    const Span places = span_of(indices, count, index_bytes, false);
+    const Span values = span_of(sparse.object("values"), count, item_bytes, false);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t place = integer_at(places, i, type);
+      if (place >= accessor.count) {
+        indices.fail(fmt::format("index {} is {}, but the accessor has {} items; correct it", i, place,
+                                 accessor.count));
+      }
+      set(place, values, i);
+    }
+  }
+
+  /// Read vectors of three floats.
+  std::vector<glm::dvec3> read_vectors(const Item& index) {
+    const Accessor source = accessor(index, "VEC3");
+    if (source.component_type != c_float) {
+      source.item.at("componentType")
+          .fail(fmt::format("{} is not float (5126), as {} requires; export the file without quantization",
+                            source.component_type, index.place()));
+    }
+    constexpr std::size_t c_bytes = 12;
+    // Without a buffer view the values are zero.
+    std::vector<glm::dvec3> vectors(source.count, glm::dvec3(0.0));
+    const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto value = number_in<float>(span.bytes, i * span.stride + 4 * axis, ByteOrder::little);
+        if (!std::isfinite(value)) {
+          source.item.fail(fmt::format("vector {} has a number that is not finite; correct it", place));
+        }
+        vectors[place][static_cast<int>(axis)] = static_cast<double>(value);
+      }
+    };
+    if (source.item.has("bufferView")) {
+      const Span span = span_of(source.item, source.count, c_bytes, true);
+      for (std::size_t i = 0; i < source.count; ++i) set(i, span, i);
+    }
+    read_sparse(source, c_bytes, set);
+    return vectors;
+  }
+
+  /// Read the indices of a primitive; without them the vertices are used in their order.
+  std::vector<std::uint32_t> read_corners(const Item& primitive, std::size_t positions) {
+    std::vector<std::uint32_t> corners;
+    if (!primitive.has("indices")) {
+      corners.resize(positions);
+      for (std::size_t i = 0; i < positions; ++i) corners[i] = static_cast<std::uint32_t>(i);
+      return corners;
+    }
+    const Accessor source = accessor(primitive.at("indices"), "SCALAR");
+    check_integer(source.item, source.component_type);
+    corners.resize(source.count);
+    const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
+      corners[place] = integer_at(span, i, source.component_type);
+    };
+    if (source.item.has("bufferView")) {
+      const Span span = span_of(source.item, source.count, source.component_bytes, false);
+      for (std::size_t i = 0; i < source.count; ++i) set(i, span, i);
+    }
+    read_sparse(source, source.component_bytes, set);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      if (corners[i] < positions) continue;
+      primitive.at("indices").fail(
+          fmt::format("index {} names vertex {}, but the primitive has {}, counted from 0; correct the index",
+                      i, corners[i], positions));
+    }
+    return corners;
+  }
+
+  // ---- Materials
+
+  /// The index of a primitive's material. A material gets its index when the first primitive uses it.
+  std::uint32_t material_of(const Item& primitive) {
+    std::optional<std::size_t> source;
+    if (primitive.has("material")) source = primitive.at("material").index(materials_.size());
+    const auto next = static_cast<std::uint32_t>(loaded_.mesh.materials.size());
+    const auto [entry, is_new] = material_index_.try_emplace(source, next);
+    if (is_new) {
+      loaded_.mesh.materials.push_back(source ? read_material(materials_[*source], "")
+                                              : read_material(Item(no_keys(), "material"), "default"));
+    }
+    return entry->second;
+  }
+
+  Material read_material(const Item& source, std::string_view name) {
+    Material material;
+    material.name = source.text("name", name);
+    const Item look = source.has("pbrMetallicRoughness") ? source.object("pbrMetallicRoughness")
+                                                         : Item(no_keys(), source.place());
+    if (look.has("baseColorFactor")) {
+      const auto colour = look.numbers<4>("baseColorFactor");
+      for (int channel = 0; channel < 3; ++channel) {
+        material.colour[channel] = colour[static_cast<std::size_t>(channel)];
+        if (material.colour[channel] < 0.0)
+          look.at("baseColorFactor").fail("is negative; correct the colour");
+      }
+    }
+    const double metal = factor(look, "metallicFactor");
+    const double roughness = std::max(factor(look, "roughnessFactor"), 0.05);
+    material.specular_colour = glm::dvec3(1.0 - metal) + metal * material.colour;
+    const double exponent = 2.0 / std::pow(roughness, 4.0) - 2.0;
+    material.specular *= 1.0 - std::min(roughness, 1.0);  // a rough surface has a weak highlight
+    material.exponent = std::max(exponent, 1.0);
+    if (exponent < 1.0 && material.specular > 0.0) {
+      note(fmt::format("material {}: exponent {} raised to 1", halfway::quoted(material.name), exponent));
+    }
+    const auto is_texture = [](const std::string& key) { return key.ends_with("Texture"); };
+    const std::vector<std::string> keys = source.keys(), look_keys = look.keys();
+    if (std::any_of(keys.begin(), keys.end(), is_texture) ||
+        std::any_of(look_keys.begin(), look_keys.end(), is_texture)) {
+      note(fmt::format("material {}: textures are left out", halfway::quoted(material.name)));
+    }
+    return material;
+  }
+  static double factor(const Item& look, const char* key) {
+    const double value = look.number(key, 1.0);
+    if (value < 0.0 || value > 1.0)
+      look.at(key).fail(fmt::format("{} is not from 0 to 1; correct it", value));
+    return value;
+  }
+
+  Item root_;
+  std::optional<std::string_view> binary_;
+  std::filesystem::path folder_;
+  std::string name_;
+  std::vector<Item> meshes_, nodes_, accessors_, views_, buffers_, materials_;
+  std::vector<json> all_roots_;
+  std::vector<std::optional<std::string>> buffer_bytes_;  ///< of buffers with a uri, once they are read
+  std::map<std::optional<std::size_t>, std::uint32_t> material_index_;
+  LoadedMesh loaded_;
+  std::set<std::string> notes_;
+  std::uint64_t points_and_lines_ = 0, vertices_ = 0, triangles_ = 0;
+};
+
+/// The error of text that is not JSON, with its line.
+Error not_json(const json::parse_error& error, std::string_view text, const std::string& name) {
+  const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
+  return bad_input(fmt::format("{}:{}: not glTF 2.0: its JSON is damaged here; export the file again", name,
+                               1 + std::count(before.begin(), before.end(), '\n')));
+}
+
+}  // namespace
+
+Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path& path) {
+  const std::string name = path.string();
+  std::string_view text;
+  try {
+    const Chunks chunks = chunks_of(bytes);
+    text = chunks.json;
+    const json root = json::parse(text);
+    if (!root.is_object()) return bad_input(name + ":1: not glTF 2.0: its JSON is not an object");
+    return GltfReader(root, chunks.binary, path).read();
+  } catch (const BadGltf& bad) {
+    return bad_input(fmt::format("{}: {}", name, bad.what));
+  } catch (const json::parse_error& error) {
+    return not_json(error, text, name);
+  } catch (const json::exception& exception) {
+    return bad_input(fmt::format("{}: its JSON cannot be read: {}", name, exception.what()));
+  }
+}
+
+}  // namespace halfway

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/files/gltf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "mesh_files/test/spelling.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+
+namespace halfway {
+namespace {
+
+using nlohmann::json;
+
+/// Bytes 0 to 47: the positions (0,0,0) (1,0,0) (0,1,0) (1,1,0). 48 to 57: the indices 0 1 2 3 1, 16 bits
+/// each; 58 and 59 unused. 60 to 63: the bytes 0 2 3 9. 64 to 75: (5,6,7).
+std::string buffer() {
+  std::string bytes;
+  for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f})
+    bytes += little_endian(x);
+  for (const int i : {0, 1, 2, 3, 1, 0}) bytes += little_endian(static_cast<std::uint16_t>(i));
+  bytes += std::string("\0\2\3\x9", 4);
+  for (const float x : {5.f, 6.f, 7.f}) bytes += little_endian(x);
+  return bytes;
+}
+
+/// A triangle: accessor 0 has the positions, accessor 1 the first three indices.
+json plain(const std::string& bytes = buffer()) {
+  json file =
+      json::parse(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"buffers":[{}],
+    "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":10},
+                   {"buffer":0,"byteOffset":60,"byteLength":4},{"buffer":0,"byteOffset":64,"byteLength":12}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+                 {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}]})");
+  file["buffers"][0]["byteLength"] = bytes.size();
+  file["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64(bytes);
+  return file;
+}
+
+/// The file with values at these places; null removes one.
+std::string with(const std::vector<std::pair<const char*, json>>& changes, json file = plain()) {
+  for (const auto& [place, value] : changes) {
+    const json::json_pointer pointer(place);
+    if (value.is_null()) {
+      file[pointer.parent_pointer()].erase(pointer.back());
+    } else {
+      file[pointer] = value;
+    }
+  }
+  return file.dump();
+}
+
+std::string triangles(const std::string& text) {
+  return triangles_of(read_gltf(text, "a.gltf"));
+}
+
+class GltfSpelling : public ::testing::TestWithParam<Spelling> {};
+
+TEST_P(GltfSpelling, IsReadExactlyOrRefusedWithItsPlace) {
+  EXPECT_EQ(triangles(GetParam().text), GetParam().wanted);
+}
+
+const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
+const json c_sparse = json::parse(
+    R"({"count":1,"indices":{"bufferView":2,"byteOffset":1,"componentType":5121},"values":{"bufferView":3}})");
+
+const std::vector<Spelling> c_spellings = {
+    {"plain", with({}), c_triangle},
+    {"byte_order_mark", "\xef\xbb\xbf" + with({}), c_triangle},
+
+    // modes
+    {"strip", with({{"/meshes/0/primitives/0/mode", 5}, {"/accessors/1/count", 4}}),
+     c_triangle + "; 0,1,0 1,0,0 1,1,0"},
+    {"fan", with({{"/meshes/0/primitives/0/mode", 6}, {"/accessors/1/count", 4}}),
+     c_triangle + "; 0,0,0 0,1,0 1,1,0"},
+    {"lines", with({{"/meshes/0/primitives/0/mode", 1}}),
+     "! a.gltf: the mesh has no faces; export it with faces"},
+    {"mode_7", with({{"/meshes/0/primitives/0/mode", 7}}),
+     "! a.gltf: meshes[0].primitives[0].mode: 7 is not a mode of glTF; correct it"},
+    {"four_corners", with({{"/accessors/1/count", 4}}),
+     "! a.gltf: meshes[0].primitives[0]: 4 corners are not whole triangles; export the file again"},
+
+    // accessors
+    {"bytes_as_indices", with({{"/accessors/1/bufferView", 2}, {"/accessors/1/componentType", 5121}}),
+     "0,0,0 0,1,0 1,1,0"},
+    {"index_beyond", with({{"/accessors/0/count", 2}}),
+     "! a.gltf: meshes[0].primitives[0].indices: index 2 names vertex 2, but the primitive has 2, counted "
+     "from 0; "
+     "correct the index"},
+    {"count_beyond", with({{"/accessors/1/count", 6}}),
+     "! a.gltf: accessors[1]: 6 items of 2 bytes end after the buffer view of 10 bytes; export the file "
+     "again"},
+    {"offset_beyond", with({{"/accessors/0/byteOffset", 4}}),
+     "! a.gltf: accessors[0]: 4 items of 12 bytes end after the buffer view of 48 bytes; export the file "
+     "again"},
+    {"count_0", with({{"/accessors/1/count", 0}}),
+     "! a.gltf: accessors[1].count: 0, not 1 to 30000000; correct the mesh"},
+    {"count_3.5", with({{"/accessors/1/count", 3.5}}),
+     "! a.gltf: accessors[1].count: is not a whole number from 0; correct it"},
+    {"indices_of_float", with({{"/accessors/1/componentType", 5126}}),
+     "! a.gltf: accessors[1].componentType: 5126 is not an unsigned integer; export the file again"},
+    {"positions_quantized", with({{"/accessors/0/componentType", 5123}}),
+     "! a.gltf: accessors[0].componentType: 5123 is not float (5126), as "
+     "meshes[0].primitives[0].attributes.POSITION requires; export the file without quantization"},
+    {"positions_of_two", with({{"/accessors/0/type", "VEC2"}}),
+     "! a.gltf: accessors[0].type: 'VEC2' is not VEC3, as meshes[0].primitives[0].attributes.POSITION "
+     "requires; "
+     "export the file again"},
+    {"other_component_type", with({{"/accessors/0/componentType", 5130}}),
+     "! a.gltf: accessors[0].componentType: 5130 is not a type of glTF; export the file again"},
+    {"view_after_its_buffer", with({{"/bufferViews/1/byteLength", 29}}),
+     "! a.gltf: bufferViews[1]: ends after its buffer of 76 bytes; export the file again"},
+    {"interleaved",
+     with({{"/bufferViews/0/byteStride", 16}, {"/bufferViews/0/byteLength", 44}, {"/accessors/0/count", 3}}),
+     "0,0,0 0,0,0 0,1,1"},
+    {"stride_too_small", with({{"/bufferViews/0/byteStride", 8}}),
+     "! a.gltf: bufferViews[0].byteStride: is 8 for items of 12 bytes; correct it"},
+    {"sparse", with({{"/accessors/0/sparse", c_sparse}}), "0,0,0 1,0,0 5,6,7"},
+    {"sparse_of_zeros", with({{"/accessors/0/sparse", c_sparse}, {"/accessors/0/bufferView", nullptr}}),
+     "0,0,0 0,0,0 5,6,7"},
+    {"sparse_beyond",
+     with({{"/accessors/0/sparse", c_sparse}, {"/accessors/0/sparse/indices/byteOffset", 3}}),
+     "! a.gltf: accessors[0].sparse.indices: index 0 is 9, but the accessor has 4 items; correct it"},
+    {"nan", plain(std::string("\0\0\xc0\x7f", 4) + buffer().substr(4)).dump(),
+     "! a.gltf: accessors[0]: vector 0 has a number that is not finite; correct it"},
+    {"normals_missing_some",
+     with(
+         {{"/meshes/0/primitives/0/attributes/NORMAL", 2},
+          {"/accessors/2", json::parse(R"({"bufferView":3,"componentType":5126,"count":1,"type":"VEC3"})")}}),
+     "! a.gltf: meshes[0].primitives[0].attributes.NORMAL: has 1 normals for 4 positions; export the file "
+     "again"},
+
+    // buffers
+    {"buffer_short", with({{"/buffers/0/byteLength", 77}}),
+     "! a.gltf: buffers[0]: must have 77 bytes, it has 76; export the file with its buffers"},
+    {"not_base64", with({{"/buffers/0/uri", "data:;base64,AA?A"}}),
+     "! a.gltf: buffers[0].uri: '?' is not base64; export the file again"},
+    {"base64_truncated", with({{"/buffers/0/uri", "data:;base64,AAAAA"}}),
+     "! a.gltf: buffers[0].uri: its base64 is truncated; export the file again"},
+    {"data_as_text", with({{"/buffers/0/uri", "data:text/plain,abc"}}),
+     "! a.gltf: buffers[0].uri: its data are not base64; export the file again"},
+    {"address", with({{"/buffers/0/uri", "https://example.com/a.bin"}}),
+     "! a.gltf: buffers[0].uri: 'https://example.com/a.bin' is an address; store the buffer in a file next "
+     "to "
+     "this one"},
+    {"up_encoded", with({{"/buffers/0/uri", "%2e%2E/a.bin"}}),
+     "! a.gltf: buffers[0].uri: '../a.bin' is outside of the file's folder; move the buffer next to this "
+     "file"},
+    {"absolute", with({{"/buffers/0/uri", "/dev/zero"}}),
+     "! a.gltf: buffers[0].uri: '/dev/zero' is outside of the file's folder; move the buffer next to this "
+     "file"},
+    {"percent", with({{"/buffers/0/uri", "a%2"}}),
+     "! a.gltf: buffers[0].uri: % is not followed by two hexadecimal digits; correct it"},
+    {"gone", with({{"/buffers/0/uri", "gone.bin"}}),
+     "! a.gltf: buffers[0].uri: 'gone.bin' is not a file; export the file with its buffers"},
+    {"no_uri", with({{"/buffers/0/uri", nullptr}}),
+     "! a.gltf: buffers[0]: has no uri; export the file with its buffers"},
+
+    // nodes
+    {"translation", with({{"/nodes/0/translation", {1, 2, 3}}}), "1,2,3 2,2,3 1,3,3"},
+    {"scale_then_rotation_then_translation",
+     with({{"/nodes/0/scale", {2, 3, 1}},
+           {"/nodes/0/rotation", {0, 0, 1, 0}},
+           {"/nodes/0/translation", {10, 0, 0}}}),
+     "10,0,0 8,0,0 10,-3,0"},
+    {"matrix", with({{"/nodes/0/matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}),
+     "5,6,7 5,7,7 4,6,7"},
+    {"mirrored", with({{"/nodes/0/scale", {-1, 1, 1}}}), "0,0,0 0,1,0 -1,0,0"},
+    {"children", with({{"/nodes", json::parse(R"([{"children":[1],"translation":[1,0,0]},
+                                                  {"mesh":0,"translation":[0,1,0]}])")}}),
+     "1,1,0 2,1,0 1,2,0"},
+    {"translation_of_two", with({{"/nodes/0/translation", {1, 2}}}),
+     "! a.gltf: nodes[0].translation: has 2 numbers, not 3; correct it"},
+    {"scale_0", with({{"/nodes/0/scale", {1, 0, 1}}}),
+     "! a.gltf: nodes[0]: its transform has no inverse; correct its scale, or remove the node"},
+    {"translation_huge", with({{"/nodes/0/translation", {1e300, 0, 0}}}),
+     "! a.gltf: nodes[0]: its transform moves a vertex beyond the range of float; correct it"},
+    {"rotation_0", with({{"/nodes/0/rotation", {0, 0, 0, 0}}}),
+     "! a.gltf: nodes[0].rotation: has the length 0, not 1; correct it"},
+    {"perspective", with({{"/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
+     "! a.gltf: nodes[0].matrix: its last row is not 0 0 0 1; export the file again"},
+    {"node_in_a_circle", with({{"/nodes/0/children", {0}}}),
+     "! a.gltf: nodes[0]: is reached twice; export the file with a tree of nodes"},
+    {"scene_selected", with({{"/scenes", json::parse(R"([{"nodes":[]},{"nodes":[0]}])")}, {"/scene", 1}}),
+     c_triangle},
+    {"scene_empty", with({{"/scenes", json::parse(R"([{"nodes":[]},{"nodes":[0]}])")}}),
+     "! a.gltf: the mesh has no faces; export it with faces"},
+    {"no_scene", with({{"/scenes", nullptr}, {"/scene", nullptr}}), c_triangle},
+
+    // the file
+    {"not_json", "{\n\"asset\": {\"version\": 2.0,,\n",
+     "! a.gltf:2: not glTF 2.0: its JSON is damaged here; export the file again"},
+    {"array", "[]", "! a.gltf:1: not glTF 2.0: its JSON is not an object"},
+    {"deep",
+     with({}).insert(1, R"("extras":)" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + ","),
+     c_triangle},
+    {"version_1", with({{"/asset/version", "1.0"}}), "! a.gltf: asset: glTF '1.0'; export as glTF 2.0"},
+    {"no_asset", with({{"/asset", nullptr}}), "! a.gltf: no asset; export the file again"},
+    {"draco", with({{"/extensionsRequired", {"KHR_draco_mesh_compression"}}}),
+     "! a.gltf: extensionsRequired[0]: 'KHR_draco_mesh_compression' cannot be read; export the file without "
+     "it"},
+    {"unlit", with({{"/extensionsRequired", {"KHR_materials_unlit"}}}), c_triangle},
+    {"roughness_2",
+     with({{"/meshes/0/primitives/0/material", 0},
+           {"/materials", json::parse(R"([{"pbrMetallicRoughness":{"roughnessFactor":2}}])")}}),
+     "! a.gltf: materials[0].pbrMetallicRoughness.roughnessFactor: 2 is not from 0 to 1; correct it"},
+};
+
+INSTANTIATE_TEST_SUITE_P(All, GltfSpelling, ::testing::ValuesIn(c_spellings), [](const auto& test) {
+  std::string name = test.param.name;
+  for (char& c : name) c = c == '.' ? '_' : c;
+  return name;
+});
+
+// ---- GLB
+
+std::string chunk(const std::string& type, const std::string& data) {
+  return little_endian(static_cast<std::uint32_t>(data.size())) + type + data;
+}
+std::string glb(const std::string& chunks, std::uint32_t version = 2, std::uint32_t extra = 0) {
+  return "glTF" + little_endian(version) +
+         little_endian(static_cast<std::uint32_t>(12 + chunks.size()) + extra) + chunks;
+}
+std::string json_chunk() {
+  return chunk("JSON", with({{"/buffers/0/uri", nullptr}}));
+}
+const std::string c_binary_type("BIN\0", 4);
+
+INSTANTIATE_TEST_SUITE_P(
+    Glb, GltfSpelling,
+    ::testing::Values(
+        Spelling{"plain", glb(json_chunk() + chunk(c_binary_type, buffer())), c_triangle},
+        Spelling{"more_chunks", glb(json_chunk() + chunk(c_binary_type, buffer()) + chunk("MORE", "xyz")),
+                 c_triangle},
+        Spelling{"no_binary", glb(json_chunk()),
+                 "! a.gltf: buffers[0]: has no uri; export the file with its buffers"},
+        Spelling{"binary_short", glb(json_chunk() + chunk(c_binary_type, buffer().substr(1))),
+                 "! a.gltf: buffers[0]: must have 76 bytes, it has 75; export the file with its buffers"},
+        Spelling{"version_1", glb(json_chunk(), 1), "! a.gltf: byte 4: GLB version 1; export as version 2"},
+        Spelling{"header_only", "glTF",
+                 "! a.gltf: byte 0: the file ends in its header; it is truncated, export it again"},
+        Spelling{"length_too_large", glb(chunk("JSON", "{}"), 2, 1),
+                 "! a.gltf: byte 8: its header requires 23 bytes, it has 22; export it again"},
+        Spelling{"trailing_byte", glb(chunk("JSON", "{}")) + "x",
+                 "! a.gltf: byte 8: its header requires 22 bytes, it has 23; export it again"},
+        Spelling{"chunk_too_long", glb(little_endian(std::uint32_t{3}) + "JSON{}"),
+                 "! a.gltf: byte 12: chunk 0 is longer than the file; export the file again"},
+        Spelling{"binary_first", glb(chunk(c_binary_type, "ab") + chunk("JSON", "{}")),
+                 "! a.gltf: byte 12: the first chunk, and no other, must be JSON; export the file again"}),
+    [](const auto& test) { return std::string(test.param.name); });
+
+// ---- Normals, files, notes
+
+TEST(Gltf, NormalsAreThoseOfTheVertices) {
+  const auto loaded = must(read_gltf(with({{"/meshes/0/primitives/0/attributes/NORMAL", 0}}), "a.gltf"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 1,0,0 0,1,0 ");
+}
+
+TEST(Gltf, WithoutNormalsOrMaterialThereAreDefaults) {
+  const auto loaded = must(read_gltf(with({}), "a.gltf"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 ");
+  ASSERT_EQ(loaded.mesh.materials.size(), 1u);
+  EXPECT_EQ(loaded.mesh.materials[0].name, "default");
+  EXPECT_EQ(loaded.mesh.materials[0].specular, 0.0);  // glTF's default roughness is 1
+  EXPECT_TRUE(loaded.notes.empty());
+}
+
+TEST(Gltf, BuffersAreReadFromTheFolder) {
+  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  std::filesystem::create_directory(folder.path() / "sub");
+  std::ofstream(folder.path() / "sub" / "a b.bin", std::ios::binary) << buffer();
+  EXPECT_EQ(triangles_of(read_gltf(with({{"/buffers/0/uri", "sub/a%20b.bin"}}), folder.path() / "a.gltf")),
+            c_triangle);
+}
+
+TEST(Gltf, NotesSayWhatIsLeftOut) {
+  const auto loaded =
+      read_gltf(with({{"/meshes/0/primitives/1", json::parse(R"({"attributes":{"POSITION":0},"mode":0})")},
+                      {"/meshes/0/primitives/0/attributes/COLOR_0", 0},
+                      {"/meshes/0/primitives/0/attributes/JOINTS_0", 0},
+                      {"/meshes/0/primitives/0/targets", json::array()},
+                      {"/meshes/0/primitives/0/material", 0},
+                      {"/materials", json::parse(R"([{"name":"m","normalTexture":{"index":0},
+                                           "pbrMetallicRoughness":{"roughnessFactor":0.95}}])")}}),
+                "a.gltf");
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  ASSERT_EQ(loaded->notes.size(), 6u);
+  EXPECT_EQ(loaded->notes[0], "a.gltf: 1 points and lines left out");
+  EXPECT_EQ(loaded->notes[1], "a.gltf: bones are omitted: the mesh is in its bind pose");
+  EXPECT_TRUE(loaded->notes[2].starts_with("a.gltf: material 'm': exponent 0.45")) << loaded->notes[2];
+  EXPECT_EQ(loaded->notes[3], "a.gltf: material 'm': textures are left out");
+  EXPECT_EQ(loaded->notes[4], "a.gltf: morph targets are left out");
+  EXPECT_EQ(loaded->notes[5], "a.gltf: vertex colours are left out");
+}
+
+}  // namespace
+}  // namespace halfway

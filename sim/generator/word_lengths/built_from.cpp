@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// halfway_built_from CHECKOUT FILE: writes the function `built_from` of the program. The build runs it.
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "sim/generator/word_lengths/format_sources.hpp"
+#include "sim/os/file.hpp"
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  const auto written = [&]() -> Status {
+    if (argc != 3) return bad_input("halfway_built_from: takes a checkout and the file to write");
+    const auto hash = format_sources_hash(argv[1]);
+    if (!hash) return hash.error();
+    return write_file(argv[2], fmt::format("#include \"sim/generator/word_lengths/format_sources.hpp\"\n\n"
+                                           "const char* halfway::built_from() {{ return \"{}\"; }}\n",
+                                           *hash));
+  }();
+  if (written) return 0;
+  fmt::print(stderr, "{}\n", written.error().message);
+  return static_cast<int>(written.error().code);
+}

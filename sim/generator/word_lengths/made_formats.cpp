@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/generator/word_lengths/made_formats.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "sim/generator/generated_files.hpp"
+#include "sim/generator/word_lengths/compiled_sizes.hpp"
+#include "sim/generator/word_lengths/format_sources.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/folder_lock.hpp"
+
+namespace halfway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* c_library = "formats.so";
+
+// The flags of CMakeLists.txt for these sources, plus position-independent code: the counted host
+// instructions must be comparable. The library and the program must not share any symbol, not even an inline
+// constant.
+constexpr std::array c_flags = {
+    "-std=gnu++20", "-O2",           "-DFMT_SHARED",        "-fPIC",
+    "-shared",      "-pthread",      "-fvisibility=hidden", "-fvisibility-inlines-hidden",
+    "-w",           "-Wl,-Bsymbolic"};
+
+}  // namespace
+
+Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& key,
+                                                             const SimulatorFolders& folders) try {
+  const fs::path source = fs::absolute(folders.source);
+  const std::string sources = must(format_sources_hash(source));
+  if (sources != built_from())
+    return bad_input(fmt::format(
+        "{}: the program was built from other sources; word lengths other than the preset's need the "
+        "same sources: run make program",
+        (source / "model").lexically_normal().string()));
+  const bool exact = key.preset == Preset::exact;
+  const tables::WordLengths& words = key.words;
+  const auto headers = tables::cpp_headers(tables::compiled_sizes(), exact, words);
+  const Compiler compiler = must(Compiler::find(HALFWAY_CXX));
+  std::vector<std::string> flags(c_flags.begin(), c_flags.end());
+  // g++ would let the program and the library share inline variables.
+  if (compiler.program.find("clang") == std::string::npos) flags.emplace_back("-fno-gnu-unique");
+  flags.push_back(fmt::format("-DHALFWAY_SHADER={}", static_cast<int>(key.shader)));
+  flags.emplace_back(exact ? "-DHALFWAY_PRESET=Exact" : "-DHALFWAY_PRESET=Published");
+  ContentHash hash;
+  hash.add("formats 4").add(sources).add(compiler.identity);
+  for (const tables::GeneratedFile& header : headers) hash.add(header.text);
+  for (const std::string& flag : flags) hash.add(flag);
+
+  const fs::path parent = fs::absolute(folders.cache) / "formats";
+  const std::string name =
+      fmt::format("{}-{}-{}-{}", to_string(key.shader), to_string(key.preset), words.name(), hash.hex());
+  const fs::path folder = parent / name;
+  if (!fs::exists(folder)) {
+    // Compiling takes half a minute. Other points with the same formats wait for it.
+    const fs::path locked = parent / (name + ".lock");
+    must(make_folders(locked));
+    const FolderLock lock = must(FolderLock::take(locked, [] {}));
+    make_once(folder, [&](const fs::path& fresh) {
+      must(tables::write_files(fresh, headers));
+      Command compile{.arguments = {compiler.program}, .working_folder = fresh};
+      compile.arguments.insert(compile.arguments.end(), flags.begin(), flags.end());
+      compile.arguments.insert(compile.arguments.end(),
+                               {"-I.", "-I" + (source / "model").string(), "-I" + source.string()});
+      for (const std::string& file : format_sources(key.shader))
+        compile.arguments.push_back((source / file).string());
+      compile.arguments.insert(compile.arguments.end(), {"-o", c_library});
+      must(run_tool(compile, c_install_compiler, words.name()));
+    });
+  }
+  std::shared_ptr<MadeFormats> made(new MadeFormats(must(SharedLibrary::load(folder / c_library))));
+  must(made->library_.bind(made->setup_, "halfway_make_setup", made->golden_model_,
+                           "halfway_make_golden_model"));
+  return std::shared_ptr<const MadeFormats>(std::move(made));
+} catch (const Failure& failure) {
+  return failure.error;
+}
+
+std::unique_ptr<Setup> MadeFormats::make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                               const SetupOptions& options) const {
+  return std::unique_ptr<Setup>(setup_(scene, frame, key, options));
+}
+
+std::unique_ptr<GoldenModel> MadeFormats::make_golden_model(const HardwareKey& key) const {
+  return std::unique_ptr<GoldenModel>(golden_model_(key));
+}
+
+std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                                  const SetupOptions& options, const MadeFormats* formats) {
+  return formats ? formats->make_setup(scene, frame, key, options) : make_setup(scene, frame, key, options);
+}
+
+std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key, const MadeFormats* formats) {
+  return formats ? formats->make_golden_model(key) : make_golden_model(key);
+}
+
+}  // namespace halfway

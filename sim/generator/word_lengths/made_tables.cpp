@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/generator/word_lengths/made_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "sim/generator/word_lengths/compiled_sizes.hpp"
+#include "sim/os/file.hpp"
+#include "words/generator/formats.hpp"
+#include "words/generator/functions.hpp"
+
+namespace halfway::tables {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Paths relative to rtl/, and the files' contents.
+using Packages = std::map<std::string, std::string>;
+
+CosineSizes sizes_with(bool exact, CosineSize size, const std::vector<double>& own) {
+  CosineSizes sizes;
+  sizes.own = own;
+  (exact ? sizes.exact : sizes.published) = {size};
+  return sizes;
+}
+
+struct Source {
+  fs::path path;  // relative to rtl/
+  std::string text;
+};
+
+std::vector<Source> rtl_sources(const fs::path& rtl, const Packages& packages) {
+  std::vector<Source> sources;
+  for (const fs::path& path : must(files_below(rtl))) {
+    const auto made = packages.find(path.string());
+    sources.push_back({path, made != packages.end() ? made->second : must(read_file(rtl / path))});
+  }
+  return sources;
+}
+
+}  // namespace
+
+MadeTables::MadeTables(bool exact, CosineSize size, const std::vector<double>& own) {
+  for (const CosineTable& made : cosine_tables(sizes_with(exact, size, own))) {
+    if (made.exact != exact) continue;
+    // Entries have at most 12 bits.
+    std::vector<std::uint16_t> entries;
+    for (const std::uint32_t entry : made.entries) entries.push_back(static_cast<std::uint16_t>(entry));
+    entries_.push_back(std::move(entries));
+    tables_.push_back({exact, made.power, made.address_bits, made.data_bits, entries_.back()});
+  }
+}
+
+bool compiled_in(bool exact, CosineSize size) {
+  const CosineSizes sizes = compiled_sizes();
+  const auto& list = exact ? sizes.exact : sizes.published;
+  return std::ranges::find(list, size) != list.end();
+}
+
+Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& checkout,
+                                 const fs::path& cache) {
+  return rtl_with(exact, size, {}, checkout, cache);
+}
+
+Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
+                          const fs::path& checkout, const fs::path& cache,
+                          const std::vector<double>& own) try {
+  Packages packages;
+  std::string name = exact ? "exact" : "published";
+  if (size) {
+    packages["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size, own));
+    name += fmt::format("-{}x{}{}", size->address_bits, size->data_bits, own.empty() ? "" : "-own");
+  }
+  if (words.any()) {
+    packages["tables/formats_pkg.vhd"] = vhdl_package(preset_formats(exact, words));
+    packages["tables/function_pkg.vhd"] = function_vhdl_package(function_tables(exact, words));
+    name += "-" + words.name();
+  }
+  const std::vector<Source> sources = rtl_sources(checkout / "rtl", packages);
+  ContentHash hash;
+  hash.add(fs::absolute(checkout).string());
+  for (const Source& source : sources) hash.add(source.path.string()).add(source.text);
+  const fs::path folder = fs::absolute(cache) / "tables" / fmt::format("{}-{}", name, hash.hex());
+  make_once(folder, [&](const fs::path& fresh) {
+    for (const Source& source : sources) must(write_file(fresh / "rtl" / source.path, source.text));
+    for (const char* kept : {"sim", "tb"}) {
+      std::error_code error;
+      fs::create_directory_symlink(fs::absolute(checkout) / kept, fresh / kept, error);
+      if (error) throw Failure{tool_failed(fmt::format("{}: {}", fresh.string(), error.message()))};
+    }
+  });
+  return folder;
+} catch (const Failure& failure) {
+  return failure.error;
+}
+
+}  // namespace halfway::tables

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/generator/word_lengths/made_tables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/source_folder.hpp"
+#include "words/generator/formats.hpp"
+#include "words/generator/functions.hpp"
+
+namespace halfway::tables {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAreArray;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(MadeTables, EqualTheCompiledTables) {
+  std::size_t compared = 0;
+  for (const words::CosineTable& table : words::c_cosine_tables) {
+    const CosineSize size{table.address_bits, table.data_bits};
+    EXPECT_TRUE(compiled_in(table.exact, size));
+    const MadeTables made(table.exact, size);
+    for (const words::CosineTable& other : made.tables()) {
+      EXPECT_EQ(other.exact, table.exact);
+      EXPECT_EQ(other.address_bits, size.address_bits);
+      EXPECT_EQ(other.data_bits, size.data_bits);
+      if (other.power != table.power) continue;
+      EXPECT_THAT(other.entries, ElementsAreArray(table.entries));
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, words::c_cosine_tables.size());
+  EXPECT_FALSE(compiled_in(true, {5, 4}));
+}
+
+TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
+  auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const auto folder = must(rtl_with_tables(false, {5, 4}, c_source_folder, cache.path()));
+  std::size_t files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(c_source_folder / "rtl")) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    const fs::path name = entry.path().lexically_relative(c_source_folder / "rtl");
+    const auto theirs = read_file(folder / "rtl" / name), ours = read_file(entry.path());
+    ASSERT_TRUE(theirs && ours) << name;
+    if (name != "tables/cosine_pkg.vhd") {
+      EXPECT_EQ(*theirs, *ours) << name;
+      continue;
+    }
+    EXPECT_THAT(*theirs, HasSubstr("c_published_cosine_2_5_4"));
+    EXPECT_THAT(*theirs, HasSubstr("c_exact_cosine_16_9_8"));
+    EXPECT_THAT(*theirs, Not(HasSubstr("c_published_cosine_2_6_6")));
+  }
+  EXPECT_GT(files, 20U);
+  EXPECT_TRUE(fs::exists(folder / "sim/engines/verilator/verilator_harness.cpp"));
+  const auto again = must(rtl_with_tables(false, {5, 4}, c_source_folder, cache.path()));
+  EXPECT_EQ(again, folder);
+  EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source_folder, cache.path()), folder);
+}
+
+TEST(MadeWords, ChangeOnePresetOnly) {
+  EXPECT_FALSE(WordLengths{}.any());
+  const WordLengths words{.angle_bits = 12, .fraction_bits = 6, .seed_bits = 8, .newton = false};
+  EXPECT_EQ(words.name(), "angle12-fraction6-seed8-plain");
+  const auto own = preset_formats(), made = preset_formats(true, words);
+  const auto format = [](const PresetFormats& preset, std::string_view name) {
+    for (const Format& f : preset.formats)
+      if (f.name == name) return std::pair(f.integer_bits, f.fraction_bits);
+    return std::pair(-1, -1);
+  };
+  EXPECT_EQ(format(made[0], "angle"), std::pair(10, 12));
+  EXPECT_EQ(format(made[0], "intensity"), std::pair(11, 6));
+  EXPECT_EQ(format(made[0], "root_entry"), std::pair(0, 8));
+  EXPECT_EQ(format(made[0], "root"), std::pair(0, 8));  // the entry itself
+  EXPECT_EQ(format(made[0], "depth_sum"), format(own[0], "depth_sum"));
+  for (const Format& f : own[1].formats) EXPECT_EQ(format(made[1], f.name), format(own[1], f.name));
+  EXPECT_EQ(format(preset_formats(true, {.seed_bits = 8})[0], "root"), format(own[0], "root"));
+  EXPECT_EQ(format(preset_formats(false, {.seed_bits = 8})[1], "root"), std::pair(0, 8));
+}
+
+TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
+  const auto own = function_tables(), made = function_tables(true, {.seed_bits = 8});
+  ASSERT_EQ(made.size(), own.size());
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    if (!made[i].exact || made[i].function != Function::reciprocal_root) {
+      EXPECT_EQ(made[i].values, own[i].values);
+      continue;
+    }
+    EXPECT_EQ(made[i].values.size(), 32U);
+    EXPECT_EQ(made[i].value_bits, 8);
+    EXPECT_EQ(made[i].values.front(), 252U);  // 1/sqrt(1 + 1/32), of 256
+  }
+  // The committed files and their word lengths.
+  const WordLengths same{.seed_bits = 12, .newton = true};
+  EXPECT_EQ(function_vhdl_package(function_tables(true, same)), function_vhdl_package());
+  EXPECT_EQ(vhdl_package(preset_formats(true, same)), vhdl_package(preset_formats()));
+}
+
+TEST(MadeWords, AreInTheCopiedRtl) {
+  auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const auto folder =
+      must(rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache.path()));
+  const auto formats = must(read_file(folder / "rtl/tables/formats_pkg.vhd"));
+  EXPECT_THAT(formats, HasSubstr("angle => (23, 12)"));
+  EXPECT_THAT(formats, HasSubstr("angle => (12, 11)"));
+  EXPECT_THAT(*read_file(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
+}
+
+}  // namespace
+}  // namespace halfway::tables

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Work shared by threads. Exceptions of the threads are rethrown in the calling thread.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "common/result.hpp"
+#include "sim/os/must.hpp"
+
+namespace halfway {
+
+/// Run `work` on `threads` threads, including the calling thread, and wait for all. If the system starts
+/// fewer threads, use those. Rethrow the first exception of any thread here; otherwise running out of memory
+/// in a thread would end the process.
+template <class Work>
+void work_on_threads(unsigned threads, const Work& work) {
+  std::mutex mutex;
+  std::exception_ptr first;
+  const auto guarded = [&]() noexcept {
+    try {
+      work();
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!first) first = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> helpers;
+    try {
+      for (unsigned i = 1; i < threads; ++i) helpers.emplace_back(guarded);
+    } catch (const std::system_error&) {
+    }
+    guarded();
+  }
+  if (first) std::rethrow_exception(first);
+}
+
+/// Call work on at most `threads` threads; 0: one per processor of the machine.
+inline auto on_threads(unsigned threads) {
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  return [threads](unsigned most, const std::function<void()>& work) {
+    work_on_threads(std::min(threads, most), work);
+  };
+}
+
+/// Call `each`, which returns a Status, once with every number below `count`, in order, on at most `threads`
+/// threads. After a failure or an exception no further call starts. The result is the failure of the smallest
+/// failing number, independent of the number of threads.
+template <class Each>
+Status for_each_on_threads(unsigned threads, std::size_t count, const Each& each) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::size_t failed = count;
+  Status result = Ok{};
+  work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads, count)), [&] {
+    for (std::size_t at; (at = next++) < count;) {
+      try {
+        Status done = each(at);
+        if (done) continue;
+        next = count;
+        const std::scoped_lock lock(mutex);
+        if (at < failed) {
+          failed = at;
+          result = std::move(done);
+        }
+      } catch (...) {
+        next = count;
+        throw;
+      }
+    }
+  });
+  return result;
+}
+
+/// The same for a function that throws Failure.
+template <class Each>
+void must_for_each(unsigned threads, std::size_t count, const Each& each) {
+  must(for_each_on_threads(threads, count, [&](std::size_t at) { return caught([&] { each(at); }); }));
+}
+
+}  // namespace halfway

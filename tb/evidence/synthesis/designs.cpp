@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "designs.hpp"
+
+#include <fmt/format.h>
+
+#include "plan/hardware_key.hpp"
+#include "words/formats.hpp"
+#include "words/generator/formats.hpp"
+
+namespace halfway::synth {
+namespace {
+
+using Generics = std::vector<std::pair<std::string, std::string>>;
+
+ListedDesign shader(const std::string& name, const HardwareKey& key) {
+  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
+}
+
+// The shader with AXI4-Stream ports.
+ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
+  return {.design = {.name = name,
+                     .entity = to_string(key.shader) + std::string("_axi"),
+                     .generics = key.generics()}};
+}
+
+HardwareKey spherical(Preset preset, unsigned channels, unsigned powers, TableSize tables) {
+  return {.shader = Shader::spherical,
+          .preset = preset,
+          .channels = channels,
+          .spherical = {.lights = 1,
+                        .diffuse = true,
+                        .specular = true,
+                        .highlight_channels = 1,
+                        .powers = powers,
+                        .tables = tables}};
+}
+
+HardwareKey processors(Preset preset, ProcessorForm form) {
+  return {
+      .shader = Shader::processors,
+      .preset = preset,
+      .processors = {.directional = 1, .diffuse = true, .specular = true, .normalize = true, .form = form}};
+}
+
+std::string bits(const tables::PresetFormats& preset, std::string_view format) {
+  for (const tables::Format& f : preset.formats)
+    if (f.name == format) return std::to_string(f.integer_bits + f.fraction_bits + (f.is_signed ? 1 : 0));
+  return "0";
+}
+
+}  // namespace
+
+std::vector<ListedDesign> all_designs() {
+  std::vector<ListedDesign> all;
+  for (const char* width : {"24", "32", "40"})
+    all.push_back({.design = {.name = fmt::format("accumulator_{}", width),
+                              .entity = "accumulator",
+                              .generics = {{"g_bits", width}}},
+                   .quick = true});
+
+  const auto presets = tables::preset_formats();
+  for (const Preset preset : {Preset::exact, Preset::published}) {
+    const bool exact = preset == Preset::exact;
+    const std::string p = to_string(preset);
+    const std::pair<std::string, std::string> is_exact = {"g_exact", exact ? "true" : "false"};
+    const tables::PresetFormats& formats = presets[exact ? 0 : 1];
+    const auto of = [&](std::string_view format) { return bits(formats, format); };
+    const TableSize tables = exact ? TableSize{9, 8} : TableSize{6, 6};
+    const Generics table = {{"g_address_bits", std::to_string(tables.address_bits)},
+                            {"g_data_bits", std::to_string(tables.data_bits)}};
+    const auto add = [&](const std::string& entity, Generics generics, bool quick = false,
+                         const std::string& suffix = "") {
+      all.push_back({.design = {.name = fmt::format("{}{}_{}", entity, suffix, p),
+                                .entity = entity,
+                                .generics = std::move(generics)},
+                     .quick = quick});
+    };
+    const auto with = [](Generics first, const Generics& more) {
+      first.insert(first.end(), more.begin(), more.end());
+      return first;
+    };
+
+    all.push_back(shader("quadratic_shader_" + p, {.preset = preset}));
+    all.push_back(shader("quadratic_shader_grey_" + p, {.preset = preset, .channels = 1}));
+    all.push_back(shader("quadratic_shader_planes_" + p, {.preset = preset, .degree = 1}));
+    all.push_back(
+        shader("quadratic_shader_planes_grey_" + p, {.preset = preset, .channels = 1, .degree = 1}));
+    all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
+    all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
+    if (exact) {
+      all.push_back(axi_top("quadratic_axi_grey_exact", {.channels = 1}));
+      all.push_back(axi_top("spherical_axi_grey_exact", spherical(preset, 1, 8, tables)));
+    }
+    for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
+      all.push_back(
+          shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
+      all.back().ice40 = !exact;
+    }
+
+    add("line_interpolator", {{"g_bits", of("intensity")}}, true);
+    add("part_interpolator", {{"g_bits", std::to_string(std::stoi(of("intensity")) / 2)}}, true);
+    add("plane_interpolator", {{"g_bits", of("depth_sum")}, {"g_carries", exact ? "true" : "false"}}, true);
+    const std::pair<std::string, std::string> halves = {"g_parts", "2"};
+    const Generics skewed = {{"g_bits", of("intensity")}, halves};
+    add("skewed_interpolator", skewed, true);
+    if (exact) add("skewed_register", skewed, true);
+    if (exact) add("skewed_multiplexer", skewed, true);
+    if (exact) add("skewed_strobe", {halves}, true);
+    if (exact) add("deskew", skewed, true);
+    add("word_buffer", {is_exact, {"g_channels", "1"}}, true);
+    add("z_interpolator", {is_exact, halves}, true);
+    add("quadratic_interpolator", {is_exact, halves}, true);
+    if (exact) add("edge_walker", {}, true);
+    if (!exact) add("slope_walker", {}, true);
+    add("line_counter", {is_exact}, true);
+    add("edge_pair", {is_exact}, true);
+    if (exact) add("line_stage", {}, true);
+    if (exact) add("span_stage", {}, true);
+    add("triangle_walker", {is_exact}, true);
+    add("saturate",
+        {{"g_value_bits", of("intensity")},
+         {"g_fraction_bits", std::to_string(exact ? 28 : 20)},
+         {"g_result_bits", of("colour")}},
+        true);
+    add("diffuse_slice", with({is_exact}, table));
+    add("specular_slice", with({is_exact, {"g_channels", "1"}, {"g_powers", exact ? "8" : "2"}}, table));
+    add("spherical_light",
+        with({is_exact, {"g_highlight_channels", "1"}, {"g_powers", exact ? "8" : "2"}}, table));
+    add("ambient_light", {is_exact, table[1]}, true);
+    add("colour_sum", {is_exact, {"g_terms", "3"}, table[1]}, true);
+    add("cosine_rom", with({is_exact, {"g_power", exact ? "8" : "2"}}, table), true);
+    add("angle_address", {is_exact, table[0]}, true);
+    const std::string factor = of("factor");
+    add("multiplier", {{"g_a_bits", table[1].second}, {"g_b_bits", factor}}, true);
+    add("saturating_sum",
+        {{"g_terms", "3"},
+         {"g_term_bits", std::to_string(std::stoi(factor) + tables.data_bits)},
+         {"g_fraction_bits", std::to_string(std::stoi(factor) + tables.data_bits - (exact ? 16 : 10))},
+         {"g_result_bits", of("colour")}},
+        true);
+    if (exact) add("parameter_register", {{"g_bits", of("intensity")}}, true);
+    if (exact) add("stream_register", {{"g_bits", "64"}}, true);
+    if (exact) add("stream_queue", {{"g_bits", "104"}}, true);
+    if (exact) add("axi_output", {{"g_bits", "128"}}, true);
+    if (exact) add("axi_control", {}, true);
+    if (exact) add("axi_adapter", {}, true);
+    if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
+    add("function_rom", {is_exact, {"g_which", "0"}}, true);
+    add("dot_product", {{"g_bits", of("direction")}});
+    add("vector_multiply", {{"g_a_bits", of("direction")}, {"g_b_bits", of("direction")}});
+    add("vector_shift", {{"g_vector_bits", of("offset")}, {"g_result_bits", of("direction")}});
+    add("reciprocal_root", {is_exact});
+    add("power", {is_exact});
+    add("unit_vector", {is_exact, {"g_vector_bits", of("vector")}});
+    add("spot_cone", {is_exact});
+    // Both presets are the same. The token has no fields that the stage only passes on.
+    if (exact) add("object_stage", {{"g_bits", std::to_string(words::Exact::c_pixel_header_bits)}});
+    if (exact) add("shadow_counter", {});
+    for (const char* entity : {"shading_processor", "unrolled_shading_processor"}) {
+      const Generics light = {is_exact, {"g_directional", "1"}, {"g_light", "1"}};
+      // Those of preset exact do not fit the device.
+      for (const auto& [kind, suffix] : {std::pair{"1", "_diffuse"}, {"2", "_specular"}}) {
+        add(entity, with(light, {{"g_kind", kind}}), false, suffix);
+        all.back().ice40 = !exact;
+      }
+    }
+    add("shading_pipeline", {is_exact, {"g_directional", "1"}});
+    all.back().ice40 = !exact;
+  }
+  return all;
+}
+
+}  // namespace halfway::synth

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a small frame with the netlist after synthesis for iCE40, that is, lookup tables and flip-flops.
+// Every fragment must be equal to the golden model's.
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "plan/plan.hpp"
+#include "sim/cost/synthesis.hpp"
+#include "sim/driver/limits.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/run/scene_stream.hpp"
+
+namespace halfway::synth {
+namespace {
+
+constexpr FrameSize c_frame{16, 12};
+
+struct Drawn {
+  const char* scene;
+  Shader shader;
+  Preset preset;
+  std::uint32_t stall_seed;  ///< 0: full speed
+  ProcessorForm form = ProcessorForm::unrolled;
+};
+void PrintTo(const Drawn& drawn, std::ostream* out) {
+  *out << drawn.scene << ' ' << to_string(drawn.shader) << ' ' << to_string(drawn.preset);
+}
+
+class MappedFrame : public ::testing::TestWithParam<Drawn> {};
+
+TEST_P(MappedFrame, EqualsTheGoldenModels) {
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_tools;
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const SimulatorFolders folders{source, HALFWAY_CACHE_DIR};
+  const auto scene = load_scene(GetParam().scene, source / "sim" / "scenes");
+  ASSERT_TRUE(scene) << scene.error().message;
+  PlanRequest request{.shader = GetParam().shader, .preset = GetParam().preset};
+  if (request.shader == Shader::processors) request.form = GetParam().form;
+  const auto plan = plan_scene(*scene, request);
+  ASSERT_TRUE(plan) << plan.error().message;
+  const HardwareKey key = plan->key;
+
+  const std::string netlist =
+      Synthesizer::open(folders, false)
+          .simulated({.name = key.name(), .entity = key.entity(), .generics = key.generics()});
+  auto simulator = VerilatorSimulator::open(
+      key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = netlist});
+  ASSERT_TRUE(simulator) << simulator.error().message;
+
+  const auto setup = make_setup(*scene, c_frame, key, {});
+  SceneStream stream(*setup, key, 1);
+  std::vector<Fragment> golden, drawn;
+  for (Batch batch; stream.next(batch);) {
+    golden.insert(golden.end(), batch.golden.begin(), batch.golden.end());
+    const Status ran = simulator->run(batch.init_words, drawn, golden.size() + c_most_surplus);
+    ASSERT_TRUE(ran) << ran.error().message;
+  }
+  const Status ended = simulator->finish(drawn, golden.size() + c_most_surplus);
+  ASSERT_TRUE(ended) << ended.error().message;
+  ASSERT_GT(golden.size(), 20U);
+  ASSERT_EQ(drawn.size(), golden.size());
+  for (std::size_t i = 0; i < golden.size(); ++i) ASSERT_EQ(drawn[i], golden[i]) << "fragment " << i;
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, MappedFrame,
+                         ::testing::Values(Drawn{"matte", Shader::quadratic, Preset::exact, 7},
+                                           Drawn{"matte", Shader::quadratic, Preset::published, 7}));
+INSTANTIATE_TEST_SUITE_P(Whole, MappedFrame,
+                         ::testing::Values(Drawn{"spheres", Shader::spherical, Preset::published, 0},
+                                           Drawn{"spheres", Shader::spherical, Preset::exact, 7},
+                                           Drawn{"spheres", Shader::quadratic, Preset::exact, 0},
+                                           Drawn{"spheres", Shader::quadratic, Preset::published, 0},
+                                           Drawn{"matte", Shader::processors, Preset::published, 7,
+                                                 ProcessorForm::folded}));
+
+}  // namespace
+}  // namespace halfway::synth

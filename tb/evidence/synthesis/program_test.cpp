@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exit codes and messages of halfway_synth, and its cache, with stand-ins for Yosys and nextpnr. GHDL is
+// the real one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "designs.hpp"
+#include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/subprocess.hpp"
+
+namespace halfway::synth {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const fs::path c_source = HALFWAY_SOURCE_DIR;
+
+constexpr const char* c_yosys = R"(#!/bin/sh
+[ "$1" = -V ] && echo 'Yosys 0.23' && exit
+case "$*" in
+  *synth_ecp5*) echo '{"design": {"num_cells_by_type": {"LUT4": 25, "TRELLIS_FF": 24}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"SB_LUT4": 24, "SB_CARRY": 23, "SB_DFFSR": 24}}}' >cells.json ;;
+esac
+echo >mapped.il
+echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
+)";
+// Seed 2 does not end: the limit of processor time stops it.
+constexpr const char* c_nextpnr = R"sh(#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
+case "$*" in
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  CELLS/ 7680    1%' ; exit ;;
+esac
+[ "$(ulimit -S -t)" = LIMIT ] || exit 1
+echo 1 >>"${0%/*}/placed"
+case "$*" in
+  *'--seed 2 '*) kill -XCPU $$ ;;
+esac
+echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "fmax": {"clk": {"achieved": 90}},
+  "critical_paths": [{"from": "posedge clk", "to": "posedge clk", "path": [
+  {"type": "routing", "delay": 1.0, "from": {"cell": "a", "port": "O"}, "to": {"cell": "b", "port": "I0"}}]}]}' >report.json
+)sh";
+
+class SynthProgram : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"bin", "tb/evidence/synthesis", "build/cache"})
+      must(make_folders(root() / name));
+    fs::create_directory_symlink(c_source / "rtl", root() / "rtl");
+    fs::create_symlink(c_source / c_accumulator, root() / c_accumulator);
+    // GHDL itself checks the VHDL, which takes most of the time.
+    ASSERT_TRUE(make_folders(c_source / "build/cache/ghdl"));
+    fs::create_directory_symlink(c_source / "build/cache/ghdl", root() / "build/cache/ghdl");
+    put("yosys", c_yosys);
+    put_nextpnr("40");
+    must(write_file(root() / "tb/evidence/thresholds.toml",
+                    "[cells]\ncolumns = [\"LUTs\", \"flip-flops\", \"RAMs\"]\n"
+                    "rules = [\"within 3 % or 3\", \"equal\", \"equal\"]\naccumulator_24 = [21, 24, 0]\n"
+                    "accumulator_32 = [20, 24, 0]\n[clocks]\nrule = \"within 8 %\"\n"
+                    "accumulator_24 = 97.0\naccumulator_32 = 98.0\n"));
+  }
+  fs::path root() const { return folder_.path(); }
+  void put(const char* name, const std::string& text) const {
+    must(write_file(root() / "bin" / name, text));
+    fs::permissions(root() / "bin" / name, fs::perms::all);
+  }
+  void put_nextpnr(const std::string& cells) const {
+    std::string text = c_nextpnr;
+    text.replace(text.find("CELLS"), 5, cells);
+    put("nextpnr-ice40", text.replace(text.find("LIMIT"), 5, std::to_string(c_place_time.count())));
+  }
+  // Expects the exit code. Returns what the program prints.
+  std::string run(int code, std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), HALFWAY_SYNTH);
+    arguments.insert(arguments.end(), {"--source", root().string()});
+    const auto end =
+        run_process({.arguments = arguments,
+                     .environment = {{"PATH", (root() / "bin").string() + ":" + std::getenv("PATH")}}},
+                    "");
+    EXPECT_TRUE(end);
+    EXPECT_EQ(end->exit_status, code) << end->output;
+    return end->output;
+  }
+
+ private:
+  const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
+};
+
+TEST_F(SynthProgram, ComparesCellsWithThresholds) {
+  EXPECT_THAT(run(0, {"cells", "accumulator_24"}),
+              HasSubstr("| `accumulator_24` | 24 | 23 | 24 | 0 | 25 | 24 | 0 | 0 |"));
+  EXPECT_THAT(run(1, {"cells", "--quick", "accumulator_32"}), HasSubstr("accumulator_32: LUTs is 24"));
+}
+
+TEST_F(SynthProgram, ComparesClocksWithThresholds) {
+  // Also a placement that does not end is cached.
+  for (int time = 0; time < 2; ++time)
+    EXPECT_THAT(
+        run(0, {"clocks", "accumulator_24"}),
+        HasSubstr("| `accumulator_24` | 90.0 | 90 to 90 of 2; nextpnr does not end: 1 | 11.1 | – | `"));
+  EXPECT_EQ(must(read_file(root() / "bin/placed")), "1\n1\n1\n");
+  EXPECT_THAT(run(1, {"clocks", "--seeds", "1", "accumulator_32"}), HasSubstr("accumulator_32: "));
+}
+
+TEST_F(SynthProgram, PlacesNoDesignThatFillsTheDevice) {
+  put_nextpnr("6912");
+  EXPECT_THAT(run(0, {"clocks", "--seeds", "1", "accumulator_24"}), HasSubstr("| 90.0 |"));
+  put_nextpnr("6913");
+  fs::remove_all(root() / "build/cache/synth");
+  EXPECT_THAT(run(0, {"clocks", "--seeds", "1", "accumulator_24"}),
+              HasSubstr("not placed: too full: 6913 of the HX8K's 7680 logic cells"));
+}
+
+TEST_F(SynthProgram, RefusesAnUnknownDesignAndABrokenTool) {
+  EXPECT_THAT(run(2, {"cells", "no_such_design"}),
+              HasSubstr("no_such_design: no design has this in its name"));
+  EXPECT_THAT(run(2, {"cells", "--page", "accumulator_24"}), HasSubstr("PART"));
+  put("yosys",
+      "#!/bin/sh\n[ \"$1\" = -V ] && echo 'Yosys 0.23' && exit\necho 'ERROR: a broken one' ; exit 1\n");
+  EXPECT_THAT(run(3, {"cells", "accumulator_24"}), HasSubstr("ERROR: a broken one"));
+}
+
+}  // namespace
+}  // namespace halfway::synth

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "evidence/thresholds.hpp"
+
+#include <gmock/gmock.h>
+
+namespace halfway::page {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* c_text =
+    "release = \"Debian 12\"\n"
+    "[mutants]\n"
+    "rule = \"at least 90 %\"\n"
+    "a = 80\n"
+    "\"b.c\" = 50.5\n"
+    "[cells]\n"
+    "columns = [\"LUTs\", \"RAMs\"]\n"
+    "rules = [\"within 3 % or 3\", \"equal\"]\n"
+    "d = [200, 2]\n"
+    "e = [10, 0]\n";
+
+Thresholds thresholds() {
+  const auto read = Thresholds::parse(c_text);
+  EXPECT_TRUE(read) << read.error().message;
+  return *read;
+}
+
+TEST(Thresholds, ThatAreBrokenAreReportedWithLineValueAndRule) {
+  const Thresholds t = thresholds();
+  EXPECT_THAT(t.broken({"mutants", "a", {72}}), IsEmpty());
+  EXPECT_THAT(t.broken({"mutants", "a", {100}}), IsEmpty());
+  EXPECT_THAT(
+      t.broken({"mutants", "a", {71.9}}),
+      ElementsAre(
+          "tb/evidence/thresholds.toml:4: mutants: a: it is 71.9; the threshold is 80, at least 90 %"));
+  EXPECT_THAT(t.broken({"cells", "d", {206, 2}}), IsEmpty());
+  EXPECT_THAT(t.broken({"cells", "d", {194, 2}}), IsEmpty());
+  EXPECT_THAT(
+      t.broken({"cells", "d", {207, 3}}),
+      ElementsAre(
+          "tb/evidence/thresholds.toml:9: cells: d: LUTs is 207; the threshold is 200, within 3 % or 3",
+          "tb/evidence/thresholds.toml:9: cells: d: RAMs is 3; the threshold is 2, equal"));
+  EXPECT_THAT(t.broken({"cells", "d", {193, 2}}).size(), 1);
+  EXPECT_THAT(t.broken({"cells", "e", {13, 0}}), IsEmpty());
+  EXPECT_THAT(t.broken({"cells", "e", {14, 0}}).size(), 1);
+  EXPECT_THAT(t.broken({"mutants", "a", {std::nan("")}}).size(), 1);
+}
+
+TEST(Thresholds, AreWantedForEachMeasuredName) {
+  const Thresholds t = thresholds();
+  EXPECT_THAT(t.broken({"mutants", "x", {7}}),
+              ElementsAre("tb/evidence/thresholds.toml:2: mutants: x has no threshold; it is 7"));
+  EXPECT_THAT(t.broken({"none", "x", {7}}),
+              ElementsAre("tb/evidence/thresholds.toml: has no section [none]"));
+  EXPECT_THAT(t.broken({"cells", "d", {200}}), ElementsAre(HasSubstr("has 1 numbers, not 2")));
+  const Value values[] = {{"mutants", "a", {80}}};
+  EXPECT_THAT(t.unmeasured(values),
+              ElementsAre("tb/evidence/thresholds.toml:5: mutants: b.c is not measured any more; remove it"));
+  EXPECT_THAT(t.numbers("cells", "d"), ElementsAre(200, 2));
+  EXPECT_THAT(t.numbers("cells", "x"), IsEmpty());
+}
+
+TEST(Thresholds, KnowRulesOfOneSide) {
+  const auto t =
+      Thresholds::parse("[low]\nrule = \"at most\"\na = 0.3\n[high]\nrule = \"at least\"\na = -2\n");
+  ASSERT_TRUE(t);
+  EXPECT_THAT(t->broken({"low", "a", {0.1 + 0.2}}), IsEmpty());
+  EXPECT_THAT(t->broken({"low", "a", {-100}}), IsEmpty());
+  EXPECT_EQ(t->broken({"low", "a", {0.31}}).size(), 1U);
+  EXPECT_THAT(t->broken({"high", "a", {-1.9}}), IsEmpty());
+  EXPECT_EQ(t->broken({"high", "a", {-2.1}}).size(), 1U);
+}
+
+TEST(Thresholds, OfAFileThatIsWrongNameItsLine) {
+  const auto message = [](const char* text) {
+    const auto read = Thresholds::parse(text);
+    return read ? std::string() : read.error().message;
+  };
+  EXPECT_THAT(message("[a]\nrule = \"nearly\"\n"),
+              HasSubstr("tb/evidence/thresholds.toml:1: a: no such rule: nearly"));
+  EXPECT_THAT(message("[a]\nx = 1\n"), HasSubstr("tb/evidence/thresholds.toml:1: a: give a rule"));
+  EXPECT_THAT(message("[a]\nrule = \"equal\"\nx = [1, 2]\n"),
+              HasSubstr("tb/evidence/thresholds.toml:3: x: wants 1 numbers"));
+  EXPECT_THAT(message("[a]\nrule = \"equal\"\nx = \"y\"\n"),
+              HasSubstr("tb/evidence/thresholds.toml:3: x: wants 1 numbers"));
+  EXPECT_THAT(message("[a\n"), HasSubstr("tb/evidence/thresholds.toml:"));
+}
+
+}  // namespace
+}  // namespace halfway::page

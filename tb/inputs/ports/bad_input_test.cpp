@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors that are none, at the ports of the AXI4-Stream tops in Verilator: random bits, faults in good
+// vectors, and frames without their last vectors. Each frame must end within a bounded number of clocks. The
+// next good frame must have the golden model's fragments, without a reset in between.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "inputs/ports/axi_harness.hpp"
+#include "plan/plan.hpp"
+#include "setup/setup.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/engines/verilator/netlist.hpp"
+#include "sim/engines/verilator/verilated_library.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/run/scene_stream.hpp"
+
+namespace halfway {
+namespace {
+
+static_assert(sizeof(AxiFragment) == sizeof(Fragment));
+
+const SimulatorFolders c_folders{HALFWAY_SOURCE_DIR, HALFWAY_CACHE_DIR};
+
+struct Case {
+  const char* name;
+  const char* scene;
+  PlanRequest plan;
+  /// At least twice the clocks of a triangle of the scene; with shadows a new frame takes 4096 clocks.
+  int limit_bits;
+  int frames;  ///< bad ones
+  FrameSize size{16, 12};
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+Result<SharedLibrary> build(const HardwareKey& key, int limit_bits) {
+  const auto tool = GhdlTool::find();
+  if (!tool) return tool.error();
+  const auto sources = read_rtl_sources(c_folders.source);
+  if (!sources) return sources.error();
+  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, c_folders.cache);
+  if (!library) return library.error();
+  const std::string top = fmt::format("{}_axi", to_string(key.shader));
+  auto generics = key.generics();
+  generics.emplace_back("g_limit_bits", std::to_string(limit_bits));
+  const auto netlist = library->synthesize(top, generics);
+  if (!netlist) return netlist.error();
+  auto mended = mend_netlist(*netlist);
+  if (!mended) return mended.error();
+  const std::filesystem::path folder = c_folders.source / "tb/inputs/ports";
+  return open_verilated({.name = key.name() + "-axi",
+                         .netlist = std::move(*mended),
+                         .top = top,
+                         .harness = folder / "axi_harness.cpp",
+                         .include_folder = c_folders.source,
+                         .harness_headers = {folder / "axi_harness.hpp"},
+                         .fast = false},
+                        c_folders.cache);
+}
+
+class BadInput : public testing::TestWithParam<Case> {
+ protected:
+  ~BadInput() override {
+    if (model_ != nullptr) destroy_(model_);
+  }
+  void SetUp() override {
+    const auto scene = load_scene(fmt::format(fmt::runtime(GetParam().scene), HALFWAY_SOURCE_DIR),
+                                  c_folders.source / "sim/scenes");
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto plan = plan_scene(*scene, GetParam().plan);
+    ASSERT_TRUE(plan) << plan.error().message;
+    const auto setup = make_setup(*scene, GetParam().size, plan->key, {});
+    beat_words_ = (setup->init_bits() + 31) / 32;
+    SceneStream stream(*setup, plan->key, 1);
+    for (Batch batch; stream.next(batch);) {
+      good_.insert(good_.end(), batch.init_words.begin(), batch.init_words.end());
+      golden_.insert(golden_.end(), batch.golden.begin(), batch.golden.end());
+    }
+    ASSERT_GT(golden_.size(), 40U);
+    auto library = build(plan->key, GetParam().limit_bits);
+    ASSERT_TRUE(library) << library.error().message;
+    library_.emplace(std::move(*library));
+    const Status bound = library_->bind(draw_, "halfway_axi_draw", create_, "halfway_axi_create", destroy_,
+                                        "halfway_axi_destroy");
+    ASSERT_TRUE(bound) << bound.error().message;
+    model_ = create_();
+  }
+
+  std::size_t vectors() const { return good_.size() / beat_words_; }
+  std::uint32_t random() { return static_cast<std::uint32_t>(engine_()); }
+
+  /// Random bits, or the start of a good frame in which bits are inverted, or which only ends too early.
+  std::vector<std::uint32_t> bad_frame() {
+    std::vector<std::uint32_t> words;
+    const std::size_t kind = random() % 3,
+                      count = 1 + random() % (kind == 0 ? 4 : std::min<std::size_t>(vectors(), 40));
+    if (kind == 0) {
+      words.resize(count * beat_words_);
+      for (std::uint32_t& word : words) word = random();
+    } else {
+      words.assign(good_.begin(), good_.begin() + static_cast<std::ptrdiff_t>(count * beat_words_));
+      for (std::uint32_t flips = kind == 1 ? 1 + random() % 20 : 0; flips > 0; --flips)
+        words[random() % words.size()] ^= 1U << random() % 32;
+    }
+    return words;
+  }
+
+  /// Draws the frame. Every wait must end within the limit and the clocks of a reset and of an idle shader.
+  AxiFrame draw(const std::vector<std::uint32_t>& words, bool pauses) {
+    constexpr std::uint64_t c_more_clocks = 20;
+    fragments_.resize(2 * golden_.size());
+    AxiFrame frame{.words = words.data(),
+                   .vectors = words.size() / beat_words_,
+                   .stall_seed = pauses ? random() | 1U : 0U,
+                   .most_wait = (std::uint64_t{1} << GetParam().limit_bits) + c_more_clocks,
+                   .fragments = fragments_.data(),
+                   .capacity = fragments_.size()};
+    const char* wrong = draw_(model_, &frame);
+    if (wrong != nullptr) ADD_FAILURE() << wrong << " after " << frame.count << " fragments";
+    return frame;
+  }
+
+  void draw_good_frame(bool pauses) {
+    const AxiFrame frame = draw(good_, pauses);
+    EXPECT_FALSE(frame.fault);
+    ASSERT_EQ(frame.count, golden_.size());
+    for (std::size_t i = 0; i < golden_.size(); ++i)
+      ASSERT_EQ(std::memcmp(&fragments_[i], &golden_[i], sizeof(Fragment)), 0) << "fragment " << i;
+  }
+
+  std::size_t beat_words_ = 0;
+  std::vector<std::uint32_t> good_;
+  std::vector<Fragment> golden_;
+  std::vector<AxiFragment> fragments_;
+  std::mt19937_64 engine_{1};
+  std::optional<SharedLibrary> library_;
+  decltype(&halfway_axi_draw) draw_ = nullptr;
+  decltype(&halfway_axi_create) create_ = nullptr;
+  decltype(&halfway_axi_destroy) destroy_ = nullptr;
+  void* model_ = nullptr;
+};
+
+TEST_P(BadInput, EndsAndTheNextFrameIsGolden) {
+  draw_good_frame(false);
+  int faults = 0;
+  for (int i = 0; i < GetParam().frames; ++i) {
+    const bool pauses = i % 4 == 3;
+    faults += draw(bad_frame(), pauses).fault ? 1 : 0;
+    draw_good_frame(pauses);
+    if (HasFailure()) FAIL() << "bad frame " << i;
+  }
+  // Some bad frames are faulty, others only draw wrong fragments.
+  EXPECT_GT(faults, GetParam().frames / 20);
+  EXPECT_LT(faults, GetParam().frames);
+  RecordProperty("faulty", faults);
+  fmt::print("{}: {} of {} bad frames are faulty\n", GetParam().name, faults, GetParam().frames);
+}
+
+const char* const c_timing = "{}/sim/report/timing.toml";
+
+INSTANTIATE_TEST_SUITE_P(
+    Tops, BadInput,
+    testing::Values(
+        Case{"quadratic", c_timing, {.shader = Shader::quadratic}, 12, 200},
+        Case{"quadratic_published",
+             c_timing,
+             {.shader = Shader::quadratic, .preset = Preset::published},
+             12,
+             200},
+        Case{"spherical", c_timing, {.shader = Shader::spherical}, 12, 200},
+        Case{"processors", c_timing, {.shader = Shader::processors}, 12, 60},
+        Case{"shadows", "shadows", {.shader = Shader::processors, .preset = Preset::published}, 14, 20}),
+    [](const auto& each) { return std::string(each.param.name); });
+
+}  // namespace
+}  // namespace halfway

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "specification/hard_cases/measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "setup/walk_header.hpp"
+#include "specification/hard_cases/shading_bound.hpp"
+
+namespace halfway::stability {
+
+long double colour_error(const Fragment& f, const LongVec& radiance) {
+  const LongVec off =
+      glm::abs(LongVec(f.red, f.green, f.blue) - 255.0L * glm::clamp(radiance, LongVec(0), LongVec(1)));
+  return std::max({off.x, off.y, off.z});
+}
+
+Pieces::Pieces(const Scene& scene, FrameSize frame, int subpixel_bits)
+    : subpixel_bits_(subpixel_bits),
+      pieces_(Projector(scene, frame, {.subpixel_bits = subpixel_bits}).project_all()) {
+  std::ranges::stable_sort(pieces_, {}, &ScreenTriangle::source);
+}
+
+std::span<const ScreenTriangle> Pieces::pieces_of(std::uint32_t source) const {
+  return {std::ranges::lower_bound(pieces_, source, {}, &ScreenTriangle::source),
+          std::ranges::upper_bound(pieces_, source, {}, &ScreenTriangle::source)};
+}
+
+const ScreenTriangle* Pieces::covering(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  for (const ScreenTriangle& t : pieces_of(source))
+    if (covers(screen_points(t), subpixel_bits_, x, y)) return &t;
+  return nullptr;
+}
+
+const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  const auto least = [&](const ScreenTriangle& t) {
+    return std::ranges::min(
+        barycentric(screen_points(t), centre(x, subpixel_bits_), centre(y, subpixel_bits_)).real());
+  };
+  const auto pieces = pieces_of(source);
+  return *std::max_element(
+      pieces.begin(), pieces.end(),
+      [&](const ScreenTriangle& a, const ScreenTriangle& b) { return least(a) < least(b); });
+}
+
+void measure_shading(Trial& trial, Preset preset, const Scene& scene, FrameSize frame,
+                     std::span<const Fragment> fragments, std::string_view name) {
+  const ShadingBound bound(scene, frame);
+  const Pieces pieces(scene, frame);
+  for (const Fragment& f : fragments) {
+    const auto where = [&] {
+      return fmt::format("{}, {} by {}: pixel ({}, {}), triangle {}", name, frame.width, frame.height, f.x,
+                         f.y, f.triangle);
+    };
+    const ScreenTriangle* piece = pieces.covering(f);
+    trial.require(piece != nullptr, [&] { return where() + " is not covered"; });
+    if (piece == nullptr) continue;
+    const Promise promise = bound.at(*piece, f.x, f.y);
+    for (std::size_t c = 0; c < 3; ++c)
+      trial.measure(preset, std::abs(promise.exact[c] - channels(f)[c]), promise.bound(c), where);
+  }
+}
+
+}  // namespace halfway::stability

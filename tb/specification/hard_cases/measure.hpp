@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Common measurements of the families: fragments compared with radiances, and the surface that a fragment
+// shows.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "frame/fragment.hpp"
+#include "projection/project.hpp"
+#include "specification/hard_cases/specification.hpp"
+#include "specification/hard_cases/trial.hpp"
+
+namespace halfway::stability {
+
+inline constexpr double c_infinity = std::numeric_limits<double>::infinity();
+inline constexpr int c_subpixel_bits = 4;  ///< of preset exact
+inline constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
+
+inline double or_infinity(long double figure) {
+  return std::isfinite(figure) ? static_cast<double>(figure) : c_infinity;
+}
+
+inline std::array<std::uint8_t, 3> channels(const Fragment& f) {
+  return {f.red, f.green, f.blue};
+}
+
+/// The error in colour steps of the worst channel, compared with the radiance clamped to white.
+long double colour_error(const Fragment& f, const LongVec& radiance);
+
+/// The triangles of a scene on the screen. Clipping makes several pieces of one triangle.
+class Pieces {
+ public:
+  Pieces(const Scene& scene, FrameSize frame, int subpixel_bits = c_subpixel_bits);
+  const std::vector<ScreenTriangle>& all() const { return pieces_; }
+  /// The piece of triangle `source` of the scene that covers the pixel, or nullptr.
+  const ScreenTriangle* covering(std::uint32_t source, std::int64_t x, std::int64_t y) const;
+  const ScreenTriangle* covering(const Fragment& f) const { return covering(f.triangle, f.x, f.y); }
+  /// The piece of triangle `source` with the largest minimum of its barycentric coordinates at the pixel's
+  /// centre.
+  const ScreenTriangle& nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const;
+
+ private:
+  std::span<const ScreenTriangle> pieces_of(std::uint32_t source) const;
+
+  int subpixel_bits_;
+  std::vector<ScreenTriangle> pieces_;  ///< in order of their sources
+};
+
+/// Compares each channel of the shading processors' fragments with the illumination model at the pixel's
+/// centre, with the bounds of ShadingBound.
+void measure_shading(Trial& trial, Preset preset, const Scene& scene, FrameSize frame,
+                     std::span<const Fragment> fragments, std::string_view name);
+
+}  // namespace halfway::stability
