@@ -4,11 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "common/host.hpp"
 #include "frame/frame.hpp"
 #include "frame/tile.hpp"
 #include "projection/screen_triangle.hpp"
@@ -21,14 +21,10 @@ struct ReferenceImage {
   std::vector<std::uint8_t> mask;  ///< one byte per pixel: 1 if a triangle covers it, else 0
 };
 
-/// Calls `work` at most `most` times, possibly on several threads at the same time, and returns after the
-/// last call.
-using Workers = std::function<void(unsigned most, const std::function<void()>& work)>;
-
 struct RenderOptions {
   FrameSize frame;
   int subpixel_bits = 4;       ///< of the screen triangles' coordinates, 1 to 9
-  Workers workers{};           ///< empty: only this thread. The picture does not depend on it.
+  Workers workers{};           ///< The picture does not depend on it.
   std::optional<Tile> tile{};  ///< a part of the frame; empty: the whole frame
 };
 

@@ -96,10 +96,7 @@ ReferenceImage render_visible(const Scene& scene, std::span<const ScreenTriangle
         }
     }
   };
-  if (options.workers)
-    options.workers(bands, work);
-  else
-    work();
+  options.workers.run(bands, work);
   return image;
 }
 

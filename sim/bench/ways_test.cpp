@@ -80,9 +80,9 @@ TEST(BenchWorkload, WholeFramesAreDrawnOnAllThreads) {
   for (const auto& each : {engine, another}) drawings.emplace_back(scene, c_size, key, each);
   EXPECT_GT(frame_rate(drawings, 6), 0.0);
   for (const auto& each : {engine, another}) EXPECT_GT(each->cycles(), 0U);
-  const FrameCost cost = drawings.front().draw();
-  for (const auto part :
-       {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl, &FrameCost::compare, &FrameCost::assemble})
+  const FrameSeconds cost = drawings.front().draw();
+  for (const auto part : {&FrameSeconds::setup, &FrameSeconds::golden, &FrameSeconds::rtl,
+                          &FrameSeconds::compare, &FrameSeconds::assemble})
     EXPECT_GT(cost.*part, 0.0);
   // The key of other hardware: golden model and set-up differ from the engine.
   const HardwareKey other = plan_scene(*load_scene("spheres", c_source_folder / "sim/scenes"), {})->key;

@@ -11,14 +11,12 @@
 #include <utility>
 
 #include "common/to_integer.hpp"
-#include "golden_run/golden_run.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 
@@ -42,42 +40,23 @@ Scene sphere_scene(std::uint64_t triangles) {
 }
 
 GoldenStream golden_stream(const Scene& scene, FrameSize size, const PlanRequest& plan) {
-  GoldenStream all{.key = must(plan_scene(scene, plan)).key};
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, all.key, {});
-  all.init_bits = setup->init_bits();
-  SceneStream source(*setup, all.key, 1);
-  for (Batch batch; source.next(batch);) {
-    all.words.insert(all.words.end(), batch.init_words.begin(), batch.init_words.end());
-    all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
-  }
-  return all;
+  const HardwareKey key = must(plan_scene(scene, plan)).key;
+  return {must(whole_stream(scene, size, key)), key};
 }
 
 WholeFrame::WholeFrame(const Scene& scene, FrameSize size, const HardwareKey& key,
-                       std::shared_ptr<Engine> engine)
-    : scene_(&scene),
-      size_(size),
-      key_(key),
-      rtl_(std::move(engine), size, scene.background, {.golden = make_golden_model(key)}) {
+                       std::shared_ptr<Engine> engine) {
+  FrameOptions options{.golden = GoldenDraws::beside, .clocks = host_clocks()};
   if (key.shader == Shader::spherical && key.preset == Preset::exact)
-    options_.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
+    options.setup.spherical.bells = std::make_shared<const Bells>(fitted_bells(scene));
+  driver_ =
+      std::make_unique<FrameDriver>(scene, size, key, std::vector{std::move(engine)}, std::move(options));
 }
 
-FrameCost WholeFrame::draw() {
-  const double setup_start = thread_seconds();
-  const std::unique_ptr<Setup> setup = make_setup(*scene_, size_, key_, options_);
-  const double clear_start = thread_seconds();
-  rtl_.clear();
-  const double clear_seconds = thread_seconds() - clear_start;
-  SceneStream stream(*setup, key_, 1, {.golden = false, .ahead = false});
-  for (Batch batch; stream.next(batch);) must(rtl_.add(batch.init_words));
-  must(rtl_.finish());
-  const SimulatorRun run = rtl_.result();
-  if (!run.equal())
-    throw Failure{{ExitCode::differs, fmt::format("{}: the RTL differs {}", key_.name(), run.fault)}};
-  const RtlFrame::Seconds s = rtl_.seconds();
-  return {clear_start - setup_start + stream.setup_seconds(), s.golden, s.rtl, s.compare,
-          clear_seconds + s.assemble};
+FrameSeconds WholeFrame::draw() {
+  must(driver_->draw());
+  must(driver_->equal());
+  return driver_->seconds();
 }
 
 double frame_rate(std::span<WholeFrame> drawings, std::size_t frames) {

@@ -6,14 +6,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <vector>
 
-#include "frame/fragment.hpp"
 #include "frame/frame_size.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
 #include "sim/driver/engine.hpp"
-#include "sim/run/rtl_frame.hpp"
+#include "sim/driver/frame_driver.hpp"
 
 namespace halfway {
 
@@ -21,20 +19,10 @@ namespace halfway {
 Scene sphere_scene(std::uint64_t triangles);
 
 /// A scene's init vectors and the golden model's fragments for them.
-struct GoldenStream {
+struct GoldenStream : FrameStream {
   HardwareKey key;
-  unsigned init_bits = 0;
-  std::vector<std::uint32_t> words;
-  std::vector<Fragment> golden;
-  std::size_t vectors() const { return words.size() / ((init_bits + 31) / 32); }
 };
 GoldenStream golden_stream(const Scene& scene, FrameSize size, const PlanRequest& plan);
-
-/// Processor seconds of the parts of a frame.
-struct FrameCost {
-  double setup = 0, golden = 0, rtl = 0, compare = 0, assemble = 0;
-  double seconds() const { return setup + golden + rtl + compare + assemble; }
-};
 
 /// Draws frames of a scene on one thread: set-up, golden model, RTL, comparison of every field and assembly
 /// of the picture. All frames use the same memory. What a host computes once per scene is not measured.
@@ -43,14 +31,10 @@ class WholeFrame {
   /// The scene must outlive the object.
   WholeFrame(const Scene& scene, FrameSize size, const HardwareKey& key, std::shared_ptr<Engine> engine);
   /// Throws Failure if a fragment differs.
-  FrameCost draw();
+  FrameSeconds draw();
 
  private:
-  const Scene* scene_;
-  FrameSize size_;
-  HardwareKey key_;
-  SetupOptions options_;
-  RtlFrame rtl_;
+  std::unique_ptr<FrameDriver> driver_;
 };
 
 /// Frames per second of elapsed time, each thread drawing with one of the objects. Each thread first draws

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include "plan/plan.hpp"
-#include "setup/check_counts.hpp"
 #include "sim/cli/options.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
-#include "sim/run/scene_stream.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -25,21 +25,20 @@ int run(const Folders& folders, const InitCommand& command) {
   for (const std::string& note : scene.notes) say(note);
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
-  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, key, draw.setup);
-  auto file = must(InitFileWriter::open(command.file, key.name(), setup->init_bits()));
+  FrameDriver driver(scene, draw.size, key, {}, {.setup = draw.setup, .workers = on_threads(draw.threads)});
+  auto file = must(InitFileWriter::open(command.file, key.name(), driver.init_bits()));
   Progress progress(scene.name);
-  SceneStream stream(*setup, key, draw.threads);
-  for (Batch batch; stream.next(batch);) {
+  must(driver.draw([&](const Batch& batch) {
     progress.show(batch.done);
-    must(check_shadow_counts(scene, stream.counts(), stream.fault()));
     file.write(batch.init_words);
-  }
+    return Status(Ok{});
+  }));
   progress.clear();
-  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene.name, note));
+  for (const std::string& note : driver.notes()) say(fmt::format("{}: {}", scene.name, note));
   must(file.commit());
-  const SetupCounts& n = stream.counts();
+  const SetupCounts& n = driver.counts();
   fmt::print("{}: {} init vectors and {} line records, of {} bits, for {}\n", command.file, n.vectors,
-             n.records, setup->init_bits(), key.name());
+             n.records, driver.init_bits(), key.name());
   fmt::print(
       "  {} triangles: {} back-facing, {} outside, {} degenerate on the screen; {} drawn, {} of them {}: "
       "{} pieces in all, in {} init vectors and {} line records; {} points {}\n",

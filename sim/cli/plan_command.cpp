@@ -265,22 +265,13 @@ struct DegreeFrame {
 };
 DegreeFrame draw_degree(const Scene& scene, const ReferenceImage& reference, const HardwareKey& key,
                         const QuadraticSetupOptions& options) {
-  DegreeFrame drawn;
-  const FrameSize size = reference.frame.size;
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, {.quadratic = options});
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
-  FrameAssembler assembler(size, scene.background);
-  std::vector<std::uint32_t> words;
-  const std::unique_ptr<SetupWorker> worker = setup->worker();
-  for (std::uint32_t unit = 0; unit < setup->units(); ++unit) {
-    words.clear();
-    worker->append(unit, words, drawn.counts);
-    must(assembler.add(golden->draw(words)));
-  }
-  std::vector<std::uint8_t> mask = assembler.mask();
+  FrameDriver driver(scene, reference.frame.size, key, {},
+                     {.setup = {.quadratic = options}, .golden_picture = true});
+  must(driver.draw());
+  const FrameAssembler& drawn = driver.golden_frame();
+  std::vector<std::uint8_t> mask = drawn.mask();
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= reference.mask[i];
-  drawn.error = must(frame_distance(assembler.frame(), reference.frame, mask));
-  return drawn;
+  return {driver.counts(), must(frame_distance(drawn.frame(), reference.frame, mask))};
 }
 
 void print_errors(const std::string& which, const FrameDistance& planes, const FrameDistance& quadratics) {
@@ -324,9 +315,7 @@ void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareK
       draw.size.width, draw.size.height, enough, unsplit.leaves, options.threshold,
       enough == unsplit.leaves ? "so planes are enough" : "so the others are split");
   print_row("", "planes", "quadratics", "saved");
-  const auto bits = [&](const HardwareKey& of) {
-    return std::uint64_t{make_setup(scene, draw.size, of, {})->init_bits()};
-  };
+  const auto bits = [&](const HardwareKey& of) { return std::uint64_t{make_golden_model(of)->init_bits()}; };
   print_counts("bits of an init vector", bits(planes), bits(quadratics));
   print_counts("init vectors", few.vectors, all.vectors);
   print_counts("bits of all init vectors", few.vectors * bits(planes), all.vectors * bits(quadratics));

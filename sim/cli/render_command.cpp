@@ -8,18 +8,16 @@
 #include <array>
 #include <string_view>
 
-#include "frame/assemble.hpp"
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
 #include "reference/spherical_renderer.hpp"
-#include "setup/check_counts.hpp"
 #include "sim/cli/options.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/image.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/threads.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -36,17 +34,16 @@ struct RenderCommand {
 
 Frame golden_frame(const Scene& scene, const DrawSettings& draw) {
   const auto plan = must(plan_scene(scene, draw.plan));
-  const std::unique_ptr<Setup> setup = make_setup(scene, draw.size, plan.key, draw.setup);
-  for (const std::string& note : setup->notes()) say(fmt::format("{}: {}", scene.name, note));
-  SceneStream stream(*setup, plan.key, draw.threads);
-  FrameAssembler assembler(draw.size, scene.background);
+  FrameDriver driver(scene, draw.size, plan.key, {},
+                     {.setup = draw.setup, .golden_picture = true, .workers = on_threads(draw.threads)});
   Progress progress(scene.name);
-  for (Batch batch; stream.next(batch);) {
+  must(driver.draw([&](const Batch& batch) {
     progress.show(batch.done);
-    must(check_shadow_counts(scene, stream.counts(), stream.fault()));
-    must(assembler.add(batch.golden));
-  }
-  return assembler.frame();
+    return Status(Ok{});
+  }));
+  progress.clear();
+  for (const std::string& note : driver.notes()) say(fmt::format("{}: {}", scene.name, note));
+  return driver.golden_frame().frame();
 }
 
 void run(const Folders& folders, const RenderCommand& command) {

@@ -124,7 +124,7 @@ bool print(const Drawn& drawn) {
     say(fmt::format("{}: {} differs from the golden model", drawn.summary.scene, run.simulator));
     if (!run.fault.empty()) say("  " + run.fault);
     fmt::print(stderr, "{}", run.description);
-    for (const auto& path : run.evidence) say("  see " + path.string());
+    for (const auto& path : run.evidence) say("  see " + path);
   }
   const auto nothing = drawn.summary.nothing_compared();
   if (nothing) say(fmt::format("{}: {}", drawn.summary.scene, *nothing));

@@ -144,8 +144,7 @@ void set_up(const study::StudySettings& settings, const std::string& names) {
       throw Failure{bad_input("--set-up: '" + name + "' is not a point of the space")};
     const Scene scene = study::drawn_scene(settings.scene, scenes, *point);
     const auto hardware = study::drawing_hardware_of(*point, scene, settings.folders);
-    study::set_up_frame(scene, point->size, hardware.key, study::frame_setup(*point, scene),
-                        hardware.formats.get());
+    study::set_up_frame(scene, point->size, hardware.key, study::frame_setup(*point, scene), hardware.models);
   });
 }
 

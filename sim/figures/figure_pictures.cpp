@@ -13,11 +13,11 @@
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "scene/hen_mesh.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/flip.hpp"
 #include "sim/files/image.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/threads.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "sim/run/verilator_frame.hpp"
 
 namespace halfway::figures {
@@ -78,16 +78,16 @@ Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize 
   // The option needs the units.
   if (options.processors.normalize) drawn.key.processors.normalize = true;
   if (context.quick) {
-    const std::unique_ptr<Setup> setup = make_setup(scene, size, drawn.key, options);
-    SceneStream stream(*setup, drawn.key, context.threads);
-    FrameAssembler assembler(size, scene.background);
-    for (Batch batch; stream.next(batch);) must(assembler.add(batch.golden));
-    drawn.frame = assembler.frame();
-    drawn.fragments = assembler.fragments();
-    drawn.counts = stream.counts();
+    FrameDriver driver(scene, size, drawn.key, {},
+                       {.setup = options, .golden_picture = true, .workers = on_threads(context.threads)});
+    must(driver.draw());
+    drawn.frame = driver.golden_frame().frame();
+    drawn.fragments = driver.fragments();
+    drawn.counts = driver.counts();
     return drawn;
   }
-  auto by_rtl = draw_in_verilator(scene, size, drawn.key, options, context.folders, context.threads);
+  auto by_rtl = draw_in_verilator(scene, size, drawn.key, context.folders,
+                                  {.setup = options, .workers = on_threads(context.threads)});
   drawn.frame = std::move(by_rtl.frame);
   drawn.fragments = by_rtl.fragments;
   drawn.cycles = by_rtl.cycles;

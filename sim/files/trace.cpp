@@ -5,6 +5,8 @@
 
 #include <array>
 #include <charconv>
+#include <memory>
+#include <utility>
 
 namespace halfway {
 namespace {
@@ -84,6 +86,21 @@ Result<std::size_t> TraceReader::read(std::vector<Fragment>& fragments, std::siz
     ++count_;
   }
   return got;
+}
+
+std::function<Result<std::span<const Fragment>>(std::size_t most)> stored_fragments(
+    const std::filesystem::path& path) {
+  return [path, trace = std::shared_ptr<TraceReader>(),
+          read = std::vector<Fragment>()](std::size_t most) mutable -> Result<std::span<const Fragment>> {
+    if (!trace) {
+      auto opened = TraceReader::open(path, "");
+      if (!opened) return opened.error();
+      trace = std::make_shared<TraceReader>(std::move(*opened));
+    }
+    read.clear();
+    if (const auto count = trace->read(read, most); !count) return count.error();
+    return std::span<const Fragment>(read);
+  };
 }
 
 Status write_trace(const std::filesystem::path& path, std::string_view key_name, const Trace& trace) {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -58,6 +59,11 @@ class TraceReader {
   std::optional<std::uint64_t> cycles_;
   std::uint64_t count_ = 0;
 };
+
+/// Gives the fragments of a trace, at most `most` with each call, none at its end. The file is opened with
+/// the first call.
+std::function<Result<std::span<const Fragment>>(std::size_t most)> stored_fragments(
+    const std::filesystem::path& path);
 
 Status write_trace(const std::filesystem::path& path, std::string_view key_name, const Trace& trace);
 Result<Trace> read_trace(const std::filesystem::path& path, std::string_view key_name);

@@ -7,6 +7,8 @@
 #include <chrono>
 #include <ctime>
 
+#include "common/host.hpp"
+
 namespace halfway {
 
 inline double seconds_between(std::chrono::steady_clock::time_point start,
@@ -24,39 +26,11 @@ inline double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// A measured interval: processor seconds and elapsed seconds. Reading the processor clock takes almost a
-/// microsecond. To divide an interval into short pieces, measure each piece in elapsed time and assign it the
-/// same share of the processor time.
-class Stretch {
- public:
-  using Clock = std::chrono::steady_clock;
-  static Clock::time_point now() { return Clock::now(); }
-
-  template <class Work>
-  auto add(const Work& work) {
-    const Clock::time_point start = now();
-    const double processor_start = thread_seconds();
-    struct End {
-      Stretch& stretch;
-      Clock::time_point start;
-      double processor_start;
-      ~End() {
-        stretch.processor_ += thread_seconds() - processor_start;
-        stretch.clock_ += seconds_since(start);
-      }
-    } const end{*this, start, processor_start};
-    return work();
-  }
-  double processor() const { return processor_; }
-  double clock() const { return clock_; }
-  /// Processor seconds of a piece that took `clock_seconds` of elapsed time.
-  double share(double clock_seconds) const {
-    return clock_ > 0.0 ? processor_ * clock_seconds / clock_ : 0.0;
-  }
-
- private:
-  double processor_ = 0.0, clock_ = 0.0;
-};
+/// The clocks of this machine.
+inline Clocks host_clocks() {
+  const auto start = std::chrono::steady_clock::now();
+  return {[start] { return seconds_since(start); }, thread_seconds};
+}
 
 /// Processor seconds of all threads of this process.
 inline double process_seconds() {

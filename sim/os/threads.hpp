@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/host.hpp"
 #include "common/result.hpp"
 #include "sim/os/must.hpp"
 
@@ -44,12 +45,12 @@ void work_on_threads(unsigned threads, const Work& work) {
   if (first) std::rethrow_exception(first);
 }
 
-/// Call work on at most `threads` threads; 0: one per processor of the machine.
-inline auto on_threads(unsigned threads) {
+/// At most `threads` threads; 0: one per processor of the machine.
+inline Workers on_threads(unsigned threads) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  return [threads](unsigned most, const std::function<void()>& work) {
-    work_on_threads(std::min(threads, most), work);
-  };
+  return {threads, [threads](unsigned most, const std::function<void()>& work) {
+            work_on_threads(std::min(threads, most), work);
+          }};
 }
 
 /// Call `each`, which returns a Status, once with every number below `count`, in order, on at most `threads`

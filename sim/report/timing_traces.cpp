@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
 #include "sim/engines/ghdl/vcd.hpp"
 #include "sim/files/gnuplot.hpp"
@@ -17,7 +18,6 @@
 #include "sim/files/timing_diagram.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway::report {
 namespace {
@@ -88,11 +88,8 @@ void write_vectors(const Scene& scene, const HardwareKey& key, const std::filesy
   // No subdivision: two triangles with the same number of fragments in each shader.
   SetupOptions options;
   options.quadratic.test = HighlightTest::none;
-  const std::unique_ptr<Setup> setup = make_setup(scene, c_size, key, options);
-  auto file = must(InitFileWriter::open(path, key.name(), setup->init_bits()));
-  SceneStream stream(*setup, key, 1);
-  for (Batch batch; stream.next(batch);) file.write(batch.init_words);
-  must(file.commit());
+  FrameStream stream = must(whole_stream(scene, c_size, key, {.setup = options}));
+  must(write_init_file(path, key.name(), {stream.init_bits, std::move(stream.words)}));
 }
 
 }  // namespace

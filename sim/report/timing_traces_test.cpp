@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "sim/run/why.hpp"
 
 namespace halfway::report {
@@ -38,19 +38,17 @@ TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
   const auto plan = plan_scene(scene, why.plan);
   ASSERT_TRUE(plan);
   EXPECT_EQ(timing.key, plan->key.name());
-  const auto setup = make_setup(scene, why.size, plan->key, why.setup);
-  SceneStream stream(*setup, plan->key, 1);
-  Batch batch;
-  ASSERT_TRUE(stream.next(batch));
-  ASSERT_GE(batch.golden.size(), 4U);
-  why.pixel = {batch.golden[0].x, batch.golden[0].y};
+  const std::vector<Fragment> golden =
+      must(whole_stream(scene, why.size, plan->key, {.setup = why.setup})).golden;
+  ASSERT_GE(golden.size(), 4U);
+  why.pixel = {golden[0].x, golden[0].y};
   const auto first = explain_pixel(scene, why);
   const auto clock = first.stories.at(0).stages.back().cycle;
   ASSERT_TRUE(clock);
   std::string words;
   for (unsigned n = 0; n < 4; ++n)
     words += fmt::format("{}clock {}: fragment x {}, y {}, red {}", n == 0 ? "" : "; ", *clock + n,
-                         batch.golden[n].x, batch.golden[n].y, batch.golden[n].red);
+                         golden[n].x, golden[n].y, golden[n].red);
   EXPECT_EQ(timing.words, words);
   for (const std::string& svg : timing.svgs) {
     for (const char* signal : {"init_valid", "line_step", "span_step", "fragment_red"})

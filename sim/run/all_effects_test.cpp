@@ -17,10 +17,10 @@
 #include "scene/builtin_meshes.hpp"
 #include "setup/setup.hpp"
 #include "shading/test/random_solids.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/driver/limits.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
 #include "sim/os/must.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -112,26 +112,20 @@ struct Drawing {
 
 Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) {
   Drawing out;
-  const auto setup = make_setup(scene, c_effects_frame, key, {});
-  std::optional<VerilatorSimulator> rtl;
-  const auto sure = [](const Status& status) {
-    if (!status) throw std::runtime_error(status.error().message);
-  };
-  if (with_rtl) {
-    auto opened = must(VerilatorSimulator::open(
+  std::vector<std::shared_ptr<Engine>> engines;
+  if (with_rtl)
+    engines.push_back(must(shared_engine(VerilatorSimulator::open(
         key, {HALFWAY_SOURCE_DIR, std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache"},
-        {.idle_limit = c_idle_limit}));
-    rtl.emplace(std::move(opened));
-  }
-  SceneStream stream(*setup, key, 1);
-  for (Batch batch; stream.next(batch);) {
+        {.idle_limit = c_idle_limit}))));
+  FrameDriver driver(scene, c_effects_frame, key, std::move(engines),
+                     {.on_drawn = [&](std::size_t, std::span<const Fragment> drawn) {
+                       out.rtl.insert(out.rtl.end(), drawn.begin(), drawn.end());
+                     }});
+  must(driver.draw([&](const Batch& batch) -> Status {
     out.golden.insert(out.golden.end(), batch.golden.begin(), batch.golden.end());
-    if (rtl) sure(rtl->run(batch.init_words, out.rtl, out.golden.size() + c_most_surplus));
-  }
-  if (rtl) {
-    sure(rtl->finish(out.rtl, out.golden.size() + c_most_surplus));
-    out.cycles = *rtl->cycles();
-  }
+    return Ok{};
+  }));
+  if (with_rtl) out.cycles = *driver.frame().engine().cycles();
   return out;
 }
 

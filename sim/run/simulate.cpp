@@ -10,12 +10,11 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
-#include "frame/assemble.hpp"
 #include "reference/renderer.hpp"
 #include "scene/lights.hpp"
-#include "setup/check_counts.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/image.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/trace.hpp"
@@ -25,7 +24,6 @@
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "sim/run/waveform.hpp"
 #include "words/generator/cosine.hpp"
 
@@ -40,10 +38,7 @@ constexpr double c_bright = 2.0;
 class Simulation {
  public:
   Simulation(const Scene& scene, const SimulateSettings& settings)
-      : scene_(scene),
-        s_(settings),
-        files_(ResultFiles::of(settings.out, scene.name, settings.plan)),
-        golden_(settings.size, scene.background) {
+      : scene_(scene), s_(settings), files_(ResultFiles::of(settings.out, scene.name, settings.plan)) {
     summary_.scene = scene.name;
     summary_.shader = to_string(s_.plan.shader);
     summary_.all_effects = s_.plan.all_effects;
@@ -62,15 +57,17 @@ class Simulation {
     open_engines();
     stream();
     // Engines that draw late take longest, so do all other work at the same time.
-    for (Drawing& drawing : drawings_)
-      drawing.finished = std::async(std::launch::async, [&drawing] { return drawing.frame.finish(); });
+    for (std::size_t i = 0; i < drawings_.size(); ++i)
+      drawings_[i].finished =
+          std::async(std::launch::async, [&frame = driver_->frame(i)] { return frame.finish(); });
     wait_for_threads();
     if (!s_.engines.empty())
       summary_.units = must(must(UnitCounter::open(s_.folders)).count(summary_.plan.key));
-    must(write_png(files_.frame("golden"), golden_.frame()));
+    must(write_png(files_.frame("golden"), golden().frame()));
     compare_with(reference.get());
-    for (auto drawing = drawings_.rbegin(); drawing != drawings_.rend(); ++drawing)
-      summary_.runs.insert(summary_.runs.begin(), keep(*drawing));
+    summary_.runs.resize(drawings_.size());
+    for (std::size_t i = drawings_.size(); i-- != 0;)
+      summary_.runs[i] = keep(drawings_[i], driver_->frame(i));
     for (SimulatorRun& run : summary_.runs)
       if (!run.equal()) keep_evidence(run);
     note_what_is_unusual();
@@ -80,12 +77,13 @@ class Simulation {
   }
 
  private:
-  // An engine with its frame, and the trace of its fragments.
+  // The trace of an engine's fragments, and the end of its drawing.
   struct Drawing {
-    RtlFrame frame;
-    std::shared_ptr<TraceWriter> trace;
-    std::future<Status> finished;
+    TraceWriter trace;
+    std::future<Status> finished{};
   };
+
+  const FrameAssembler& golden() const { return driver_->golden_frame(); }
 
   // Remove old results: if this run is interrupted, they must not be taken for its own.
   void forget_old_results() const {
@@ -210,45 +208,42 @@ class Simulation {
                             .stall_seed = s_.stall_seed,
                             .on_progress = [this, kind](std::uintmax_t bytes) { show_late(kind, bytes); }});
       }));
+    std::vector<std::shared_ptr<Engine>> engines;
     for (std::size_t i = 0; i < opening.size(); ++i) {
       s_.on_progress(fmt::format("building {} for {}", key.name(), title(s_.engines[i])), -1.0);
-      std::shared_ptr<Engine> engine = must(opening[i].get());
-      const auto trace = std::make_shared<TraceWriter>(
-          must(TraceWriter::open(files_.trace(to_string(s_.engines[i])), key.name())));
-      RtlFrameOptions frame{.on_drawn = [trace](std::span<const Fragment> drawn) { trace->write(drawn); }};
-      if (engine->draws_late()) frame.golden_trace = files_.trace("golden");
-      drawings_.push_back(
-          {RtlFrame(std::move(engine), s_.size, scene_.background, std::move(frame)), trace, {}});
+      engines.push_back(must(opening[i].get()));
+      drawings_.push_back({must(TraceWriter::open(files_.trace(to_string(s_.engines[i])), key.name()))});
     }
+    driver_.emplace(scene_, s_.size, key, std::move(engines),
+                    FrameOptions{.setup = s_.setup,
+                                 .golden_picture = true,
+                                 .workers = on_threads(s_.threads),
+                                 .clocks = host_clocks(),
+                                 .late_golden = [this] { return stored_fragments(files_.trace("golden")); },
+                                 .on_drawn =
+                                     [this](std::size_t engine, std::span<const Fragment> drawn) {
+                                       drawings_[engine].trace.write(drawn);
+                                     }});
   }
 
-  // Run setup, golden model and engines, batch by batch. Write init file and traces on the way.
+  // Write the init file and the golden trace on the way.
   void stream() {
-    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, summary_.plan.key, s_.setup);
     const std::string key = summary_.plan.key.name();
-    for (const std::string& text : setup->notes()) note(text);
-    auto init_file = must(InitFileWriter::open(files_.init(), key, setup->init_bits()));
+    auto init_file = must(InitFileWriter::open(files_.init(), key, driver_->init_bits()));
     auto golden_trace = must(TraceWriter::open(files_.trace("golden"), key));
-
-    SceneStream stream(*setup, summary_.plan.key, s_.threads);
-    for (Batch batch; stream.next(batch);) {
+    must(driver_->stream([&](const Batch& batch) {
       s_.on_progress("setup, golden model, Verilator", batch.done);
-      must(check_shadow_counts(scene_, stream.counts(), stream.fault()));
       init_file.write(batch.init_words);
       golden_trace.write(batch.golden);
-      if (Status status = golden_.add(batch.golden); !status)
-        throw Failure{
-            tool_failed(fmt::format("{}: setup made a fragment outside the frame: {}; please report it",
-                                    scene_.name, status.error().message))};
-      for (Drawing& drawing : drawings_) must(drawing.frame.add(batch.init_words, batch.golden));
-    }
+      return Status(Ok{});
+    }));
     must(init_file.commit());
     must(golden_trace.commit());
-    summary_.setup = stream.counts();
-    must(check_projection(scene_, stream.counts()));
-    summary_.setup_seconds = stream.setup_seconds();
-    summary_.golden_seconds = stream.golden_seconds();
-    summary_.fragments = golden_.fragments();
+    for (const std::string& text : driver_->notes()) note(text);
+    summary_.setup = driver_->counts();
+    summary_.setup_seconds = driver_->seconds().setup;
+    summary_.golden_seconds = driver_->seconds().golden;
+    summary_.fragments = driver_->fragments();
   }
 
   // Show the progress of an engine that draws late: its trace is about as long as the golden one.
@@ -261,32 +256,32 @@ class Simulation {
 
   // While OpenImageIO is loaded (0.3 s), glibc starts no thread. So wait until the engines that draw late
   // have started theirs.
-  void wait_for_threads() const {
-    for (const Drawing& drawing : drawings_)
-      while (drawing.frame.engine().draws_late() && !late_began_ &&
-             drawing.finished.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
+  void wait_for_threads() {
+    for (std::size_t i = 0; i < drawings_.size(); ++i)
+      while (driver_->frame(i).engine().draws_late() && !late_began_ &&
+             drawings_[i].finished.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
       }
   }
 
   // Store the results of an engine. A trace is committed only if it is complete.
-  SimulatorRun keep(Drawing& drawing) const {
+  SimulatorRun keep(Drawing& drawing, RtlFrame& drawn) const {
     must(drawing.finished.get());
-    SimulatorRun run = drawing.frame.result();
-    if (drawing.frame.alive()) must(drawing.trace->commit(run.cycles));
-    const Frame& frame = drawing.frame.assembler().frame();
+    SimulatorRun run = drawn.result();
+    if (drawn.alive()) must(drawing.trace.commit(run.cycles));
+    const Frame& frame = drawn.assembler().frame();
     must(write_png(files_.frame(run.simulator), frame));
     if (run.equal()) return run;
     run.evidence.push_back(files_.frame(fmt::format("mismatch-{}", run.simulator)));
-    must(write_png(run.evidence.back(), must(difference_image(golden_.frame(), frame))));
+    must(write_png(run.evidence.back(), must(difference_image(golden().frame(), frame))));
     return run;
   }
 
   void compare_with(const ReferenceImage& reference) {
-    std::vector<std::uint8_t> mask = golden_.mask();
+    std::vector<std::uint8_t> mask = golden().mask();
     for (std::size_t i = 0; i < mask.size(); ++i) mask[i] |= reference.mask[i];
-    summary_.accuracy = must(frame_distance(golden_.frame(), reference.frame, mask));
+    summary_.accuracy = must(frame_distance(golden().frame(), reference.frame, mask));
     must(write_png(files_.frame("reference"), reference.frame));
-    must(write_png(files_.frame("diff"), must(difference_image(golden_.frame(), reference.frame))));
+    must(write_png(files_.frame("diff"), must(difference_image(golden().frame(), reference.frame))));
   }
 
   void keep_evidence(SimulatorRun& run) const {
@@ -298,7 +293,7 @@ class Simulation {
     });
     // The mismatch must be reported even if the waveform cannot be written.
     if (path)
-      run.evidence.push_back(*path);
+      run.evidence.push_back(path->string());
     else
       run.description +=
           fmt::format("  no waveform: {}\n", path.error().message.substr(0, path.error().message.find('\n')));
@@ -307,10 +302,10 @@ class Simulation {
   const Scene& scene_;
   const SimulateSettings& s_;
   ResultFiles files_;
-  FrameAssembler golden_;
   SceneSummary summary_;
   std::atomic<bool> late_began_ = false;  ///< an engine that draws late has started to draw
-  std::vector<Drawing> drawings_;         ///< in the order of s_.engines
+  std::vector<Drawing> drawings_;         ///< in the order of s_.engines, as the driver's frames
+  std::optional<FrameDriver> driver_;
 };
 
 }  // namespace

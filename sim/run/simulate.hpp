@@ -14,10 +14,10 @@
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/driver/engine.hpp"
+#include "sim/driver/rtl_frame.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/ghdl/hardware_units.hpp"
 #include "sim/run/result_files.hpp"
-#include "sim/run/rtl_frame.hpp"
 
 namespace halfway {
 

@@ -5,16 +5,15 @@
 
 #include <algorithm>
 
-#include "frame/assemble.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/driver/limits.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/seconds.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/run/rtl_frame.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -34,7 +33,7 @@ double least_of(const Pass& pass) {
 class Measurement {
  public:
   Measurement(const Scene& scene, const HardwareKey& key, const CostSettings& settings)
-      : scene_(scene), key_(key), s_(settings), setup_(make_setup(scene, s_.size, key_, s_.setup)) {}
+      : scene_(scene), key_(key), s_(settings) {}
 
   SimulationCost run() {
     const TemporaryFolder scratch = must(TemporaryFolder::make(s_.folders.cache));
@@ -46,17 +45,27 @@ class Measurement {
   }
 
  private:
+  FrameDriver driver_of(std::vector<std::shared_ptr<Engine>> engines) const {
+    return {scene_,
+            s_.size,
+            key_,
+            std::move(engines),
+            {.setup = s_.setup,
+             .golden_picture = true,
+             .workers = on_threads(s_.threads),
+             .clocks = host_clocks()}};
+  }
+
   // Also the golden frame.
   void write_init(const std::filesystem::path& path) {
     s_.on_progress(fmt::format("setup for {}", key_.name()));
-    InitFileWriter file = must(InitFileWriter::open(path, key_.name(), setup_->init_bits()));
-    FrameAssembler assembler(s_.size, scene_.background);
-    SceneStream stream(*setup_, key_, s_.threads);
-    for (Batch batch; stream.next(batch);) {
+    FrameDriver driver = driver_of({});
+    InitFileWriter file = must(InitFileWriter::open(path, key_.name(), driver.init_bits()));
+    must(driver.draw([&](const Batch& batch) {
       file.write(batch.init_words);
-      must(assembler.add(batch.golden));
-    }
-    cost_.frame = assembler.frame();
+      return Status(Ok{});
+    }));
+    cost_.frame = driver.golden_frame().frame();
     must(file.commit());
   }
 
@@ -72,21 +81,19 @@ class Measurement {
 
   double verilator_pass() {
     s_.on_progress(fmt::format("Verilator simulates {}", key_.name()));
-    RtlFrame rtl(must(open_engine(EngineKind::verilator, key_, s_.folders)), s_.size, scene_.background);
-    SceneStream stream(*setup_, key_, s_.threads);
-    must(rtl.draw(scene_, stream));
-    const SimulatorRun run = rtl.result();
+    FrameDriver driver = driver_of({must(open_engine(EngineKind::verilator, key_, s_.folders))});
+    must(driver.draw());
+    const SimulatorRun run = driver.frame().result();
     if (!run.fault.empty()) throw Failure{{ExitCode::differs, fmt::format("{}: {}", key_.name(), run.fault)}};
     cost_.fragments = run.fragments;
     cost_.cycles = *run.cycles;
-    cost_.frame = rtl.assembler().frame();
-    return rtl.seconds().rtl;
+    cost_.frame = driver.frame().assembler().frame();
+    return driver.frame().seconds().rtl;
   }
 
   const Scene& scene_;
   const HardwareKey& key_;
   const CostSettings& s_;
-  std::unique_ptr<Setup> setup_;
   SimulationCost cost_;
 };
 

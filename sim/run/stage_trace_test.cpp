@@ -9,10 +9,10 @@
 #include <optional>
 
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/test/source_folder.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -39,13 +39,9 @@ class Stages : public ::testing::TestWithParam<Case> {
     auto scene = must(load_scene(c.scene, c_source_folder / "sim" / "scenes"));
     const auto plan = must(plan_scene(scene, {.shader = c.shader, .preset = c.preset, .form = c.form}));
     key_ = plan.key;
-    const auto setup = make_setup(scene, {24, 18}, key_, {});
-    vectors_.bits = setup->init_bits();
-    SceneStream stream(*setup, key_, 1);
-    for (Batch batch; stream.next(batch);) {
-      vectors_.words.insert(vectors_.words.end(), batch.init_words.begin(), batch.init_words.end());
-      golden_.insert(golden_.end(), batch.golden.begin(), batch.golden.end());
-    }
+    FrameStream stream = must(whole_stream(scene, {24, 18}, key_));
+    vectors_ = {stream.init_bits, std::move(stream.words)};
+    golden_ = std::move(stream.golden);
     ASSERT_FALSE(golden_.empty());
   }
 

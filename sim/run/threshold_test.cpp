@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "frame/assemble.hpp"
-#include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "projection/project.hpp"
 #include "reference/renderer.hpp"
-#include "setup/setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 
@@ -28,13 +26,10 @@ TEST_P(Threshold, EveryPixelOfABuiltInSceneIsWithinIt) {
   const SetupOptions options;
   for (const FrameSize frame :
        {FrameSize{32, 24}, FrameSize{57, 41}, FrameSize{128, 96}, FrameSize{320, 240}}) {
-    const auto setup = make_setup(scene, frame, key, options);
-    std::vector<std::uint32_t> words;
-    SetupCounts counts;
-    setup->append_all(words, counts);
-    EXPECT_EQ(counts.unresolved, 0u);
-    FrameAssembler drawn(frame, scene.background);
-    ASSERT_TRUE(drawn.add(make_golden_model(key)->draw(words)));
+    FrameDriver driver(scene, frame, key, {}, {.setup = options, .golden_picture = true});
+    must(driver.draw());
+    EXPECT_EQ(driver.counts().unresolved, 0u);
+    const FrameAssembler& drawn = driver.golden_frame();
     ASSERT_GT(drawn.covered_pixels(), 100u);
     const ReferenceImage reference =
         render_reference(scene, Projector(scene, frame, ProjectionOptions{}).project_all(), {.frame = frame});

@@ -3,19 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "frame/frame.hpp"
-#include "frame/tile.hpp"
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
-#include "setup/setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
-
-class MadeFormats;
 
 struct VerilatorFrame {
   Frame frame;                     ///< the frame or a tile of it
@@ -26,12 +22,8 @@ struct VerilatorFrame {
 };
 
 /// Compares every fragment with the golden model's. Throws Failure with the first differences
-/// (ExitCode::differs) on a difference or a fault of the hardware. A tile's pixels have the same fragments as
-/// in the whole frame. `formats` makes setup and golden model of a key with other word lengths; null: use the
-/// program's.
+/// (ExitCode::differs) on a difference or a fault of the hardware.
 VerilatorFrame draw_in_verilator(const Scene& scene, FrameSize size, const HardwareKey& key,
-                                 const SetupOptions& options, const SimulatorFolders& folders,
-                                 unsigned threads, const std::optional<Tile>& tile = {},
-                                 const MadeFormats* formats = nullptr);
+                                 const SimulatorFolders& folders, FrameOptions options);
 
 }  // namespace halfway

@@ -18,11 +18,11 @@
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
 #include "setup/spherical_setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
 
 namespace halfway {
@@ -40,7 +40,8 @@ std::size_t bytes(const Scene& scene) {
 
 struct DrawnFrame {
   std::uint64_t fragments = 0;
-  ViewSeconds seconds;
+  FrameSeconds seconds;
+  double image_seconds = 0.0;
   std::vector<std::string> notes;
   bool covered = false;
   std::uint64_t in_view = 0;           ///< triangles
@@ -60,7 +61,7 @@ class Easel {
         setup_(setup),
         key_(key),
         threads_(threads),
-        rtl_(frame_of(std::move(engine))) {}
+        driver_(scene_, settings.size, key, {std::move(engine)}, options()) {}
 
   DrawnFrame draw(std::uint32_t number) {
     scene_.camera = turned(first_camera_, number, s_.frames);
@@ -70,8 +71,8 @@ class Easel {
           scene_.name, number))};
     again_.reset();
     DrawnFrame drawn;
-    SimulatorRun run = draw_in(rtl_, drawn);
-    if (!run.equal() && rtl_.engine().kind() != EngineKind::verilator) run = draw_again(number, run, drawn);
+    SimulatorRun run = draw_in(driver_, drawn);
+    if (!run.equal() && engine_kind() != EngineKind::verilator) run = draw_again(number, run, drawn);
     drawn.fragments = run.fragments;
     drawn.covered = run.fragments != 0;
     if (!drawn.covered && s_.compare) drawn.reference_pixels = count_reference_pixels();
@@ -79,11 +80,11 @@ class Easel {
 
     const double images_start = thread_seconds();
     s_.on_drawn(number, frame());
-    drawn.seconds.images = thread_seconds() - images_start;
+    drawn.image_seconds = thread_seconds() - images_start;
     return drawn;
   }
   /// The last drawn frame; valid until the next call of draw.
-  const Frame& frame() const { return again_ ? *again_ : rtl_.assembler().frame(); }
+  const Frame& frame() { return again_ ? *again_ : driver_.frame().assembler().frame(); }
 
  private:
   std::uint64_t count_reference_pixels() const {
@@ -92,36 +93,30 @@ class Easel {
     return static_cast<std::uint64_t>(std::ranges::count(reference.mask, 1));
   }
 
-  RtlFrame frame_of(std::shared_ptr<Engine> engine) const {
-    return {std::move(engine),
-            s_.size,
-            scene_.background,
-            {.golden = make_golden_model(key_), .compare = s_.compare}};
+  EngineKind engine_kind() { return driver_.frame().engine().kind(); }
+
+  FrameOptions options() const {
+    return {.setup = setup_,
+            .golden = s_.compare ? GoldenDraws::beside : GoldenDraws::nothing,
+            .workers = on_threads(threads_),
+            .clocks = host_clocks()};
   }
 
-  SimulatorRun draw_in(RtlFrame& rtl, DrawnFrame& drawn) {
-    const double clear_start = thread_seconds();
-    rtl.clear();
-    const double setup_start = thread_seconds();
-    drawn.seconds.assemble += setup_start - clear_start;
-    const std::unique_ptr<Setup> setup = make_setup(scene_, s_.size, key_, setup_);
-    drawn.notes = setup->notes();
-    drawn.seconds.setup += thread_seconds() - setup_start;
-    // With one thread per frame another frame can be drawn meanwhile, so make no batch ahead.
-    SceneStream stream(*setup, key_, threads_, {.golden = false, .ahead = threads_ > 1});
-    must(rtl.draw(scene_, stream));
-    drawn.in_view = triangles_in_view(stream.counts());
-    const RtlFrame::Seconds seconds = rtl.seconds();
-    drawn.seconds += {stream.setup_seconds(), seconds.golden, seconds.rtl, seconds.compare, seconds.assemble};
-    return rtl.result();
+  static SimulatorRun draw_in(FrameDriver& driver, DrawnFrame& drawn) {
+    must(driver.draw());
+    drawn.notes = driver.notes();
+    drawn.in_view = triangles_in_view(driver.counts());
+    drawn.seconds += driver.seconds();
+    return driver.frame().result();
   }
 
   SimulatorRun draw_again(std::uint32_t number, const SimulatorRun& first, DrawnFrame& drawn) {
-    const char* const engine = title(rtl_.engine().kind());
-    RtlFrame rtl = frame_of(must(open_engine(EngineKind::verilator, key_, s_.folders)));
+    const char* const engine = title(engine_kind());
+    FrameDriver driver(scene_, s_.size, key_, {must(open_engine(EngineKind::verilator, key_, s_.folders))},
+                       options());
     drawn.again = true;
-    SimulatorRun run = draw_in(rtl, drawn);
-    again_ = rtl.assembler().frame();
+    SimulatorRun run = draw_in(driver, drawn);
+    again_ = driver.frame().assembler().frame();
     if (!run.equal()) return run;
     const std::string difference = first.fault.empty()
                                        ? fmt::format("{} fragments differ in {}", first.mismatches, engine)
@@ -138,7 +133,7 @@ class Easel {
   const SetupOptions& setup_;
   const HardwareKey& key_;
   unsigned threads_;
-  RtlFrame rtl_;
+  FrameDriver driver_;
   std::optional<Frame> again_;  // the frame if it was drawn again
 };
 
@@ -168,6 +163,7 @@ class Turn {
     lock.lock();
     summary_.fragments += drawn->fragments;
     summary_.parts += drawn->seconds;
+    summary_.image_seconds += drawn->image_seconds;
     for (const std::string& note : drawn->notes) add_note(note);
     if (!drawn->covered) ++bare_;
     summary_.in_view = std::max(summary_.in_view, drawn->in_view);
@@ -237,16 +233,6 @@ std::string engine_words(const ViewSummary& s) {
 }
 
 }  // namespace
-
-ViewSeconds& ViewSeconds::operator+=(const ViewSeconds& other) {
-  setup += other.setup;
-  golden += other.golden;
-  rtl += other.rtl;
-  compare += other.compare;
-  assemble += other.assemble;
-  images += other.images;
-  return *this;
-}
 
 ViewSummary view(const Scene& scene, const ViewSettings& settings) {
   ViewSummary summary{.scene = scene.name,
@@ -326,7 +312,7 @@ std::string to_lines(const ViewSummary& s) {
   if (s.compared) text += fmt::format("golden model {:.1f}, ", ms(s.parts.golden));
   text += fmt::format("{} {:.1f}, ", title(s.engine), ms(s.parts.rtl));
   if (s.compared) text += fmt::format("comparison {:.1f}, ", ms(s.parts.compare));
-  return text + fmt::format("assembly {:.1f}, images {:.1f}\n", ms(s.parts.assemble), ms(s.parts.images));
+  return text + fmt::format("assembly {:.1f}, images {:.1f}\n", ms(s.parts.assemble), ms(s.image_seconds));
 }
 
 }  // namespace halfway

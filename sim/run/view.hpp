@@ -13,8 +13,8 @@
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
 #include "sim/driver/engine.hpp"
+#include "sim/driver/rtl_frame.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/run/rtl_frame.hpp"
 
 namespace halfway {
 
@@ -40,13 +40,6 @@ struct ViewSettings {
   std::function<void(std::uint32_t number, const Frame& frame)> on_next = [](std::uint32_t, const Frame&) {};
 };
 
-/// Processor seconds of all frames.
-struct ViewSeconds {
-  double setup = 0.0, golden = 0.0, rtl = 0.0, compare = 0.0, assemble = 0.0;
-  double images = 0.0;  ///< on_drawn
-  ViewSeconds& operator+=(const ViewSeconds& other);
-};
-
 /// The first frame with a difference from the golden model or a fault of the hardware.
 struct ViewDifference {
   std::uint32_t frame;
@@ -68,7 +61,8 @@ struct ViewSummary {
   std::vector<std::uint32_t> drawn_again;     ///< frames that Verilator drew again
   unsigned threads = 1;
   double seconds = 0.0;  ///< from the end of the build until the last frame was output
-  ViewSeconds parts;
+  FrameSeconds parts;
+  double image_seconds = 0.0;  ///< of processor time, for on_drawn
   std::optional<ViewDifference> difference;
   std::vector<std::string> notes;  ///< remarks for a reader of the figures
   /// As SceneSummary::nothing_compared, for all frames; std::nullopt if no comparison was requested.
@@ -82,7 +76,7 @@ struct ViewSummary {
 /// with a note. If a frame of lanes differs or ends with a fault, Verilator draws it again, because it
 /// reports more: the cycle of a fault, and the fragments before it. If Verilator finds no difference, the
 /// lanes are wrong: a Failure with the exit code `differs`. Memory depends on the threads, the frame size,
-/// SceneStream and the engine, not on the number of frames or triangles. Ends after the first frame that
+/// the engine, not on the number of frames or triangles. Ends after the first frame that
 /// differs, which is not an error: see ViewSummary::difference.
 ViewSummary view(const Scene& scene, const ViewSettings& settings);
 

@@ -2,13 +2,12 @@
 #include "sim/run/why.hpp"
 
 #include <algorithm>
-#include <memory>
 
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/threads.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/run/rtl_frame.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/run/stage_trace.hpp"
 
@@ -18,11 +17,7 @@ namespace {
 class Explainer {
  public:
   Explainer(const Scene& scene, const WhySettings& settings, const HardwareKey& key)
-      : scene_(scene),
-        s_(settings),
-        key_(key),
-        setup_(make_setup(scene, settings.size, key, settings.setup)),
-        way_(key, settings.pixel) {
+      : scene_(scene), s_(settings), key_(key), way_(key, settings.pixel) {
     report_.key = key;
   }
 
@@ -31,8 +26,8 @@ class Explainer {
     const PixelSearch search = search_triangles();
     way_.draw_golden(search.found());
     if (way_.fragments() == 0) return report_;
-    const auto rtl = trace_stages(key_, way_.stages(), s_.folders,
-                                  {setup_->init_bits(), search.found().words()}, way_.fragments());
+    const auto rtl =
+        trace_stages(key_, way_.stages(), s_.folders, {init_bits_, search.found().words()}, way_.fragments());
     if (report_.fault.empty()) report_.fault = rtl.fault;
     way_.compare(rtl.events);
     report_.stories = way_.stories();
@@ -43,16 +38,16 @@ class Explainer {
  private:
   // Compare the whole frame in Verilator, fragment by fragment.
   void compare_frame() {
-    RtlFrame rtl(must(open_engine(EngineKind::verilator, key_, s_.folders)), s_.size, scene_.background);
-    SceneStream stream(*setup_, key_, s_.threads);
-    for (Batch batch; rtl.alive() && stream.next(batch);) {
+    FrameDriver driver(scene_, s_.size, key_, {must(open_engine(EngineKind::verilator, key_, s_.folders))},
+                       options(GoldenDraws::batches));
+    must(driver.draw([&](const Batch& batch) {
       s_.on_progress(batch.done);
-      report_.fragments += batch.golden.size();
-      must(rtl.add(batch.init_words, batch.golden));
-    }
-    must(rtl.finish());
-    report_.in_view = triangles_in_view(stream.counts());
-    const SimulatorRun run = rtl.result();
+      return Status(Ok{});
+    }));
+    init_bits_ = driver.init_bits();
+    report_.fragments = driver.fragments();
+    report_.in_view = triangles_in_view(driver.counts());
+    const SimulatorRun run = driver.frame().result();
     report_.fault = run.fault;
     if (run.first.empty()) return;
     report_.frame_difference = run.first.front();
@@ -63,15 +58,22 @@ class Explainer {
   // Choose the triangles that cover the pixel, and the one with the first fragment that differs.
   PixelSearch search_triangles() {
     PixelSearch search(key_, s_.pixel, first_wrong_);
-    SceneStream stream(*setup_, key_, s_.threads, {.golden = false});
-    for (Batch batch; stream.next(batch);) search.add(batch.init_words);
+    FrameDriver driver(scene_, s_.size, key_, {}, options(GoldenDraws::nothing));
+    must(driver.draw([&](const Batch& batch) {
+      search.add(batch.init_words);
+      return Status(Ok{});
+    }));
     return search;
+  }
+
+  FrameOptions options(GoldenDraws golden) const {
+    return {.setup = s_.setup, .golden = golden, .workers = on_threads(s_.threads)};
   }
 
   const Scene& scene_;
   const WhySettings& s_;
   HardwareKey key_;
-  std::unique_ptr<Setup> setup_;
+  unsigned init_bits_ = 0;
   PixelWay way_;
   WhyReport report_;
   std::uint64_t first_wrong_ = UINT64_MAX;  // fragment of the frame

@@ -62,7 +62,7 @@ PointHardware hardware_of(const DesignPoint& point, const Scene& scene) {
 PointHardware drawing_hardware_of(const DesignPoint& point, const Scene& scene,
                                   const SimulatorFolders& folders) {
   PointHardware hardware = hardware_of(point, scene);
-  if (point.words.any()) hardware.formats = must(MadeFormats::open(hardware.key, folders));
+  if (point.words.any()) hardware.models = must(made_models(hardware.key, folders));
   return hardware;
 }
 

@@ -29,7 +29,7 @@ namespace halfway::study {
 struct PointHardware {
   HardwareKey key;
   std::shared_ptr<const tables::MadeTables> tables;  ///< for the key, if not compiled into the program
-  std::shared_ptr<const MadeFormats> formats{};      ///< for the key, if not compiled into the program
+  Models models{};                                   ///< for the key
 };
 /// `point.method` must be hardware. Throws bad input if the hardware cannot draw the scene. Points whose word
 /// lengths differ from the preset's need `drawing_hardware_of` to draw.

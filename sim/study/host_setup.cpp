@@ -66,8 +66,8 @@ double quickest_ns(const Work& work) {
 }  // namespace
 
 HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key, const SetupOptions& options,
-                      const MadeFormats* formats) {
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, key, options, formats);
+                      const Models& models) {
+  const std::unique_ptr<Setup> setup = models.setup(scene, size, key, options);
   HostWork work;
   std::vector<std::uint32_t> words;
   setup->append_prologue(words, work.counts);
@@ -99,9 +99,8 @@ HostTime host_time(const DesignPoint& point, const std::string& scene_name, cons
     const PointHardware hardware = drawing_hardware_of(point, scene, folders);
     const SetupOptions options = frame_setup(point, scene);
     HostTime time;
-    time.ns = quickest_ns([&] {
-      time.words = set_up_frame(scene, point.size, hardware.key, options, hardware.formats.get()).words;
-    });
+    time.ns = quickest_ns(
+        [&] { time.words = set_up_frame(scene, point.size, hardware.key, options, hardware.models).words; });
     return time;
   }
   const RenderOptions options{.frame = point.size, .subpixel_bits = 4};

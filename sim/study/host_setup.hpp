@@ -12,8 +12,8 @@
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
+#include "sim/driver/models.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/generator/word_lengths/made_formats.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/measure.hpp"
 
@@ -27,9 +27,8 @@ struct HostWork {
 };
 
 /// Compute the init vectors of one frame from the scene. Callgrind counts this function, found by its name.
-/// `formats` as in make_setup.
 [[gnu::noinline]] HostWork set_up_frame(const Scene& scene, FrameSize size, const HardwareKey& key,
-                                        const SetupOptions& options, const MadeFormats* formats);
+                                        const SetupOptions& options, const Models& models);
 
 /// The options of the point, with what a host computes once per scene: the bells of the spherical shader.
 SetupOptions frame_setup(const DesignPoint& point, const Scene& scene);

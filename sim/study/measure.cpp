@@ -17,8 +17,8 @@ Drawing draw_in_hardware(const DesignPoint& point, const Scene& scene, const Sim
                          const std::optional<Tile>& tile) {
   const PointHardware hardware = drawing_hardware_of(point, scene, folders);
   const SimulatorFolders rtl_folders = rtl_of(point, scene, folders);
-  VerilatorFrame drawn = draw_in_verilator(scene, point.size, hardware.key, point.setup(), rtl_folders, 1,
-                                           tile, hardware.formats.get());
+  VerilatorFrame drawn = draw_in_verilator(scene, point.size, hardware.key, rtl_folders,
+                                           {.setup = point.setup(), .tile = tile, .models = hardware.models});
   return {std::move(drawn.frame), std::move(drawn.mask), hardware.key.name(),
           drawn.fragments,        drawn.cycles,          drawn.counts};
 }

@@ -23,7 +23,7 @@ struct Path {
   const char* vectors;
   HardwareKey key;
   std::vector<WholeFrame> drawings{};  // one per core
-  std::vector<FrameCost> costs{};
+  std::vector<FrameSeconds> costs{};
   std::vector<double> relative_to_mesa{}, rates{};
 };
 
@@ -61,18 +61,18 @@ double mesa_rate(const Scene& scene, unsigned cores) {
 }
 
 // The median of a part over the frames, in ms.
-std::string median_ms(const std::vector<FrameCost>& costs, const auto& part) {
+std::string median_ms(const std::vector<FrameSeconds>& costs, const auto& part) {
   std::vector<double> all;
-  for (const FrameCost& cost : costs) all.push_back(1e3 * std::invoke(part, cost));
+  for (const FrameSeconds& cost : costs) all.push_back(1e3 * std::invoke(part, cost));
   return figure(median(all));
 }
 
 Json row_of(const Path& path, bool with_mesa, bool with_rates) {
   Json row = {to_string(path.key.shader), path.vectors};
-  for (const auto part :
-       {&FrameCost::setup, &FrameCost::golden, &FrameCost::rtl, &FrameCost::compare, &FrameCost::assemble})
+  for (const auto part : {&FrameSeconds::setup, &FrameSeconds::golden, &FrameSeconds::rtl,
+                          &FrameSeconds::compare, &FrameSeconds::assemble})
     row.push_back(median_ms(path.costs, part));
-  row.push_back(median_ms(path.costs, &FrameCost::seconds));
+  row.push_back(median_ms(path.costs, &FrameSeconds::sum));
   row.push_back(with_mesa ? figure(median(path.relative_to_mesa)) : "–");
   row.push_back(with_rates ? figure(median(path.rates)) : "–");
   return row;
@@ -97,7 +97,7 @@ void measure_whole_frames(Json& speed) {
     }
     for (Path& path : paths) {
       path.costs.push_back(path.drawings.front().draw());
-      if (with_mesa) path.relative_to_mesa.push_back(path.costs.back().seconds() / mesa_seconds.back());
+      if (with_mesa) path.relative_to_mesa.push_back(path.costs.back().sum() / mesa_seconds.back());
     }
   }
   for (int repetition = 0; with_rates && repetition < c_rate_repetitions; ++repetition) {

@@ -10,11 +10,11 @@
 #include "common/test/is_error.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -32,15 +32,10 @@ struct Stream {
 Stream stream_of(const char* name, Shader shader, FrameSize frame) {
   const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
   const auto plan = must(plan_scene(scene, {.shader = shader}));
-  const auto setup = make_setup(scene, frame, plan.key, {});
-  Stream all{plan.key, {.bits = setup->init_bits(), .words = {}}, {}, Cuts(plan.key)};
-  SceneStream stream(*setup, plan.key, 2);
-  for (Batch batch; stream.next(batch);) {
-    all.init.words.insert(all.init.words.end(), batch.init_words.begin(), batch.init_words.end());
-    all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
-    all.cuts.add(batch.init_words);
-  }
-  return all;
+  FrameStream stream = must(whole_stream(scene, frame, plan.key));
+  Cuts cuts(plan.key);
+  cuts.add(stream.words);
+  return {plan.key, {stream.init_bits, std::move(stream.words)}, std::move(stream.golden), std::move(cuts)};
 }
 
 // The numbers of the vectors that start a triangle.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verilated shader as a shared library: exported by verilator_harness.cpp, called by verilator_simulator.cpp.
+// The verilated shader as a shared library: exported by verilator_harness.cpp, called by
+// verilator_simulator.cpp.
 #pragma once
 
 #include <cstddef>

@@ -12,7 +12,7 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "scene/turntable.hpp"
-#include "setup/check_counts.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/extras/board/board_picture.hpp"
 #include "sim/extras/board/board_sources.hpp"
 #include "sim/extras/board/spi_packet.hpp"
@@ -31,17 +31,12 @@ constexpr std::size_t c_packets_per_pause = 4, c_longest_pause = 3000;
 
 /// The vectors of a frame, one by one.
 std::vector<std::vector<std::uint32_t>> vectors_of(const Scene& scene, const SetupOptions& options) {
-  const std::unique_ptr<Setup> setup = make_setup(scene, c_board_frame, board_key(), options);
-  std::vector<std::uint32_t> words;
-  SetupCounts counts;
-  setup->append_prologue(words, counts);
-  setup->append_all(words, counts);
-  must(check_projection(scene, counts));
-  const std::size_t size = (setup->init_bits() + 31) / 32;
+  const FrameStream stream = must(
+      whole_stream(scene, c_board_frame, board_key(), {.setup = options, .golden = GoldenDraws::nothing}));
+  const auto size = static_cast<std::ptrdiff_t>(stream.vector_words());
   std::vector<std::vector<std::uint32_t>> vectors;
-  for (std::size_t at = 0; at < words.size(); at += size)
-    vectors.emplace_back(words.begin() + static_cast<std::ptrdiff_t>(at),
-                         words.begin() + static_cast<std::ptrdiff_t>(at + size));
+  for (auto at = stream.words.begin(); at != stream.words.end(); at += size)
+    vectors.emplace_back(at, at + size);
   return vectors;
 }
 

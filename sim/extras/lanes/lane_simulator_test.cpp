@@ -10,10 +10,10 @@
 #include "common/test/is_error.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/test/source_folder.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -42,13 +42,10 @@ class ShadersInLanes : public testing::TestWithParam<Case> {
   }
 
   void add(const Scene& scene, FrameSize size) {
-    const std::unique_ptr<halfway::Setup> setup = make_setup(scene, size, key_, {});
-    SceneStream stream(*setup, key_, 1);
-    for (Batch batch; stream.next(batch);) {
-      words_.insert(words_.end(), batch.init_words.begin(), batch.init_words.end());
-      expected_.insert(expected_.end(), batch.golden.begin(), batch.golden.end());
-    }
-    words_per_vector_ = (setup->init_bits() + 31) / 32;
+    const FrameStream stream = must(whole_stream(scene, size, key_));
+    words_.insert(words_.end(), stream.words.begin(), stream.words.end());
+    expected_.insert(expected_.end(), stream.golden.begin(), stream.golden.end());
+    words_per_vector_ = stream.vector_words();
   }
 
   HardwareKey key_;

@@ -12,10 +12,10 @@
 #include "frame/frame.hpp"
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
-#include "setup/check_counts.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "setup/setup.hpp"
 #include "setup/walk_header.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/extras/library/objects.hpp"
 
 namespace halfway::library {
@@ -195,14 +195,10 @@ halfway_vectors* halfway_scene_vectors(const halfway_scene* scene, const halfway
     if (Status status = check_hardware(*hardware, scene->scene); !status) return status.error();
     const Result<SetupOptions> options = setup_options(setup ? *setup : halfway_setup{}, key.preset);
     if (!options) return options.error();
-    const std::unique_ptr<Setup> maker = make_setup(scene->scene, {width, height}, key, *options);
-    halfway_vectors vectors{key, hardware->init_bits, {}};
-    SetupCounts counts;
-    maker->append_prologue(vectors.words, counts);
-    maker->append_all(vectors.words, counts);
-    if (Status status = check_shadow_counts(scene->scene, counts, false); !status) return status.error();
-    if (Status status = check_projection(scene->scene, counts); !status) return status.error();
-    return vectors;
+    Result<FrameStream> stream =
+        whole_stream(scene->scene, {width, height}, key, {.setup = *options, .golden = GoldenDraws::nothing});
+    if (!stream) return stream.error();
+    return halfway_vectors{key, hardware->init_bits, std::move(stream->words)};
   });
 }
 

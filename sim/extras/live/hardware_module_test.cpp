@@ -85,16 +85,12 @@ class HardwareModule : public testing::TestWithParam<Case> {
 
   void open_page(const Scene& scene, const HardwareKey& key) {
     // The vectors of a frame, and what the golden model draws of them.
-    const std::unique_ptr<halfway::Setup> setup = make_setup(scene, {64, 48}, key, {});
-    std::vector<std::uint32_t> words;
-    SetupCounts counts;
-    setup->append_prologue(words, counts);
-    setup->append_all(words, counts);
-    const std::unique_ptr<GoldenModel> golden = make_golden_model(key);
-    golden->draw(words, golden_);
+    const FrameStream frame = must(whole_stream(scene, {64, 48}, key));
+    const std::vector<std::uint32_t>& words = frame.words;
+    golden_ = frame.golden;
     ASSERT_GT(golden_.size(), 500U);
 
-    const live::StreamParts stream = live::parts_of(*golden, words);
+    const live::StreamParts stream = live::parts_of(*make_golden_model(key), words);
     const auto module = must(build_hardware_module(key, c_folders));
     const auto bytes = must(read_file(module));
     const auto page = folder_.path() / "page.html";

@@ -16,11 +16,11 @@
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/cli/command_test.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/extras/live_core/way_lines.hpp"
 #include "sim/files/headless_browser.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "sim/run/why.hpp"
 
 namespace halfway::live {
@@ -99,11 +99,9 @@ class LiveInBrowser : public CommandTest {
   }
   /// The golden model's picture in the program.
   static std::vector<std::uint8_t> golden_of(const Scene& scene, const HardwareKey& key) {
-    const auto setup = make_setup(scene, c_size, key, {});
-    SceneStream stream(*setup, key, 1);
-    FrameAssembler frame(c_size, scene.background);
-    for (Batch batch; stream.next(batch);) EXPECT_TRUE(frame.add(batch.golden));
-    return frame.frame().rgb;
+    FrameDriver driver(scene, c_size, key, {}, {.golden_picture = true});
+    must(driver.draw());
+    return driver.golden_frame().frame().rgb;
   }
   /// A picture of the page: red, green and blue of each pixel.
   Frame picture(const std::string& canvas) {

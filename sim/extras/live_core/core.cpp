@@ -113,7 +113,7 @@ class HardwareModule final : public Engine {
 };
 
 struct Core {
-  LiveFrame frame{[] { return browser_now(); }};
+  LiveFrame frame{[] { return 1e-3 * browser_now(); }};
   std::optional<HardwareModule> hardware;
   std::vector<std::uint8_t> input, pixels;
   std::array<double, c_setting_names.size()> settings{};
@@ -158,11 +158,11 @@ struct Core {
                f.error ? f.error->rms : -1.0,
                f.error ? double(f.error->max_lsb) : -1.0,
                number(f.covered_pixels),
-               f.setup_ms,
-               f.golden_ms,
-               f.hardware_ms,
-               f.compare_ms,
-               f.assemble_ms,
+               1e3 * f.seconds.setup,
+               1e3 * f.seconds.golden,
+               1e3 * f.seconds.rtl,
+               1e3 * f.seconds.compare,
+               1e3 * f.seconds.assemble,
                number(f.setup.unresolved)};
   }
 };

@@ -9,16 +9,13 @@
 #include "golden_run/golden_run.hpp"
 #include "golden_run/walk_counts.hpp"
 #include "projection/project.hpp"
-#include "setup/check_counts.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/driver/limits.hpp"
-#include "sim/driver/stream_comparator.hpp"
 
 namespace halfway::live {
 namespace {
 
 constexpr unsigned c_most_unrolled_lights = 4;  // of shading processors in preset `exact`
-constexpr std::size_t c_batch_bytes = std::size_t{8} << 20;
 
 /// A bright colour for a number; neighbours differ.
 void paint(Fragment& fragment, std::uint32_t number) {
@@ -85,106 +82,52 @@ SetupOptions LiveFrame::setup_options(const Settings& settings) {
   return options;
 }
 
-Status LiveFrame::make_stream(const Settings& settings, const GoldenModel& golden, SetupCounts& counts,
-                              const OnBatch& on_batch) {
-  const SetupOptions options = setup_options(settings);
-  const std::unique_ptr<Setup> setup = make_setup(scene_->scene(), settings.size(), *key_, options);
-  const std::unique_ptr<SetupWorker> worker = setup->worker();
-  std::vector<std::uint32_t> words;
-  setup->append_prologue(words, counts);
-  for (std::uint32_t unit = 0; unit < setup->units();) {
-    std::uint64_t pixels = 0;
-    const auto bytes = [&] { return words.size() * sizeof words[0] + pixels * sizeof(Fragment); };
-    for (; unit < setup->units() && bytes() < c_batch_bytes; ++unit) {
-      const std::size_t before = words.size();
-      worker->append(unit, words, counts);
-      pixels += golden.all_pixels(std::span(words).subspan(before));
-    }
-    if (Status status = on_batch(words, pixels); !status) return status;
-    words.clear();
-  }
-  return Ok{};
+FrameDriver LiveFrame::driver_of(const Settings& settings, std::vector<std::shared_ptr<Engine>> engines,
+                                 GoldenDraws golden) {
+  FrameOptions options{.setup = setup_options(settings), .golden = golden};
+  options.clocks = {.elapsed = now_, .processor = now_};
+  return {scene_->scene(), settings.size(), *key_, std::move(engines), std::move(options)};
 }
 
 Status LiveFrame::draw(const Settings& settings, Engine& engine) {
   if (Status status = check_planned(); !status) return status;
   if (Status status = check(settings); !status) return status;
   if (Status status = scene_->apply(settings); !status) return status;
-  const Scene& scene = scene_->scene();
-  const std::unique_ptr<GoldenModel> golden = make_golden_model(*key_);
-  HardwareFrame hardware(settings.size(), whole_frame(settings.size()), scene.background);
-  StreamComparator comparator;
-  Figures figures;
-  std::optional<WalkCounter> walk;
-  if (has_walk_clocks(*key_)) walk.emplace(*key_);
 
   // Empty the hardware after a frame that ended early.
   if (Status empty = engine.drain(c_most_surplus, [](std::span<const Fragment>) {});
       !empty && empty.error().code != ExitCode::differs)
     return empty;
 
-  // Add the time since the last call to a part of the frame.
-  double last = now_();
-  const auto add_time = [&](double& part) {
-    const double now = now_();
-    part += now - last;
-    last = now;
-  };
-  std::vector<Fragment> drawn;
-  const auto keep = [&](std::span<const Fragment> part) {
-    drawn.insert(drawn.end(), part.begin(), part.end());
-  };
-  // Compare and assemble what the hardware has drawn.
-  const auto take = [&](std::span<const Fragment> expected) {
-    comparator.add(expected, drawn);
-    add_time(figures.compare_ms);
-    hardware.add(drawn);
-    drawn.clear();
-    add_time(figures.assemble_ms);
-  };
-
-  const Status made = make_stream(
-      settings, *golden, figures.setup,
-      [&](std::span<const std::uint32_t> init_words, std::uint64_t pixels) -> Status {
-        add_time(figures.setup_ms);
-        figures.words += init_words.size();
-        hardware.expect(pixels);
-        if (walk) walk->add(init_words);
-        last = now_();
-        if (hardware.alive())
-          if (Status ended = hardware.ended(engine.draw(init_words, hardware.most(), keep)); !ended)
-            return ended;
-        add_time(figures.hardware_ms);
-        const auto expected = golden->draw(init_words);
-        add_time(figures.golden_ms);
-        take(expected);
-        return check_shadow_counts(scene, figures.setup, golden->fault());
-      });
-  if (!made) return made;
-  if (Status status = check_projection(scene, figures.setup); !status) return status;
-  if (hardware.alive())
-    if (Status ended = hardware.ended(engine.drain(hardware.most(), keep)); !ended) return ended;
-  add_time(figures.hardware_ms);
-  take({});
-  comparator.finish();
-
-  figures.fragments = hardware.fragments();
-  figures.mismatches = comparator.mismatches();
-  figures.vectors = figures.words / ((golden->init_bits() + 31) / 32);
-  if (walk) figures.hardware_clocks = walk->counts().clocks();
-  figures.covered_pixels = hardware.assembler().covered_pixels();
-  figures_ = figures;
+  std::optional<WalkCounter> walk;
+  if (has_walk_clocks(*key_)) walk.emplace(*key_);
+  FrameDriver driver = driver_of(settings, {{std::shared_ptr<Engine>(), &engine}}, GoldenDraws::batches);
+  const Status drawn = driver.draw([&](const Batch& batch) -> Status {
+    if (walk) walk->add(batch.init_words);
+    return Ok{};
+  });
+  if (!drawn) return drawn;
+  RtlFrame& rtl = driver.frame();
+  const SimulatorRun run = rtl.result();
+  figures_ = {.fragments = run.fragments,
+              .mismatches = run.mismatches,
+              .vectors = driver.words() / ((driver.init_bits() + 31) / 32),
+              .words = driver.words(),
+              .setup = driver.counts(),
+              .covered_pixels = rtl.assembler().covered_pixels(),
+              .seconds = driver.seconds()};
+  if (walk) figures_.hardware_clocks = walk->counts().clocks();
   // A fragment after the last golden one belongs to the last triangle.
   first_wrong_ = UINT64_MAX;
-  if (!comparator.first().empty() && comparator.golden_count() > 0)
-    first_wrong_ = std::min(comparator.first().front().index, comparator.golden_count() - 1);
-  hardware_ = std::move(hardware);
+  if (!run.first.empty() && driver.fragments() > 0)
+    first_wrong_ = std::min(run.first.front().index, driver.fragments() - 1);
+  hardware_ = rtl.assembler().frame();
   drawn_ = settings;
   reference_.reset();
-  if (figures.mismatches == 0 && hardware_->fault().empty()) return Ok{};
-  std::string message = hardware_->fault();
+  if (run.equal()) return Ok{};
+  std::string message = run.fault;
   if (!message.empty()) message += '\n';
-  if (figures.mismatches != 0) message += comparator.describe("RTL");
+  if (run.mismatches != 0) message += rtl.comparator().describe("RTL");
   return Error{ExitCode::differs, message};
 }
 
@@ -194,7 +137,7 @@ Status LiveFrame::draw_reference() {
   const Scene& scene = scene_->scene();
   const FrameSize size = drawn_->size();
   reference_ = render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size});
-  const auto error = frame_distance(hardware_->assembler().frame(), reference_->frame, reference_->mask);
+  const auto error = frame_distance(*hardware_, reference_->frame, reference_->mask);
   if (!error) return error.error();
   figures_.error = *error;
   return Ok{};
@@ -202,23 +145,21 @@ Status LiveFrame::draw_reference() {
 
 Result<Frame> LiveFrame::picture(Picture kind) {
   if (!drawn_) return bad_input("no frame is drawn");
-  const Frame& hardware = hardware_->assembler().frame();
-  if (kind == Picture::hardware) return hardware;
+  if (kind == Picture::hardware) return *hardware_;
   if (kind == Picture::golden || kind == Picture::split) return draw_golden(kind);
   if (!reference_) return bad_input("the reference is not drawn");
-  return kind == Picture::reference ? reference_->frame : difference_image(hardware, reference_->frame);
+  return kind == Picture::reference ? reference_->frame : difference_image(*hardware_, reference_->frame);
 }
 
 Result<Way> LiveFrame::way(FramePixel pixel, const Observe& observe) {
   if (!drawn_) return bad_input("no frame is drawn");
   if (Status status = scene_->apply(*drawn_); !status) return status.error();
   PixelSearch search(*key_, pixel, first_wrong_);
-  SetupCounts counts;
-  const Status made = make_stream(*drawn_, *make_golden_model(*key_), counts,
-                                  [&](std::span<const std::uint32_t> init_words, std::uint64_t) -> Status {
-                                    search.add(init_words);
-                                    return Ok{};
-                                  });
+  FrameDriver driver = driver_of(*drawn_, {}, GoldenDraws::nothing);
+  const Status made = driver.draw([&](const Batch& batch) -> Status {
+    search.add(batch.init_words);
+    return Ok{};
+  });
   if (!made) return made.error();
   PixelWay way(*key_, pixel);
   way.draw_golden(search.found());
@@ -234,24 +175,20 @@ Result<Frame> LiveFrame::draw_golden(Picture kind) {
   const std::unique_ptr<GoldenModel> golden = make_golden_model(*key_);
   FrameAssembler assembler(drawn_->size(), scene_->scene().background);
   const bool by_line = key_->shader == Shader::processors && key_->processors.shadows;
-  SetupCounts counts;
   std::uint32_t header = 0;
   std::vector<Fragment> painted;
-  const Status made = make_stream(*drawn_, *golden, counts,
-                                  [&](std::span<const std::uint32_t> init_words, std::uint64_t) -> Status {
-                                    if (kind == Picture::golden)
-                                      return assembler.add(golden->draw(init_words));
-                                    // Draw triangle by triangle.
-                                    while (!init_words.empty()) {
-                                      const auto drawn = golden->draw_next(init_words, 1);
-                                      painted.assign(drawn.begin(), drawn.end());
-                                      for (Fragment& fragment : painted)
-                                        paint(fragment, by_line ? fragment.triangle : header);
-                                      ++header;
-                                      if (Status added = assembler.add(painted); !added) return added;
-                                    }
-                                    return Ok{};
-                                  });
+  FrameDriver driver = driver_of(*drawn_, {}, GoldenDraws::nothing);
+  const Status made = driver.draw([&](const Batch& batch) -> Status {
+    if (kind == Picture::golden) return assembler.add(golden->draw(batch.init_words));
+    // Draw triangle by triangle.
+    for (std::span<const std::uint32_t> words = batch.init_words; !words.empty(); ++header) {
+      const auto drawn = golden->draw_next(words, 1);
+      painted.assign(drawn.begin(), drawn.end());
+      for (Fragment& fragment : painted) paint(fragment, by_line ? fragment.triangle : header);
+      if (Status added = assembler.add(painted); !added) return added;
+    }
+    return Ok{};
+  });
   if (!made) return made.error();
   return assembler.frame();
 }

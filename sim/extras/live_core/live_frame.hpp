@@ -19,7 +19,7 @@
 #include "reference/renderer.hpp"
 #include "setup/setup.hpp"
 #include "sim/driver/engine.hpp"
-#include "sim/driver/hardware_frame.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/driver/pixel_way.hpp"
 #include "sim/extras/live_core/live_scene.hpp"
 
@@ -33,7 +33,7 @@ struct Figures {
   SetupCounts setup;
   std::optional<std::uint64_t> hardware_clocks;  ///< WalkCounts::clocks; empty: no model of them
   std::uint64_t covered_pixels = 0;
-  double setup_ms = 0, golden_ms = 0, hardware_ms = 0, compare_ms = 0, assemble_ms = 0;
+  FrameSeconds seconds;
   std::optional<FrameDistance> error;  ///< of the hardware's frame against the reference
 };
 
@@ -70,7 +70,7 @@ Result<HardwareKey> planned_key(const Scene& scene, PlanRequest request);
 
 class LiveFrame {
  public:
-  /// `now` is a clock in milliseconds.
+  /// `now` is a clock in seconds.
   explicit LiveFrame(std::function<double()> now) : now_(std::move(now)) {}
 
   /// Replaces the scene (read_scene). After an error there is none.
@@ -93,15 +93,11 @@ class LiveFrame {
   const Figures& figures() const { return figures_; }
 
  private:
-  /// Gets the init words of whole units, at most about 8 MB of words and fragments, and the number of pixels
-  /// that they cover.
-  using OnBatch = std::function<Status(std::span<const std::uint32_t> init_words, std::uint64_t pixels)>;
-
   Status check_planned() const;
   SetupOptions setup_options(const Settings& settings);
-  /// Makes the whole stream of init vectors. The time between two calls of `on_batch` is that of the set-up.
-  Status make_stream(const Settings& settings, const GoldenModel& golden, SetupCounts& counts,
-                     const OnBatch& on_batch);
+  /// Of a frame of the planned hardware.
+  FrameDriver driver_of(const Settings& settings, std::vector<std::shared_ptr<Engine>> engines,
+                        GoldenDraws golden);
   Result<Frame> draw_golden(Picture kind);
 
   std::function<double()> now_;
@@ -110,7 +106,7 @@ class LiveFrame {
   std::shared_ptr<const Bells> bells_;  ///< of this factor
   double bells_factor_ = 1.0;
   std::optional<Settings> drawn_;  ///< of the last frame
-  std::optional<HardwareFrame> hardware_;
+  std::optional<Frame> hardware_;
   std::optional<ReferenceImage> reference_;
   Figures figures_;
   std::uint64_t first_wrong_ =

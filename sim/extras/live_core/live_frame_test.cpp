@@ -14,6 +14,7 @@
 #include <tuple>
 
 #include "common/test/is_error.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/driver/word_trace.hpp"
 #include "sim/extras/live_core/golden_engine_test.hpp"
 #include "sim/extras/live_core/stream_parts.hpp"
@@ -23,7 +24,6 @@
 #include "sim/os/must.hpp"
 #include "sim/os/test/source_folder.hpp"
 #include "sim/run/open_engine.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway::live {
 namespace {
@@ -57,16 +57,10 @@ struct Drawn {
 Drawn drawn_by_program(const std::string& name, const HardwareKey& key) {
   const auto scene = load_scene(name, c_source_folder / "sim/scenes");
   const FrameSize size = small().size();
-  const auto setup = make_setup(*scene, size, key, {});
-  SceneStream stream(*setup, key, 1);
+  FrameStream stream = must(whole_stream(*scene, size, key));
   FrameAssembler assembler(size, scene->background);
-  Drawn drawn;
-  for (Batch batch; stream.next(batch);) {
-    drawn.words.insert(drawn.words.end(), batch.init_words.begin(), batch.init_words.end());
-    EXPECT_TRUE(assembler.add(batch.golden));
-  }
-  drawn.frame = assembler.frame();
-  return drawn;
+  EXPECT_TRUE(assembler.add(stream.golden));
+  return {std::move(stream.words), assembler.frame()};
 }
 
 LiveFrame loaded_frame(const std::string& scene) {

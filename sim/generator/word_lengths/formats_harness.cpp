@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Entry points of a shared library with setup and golden model of one shader and preset, compiled with other
-// word lengths: see sim/generator/word_lengths/README.md. HALFWAY_SHADER is the shader's number, HALFWAY_PRESET its
-// formats' name.
+// word lengths: see sim/generator/word_lengths/README.md. HALFWAY_SHADER is the shader's number,
+// HALFWAY_PRESET its formats' name.
 #include "golden_run/shader_model.hpp"
 #include "setup/processors_setup.hpp"
 #include "setup/quadratic_setup.hpp"

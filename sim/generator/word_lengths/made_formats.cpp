@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "sim/generator/word_lengths/format_sources.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/folder_lock.hpp"
+#include "sim/os/shared_library.hpp"
 
 namespace halfway {
 namespace {
@@ -29,10 +31,16 @@ constexpr std::array c_flags = {
     "-shared",      "-pthread",      "-fvisibility=hidden", "-fvisibility-inlines-hidden",
     "-w",           "-Wl,-Bsymbolic"};
 
+// The library and its functions (formats_harness.cpp).
+struct MadeFormats {
+  SharedLibrary library;
+  Setup* (*make_setup)(const Scene&, const FrameSize&, const HardwareKey&, const SetupOptions&) = nullptr;
+  GoldenModel* (*make_golden_model)(const HardwareKey&) = nullptr;
+};
+
 }  // namespace
 
-Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& key,
-                                                             const SimulatorFolders& folders) try {
+Result<Models> made_models(const HardwareKey& key, const SimulatorFolders& folders) try {
   const fs::path source = fs::absolute(folders.source);
   const std::string sources = must(format_sources_hash(source));
   if (sources != built_from())
@@ -75,30 +83,16 @@ Result<std::shared_ptr<const MadeFormats>> MadeFormats::open(const HardwareKey& 
       must(run_tool(compile, c_install_compiler, words.name()));
     });
   }
-  std::shared_ptr<MadeFormats> made(new MadeFormats(must(SharedLibrary::load(folder / c_library))));
-  must(made->library_.bind(made->setup_, "halfway_make_setup", made->golden_model_,
-                           "halfway_make_golden_model"));
-  return std::shared_ptr<const MadeFormats>(std::move(made));
+  const auto made = std::make_shared<MadeFormats>(must(SharedLibrary::load(folder / c_library)));
+  must(made->library.bind(made->make_setup, "halfway_make_setup", made->make_golden_model,
+                          "halfway_make_golden_model"));
+  return Models{
+      [made](const Scene& scene, FrameSize size, const HardwareKey& of, const SetupOptions& options) {
+        return std::unique_ptr<Setup>(made->make_setup(scene, size, of, options));
+      },
+      [made](const HardwareKey& of) { return std::unique_ptr<GoldenModel>(made->make_golden_model(of)); }};
 } catch (const Failure& failure) {
   return failure.error;
-}
-
-std::unique_ptr<Setup> MadeFormats::make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
-                                               const SetupOptions& options) const {
-  return std::unique_ptr<Setup>(setup_(scene, frame, key, options));
-}
-
-std::unique_ptr<GoldenModel> MadeFormats::make_golden_model(const HardwareKey& key) const {
-  return std::unique_ptr<GoldenModel>(golden_model_(key));
-}
-
-std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
-                                  const SetupOptions& options, const MadeFormats* formats) {
-  return formats ? formats->make_setup(scene, frame, key, options) : make_setup(scene, frame, key, options);
-}
-
-std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key, const MadeFormats* formats) {
-  return formats ? formats->make_golden_model(key) : make_golden_model(key);
 }
 
 }  // namespace halfway

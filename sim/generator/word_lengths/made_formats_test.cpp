@@ -35,14 +35,14 @@ TEST(MadeFormats, AProgramOlderThanTheCheckoutIsRefused) {
         "model/golden_run/shader_model.hpp", "sim/generator/word_lengths/formats_harness.cpp"}) {
     const auto text = must(read_file(copy / name));
     ASSERT_TRUE(write_file(copy / name, text + "\n"));
-    EXPECT_TRUE(is_error(MadeFormats::open(key, {copy, scratch.path() / "cache"}), ExitCode::bad_input,
-                         "make program"))
+    EXPECT_TRUE(
+        is_error(made_models(key, {copy, scratch.path() / "cache"}), ExitCode::bad_input, "make program"))
         << name;
     ASSERT_TRUE(write_file(copy / name, text));
     EXPECT_EQ(*format_sources_hash(copy), built_from()) << name;
   }
   ASSERT_TRUE(write_file(copy / "model/golden/another.hpp", ""));
-  EXPECT_FALSE(MadeFormats::open(key, {copy, scratch.path() / "cache"}));
+  EXPECT_FALSE(made_models(key, {copy, scratch.path() / "cache"}));
 }
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 #include "plan/plan.hpp"
 #include "sim/cost/synthesis.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/driver/limits.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/subprocess.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -46,23 +46,16 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
   const std::string netlist =
       Synthesizer::open(folders, false)
           .simulated({.name = key.name(), .entity = key.entity(), .generics = key.generics()});
-  auto simulator = VerilatorSimulator::open(
-      key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = netlist});
+  const auto simulator = shared_engine(VerilatorSimulator::open(
+      key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = netlist}));
   ASSERT_TRUE(simulator) << simulator.error().message;
 
-  const auto setup = make_setup(*scene, c_frame, key, {});
-  SceneStream stream(*setup, key, 1);
-  std::vector<Fragment> golden, drawn;
-  for (Batch batch; stream.next(batch);) {
-    golden.insert(golden.end(), batch.golden.begin(), batch.golden.end());
-    const Status ran = simulator->run(batch.init_words, drawn, golden.size() + c_most_surplus);
-    ASSERT_TRUE(ran) << ran.error().message;
-  }
-  const Status ended = simulator->finish(drawn, golden.size() + c_most_surplus);
-  ASSERT_TRUE(ended) << ended.error().message;
-  ASSERT_GT(golden.size(), 20U);
-  ASSERT_EQ(drawn.size(), golden.size());
-  for (std::size_t i = 0; i < golden.size(); ++i) ASSERT_EQ(drawn[i], golden[i]) << "fragment " << i;
+  FrameDriver driver(*scene, c_frame, key, {*simulator});
+  const Status drawn = driver.draw();
+  ASSERT_TRUE(drawn) << drawn.error().message;
+  ASSERT_GT(driver.fragments(), 20U);
+  const Status equal = driver.equal();
+  EXPECT_TRUE(equal) << equal.error().message;
 }
 
 INSTANTIATE_TEST_SUITE_P(Small, MappedFrame,

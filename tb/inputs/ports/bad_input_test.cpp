@@ -17,11 +17,11 @@
 #include "inputs/ports/axi_harness.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/engines/verilator/verilated_library.hpp"
 #include "sim/files/load_scene.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -80,13 +80,11 @@ class BadInput : public testing::TestWithParam<Case> {
     ASSERT_TRUE(scene) << scene.error().message;
     const auto plan = plan_scene(*scene, GetParam().plan);
     ASSERT_TRUE(plan) << plan.error().message;
-    const auto setup = make_setup(*scene, GetParam().size, plan->key, {});
-    beat_words_ = (setup->init_bits() + 31) / 32;
-    SceneStream stream(*setup, plan->key, 1);
-    for (Batch batch; stream.next(batch);) {
-      good_.insert(good_.end(), batch.init_words.begin(), batch.init_words.end());
-      golden_.insert(golden_.end(), batch.golden.begin(), batch.golden.end());
-    }
+    auto stream = whole_stream(*scene, GetParam().size, plan->key);
+    ASSERT_TRUE(stream) << stream.error().message;
+    beat_words_ = stream->vector_words();
+    good_ = std::move(stream->words);
+    golden_ = std::move(stream->golden);
     ASSERT_GT(golden_.size(), 40U);
     auto library = build(plan->key, GetParam().limit_bits);
     ASSERT_TRUE(library) << library.error().message;

@@ -10,12 +10,12 @@
 
 #include "golden_run/golden_run.hpp"
 #include "setup/setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/extras/board/board_picture.hpp"
 #include "sim/extras/board/board_simulator.hpp"
 #include "sim/extras/board/board_sources.hpp"
 #include "sim/extras/board/spi_packet.hpp"
 #include "sim/files/load_scene.hpp"
-#include "sim/run/scene_stream.hpp"
 #include "words/formats.hpp"
 #include "words/word.hpp"
 
@@ -41,8 +41,9 @@ TEST(BoardInput, RandomVectorsEndAndTheNextFrameIsTheTwins) {
   const auto scene = load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", folders.source / "sim/scenes");
   ASSERT_TRUE(scene) << scene.error().message;
   const std::uint16_t background = rgb565(scene->background);
-  const auto setup = make_setup(*scene, c_board_frame, board_key(), {});
-  const unsigned init_bits = setup->init_bits();
+  const auto stream = whole_stream(*scene, c_board_frame, board_key());
+  ASSERT_TRUE(stream) << stream.error().message;
+  const unsigned init_bits = stream->init_bits;
 
   std::mt19937 random(1);
   std::vector<HostAction> script = {whole_packet(end_packet(background))};
@@ -50,14 +51,10 @@ TEST(BoardInput, RandomVectorsEndAndTheNextFrameIsTheTwins) {
     script.push_back(whole_packet(draw_packet(random_vector(random, init_bits), init_bits)));
   script.push_back(whole_packet(end_packet(background)));
   BoardPicture picture(background);
-  SceneStream stream(*setup, board_key(), 1);
-  const std::size_t vector_words = (init_bits + 31) / 32;
-  for (Batch batch; stream.next(batch);) {
-    picture.add(batch.golden);
-    for (std::size_t at = 0; at < batch.init_words.size(); at += vector_words)
-      script.push_back(
-          whole_packet(draw_packet(std::span(batch.init_words).subspan(at, vector_words), init_bits)));
-  }
+  picture.add(stream->golden);
+  for (std::size_t at = 0; at < stream->words.size(); at += stream->vector_words())
+    script.push_back(
+        whole_packet(draw_packet(std::span(stream->words).subspan(at, stream->vector_words()), init_bits)));
   script.push_back(whole_packet(end_packet(background)));
   script.push_back({HostAction::Kind::wait});
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "frame/assemble.hpp"
 #include "frame/metrics.hpp"
 #include "inputs/random/fuzz.hpp"
 #include "plan/plan.hpp"
@@ -15,8 +14,7 @@
 #include "reference/spherical_renderer.hpp"
 #include "scene/camera.hpp"
 #include "scene/check_numbers.hpp"
-#include "setup/check_counts.hpp"
-#include "sim/run/scene_stream.hpp"
+#include "sim/driver/frame_driver.hpp"
 
 namespace halfway::fuzz {
 namespace {
@@ -35,19 +33,12 @@ void draw_by(Shader shader, const Scene& scene, FrameSize size, unsigned choice)
            "a scene that a shader cannot draw is bad input: " + plan.error().message);
     return;
   }
-  const std::unique_ptr<Setup> setup = make_setup(scene, size, plan->key, {});
-  (void)setup->notes();
-  SceneStream stream(*setup, plan->key, 1);
-  FrameAssembler assembler(size, scene.background);
-  for (Batch batch; stream.next(batch);) {
-    if (const Status counts = check_shadow_counts(scene, stream.counts(), stream.fault()); !counts) {
-      demand(counts.error().code == ExitCode::bad_input, counts.error().message);
-      return;
-    }
-    const Status added = assembler.add(batch.golden);
-    demand(bool(added), added ? "" : added.error().message);
+  FrameDriver driver(scene, size, plan->key, {}, {.golden_picture = true});
+  if (const Status drawn = driver.draw(); !drawn) {
+    demand(drawn.error().code == ExitCode::bad_input, drawn.error().message);
+    return;
   }
-  demand(assembler.frame().rgb.size() == 3 * std::size_t{size.width} * size.height,
+  demand(driver.golden_frame().frame().rgb.size() == 3 * std::size_t{size.width} * size.height,
          "a frame of another size");
 }
 

@@ -18,11 +18,12 @@
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/cli/options.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/files/trace.hpp"
 #include "sim/os/file.hpp"
-#include "sim/run/scene_stream.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -107,29 +108,27 @@ Result<Streams> draw(const Scene& scene, const cli::DrawSettings& settings, unsi
                      const std::filesystem::path& folder) {
   const auto plan = plan_scene(scene, settings.plan);
   if (!plan) return plan.error();
-  const std::unique_ptr<Setup> setup = make_setup(scene, settings.size, plan->key, settings.setup);
+  FrameDriver driver(scene, settings.size, plan->key, {},
+                     {.setup = settings.setup, .workers = on_threads(threads)});
   const std::filesystem::path init_path = folder / "init.txt", golden_path = folder / "golden.trace";
-  auto init = InitFileWriter::open(init_path, plan->key.name(), setup->init_bits());
+  auto init = InitFileWriter::open(init_path, plan->key.name(), driver.init_bits());
   if (!init) return init.error();
   auto golden = TraceWriter::open(golden_path, plan->key.name());
   if (!golden) return golden.error();
 
-  Streams streams;
-  SceneStream stream(*setup, plan->key, threads);
-  for (Batch batch; stream.next(batch);) {
+  const Status drawn = driver.draw([&](const Batch& batch) -> Status {
     init->write(batch.init_words);
     golden->write(batch.golden);
-    streams.fragments += batch.golden.size();
-  }
+    return Ok{};
+  });
+  if (!drawn) return drawn.error();
   if (Status status = init->commit(); !status) return status.error();
   if (Status status = golden->commit(); !status) return status.error();
   auto init_hash = hash_of(init_path);
   if (!init_hash) return init_hash.error();
   auto golden_hash = hash_of(golden_path);
   if (!golden_hash) return golden_hash.error();
-  streams.init = *init_hash;
-  streams.golden = *golden_hash;
-  return streams;
+  return Streams{*init_hash, *golden_hash, driver.fragments()};
 }
 
 /// The case's streams. Fails if they depend on the number of threads.

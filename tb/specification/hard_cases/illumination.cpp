@@ -14,6 +14,7 @@
 #include "scene/lights.hpp"
 #include "scene/test/random_scenes.hpp"
 #include "shading/shade.hpp"
+#include "sim/os/must.hpp"
 #include "specification/hard_cases/hard_case.hpp"
 #include "specification/hard_cases/measure.hpp"
 #include "specification/hard_cases/specification.hpp"
@@ -218,10 +219,7 @@ double outside(const std::vector<Fragment>& fragments) {
 // Runs set-up and golden model without the plan's checks. Returns the number of fragments outside of the
 // frame.
 double fragments_outside(const Scene& scene, const HardwareKey& key) {
-  std::vector<Fragment> fragments;
-  SetupCounts counts;
-  make_golden_model(key)->draw(words_of(*make_setup(scene, c_frame, key, {}), counts), fragments);
-  return outside(fragments);
+  return outside(must(whole_stream(scene, c_frame, key, {.check = false})).golden);
 }
 
 // The spherical shader draws the illumination model, or counts what it leaves out. Radiance above white is
@@ -229,7 +227,7 @@ double fragments_outside(const Scene& scene, const HardwareKey& key) {
 void draw_number(Trial& trial, const Scene& scene, const std::string& name) {
   const Drawing drawing = trial.draw(scene, {.plan = c_spherical, .frame = c_frame});
   const ProjectionCounts& c = drawing.counts.projection;
-  if (drawing.fragments.empty()) {
+  if (drawing.golden.empty()) {
     trial.check(c.back_facing + c.behind_near + c.outside + c.degenerate + c.unrepresentable > 0,
                 [&] { return name + ": lost in silence"; });
     return;
@@ -240,7 +238,7 @@ void draw_number(Trial& trial, const Scene& scene, const std::string& name) {
     return;
   }
   const Truth truth(scene, c_frame);
-  for (const Fragment& f : drawing.fragments)
+  for (const Fragment& f : drawing.golden)
     trial.ours(colour_error(f, truth.radiance_at(f.triangle, f.x, f.y)), bound,
                [&] { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); });
 }
@@ -302,13 +300,13 @@ void sizes(Trial& trial) {
     return s;
   };
   const DrawOptions options{.plan = c_spherical, .frame = c_stage_frame};
-  const std::vector<Fragment> one = trial.draw(scene, options).fragments;
+  const std::vector<Fragment> one = trial.draw(scene, options).golden;
   trial.require(one.size() > 500, [] { return "too little is drawn"; });
   for (const int exponent : {-1074, -1000, -520, -320, -100, -30, 30, 100, 320, 520, 1000, 1021}) {
     if (trial.quick() && std::abs(exponent) != 1000 && std::abs(exponent) != 320) continue;
     const Drawing drawing = trial.draw(scaled(exponent), options);
     trial.check(
-        drawing.fragments.empty() ? drawing.counts.projection.unrepresentable == 1 : drawing.fragments == one,
+        drawing.golden.empty() ? drawing.counts.projection.unrepresentable == 1 : drawing.golden == one,
         [&] { return fmt::format("scaled by 2^{}", exponent); });
   }
 }

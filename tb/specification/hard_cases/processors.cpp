@@ -39,7 +39,7 @@ Drawing draw(Trial& trial, const Scene& scene, const Shade& how) {
 void shade(Trial& trial, const Scene& scene, std::string_view name, Shade how = {}) {
   for (const Preset preset : {Preset::exact, Preset::published}) {
     how.preset = preset;
-    measure_shading(trial, preset, scene, how.frame, draw(trial, scene, how).fragments, name);
+    measure_shading(trial, preset, scene, how.frame, draw(trial, scene, how).golden, name);
   }
 }
 

@@ -257,10 +257,10 @@ void between_samples(Trial& trial) {
     split += ours.counts.subdivided;
     unresolved += ours.counts.unresolved > 0;
     if (ours.counts.unresolved == 0)
-      for (const Fragment& f : ours.fragments)
+      for (const Fragment& f : ours.golden)
         trial.ours(off(f), bound, [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
     options.setup.quadratic.test = HighlightTest::centroid;
-    for (const Fragment& f : trial.draw(patch.scene, options).fragments)
+    for (const Fragment& f : trial.draw(patch.scene, options).golden)
       trial.published(off(f), bound, [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
   }
   trial.require(split > 10, [] { return std::string("nothing is split"); });

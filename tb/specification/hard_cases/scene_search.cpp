@@ -98,15 +98,15 @@ class SceneSearch final : public Search {
     ++tally.inputs;
     const Result<Drawing> drawing = draw_golden(scene, {.plan = plan, .frame = frame});
     if (!drawing) return "plan: " + drawing.error().message;
-    tally.fragments += drawing->fragments.size();
+    tally.fragments += drawing->golden.size();
     if (drawing->fault) return "a counter of shadow volumes exceeded its format";
     // The spans of preset published's spherical shader cover by other rules.
     if (shader_ == Shader::spherical && published) return "";
     const Pieces pieces(scene, frame);
     Worst coverage, colour;
     coverage.add(
-        static_cast<double>(Cover(pieces, frame).wrong(drawing->fragments, drawing->key.processors.shadows)),
-        0, [] { return "pixels"; });
+        static_cast<double>(Cover(pieces, frame).wrong(drawing->golden, drawing->key.processors.shadows)), 0,
+        [] { return "pixels"; });
     const std::string wrong = tally.add("coverage", coverage);
     if (published || !wrong.empty()) return wrong;
     if (shader_ == Shader::processors)
@@ -143,7 +143,7 @@ class SceneSearch final : public Search {
     const std::size_t lights = bound.lights().size();
     if (drawing.key.processors.shadows && lights > 6) return;  // too many sets
     const std::uint32_t all = drawing.key.processors.shadows ? (1U << lights) - 1 : 0;
-    for (const Fragment& f : drawing.fragments) {
+    for (const Fragment& f : drawing.golden) {
       const ScreenTriangle* piece = pieces.covering(f);
       Worst best;
       for (std::uint32_t dark = 0; dark <= all && !(best.count > 0 && best.within()); ++dark) {
@@ -161,7 +161,7 @@ class SceneSearch final : public Search {
   static void against_promise(const Scene& scene, FrameSize frame, const Drawing& drawing, Worst& worst) {
     const double bound = promised_steps(scene, drawing.key, SphericalSetupOptions{}.threshold);
     const Truth truth(scene, frame);
-    for (const Fragment& f : drawing.fragments)
+    for (const Fragment& f : drawing.golden)
       worst.add(static_cast<double>(colour_error(f, truth.radiance_at(f.triangle, f.x, f.y))), bound,
                 [&] { return where(f); });
   }

@@ -264,7 +264,7 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_
                                  .setup = {.processors = {.subpixel_bits = subpixel_bits}}});
   trial.require(!drawing.fault, [&] { return fmt::format("{}: fault", name); });
   const Pieces pieces(scene, frame, subpixel_bits);
-  const std::vector<Seen> seen = look(trial, scene, frame, subpixel_bits, drawing.fragments, pieces);
+  const std::vector<Seen> seen = look(trial, scene, frame, subpixel_bits, drawing.golden, pieces);
   sum.words += drawing.words.size();
   for (const Seen& pixel : seen)
     sum.shown.push_back(pixel.piece == nullptr ? -1 : std::int64_t{pixel.piece->source});
@@ -281,7 +281,7 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_
   measure(Preset::exact, seen, sum);
   if (!with_published) return;
   Sum published;
-  measure(Preset::published, counted_as_published(scene, frame, seen, drawing.fragments), published);
+  measure(Preset::published, counted_as_published(scene, frame, seen, drawing.golden), published);
 }
 
 // A vertex on the screen has an error of up to 1/32 pixel, so an edge moves over at most 1/16 of its pixels.
@@ -457,7 +457,7 @@ void nested_volumes(Trial& trial) {
     if (drawing.fault) continue;
     const Pieces pieces(scene, frame);
     const Rays rays(scene);
-    for (const Fragment& f : drawing.fragments) {
+    for (const Fragment& f : drawing.golden) {
       const ScreenTriangle* piece = pieces.covering(f);
       if (piece == nullptr) continue;
       const bool lit = rays.reaches(0, surface(*piece, 4, f.x, f.y).position_world, f.triangle);

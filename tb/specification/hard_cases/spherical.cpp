@@ -295,8 +295,8 @@ void over_exposure(Trial& trial) {
       const bool clamped = preset == Preset::published || intensity > 10.0;
       trial.require((drawing.counts.overexposed > 0) == clamped,
                     [&] { return name + ": the count of clamped factors is wrong"; });
-      trial.require(drawing.fragments.size() > 300, [&] { return name + ": is not drawn"; });
-      for (const Fragment& f : drawing.fragments) {
+      trial.require(drawing.golden.size() > 300, [&] { return name + ": is not drawn"; });
+      for (const Fragment& f : drawing.golden) {
         const auto where = [&] { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); };
         trial.require(f.green < 255, [&] { return where() + ": the green is white too"; });
         if (glm::dot(truth.normal_at(0, f.x, f.y), LongVec(scene.directional[0].to_light_world)) <

@@ -36,14 +36,14 @@ Shown show(Trial& trial, const Scene& scene, const std::string& name, const Show
   DrawOptions draw{.plan = {.shader = Shader::spherical, .all_effects = true, .lights = 3},
                    .frame = options.frame};
   const Drawing exact = trial.draw(scene, draw);
-  trial.require(!exact.fragments.empty(), [&] { return name + ": nothing is drawn"; });
+  trial.require(!exact.golden.empty(), [&] { return name + ": nothing is drawn"; });
   const double bound = promised_steps(scene, exact.key, draw.setup.spherical.threshold);
   const Truth truth(scene, options.frame);
 
-  Shown shown{.fragments = exact.fragments.size(), .counts = exact.counts};
+  Shown shown{.fragments = exact.golden.size(), .counts = exact.counts};
   std::map<std::tuple<std::uint32_t, int, int>, LongVec> there;
   const auto where = [&](const Fragment& f) { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); };
-  for (const Fragment& f : exact.fragments) {
+  for (const Fragment& f : exact.golden) {
     const LongVec radiance = there[{f.triangle, f.x, f.y}] = truth.radiance_at(f.triangle, f.x, f.y);
     trial.ours(colour_error(f, radiance), bound, [&] { return where(f); });
     shown.brightest = std::max(shown.brightest, int{f.red});
@@ -53,13 +53,13 @@ Shown show(Trial& trial, const Scene& scene, const std::string& name, const Show
 
   draw.setup.spherical.ends = SpanEnds::slerped_along_edges;
   const Drawing slerped = trial.draw(scene, draw);
-  trial.require(slerped.fragments.size() == exact.fragments.size(),
+  trial.require(slerped.golden.size() == exact.golden.size(),
                 [&] { return name + ": ends by slerp cover other pixels"; });
 
   draw.plan.preset = Preset::published;
   draw.plan.tables = options.published_tables;
   const Drawing published = trial.draw(scene, draw);
-  for (const Fragment& f : published.fragments) {
+  for (const Fragment& f : published.golden) {
     trial.require(f.x < options.frame.width && f.y < options.frame.height,
                   [&] { return where(f) + ": preset published draws outside the frame"; });
     shown.published_brightest = std::max(shown.published_brightest, int{f.red});

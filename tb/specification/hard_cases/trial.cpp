@@ -64,26 +64,12 @@ std::string refutation(bool is_silent, const Worst& ours, const Worst& published
   return published.within() ? "the published form does not break: " + told(published) : "";
 }
 
-std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts) {
-  std::vector<std::uint32_t> words;
-  setup.append_prologue(words, counts);
-  setup.append_all(words, counts);
-  return words;
-}
-
 Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options) {
   const auto plan = plan_scene(scene, options.plan);
   if (!plan) return plan.error();
-  Drawing drawing;
-  drawing.key = plan->key;
-  const auto setup = make_setup(scene, options.frame, drawing.key, options.setup);
-  drawing.init_bits = setup->init_bits();
-  drawing.words = words_of(*setup, drawing.counts);
-  drawing.notes = setup->notes();
-  const auto golden = make_golden_model(drawing.key);
-  golden->draw(drawing.words, drawing.fragments);
-  drawing.fault = golden->fault();
-  return drawing;
+  auto stream = whole_stream(scene, options.frame, plan->key, {.setup = options.setup, .check = false});
+  if (!stream) return stream.error();
+  return Drawing{std::move(*stream), plan->key};
 }
 
 Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
@@ -92,7 +78,7 @@ Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
     require(false, [&] { return drawing.error().message; });
     return {};
   }
-  compare_rtl(drawing->key, drawing->init_bits, drawing->words, drawing->fragments, drawing->fault);
+  compare_rtl(drawing->key, drawing->init_bits, drawing->words, drawing->golden, drawing->fault);
   return std::move(*drawing);
 }
 

@@ -12,11 +12,9 @@
 #include <vector>
 
 #include "common/result.hpp"
-#include "frame/fragment.hpp"
-#include "frame/frame_size.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
-#include "setup/setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
 
@@ -44,18 +42,9 @@ struct DrawOptions {
   SetupOptions setup{};
 };
 
-/// All words that the setup sends to the hardware for one frame.
-std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts);
-
 /// A scene's stream and the golden model's fragments for it.
-struct Drawing {
+struct Drawing : FrameStream {
   HardwareKey key{};
-  unsigned init_bits = 0;
-  std::vector<std::uint32_t> words{};  ///< prologue and units
-  std::vector<Fragment> fragments{};
-  SetupCounts counts{};
-  std::vector<std::string> notes{};
-  bool fault = false;
 };
 
 /// Runs plan, setup and golden model on the scene.

@@ -29,8 +29,8 @@
 #include "setup/setup.hpp"
 #include "shading/shade.hpp"
 #include "shading/test/random_solids.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -115,11 +115,10 @@ Findings compare_fragments(const Scene& scene, FrameSize size, const Oracle& ora
   EXPECT_TRUE(plan) << plan.error().message;
   Findings found;
   if (!plan) return found;
-  const auto setup = make_setup(scene, size, plan->key, {});
-  SceneStream stream(*setup, plan->key, 1);
-  std::vector<Fragment> fragments;
-  for (Batch batch; stream.next(batch);)
-    fragments.insert(fragments.end(), batch.golden.begin(), batch.golden.end());
+  const auto stream = whole_stream(scene, size, plan->key);
+  EXPECT_TRUE(stream) << stream.error().message;
+  if (!stream) return found;
+  std::vector<Fragment> fragments = stream->golden;
   std::ranges::sort(fragments, {}, [](const Fragment& f) { return std::tuple(f.triangle, f.y, f.x); });
 
   auto fragment = fragments.begin();

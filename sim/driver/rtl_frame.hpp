@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame drawn by an engine. Its fragments are compared with the golden model's and assembled to a picture.
+// A frame drawn by an engine. Its fragments are counted, limited, compared with the golden model's and
+// assembled to a picture.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
@@ -11,15 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "common/host.hpp"
 #include "common/result.hpp"
+#include "frame/assemble.hpp"
 #include "golden_run/golden_run.hpp"
-#include "scene/scene.hpp"
 #include "sim/driver/engine.hpp"
-#include "sim/driver/hardware_frame.hpp"
 #include "sim/driver/stream_comparator.hpp"
-#include "sim/files/trace.hpp"
-#include "sim/os/seconds.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 
@@ -34,9 +32,12 @@ struct SimulatorRun {
   std::string fault;              ///< of the hardware, as reported by the simulator; empty: none
   std::string description;        ///< the first mismatches and their counts; empty: none
   std::vector<Mismatch> first;
-  std::vector<std::filesystem::path> evidence;  ///< difference image, waveform
+  std::vector<std::string> evidence;  ///< files: difference image, waveform
   bool equal() const { return mismatches == 0 && fault.empty(); }
 };
+
+/// Gives the next golden fragments of a stored stream, at most `most`; none at its end.
+using GoldenSource = std::function<Result<std::span<const Fragment>>(std::size_t most)>;
 
 struct RtlFrameOptions {
   std::optional<Tile> tile{};  ///< the part of the frame to store; std::nullopt: all of it
@@ -45,10 +46,17 @@ struct RtlFrameOptions {
   std::shared_ptr<GoldenModel> golden{};
   /// False: the golden model, which must not be null, only counts the expected fragments.
   bool compare = true;
-  /// For an engine that draws late: golden fragments are read from this trace instead of being stored. It
-  /// must be complete when finish() is called. Empty: they are stored.
-  std::filesystem::path golden_trace{};
+  /// For an engine that draws late: golden fragments come from here, while it draws, instead of being stored.
+  GoldenSource late_golden{};
   Engine::OnDrawn on_drawn{};  ///< also called with the engine's fragments
+  Clocks clocks{};
+};
+
+/// Processor seconds of a frame's parts.
+struct FrameSeconds {
+  double setup = 0.0, golden = 0.0, rtl = 0.0, compare = 0.0, assemble = 0.0;
+  FrameSeconds& operator+=(const FrameSeconds& other);
+  double sum() const { return setup + golden + rtl + compare + assemble; }
 };
 
 class RtlFrame {
@@ -64,25 +72,28 @@ class RtlFrame {
   Status add(std::span<const std::uint32_t> init_words, std::span<const Fragment> golden = {});
   /// Ends the frame.
   Status finish();
-  /// Draws a scene's complete stream. Returns bad input if the scene cannot be drawn.
-  Status draw(const Scene& scene, SceneStream& stream);
   /// Call it after finish().
   SimulatorRun result();
 
   const Engine& engine() const { return *engine_; }
   /// False after a fault: later fragments are invalid.
-  bool alive() const { return frame_.alive(); }
-  const FrameAssembler& assembler() const { return frame_.assembler(); }
+  bool alive() const { return alive_; }
+  /// A fault of the frame's own golden model.
+  bool golden_fault() const { return o_.golden && o_.golden->fault(); }
+  const FrameAssembler& assembler() const { return assembler_; }
+  const StreamComparator& comparator() const { return comparator_; }
 
-  /// Processor seconds of this thread.
-  struct Seconds {
-    double rtl, golden, compare, assemble;
-  };
-  Seconds seconds() const;
+  FrameSeconds seconds() const;  ///< of its calls
 
  private:
+  template <class Work>
+  Status timed(const Work& work);
+  /// Upper limit of further fragments: the expected ones and a surplus. More means that the hardware runs
+  /// away.
+  std::uint64_t most() const;
   Status ended(const Status& drawn);
   void take(std::span<const Fragment> drawn);
+  void assemble(std::span<const Fragment> drawn);
   /// Compares fragments with the next golden ones: `golden_count` of them, or all that remain. Returns the
   /// number of golden fragments.
   std::size_t compare(std::span<const Fragment> drawn, std::size_t golden_count);
@@ -92,15 +103,19 @@ class RtlFrame {
   std::shared_ptr<Engine> engine_;
   RtlFrameOptions o_;
   StreamComparator comparator_;
-  HardwareFrame frame_;
+  FrameAssembler assembler_;
+  std::uint64_t expected_ = 0, fragments_ = 0;
+  std::string fault_;
+  bool alive_ = true;
   std::span<const std::uint32_t> words_;  ///< of this call, not yet drawn by the golden model
   std::span<const Fragment> given_;       ///< of this call, not yet compared
-  std::optional<TraceReader> trace_;
-  std::vector<Fragment> read_;
-  std::uint64_t golden_count_ = 0;  ///< golden fragments compared so far
-  Stretch stretch_;
-  double golden_clock_ = 0.0, compare_clock_ = 0.0, assemble_clock_ = 0.0;  ///< elapsed seconds of its pieces
-  std::optional<Error> error_;                                              ///< when reading the golden trace
+  std::uint64_t golden_count_ = 0;        ///< golden fragments compared so far
+  bool finishing_ = false;
+  /// Seconds of all calls. Reading the processor clock takes almost a microsecond, so pieces of a call are
+  /// measured in elapsed time, and each is assigned the same share of the processor time.
+  double processor_ = 0.0, elapsed_ = 0.0;
+  double golden_elapsed_ = 0.0, compare_elapsed_ = 0.0, assemble_elapsed_ = 0.0;
+  std::optional<Error> error_;  ///< of the golden source
 };
 
 }  // namespace halfway

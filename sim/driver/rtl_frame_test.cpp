@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests a frame of any engine: what is compared, stored and reported, for all fragments and moments.
-#include "sim/run/rtl_frame.hpp"
+#include "sim/driver/rtl_frame.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
+#include "sim/files/trace.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
@@ -133,7 +135,7 @@ TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
   const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
   const auto trace = scratch.path() / "golden.trace";
   const auto finish = [&](std::shared_ptr<StandIn> engine) {
-    RtlFrame frame(std::move(engine), {3, 1}, {}, {.golden_trace = trace});
+    RtlFrame frame(std::move(engine), {3, 1}, {}, {.late_golden = stored_fragments(trace)});
     // These fragments are only counted.
     EXPECT_TRUE(frame.add({}, std::vector<Fragment>(3, fragment(2, 99))));
     const Status ended = frame.finish();
@@ -161,14 +163,8 @@ constexpr FrameSize c_rtl_size{48, 36};
 Vectors vectors_of(Shader shader) {
   const auto scene = load_scene("matte", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
   const auto plan = plan_scene(*scene, {.shader = shader});
-  const auto setup = make_setup(*scene, c_rtl_size, plan->key, {});
-  Vectors all{plan->key, {}, {}};
-  SceneStream stream(*setup, all.key, 1);
-  for (Batch batch; stream.next(batch);) {
-    all.words.insert(all.words.end(), batch.init_words.begin(), batch.init_words.end());
-    all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
-  }
-  return all;
+  FrameStream stream = must(whole_stream(*scene, c_rtl_size, plan->key));
+  return {plan->key, std::move(stream.words), std::move(stream.golden)};
 }
 
 // With a golden model of its own, the frame stores the golden fragments of one triangle at most.

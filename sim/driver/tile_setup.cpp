@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/run/tile_setup.hpp"
+#include "sim/driver/tile_setup.hpp"
 
 #include <algorithm>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tiles drawn separately equal the whole frame bit for bit: depth, colour, order of fragments, and the host's
 // counts.
-#include "sim/run/tile_setup.hpp"
+#include "sim/driver/tile_setup.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 #include "frame/assemble.hpp"
 #include "plan/plan.hpp"
 #include "shading/test/random_solids.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/test/source_folder.hpp"
-#include "sim/run/scene_stream.hpp"
 
 namespace halfway {
 namespace {
@@ -39,18 +39,15 @@ struct Drawn {
   SetupCounts counts;
   std::size_t vectors = 0;  // number of words
 
-  Drawn(const Setup& setup, const HardwareKey& key, FrameSize frame, const Tile& tile)
-      : assembler(frame, tile, glm::dvec3(0.25)) {
-    SceneStream stream(setup, key, 1, {.ahead = false});
-    for (Batch batch; stream.next(batch);) {
-      const Status added = assembler.add(batch.golden);
-      EXPECT_TRUE(added) << added.error().message;
-      vectors += batch.init_words.size();
-      std::ranges::copy_if(batch.golden, std::back_inserter(inside),
-                           [&](const Fragment& f) { return tile.holds(f.x, f.y); });
-    }
-    EXPECT_FALSE(stream.fault());
-    counts = stream.counts();
+  Drawn(const Scene& scene, const HardwareKey& key, FrameSize frame, const std::optional<Tile>& part = {})
+      : assembler(frame, part.value_or(whole_frame(frame)), glm::dvec3(0.25)) {
+    const FrameStream stream = must(whole_stream(scene, frame, key, {.tile = part}));
+    const Status added = assembler.add(stream.golden);
+    EXPECT_TRUE(added) << added.error().message;
+    vectors = stream.words.size();
+    std::ranges::copy_if(stream.golden, std::back_inserter(inside),
+                         [&](const Fragment& f) { return !part || part->holds(f.x, f.y); });
+    counts = stream.counts;
   }
 };
 
@@ -65,14 +62,12 @@ std::vector<std::uint64_t> numbers(const SetupCounts& c) {
 std::size_t expect_tiles_are_the_frame(const Scene& scene, const HardwareKey& key, FrameSize frame,
                                        FrameSize size) {
   SCOPED_TRACE(scene.name + " by " + key.name() + " in tiles of " + to_string(size));
-  const auto setup = make_setup(scene, frame, key, {});
-  const Drawn whole(*setup, key, frame, whole_frame(frame));
+  const Drawn whole(scene, key, frame);
   EXPECT_EQ(whole.inside.size(), whole.assembler.fragments());
   SetupCounts counts;
   std::size_t inside = 0;
   for (const Tile& tile : tiles_of(frame, size)) {
-    const TileSetup part(*setup, make_golden_model(key), tile);
-    const Drawn drawn(part, key, frame, tile);
+    const Drawn drawn(scene, key, frame, tile);
     // The same fragments in the same order.
     std::vector<Fragment> wanted;
     std::ranges::copy_if(whole.inside, std::back_inserter(wanted),
@@ -134,12 +129,10 @@ TEST(TileSetup, ATriangleIsInEachTileThatItTouches) {
   scene.camera = {.eye_world = {0.0, 0.0, 4.0}, .target_world = {0.0, 0.0, 0.0}};
   for (const Shader shader : c_shaders) {
     const HardwareKey key = key_of(scene, shader, Preset::exact);
-    const auto setup = make_setup(scene, c_tile_frame, key, {});
-    const Drawn whole(*setup, key, c_tile_frame, whole_frame(c_tile_frame));
+    const Drawn whole(scene, key, c_tile_frame);
     std::size_t middle = 0, empty = 0;
     for (const Tile& tile : tiles_of(c_tile_frame, {16, 16})) {
-      const TileSetup part(*setup, make_golden_model(key), tile);
-      const Drawn drawn(part, key, c_tile_frame, tile);
+      const Drawn drawn(scene, key, c_tile_frame, tile);
       if (drawn.inside.empty()) {
         ++empty;
         EXPECT_EQ(drawn.assembler.fragments(), 0U);

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stream is setup's prologue and units, independent of how they are drawn: by one golden model that has
+// all of it, or by several that have the prologue and a share of the units.
+#include "sim/driver/frame_driver.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "golden_run/golden_run.hpp"
+#include "plan/plan.hpp"
+#include "shading/test/random_solids.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/threads.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_stream_frame{160, 120};
+
+HardwareKey key_of(const Scene& scene, Shader shader) {
+  return must(plan_scene(scene, {.shader = shader})).key;
+}
+
+TEST(FrameDriver, IsPrologueAndUnitsForAnyNumberOfThreads) {
+  for (const char* name : {"shadows", "lights"})
+    for (const Shader shader : c_shaders) {
+      const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+      const HardwareKey key = key_of(scene, shader);
+      const auto setup = make_setup(scene, c_stream_frame, key, {});
+      SCOPED_TRACE(key.name());
+      EXPECT_EQ(setup->units_are_lines(), key.processors.shadows);
+      std::vector<std::uint32_t> words;
+      SetupCounts counts;
+      setup->append_prologue(words, counts);
+      EXPECT_EQ(!words.empty(), shader == Shader::processors);
+      setup->append_all(words, counts);
+      const auto golden = make_golden_model(key);
+      std::vector<Fragment> fragments;
+      golden->draw(words, fragments);
+      ASSERT_GT(fragments.size(), 2'000U);
+
+      for (const unsigned threads : {1U, 3U, 16U}) {
+        Batch all;
+        FrameDriver driver(scene, c_stream_frame, key, {}, {.workers = on_threads(threads)});
+        must(driver.draw([&](const Batch& batch) -> Status {
+          EXPECT_GT(batch.done, all.done);
+          all.done = batch.done;
+          all.init_words.insert(all.init_words.end(), batch.init_words.begin(), batch.init_words.end());
+          all.golden.insert(all.golden.end(), batch.golden.begin(), batch.golden.end());
+          return Ok{};
+        }));
+        EXPECT_EQ(all.done, 1.0);
+        EXPECT_EQ(all.init_words, words) << threads;
+        EXPECT_EQ(all.golden, fragments) << threads;
+        EXPECT_EQ(driver.words(), words.size());
+        EXPECT_EQ(driver.fragments(), fragments.size());
+        EXPECT_EQ(driver.counts().vectors, counts.vectors);
+        EXPECT_EQ(driver.counts().shadows, counts.shadows);
+        EXPECT_EQ(driver.counts().projection.visible, counts.projection.visible);
+      }
+      const FrameStream without = must(whole_stream(
+          scene, c_stream_frame, key, {.golden = GoldenDraws::nothing, .workers = on_threads(2)}));
+      EXPECT_EQ(without.words, words);
+      EXPECT_TRUE(without.golden.empty());
+    }
+}
+
+/// Draws the golden model's fragments with one of them changed, and counts the calls.
+class GoldenEngine final : public Engine {
+ public:
+  GoldenEngine(const HardwareKey& key, std::uint64_t wrong)
+      : golden_(make_golden_model(key)), wrong_(wrong) {}
+  EngineKind kind() const override { return EngineKind::verilator; }
+  Result<std::shared_ptr<Engine>> another() const override { return tool_failed("not needed"); }
+  Status draw(std::span<const std::uint32_t> init_words, std::uint64_t, const OnDrawn& on_drawn) override {
+    const auto drawn = golden_->draw(init_words);
+    std::vector<Fragment> own(drawn.begin(), drawn.end());
+    if (wrong_ >= drawn_ && wrong_ - drawn_ < own.size()) own[wrong_ - drawn_].red ^= 1;
+    drawn_ += own.size();
+    on_drawn(own);
+    return Ok{};
+  }
+  Status drain(std::uint64_t, const OnDrawn&) override { return Ok{}; }
+  std::optional<std::uint64_t> cycles() const override { return std::nullopt; }
+
+ private:
+  std::unique_ptr<GoldenModel> golden_;
+  std::uint64_t wrong_, drawn_ = 0;
+};
+
+// Wherever the golden model draws, each engine gets the whole stream and is compared with all of it.
+TEST(FrameDriver, ComparesEachEngineWhereverTheGoldenModelDraws) {
+  const auto scene =
+      must(load_scene("spheres", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  for (const Shader shader : c_shaders)
+    for (const GoldenDraws golden : {GoldenDraws::batches, GoldenDraws::beside, GoldenDraws::nothing})
+      for (const unsigned threads : {1U, 3U}) {
+        const HardwareKey key = key_of(scene, shader);
+        const auto right = std::make_shared<GoldenEngine>(key, UINT64_MAX);
+        const auto wrong = std::make_shared<GoldenEngine>(key, 700);
+        std::array<std::uint64_t, 2> drawn{};
+        FrameDriver driver(scene, c_stream_frame, key, {right, wrong},
+                           {.golden = golden,
+                            .golden_picture = golden == GoldenDraws::batches,
+                            .workers = on_threads(threads),
+                            .on_drawn = [&](std::size_t engine, std::span<const Fragment> part) {
+                              drawn[engine] += part.size();
+                            }});
+        must(driver.draw());
+        const SimulatorRun first = driver.frame(0).result(), second = driver.frame(1).result();
+        EXPECT_TRUE(first.equal()) << first.description;
+        EXPECT_GT(first.fragments, 700U);
+        EXPECT_EQ(second.fragments, first.fragments);
+        EXPECT_EQ(drawn, (std::array{first.fragments, first.fragments}));
+        EXPECT_EQ(second.mismatches, golden == GoldenDraws::nothing ? 0U : 1U);
+        EXPECT_EQ(bool(driver.equal()), golden == GoldenDraws::nothing);
+        if (golden != GoldenDraws::batches) continue;
+        EXPECT_EQ(second.first.at(0).index, 700U);
+        EXPECT_EQ(driver.golden_frame().frame().rgb, driver.frame(0).assembler().frame().rgb);
+      }
+}
+
+// An error of the caller or of an engine ends the frame; the next frame starts afresh.
+TEST(FrameDriver, EndsAtTheFirstErrorAndStartsAgain) {
+  const auto scene =
+      must(load_scene("spheres", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  const HardwareKey key = key_of(scene, Shader::quadratic);
+  for (const unsigned threads : {1U, 3U}) {
+    FrameDriver driver(scene, {640, 480}, key, {}, {.workers = on_threads(threads)});
+    int batches = 0;
+    const Status ended = driver.draw([&](const Batch&) -> Status {
+      ++batches;
+      return bad_input("stop");
+    });
+    ASSERT_FALSE(ended);
+    EXPECT_EQ(ended.error().message, "stop");
+    EXPECT_EQ(batches, 1);
+    must(driver.draw());
+    const FrameStream whole = must(whole_stream(scene, {640, 480}, key));
+    EXPECT_EQ(driver.words(), whole.words.size());
+    EXPECT_EQ(driver.fragments(), whole.golden.size());
+  }
+}
+
+std::vector<std::uint32_t> words_of(const Setup& setup, SetupCounts& counts) {
+  std::vector<std::uint32_t> words;
+  setup.append_all(words, counts);
+  return words;
+}
+
+// Many small triangles make large batches. After them, at most one large triangle per thread exceeds the
+// limit of a batch.
+TEST(FrameDriver, LargeTrianglesAfterSmallOnesEndTheirBatch) {
+  constexpr FrameSize c_size{400, 400};
+  constexpr int c_layers = 60;
+  Scene scene;
+  scene.name = "layers";
+  scene.materials = {{.name = "paper"}};
+  scene.directional = {{.to_light_world = {0.0, 0.0, 1.0}}};
+  Mesh mesh;
+  mesh.normals = {{0.0, 0.0, 1.0}};
+  const auto add = [&](glm::dvec3 at, double side) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(),
+                          {at, at + glm::dvec3(side, 0.0, 0.0), at + glm::dvec3(0.0, side, 0.0)});
+    mesh.triangles.push_back({.position = {first, first + 1, first + 2}});
+  };
+  for (int row = 0; row < 30; ++row)
+    for (int column = 0; column < 100; ++column) add({-0.9 + 0.018 * column, -0.9 + 0.018 * row, 1.0}, 0.004);
+  for (int i = 0; i < c_layers; ++i) add({-3.0, -3.0, -0.001 * i}, 12.0);
+  add_mesh(scene, mesh);
+  scene.camera = {.eye_world = {0.0, 0.0, 8.0}, .target_world = {}, .vertical_fov_degrees = 24.0};
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    const HardwareKey key = key_of(scene, shader);
+    const auto setup = make_setup(scene, c_size, key, {});
+    SetupCounts counts;
+    const std::vector<std::uint32_t> words = words_of(*setup, counts);
+    for (const unsigned threads : {1U, 4U}) {
+      FrameDriver driver(scene, c_size, key, {}, {.workers = on_threads(threads)});
+      std::vector<std::uint32_t> streamed;
+      std::size_t largest = 0;  // number of fragments of a batch
+      must(driver.draw([&](const Batch& batch) -> Status {
+        streamed.insert(streamed.end(), batch.init_words.begin(), batch.init_words.end());
+        largest = std::max(largest, batch.golden.size());
+        return Ok{};
+      }));
+      EXPECT_TRUE(streamed == words) << threads;
+      EXPECT_EQ(driver.counts().vectors, counts.vectors) << threads;
+      EXPECT_GT(driver.fragments(), c_layers * c_size.width * c_size.height);
+      EXPECT_LT(largest * sizeof(Fragment), threads * (std::size_t{12} << 20)) << threads;
+    }
+  }
+}
+
+// Sheets one behind another in front of a wall, with the light behind the eye.
+Scene sheets(int count) {
+  Scene scene;
+  scene.name = "sheets";
+  scene.shadows = true;
+  scene.materials = {{.name = "paper"}};
+  for (int i = 0; i <= count; ++i) {
+    const bool wall = i == count;
+    Mesh sheet = make_box(wall ? glm::dvec3(40.0, 40.0, 0.1) : glm::dvec3(0.5, 0.5, 0.001), 1);
+    for (glm::dvec3& p : sheet.positions)
+      p += wall ? glm::dvec3(0.0, 0.0, -8.0) : glm::dvec3(1.0, 0.2, -0.003 * i);
+    add_mesh(scene, sheet);
+  }
+  scene.directional = {{.to_light_world = glm::normalize(glm::dvec3(0.02, 0.01, 1.0))}};
+  scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
+  return scene;
+}
+
+TEST(FrameDriver, TooManyShadowVolumesAreRefused) {
+  for (const int count : {300, 600}) {
+    const Scene scene = sheets(count);
+    const HardwareKey key = key_of(scene, Shader::processors);
+    const FrameStream unchecked = must(whole_stream(scene, {80, 60}, key, {.check = false}));
+    EXPECT_GE(unchecked.counts.deepest_shadow, static_cast<std::uint64_t>(count));
+    EXPECT_EQ(unchecked.fault, count != 300);
+    FrameDriver driver(scene, {80, 60}, key, {}, {.workers = on_threads(2)});
+    const Status status = driver.draw();
+    if (count == 300) {
+      EXPECT_TRUE(status) << status.error().message;
+      continue;
+    }
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().code, ExitCode::bad_input);
+    EXPECT_THAT(status.error().message, ::testing::HasSubstr("count up to 511"));
+  }
+}
+
+// The eye is behind all sheets, so the volumes contain it and are counted from the start.
+TEST(FrameDriver, VolumesAroundTheEyeCount) {
+  Scene scene = sheets(40);
+  scene.camera = {.eye_world = {0.95, 0.18, -3.0},
+                  .target_world = {0.95, 0.18, -8.0},
+                  .vertical_fov_degrees = 0.5,
+                  .far = 9.0};
+  const HardwareKey key = key_of(scene, Shader::processors);
+  EXPECT_EQ(must(whole_stream(scene, {40, 30}, key)).counts.deepest_shadow, 40U);
+}
+
+}  // namespace
+}  // namespace halfway
