@@ -165,7 +165,7 @@ report: program ## write one HTML page: frames, accuracy against time, effects, 
 	@[ -f build/figures/figures.json ] || [ -f docs/results/figures/figures.json ] || $(MAKE) figures
 	@build/halfway report
 
-diagrams: setup ## draw the shaders' block diagrams in rtl/diagrams from their text
+diagrams: configure ## draw the shaders' block diagrams in rtl/diagrams, and docs/folders.svg
 	@scripts/diagrams.sh build/diagrams
 
 gallery: configure ## make evidence PAGE=gallery: draw the pictures and plots of the pages again (THREADS)

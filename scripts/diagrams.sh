@@ -1,11 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# scripts/diagrams.sh FOLDER: draws rtl/diagrams by Graphviz, by way of FOLDER.
+# scripts/diagrams.sh FOLDER: draws rtl/diagrams and the folders of C++ by Graphviz, by way of FOLDER.
 #
 # Graphviz draws arrows over the words of frames and of other arrows: these are drawn last here, with a rim.
 set -eu
 
 mkdir -p "$1"
+# Without the arrows that follow from others.
+tred build/folders.dot | dot -Tsvg >docs/folders.svg
 for text in rtl/diagrams/*.dot; do
   dot -Tsvg "$text" >"$1/drawn.svg"
   awk '

@@ -15,6 +15,7 @@
 #include "sim/driver/stream_comparator.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
 #include "sim/engines/mesa/mesa_picture.hpp"
+#include "sim/extras/lanes/lane_simulator.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/trace.hpp"
 #include "sim/os/must.hpp"
@@ -55,10 +56,14 @@ bool without_avx512(Way way) {
 
 /// RTL in this process, alone, or with the golden model and a comparison of every field on the same thread.
 Go in_process(Way way, const WayInput& input) {
-  const std::shared_ptr<Engine> engine = must(open_engine(
-      in_lanes(way) ? EngineKind::lanes : EngineKind::verilator, input.stream->key, input.folders,
-      {.fast = input.fast, .vectors = without_avx512(way) ? LaneVectors::avx2 : LaneVectors::avx512}));
-  const std::shared_ptr<GoldenModel> golden = make_golden_model(input.stream->key);
+  const HardwareKey& key = input.stream->key;
+  const std::shared_ptr<Engine> engine =
+      in_lanes(way) ? must(shared_engine(LaneSimulator::open(
+                          key, input.folders,
+                          {.fast = input.fast,
+                           .vectors = without_avx512(way) ? LaneVectors::avx2 : LaneVectors::avx512})))
+                    : must(open_engine(EngineKind::verilator, key, input.folders));
+  const std::shared_ptr<GoldenModel> golden = make_golden_model(key);
   return [=, compared = is_compared(way), &s = *input.stream] {
     const auto draw = [&](const Engine::OnDrawn& on_drawn) {
       must(engine->draw(s.words, SIZE_MAX, on_drawn));

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -62,6 +63,27 @@ class CommandTest : public ::testing::Test {
     arguments.insert(arguments.begin(), HALFWAY_PROGRAM);
     return run_as(std::move(arguments), std::move(environment));
   }
+
+  std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
+
+  /// PATH with a replacement for ffmpeg.
+  Environment path_with_ffmpeg(const std::string& script) const {
+    const auto bin = folder_.path() / "bin";
+    put_program(bin / "ffmpeg", "#!/bin/sh\n" + script);
+    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
+  }
+
+  /// A triangle that is seen from behind, except in frame 2 of 4.
+  void write_averted() const {
+    ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    ASSERT_TRUE(
+        write_file(at("averted.toml"),
+                   "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
+                   "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
+                   "material = \"m\"\n"));
+  }
+  /// A replacement for ffmpeg that keeps its arguments and its input.
+  static inline const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
 
   const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };

@@ -16,10 +16,14 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   cli::add_sim(app, folders, exit_code);
   cli::add_view(app, folders, exit_code);
+#ifdef HALFWAY_EXTRAS
   cli::add_live(app, folders, exit_code);
+#endif
   cli::add_compare(app, folders, exit_code);
   cli::add_why(app, folders, exit_code);
+#ifdef HALFWAY_EXTRAS
   cli::add_board_sim(app, folders, exit_code);
+#endif
   cli::add_plan(app, folders, exit_code);
   cli::add_savings(app, folders, exit_code);
   cli::add_study(app, folders, exit_code);

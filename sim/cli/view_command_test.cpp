@@ -36,14 +36,6 @@ class ViewCommand : public CommandTest {
     return run(std::move(arguments), std::move(environment));
   }
 
-  /// PATH with a replacement for ffmpeg.
-  Environment path_with_ffmpeg(const std::string& script) const {
-    const auto bin = folder_.path() / "bin";
-    put_program(bin / "ffmpeg", "#!/bin/sh\n" + script);
-    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
-  }
-
-  std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
   std::string bytes(const std::string& name) const { return must(read_file(at(name))); }
   std::set<std::string> names(const std::string& folder) const {
     std::set<std::string> found;
@@ -51,19 +43,8 @@ class ViewCommand : public CommandTest {
       if (entry.path().filename() != ".lock") found.insert(entry.path().filename().string());
     return found;
   }
-  /// A triangle that is seen from behind, except in frame 2 of 4.
-  void write_averted() const {
-    ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    ASSERT_TRUE(
-        write_file(at("averted.toml"),
-                   "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
-                   "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
-                   "material = \"m\"\n"));
-  }
   Frame frame(const std::string& name) const { return must(read_png(at(name))); }
 };
-
-const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
 
 // Equal bit for bit, for each shader and any number of threads. The hardware is not reset between frames.
 TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
@@ -106,15 +87,6 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
     }
     EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0001.png").rgb);
     EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0002.png").rgb);
-
-    for (const std::string threads : {"1", "3"}) {
-      EXPECT_THAT(view({"matte", "--frames", "3", "--shader", shader, "--threads", threads, "--simulator",
-                        "lanes", "--out", "lanes"}),
-                  Ends(0, AllOf(ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches"),
-                                ContainsRegex("golden model [0-9.]+, lanes [0-9.]+, comparison"))));
-      for (const std::string name : {"/frame_0000.png", "/frame_0001.png", "/frame_0002.png"})
-        EXPECT_EQ(frame("lanes" + name).rgb, frame("2" + name).rgb) << shader << name;
-    }
   }
 }
 
@@ -265,59 +237,22 @@ TEST_F(ViewCommand, ReportsTheFrameWhereTheRtlDiffers) {
   replace_in(copy / "rtl/interpolation/part_interpolator.vhd", "sum_of(value, addend",
              "sum_of(value, not addend");
   write_averted();
-  // Lanes let Verilator find the difference.
-  for (const std::string simulator : {"verilator", "lanes"}) {
-    EXPECT_THAT(
-        run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30", "--threads", "3",
-             "--simulator", simulator, "--out", "turn", "--video", "turn.mp4"},
-            path_with_ffmpeg(c_copy)),
-        Ends(1,
-             AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
-                   ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
-                   HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
-                   ContainsRegex("3 frames of 1 triangles.*" + simulator +
-                                 (simulator == "lanes" ? ", verilator in frame 2" : "") +
-                                 ": [1-9][0-9]* mismatches in frame 2 "),
-                   HasSubstr("2 of 3 frames show no triangle"))));
-    EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
-  }
+  EXPECT_THAT(
+      run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30", "--threads", "3",
+           "--simulator", "verilator", "--out", "turn", "--video", "turn.mp4"},
+          path_with_ffmpeg(c_copy)),
+      Ends(1, AllOf(HasSubstr("averted: frame 2: verilator differs from the golden model\n"),
+                    ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, [a-z]+: golden [0-9]+, Verilator"),
+                    HasSubstr("of the scene with eye = [0.3, 0.3, 3] in [camera]"),
+                    ContainsRegex("3 frames of 1 triangles.*verilator: [1-9][0-9]* mismatches in frame 2 "),
+                    HasSubstr("2 of 3 frames show no triangle"))));
+  EXPECT_FALSE(std::filesystem::exists(at("turn.mp4")));
 
   // The golden model is not run, and the output does not mention it.
   EXPECT_THAT(run({"--source", copy, "view", "averted.toml", "--frames", "4", "--size", "40x30",
                    "--no-compare", "--out", "turn"}),
               Ends(0, AllOf(HasSubstr("verilator: not compared with the golden model"),
                             Not(HasSubstr("mismatches")), Not(HasSubstr("golden model 0")))));
-}
-
-// Lanes that stop in the middle of frame 0's triangles. Verilator draws the frame without a fault.
-TEST_F(ViewCommand, AFaultOfTheLanesIsAnError) {
-  const std::filesystem::path copy = copy_checkout();
-  replace_in(copy / "sim/extras/lanes/lane_runner.hpp", "      const std::uint32_t moved = block();\n",
-             "      const std::uint32_t moved = block();\n      static bool broken = false;\n"
-             "      if (!broken) {\n        broken = true;\n        return halfway_hang;\n      }\n");
-  for (const bool compare : {true, false}) {
-    std::vector<std::string> arguments = {"--source",  copy,       "view",  "matte",       "--size",
-                                          "320x240",   "--frames", "3",     "--simulator", "lanes",
-                                          "--threads", "1",        "--out", "turn"};
-    if (!compare) arguments.push_back("--no-compare");
-    EXPECT_THAT(run(arguments),
-                Ends(1, ContainsRegex("matte: frame 0: [^\n]* in lanes: hang: [^\n]*; Verilator draws it "
-                                      "without a difference. The lanes are wrong")));
-  }
-}
-
-// Also with `auto`, which selects lanes for this amount of work.
-TEST_F(ViewCommand, VerilatorDrawsIfLanesAreUnavailable) {
-  const std::filesystem::path copy = copy_checkout();
-  ASSERT_TRUE(write_file(copy / "sim/extras/lanes/lane_harness.cpp", "#error spoilt\n"));
-  EXPECT_THAT(run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"}),
-              Ends(3, HasSubstr("spoilt")));
-  write_averted();
-  EXPECT_THAT(run({"--source", copy, "view", "averted.toml", "--size", "2048x2048", "--frames", "64",
-                   "--video", "turn.mp4", "--no-compare"},
-                  path_with_ffmpeg(c_copy)),
-              Ends(0, AllOf(HasSubstr("averted: Verilator draws, for lanes cannot be had: "),
-                            ContainsRegex("fragments \\| verilator: not compared"))));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include "sim/driver/limits.hpp"
 #include "sim/engines/ghdl/ghdl_engine.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
-#include "sim/extras/lanes/lane_simulator.hpp"
 
 namespace halfway {
 
@@ -22,12 +21,7 @@ Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& 
     case EngineKind::lanes:
       break;
   }
-  return shared_engine(LaneSimulator::open(key, folders,
-                                           {.threads = options.threads,
-                                            .idle_limit = c_idle_limit,
-                                            .stall_seed = options.stall_seed,
-                                            .fast = options.fast,
-                                            .vectors = options.vectors}));
+  return open_lanes(key, folders, options);
 }
 
 }  // namespace halfway

@@ -11,15 +11,12 @@
 #include "plan/hardware_key.hpp"
 #include "sim/driver/engine.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/extras/lanes/lane_library.hpp"
 
 namespace halfway {
 
 struct EngineOptions {
   unsigned threads = 1;          ///< for engines that use several
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
-  bool fast = true;              ///< optimize, which takes long to compile
-  LaneVectors vectors = LaneVectors::avx512;
   /// Called by engines that draw late, with the number of bytes of trace written so far.
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};
 };
@@ -28,6 +25,10 @@ struct EngineOptions {
 Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
                                             const SimulatorFolders& folders,
                                             const EngineOptions& options = {});
+
+/// The same for lanes. Defined in sim/extras/lanes; a program without extras returns an error.
+Result<std::shared_ptr<Engine>> open_lanes(const HardwareKey& key, const SimulatorFolders& folders,
+                                           const EngineOptions& options);
 
 /// Pixels of all frames from which on lanes save more than the seconds of their compilation.
 inline constexpr double c_least_lane_pixels = double(1U << 26);

@@ -6,8 +6,8 @@
 
 #include "sim/bench/program/bench.hpp"
 #include "sim/bench/ways.hpp"
+#include "sim/extras/lanes/lane_simulator.hpp"
 #include "sim/os/threads.hpp"
-#include "sim/run/open_engine.hpp"
 
 namespace halfway {
 namespace {
@@ -34,7 +34,7 @@ std::vector<Path> open_paths(const Scene& scene, unsigned cores) {
       Path path{vectors == LaneVectors::avx512 ? "this machine's" : "without AVX-512",
                 must(plan_scene(scene, {.shader = shader})).key};
       fmt::print(stderr, "building {}, {}\n", path.key.name(), path.vectors);
-      const auto engine = must(open_engine(EngineKind::lanes, path.key, c_folders, {.vectors = vectors}));
+      const auto engine = must(shared_engine(LaneSimulator::open(path.key, c_folders, {.vectors = vectors})));
       path.drawings.emplace_back(scene, c_size, path.key, engine);
       while (path.drawings.size() < cores)
         path.drawings.emplace_back(scene, c_size, path.key, must(engine->another()));

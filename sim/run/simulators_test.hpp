@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tests both simulators on a small RTL with the shader's ports: both must give the expected fragments and the
-// same cycles, and detect each fault.
+// A small RTL with the shader's ports, whole or with a fault, in both simulators.
+#pragma once
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,16 +12,14 @@
 #include "common/test/is_error.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
-#include "sim/extras/lanes/lane_simulator.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/trace.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
-namespace {
 
-const char* const c_package = R"(
+inline const char* const c_package = R"(
 package formats_pkg is
   function init_bits(exact : boolean; channels : positive) return positive;
 end package;
@@ -47,7 +46,7 @@ end package body;
 
 // Emits `count` fragments along x for each vector: bits 11..0 count, 43..12 triangle, 55..44 y. The tests
 // replace the marks @...@.
-const char* const c_shader = R"(
+inline const char* const c_shader = R"(
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -129,12 +128,13 @@ begin
 end architecture;
 )";
 
+/// Replacements of the marks.
 struct Parts {
   std::string last = "is_last", fault, valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
   std::string alarm = "'0'", delay = "0";
 };
 
-void replace(std::string& text, const std::string& what, const std::string& with) {
+inline void replace(std::string& text, const std::string& what, const std::string& with) {
   for (std::size_t at; (at = text.find(what)) != std::string::npos;) text.replace(at, what.size(), with);
 }
 
@@ -142,7 +142,7 @@ class Simulators : public testing::Test {
  protected:
   void SetUp() override {
     const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-    for (const char* folder : {"sim/extras/lanes", "sim/engines/verilator", "tb"}) {
+    for (const char* folder : {"sim", "tb"}) {
       std::filesystem::create_directories(folders_.source / folder);
       std::filesystem::copy(root / folder, folders_.source / folder,
                             std::filesystem::copy_options::recursive);
@@ -221,19 +221,6 @@ class Simulators : public testing::Test {
     return trace;
   }
 
-  Result<std::vector<Fragment>> lanes(std::size_t most = 1U << 20, LaneOptions options = {}) {
-    options.fast = false;
-    auto simulator = LaneSimulator::open(key_, folders_, options);
-    if (!simulator) return simulator.error();
-    std::vector<Fragment> fragments;
-    if (auto run = simulator->run(init_.words, fragments, most); !run) return run.error();
-    return fragments;
-  }
-
-  void expect_lanes_fail(const std::string& with) {
-    EXPECT_TRUE(is_error(lanes(1U << 20, {.idle_limit = 500}), ExitCode::differs, with));
-  }
-
   void expect_both_fail(const std::string& with, const std::string& in_verilator) {
     EXPECT_TRUE(
         is_error(ghdl({.max_fragments = 1000, .idle_limit = 500, .stall_seed = 9}), ExitCode::differs, with));
@@ -243,133 +230,10 @@ class Simulators : public testing::Test {
 
   HardwareKey key_;
   const TemporaryFolder scratch_ = must(TemporaryFolder::make(testing::TempDir()));
-  const SimulatorFolders folders_{scratch_.path() / "tree", HALFWAY_CACHE_DIR};
+  const SimulatorFolders folders_{scratch_.path() / "tree",
+                                  std::filesystem::path(HALFWAY_SOURCE_DIR) / "build/cache"};
   InitStream init_;
   std::vector<Fragment> expected_;
 };
 
-TEST_F(Simulators, BothGiveTheExpectedFragmentsAndCycles) {
-  const auto from_ghdl = must(ghdl());
-  EXPECT_EQ(from_ghdl.fragments, expected_);
-  // One cycle for the first vector, then one per fragment. Each of the three vectors without fragments costs
-  // a cycle, because the next vector cannot be accepted together with a last fragment.
-  EXPECT_EQ(from_ghdl.cycles, expected_.size() + 1 + 3);
-  for (const std::size_t piece : {std::size_t{1}, std::size_t{2}, init_.size()}) {
-    const auto from_verilator = must(verilator({}, expected_.size(), piece));
-    EXPECT_EQ(from_verilator.fragments, expected_);
-    EXPECT_EQ(from_verilator.cycles, from_ghdl.cycles);
-  }
-}
-
-TEST_F(Simulators, StallsChangeOnlyTheCyclesAndInBothEqually) {
-  for (const std::uint32_t seed : {1U, 77U}) {
-    const auto from_ghdl = must(ghdl({.stall_seed = seed}));
-    EXPECT_EQ(from_ghdl.fragments, expected_);
-    EXPECT_GT(*from_ghdl.cycles, expected_.size() + expected_.size() / 2);
-    const auto from_verilator = must(verilator({.stall_seed = seed}));
-    EXPECT_EQ(from_verilator.fragments, expected_);
-    EXPECT_EQ(from_verilator.cycles, from_ghdl.cycles);
-  }
-}
-
-TEST_F(Simulators, NoVectorsGiveAnEmptyTrace) {
-  init_.words.clear();
-  const auto from_ghdl = must(ghdl());
-  EXPECT_TRUE(from_ghdl.fragments.empty());
-  EXPECT_EQ(from_ghdl.cycles, 0U);
-  const auto from_verilator = must(verilator());
-  EXPECT_TRUE(from_verilator.fragments.empty());
-  EXPECT_EQ(from_verilator.cycles, 0U);
-}
-
-TEST_F(Simulators, AHangIsSeen) {
-  write_rtl({.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"});
-  expect_both_fail("hang", "hang");
-  expect_lanes_fail("hang");
-}
-
-TEST_F(Simulators, AFaultThatTheHardwareReportsIsDetected) {
-  // The fault comes with the last vector's fragment, and a few cycles later when the pipeline is empty.
-  for (const char* delay : {"0", "4"}) {
-    write_rtl(
-        {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
-    expect_both_fail("shadow counter", "shadow counter");
-    expect_lanes_fail("fault");
-  }
-}
-
-TEST_F(Simulators, APayloadThatChangesIsDetected) {
-  write_rtl({.red = "(7 downto 1 => '0') & fragment_ready"});
-  // The payload changes only with fragment_ready.
-  expect_both_fail("changed while it was not taken", "changed or was withdrawn");
-}
-
-TEST_F(Simulators, AWithdrawnFragmentIsSeen) {
-  write_rtl(
-      {.fault = "if r.left = 7 and fragment_ready = '0' then v.left := r.left - 1; v.valid := '0'; end if;"});
-  expect_both_fail("was withdrawn", "withdrawn");
-}
-
-TEST_F(Simulators, AMetavalueIsSeen) {
-  write_rtl({.red = "\"0000000X\" when r.left = 3 else x\"00\""});
-  expect_both_fail("metavalue in fragment", "");
-}
-
-TEST_F(Simulators, MoreFragmentsThanAllowedAreSeen) {
-  const auto limit = static_cast<std::uint32_t>(expected_.size() - 1);
-  EXPECT_TRUE(is_error(ghdl({.max_fragments = limit}), ExitCode::differs));
-  EXPECT_TRUE(is_error(verilator({}, limit), ExitCode::differs));
-  EXPECT_TRUE(is_error(lanes(limit), ExitCode::differs));
-  EXPECT_TRUE(lanes(limit + 1));
-}
-
-TEST_F(Simulators, LanesGiveTheExpectedFragmentsInOrder) {
-  for (const unsigned threads : {1U, 3U}) {
-    const auto from_lanes = must(lanes(1U << 20, {.threads = threads}));
-    EXPECT_EQ(from_lanes, expected_) << threads;
-  }
-}
-
-TEST_F(Simulators, BrokenRtlIsReportedWithItsLine) {
-  write_rtl({.valid = "nonsense"});
-  for (const auto& result : {ghdl(), verilator()}) {
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, ExitCode::tool_failed);
-    EXPECT_NE(result.error().message.find("rtl/shaders/quadratic_shader.vhd:"), std::string::npos)
-        << result.error().message;
-  }
-}
-
-TEST_F(Simulators, AWrongInitFileIsBadInput) {
-  const auto init_file = scratch_.path() / "init.txt";
-  const auto runner = must(GhdlRunner::open(key_, folders_));
-  ASSERT_TRUE(write_init_file(init_file, "other", {.bits = 80, .words = {1, 2, 3}}));
-  EXPECT_TRUE(is_error(runner.run(init_file, scratch_.path() / "t"), ExitCode::bad_input, "not of 73 bits"));
-  ASSERT_TRUE(write_file(init_file, "halfway-init 1 k 73\n0000000000000000000\n"));
-  EXPECT_EQ(runner.run(init_file, scratch_.path() / "t").error().code, ExitCode::bad_input);
-  ASSERT_TRUE(write_file(init_file, "halfway-init 1 k 73\n000000000000000zzzz\nend 1\n"));
-  EXPECT_EQ(runner.run(init_file, scratch_.path() / "t").error().code, ExitCode::bad_input);
-  EXPECT_EQ(runner.run(scratch_.path() / "none", scratch_.path() / "t").error().code, ExitCode::bad_input);
-}
-
-TEST_F(Simulators, AFullDiskIsReportedAndLeavesNoTrace) {
-  const auto runner = must(GhdlRunner::open(key_, folders_));
-  const auto init_file = scratch_.path() / "init.txt";
-  ASSERT_TRUE(write_init_file(init_file, key_.name(), init_));
-  // Simulate a full disk: the temporary name is a link to /dev/full.
-  const auto trace = scratch_.path() / "full.trace";
-  std::filesystem::create_symlink("/dev/full", trace.string() + ".part-" + std::to_string(::getpid()));
-  EXPECT_TRUE(is_error(runner.run(init_file, trace), ExitCode::tool_failed));
-  EXPECT_FALSE(std::filesystem::exists(trace));
-}
-
-TEST_F(Simulators, WavesOfAWindowAreWritten) {
-  const auto wave_file = scratch_.path() / "waves.fst";
-  const auto run = must(verilator({.wave_file = wave_file, .waves_from = 10, .waves_to = 60}));
-  EXPECT_EQ(run.fragments, expected_);
-  ASSERT_TRUE(std::filesystem::exists(wave_file));
-  EXPECT_GT(std::filesystem::file_size(wave_file), 400U);
-}
-
-}  // namespace
 }  // namespace halfway
