@@ -17,11 +17,10 @@ class CosineRom {
   /// Without a table every sample is zero.
   CosineRom() = default;
   /// Uses one of the tables, which must outlive this object.
-  CosineRom(bool exact, int power, int address_bits, int data_bits,
+  CosineRom(bool exact, int power, const CosineSize& size,
             std::span<const CosineTable> tables = c_cosine_tables) {
     const auto table = std::find_if(tables.begin(), tables.end(), [&](const auto& t) {
-      return t.exact == exact && t.power == power && t.address_bits == address_bits &&
-             t.data_bits == data_bits;
+      return t.exact == exact && t.power == power && t.size == size;
     });
     assert(table != tables.end() && "there is no such table: make tables");
     entries_ = table->entries;

@@ -19,10 +19,9 @@ class DiffuseSlice {
 
   DiffuseSlice() = default;
   /// `channels` 0: without factor and table, only the light's horizon.
-  DiffuseSlice(int channels, int address_bits, int data_bits,
-               std::span<const CosineTable> tables = c_cosine_tables)
-      : channels_(channels), address_bits_(address_bits) {
-    if (channels > 0) rom_ = CosineRom(std::is_same_v<Preset, Exact>, 1, address_bits, data_bits, tables);
+  DiffuseSlice(int channels, const CosineSize& size, std::span<const CosineTable> tables = c_cosine_tables)
+      : channels_(channels), size_(size) {
+    if (channels > 0) rom_ = CosineRom(std::is_same_v<Preset, Exact>, 1, size, tables);
   }
 
   /// `low`: lowest bit of the slice's block in the line record.
@@ -53,9 +52,10 @@ class DiffuseSlice {
   }
 
  private:
-  AngleAddress place() const { return angle_address<Preset>(angle(), address_bits_); }
+  AngleAddress place() const { return angle_address<Preset>(angle(), size_.address_bits); }
 
-  int channels_ = 0, address_bits_ = 1;
+  int channels_ = 0;
+  CosineSize size_;
   CosineRom rom_;
   LineInterpolator<Preset::c_angle_bits> angle_;
   Angle slope_;

@@ -21,12 +21,11 @@ class SpecularSlice {
 
   SpecularSlice() = default;
   /// Bit i of `powers`: the table of cosine to the power 2^i exists.
-  SpecularSlice(int channels, unsigned powers, int address_bits, int data_bits,
+  SpecularSlice(int channels, unsigned powers, const CosineSize& size,
                 std::span<const CosineTable> tables = c_cosine_tables)
-      : channels_(channels), address_bits_(address_bits) {
+      : channels_(channels), size_(size) {
     for (std::size_t i = 0; i < roms_.size(); ++i)
-      if ((powers >> i & 1U) != 0)
-        roms_[i] = CosineRom(std::is_same_v<Preset, Exact>, 1 << i, address_bits, data_bits, tables);
+      if ((powers >> i & 1U) != 0) roms_[i] = CosineRom(std::is_same_v<Preset, Exact>, 1 << i, size, tables);
     // With one table no selection is needed.
     selects_ = std::popcount(powers) != 1;
     if (!selects_) selected_ = roms_[static_cast<std::size_t>(std::countr_zero(powers))];
@@ -66,9 +65,10 @@ class SpecularSlice {
   }
 
  private:
-  AngleAddress place() const { return angle_address<Preset>(angle(), address_bits_); }
+  AngleAddress place() const { return angle_address<Preset>(angle(), size_.address_bits); }
 
-  int channels_ = 0, address_bits_ = 1;
+  int channels_ = 0;
+  CosineSize size_;
   bool selects_ = false;
   std::array<CosineRom, 5> roms_;
   CosineRom selected_;

@@ -21,11 +21,9 @@ class SphericalLight {
     assert(config.diffuse || config.specular);
     assert(config.highlight_channels == 1 || config.highlight_channels == config.channels);
     if (layout_.has_diffuse_part())
-      diffuse_ = DiffuseSlice<Preset>(layout_.diffuse_channels(), config.address_bits, config.data_bits,
-                                      config.tables);
+      diffuse_ = DiffuseSlice<Preset>(layout_.diffuse_channels(), config.size, config.tables);
     if (config.specular)
-      specular_ = SpecularSlice<Preset>(config.highlight_channels, config.powers, config.address_bits,
-                                        config.data_bits, config.tables);
+      specular_ = SpecularSlice<Preset>(config.highlight_channels, config.powers, config.size, config.tables);
   }
 
   /// `light`: number of the light in the line record.

@@ -22,7 +22,7 @@ template <class Preset>
 class SphericalShader {
  public:
   explicit SphericalShader(const SphericalConfig& config)
-      : config_(config), layout_(config), ambient_(config.channels, config.data_bits) {
+      : config_(config), layout_(config), ambient_(config.channels, config.size.data_bits) {
     assert(config.channels == 1 || config.channels == 3);
     assert(config.lights >= 0);
     if (config.diffuse || config.specular)
@@ -106,7 +106,7 @@ class SphericalShader {
   }
 
   Fragment fragment(SpanXWord x) const {
-    ColourSum<Preset> sum(config_.channels, config_.data_bits);
+    ColourSum<Preset> sum(config_.channels, config_.size.data_bits);
     const auto add = [&](const ColourTerms& terms) { sum.add(terms); };
     add(ambient_.terms());
     for (const auto& light : lights_) light.add_terms(add);

@@ -96,8 +96,7 @@ words::SphericalConfig golden_config(const HardwareKey& key) {
                                 .specular = s.specular,
                                 .highlight_channels = static_cast<int>(s.highlight_channels),
                                 .powers = s.powers,
-                                .address_bits = s.tables.address_bits,
-                                .data_bits = s.tables.data_bits};
+                                .size = s.tables};
   if (!s.made_tables.empty()) config.tables = s.made_tables;
   return config;
 }

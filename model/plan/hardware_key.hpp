@@ -33,19 +33,13 @@ inline const char* to_string(Preset preset) {
   return preset == Preset::exact ? "exact" : "published";
 }
 
-/// Address and data bits of the cosine tables.
-struct TableSize {
-  int address_bits = 0, data_bits = 0;
-  friend bool operator==(TableSize, TableSize) = default;
-};
-
 /// Units of the spherical shader.
 struct SphericalUnits {
   unsigned lights = 0;  ///< 0 to 16
   bool diffuse = false, specular = false;
   unsigned highlight_channels = 1;  ///< 1 if all highlights are white: one multiplier for all channels
   unsigned powers = 0;              ///< bit i: a table of cosine to the power 2^i for highlights
-  TableSize tables;
+  words::CosineSize tables;
   /// Empty: the tables built into the program. They must outlive the key and all objects that draw with it.
   std::span<const words::CosineTable> made_tables{};
   /// Exponents of the own tables, of which made_tables then consists; empty: none (plan/own_bells.hpp).

@@ -39,7 +39,7 @@ struct Plan {
 struct PlanRequest {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
-  std::optional<TableSize> tables;  ///< of the spherical shader; empty: the preset's
+  std::optional<words::CosineSize> tables;  ///< of the spherical shader; empty: the preset's
   /// Tables of a size that the program was not built with. The RTL must have them too (rtl_with_tables of
   /// sim/generator).
   std::span<const words::CosineTable> made_tables{};
@@ -55,6 +55,9 @@ struct PlanRequest {
 };
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors
+
+/// Sizes of the cosine tables that are built into the program, the preset's own first.
+std::vector<words::CosineSize> cosine_sizes(Preset preset);
 
 /// Error if the shader cannot draw the scene, or if a number of the scene is outside the range given in
 /// scene.hpp.

@@ -131,7 +131,8 @@ TEST(PlanProcessors, TwoForms) {
     EXPECT_TRUE(
         is_error(plan_scene(with_lights(1), {.shader = shader, .form = ProcessorForm::folded}), "--form"));
   }
-  EXPECT_THAT(refusal(grey_scene(), {.tables = TableSize{6, 6}}), HasSubstr("only the spherical shader"));
+  EXPECT_THAT(refusal(grey_scene(), {.tables = words::CosineSize{6, 6}}),
+              HasSubstr("only the spherical shader"));
 }
 
 TEST(PlanProcessors, OtherKeysDifferInOneEffect) {

@@ -16,24 +16,13 @@ namespace {
 constexpr unsigned c_squared = 2;  // of SphericalUnits::powers: only the table of cosine squared
 constexpr unsigned c_every_power = 31;
 
-std::vector<TableSize> generated_sizes(bool exact) {
-  std::vector<TableSize> sizes;
-  for (const words::CosineTable& table : words::c_cosine_tables)
-    if (const TableSize size{table.address_bits, table.data_bits};
-        table.exact == exact && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
-      sizes.push_back(size);
-  return sizes;
-}
-
-Result<TableSize> table_size(const PlanRequest& request) {
-  const bool exact = request.preset == Preset::exact;
-  const words::CosineSize usual = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
-  if (!request.tables) return TableSize{usual.address_bits, usual.data_bits};
-  const std::vector<TableSize> sizes = generated_sizes(exact);
+Result<words::CosineSize> table_size(const PlanRequest& request) {
+  const std::vector<words::CosineSize> sizes = cosine_sizes(request.preset);
+  if (!request.tables) return sizes.front();
   if (!request.made_tables.empty() || std::find(sizes.begin(), sizes.end(), *request.tables) != sizes.end())
     return *request.tables;
   std::vector<std::string> there;
-  for (const TableSize& size : sizes)
+  for (const words::CosineSize& size : sizes)
     there.push_back(fmt::format("{}/{}", size.address_bits, size.data_bits));
   return bad_input(
       fmt::format("no cosine tables of {} address and {} data bits in preset {}: there are {}; make them "
@@ -198,6 +187,16 @@ class SphericalPlanner {
 };
 
 }  // namespace
+
+std::vector<words::CosineSize> cosine_sizes(Preset preset) {
+  const bool exact = preset == Preset::exact;
+  std::vector<words::CosineSize> sizes = {exact ? words::c_exact_cosine_size
+                                                : words::c_published_cosine_size};
+  for (const words::CosineTable& table : words::c_cosine_tables)
+    if (table.exact == exact && std::find(sizes.begin(), sizes.end(), table.size) == sizes.end())
+      sizes.push_back(table.size);
+  return sizes;
+}
 
 Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
   if (request.form) return bad_input(c_form_of_another);

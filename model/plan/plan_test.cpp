@@ -314,10 +314,10 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
     const bool exact = preset == Preset::exact;
     const words::CosineSize usual = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
     const Plan plan = spherical(with_lights(1), preset);
-    EXPECT_EQ(plan.key.spherical.tables, (TableSize{usual.address_bits, usual.data_bits}));
+    EXPECT_EQ(plan.key.spherical.tables, usual);
     EXPECT_THAT(plan.key.name(), HasSubstr(fmt::format("-rom{}x{}", usual.address_bits, usual.data_bits)));
     for (const words::CosineTable& table : words::c_cosine_tables) {
-      const TableSize size{table.address_bits, table.data_bits};
+      const words::CosineSize size = table.size;
       const auto other =
           plan_scene(with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = size});
       if (table.exact == exact) {
@@ -326,7 +326,7 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
       }
     }
     const auto unknown = plan_scene(
-        with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = TableSize{12, 3}});
+        with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = words::CosineSize{12, 3}});
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ExitCode::bad_input);
     EXPECT_THAT(unknown.error().message,
@@ -337,10 +337,9 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
   }
   // A table size of one preset is not available for the other.
   const words::CosineSize published = words::c_published_cosine_size;
-  EXPECT_FALSE(plan_scene(
-      with_lights(1),
-      {.shader = Shader::spherical, .tables = TableSize{published.address_bits, published.data_bits}}));
-  EXPECT_TRUE(is_error(plan_scene(with_lights(1), {.tables = TableSize{9, 8}}), "only the spherical shader"));
+  EXPECT_FALSE(plan_scene(with_lights(1), {.shader = Shader::spherical, .tables = published}));
+  EXPECT_TRUE(
+      is_error(plan_scene(with_lights(1), {.tables = words::CosineSize{9, 8}}), "only the spherical shader"));
 }
 
 // The counterpart of an effect differs only in the units that the effect needs, whether it adds or removes
@@ -429,7 +428,7 @@ std::vector<HardwareKey> every_key() {
       };
       spherical({.tables = {9, 8}});
       for (const unsigned lights : {1U, 2U, 11U, 16U})
-        for (const TableSize tables : {TableSize{9, 8}, {6, 6}, {8, 9}}) {
+        for (const words::CosineSize tables : {words::CosineSize{9, 8}, {6, 6}, {8, 9}}) {
           spherical({.lights = lights, .diffuse = true, .tables = tables});
           for (const bool diffuse : {false, true})
             for (unsigned highlight_channels = 1; highlight_channels <= channels; highlight_channels += 2)
@@ -489,8 +488,8 @@ TEST(HardwareKey, GenericsMatchTheKey) {
   EXPECT_EQ(config.channels, 3);
   EXPECT_EQ(config.highlight_channels, 1);
   EXPECT_EQ(config.powers, 18U);
-  EXPECT_EQ(config.address_bits, 10);
-  EXPECT_EQ(config.data_bits, 7);
+  EXPECT_EQ(config.size.address_bits, 10);
+  EXPECT_EQ(config.size.data_bits, 7);
   EXPECT_TRUE(config.diffuse && config.specular);
 
   const HardwareKey quadratic{.preset = Preset::published, .channels = 1};

@@ -202,7 +202,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
   const Material& material = scene_->materials[material_index];
   const Bell& bell = bells_[material_index];
   // A table's largest entry is 2^D - 1 and represents 1.
-  const auto entries = static_cast<double>(1 << config_.data_bits);
+  const auto entries = static_cast<double>(1 << config_.size.data_bits);
   const double full = entries / (entries - 1.0);
   const bool diffuse = has_diffuse(material), specular = config_.specular && has_specular(material);
 

@@ -172,7 +172,7 @@ class Specification {
   static constexpr Real c_diffuse_unit = c_exact ? paper::c_pi / 2 : paper::c_pi;
 
   double error_of(int power) const {
-    return tables::table_error(tables::cosine_table(c_exact, power, tables_.address_bits, tables_.data_bits));
+    return tables::table_error(tables::cosine_table(c_exact, power, tables_));
   }
   static Real x(const Arc& arc, const SpanThere& span, int steps) {
     return (span.first + steps * span.step) * arc.sweep - arc.phase;
@@ -196,7 +196,7 @@ class Specification {
   std::vector<LightRef> lights_;
   const Material& material_;
   Real exponent_;
-  TableSize tables_;
+  words::CosineSize tables_;
   Bell bell_;
   Real cosine_error_, bell_error_, fit_error_, bell_slope_ = 0;
 };
@@ -222,16 +222,15 @@ void expect_specification(const Scene& scene, FrameSize frame, const HardwareKey
   const auto model = make_golden_model(key);
   const Projector projector(
       scene, frame, {.subpixel_bits = c_exact ? c_exact_subpixel_bits : 0, .clip_to_frame = !c_exact});
-  const Real one = std::ldexp(Real{1}, P::c_factor_fraction_bits + config.data_bits);
+  const Real one = std::ldexp(Real{1}, P::c_factor_fraction_bits + config.size.data_bits);
   const auto lights = static_cast<std::size_t>(config.lights);
   using golden::DiffuseSlice, golden::SpecularSlice;
   std::vector<DiffuseSlice<P>> diffuse;
   std::vector<SpecularSlice<P>> specular;
   if (layout.has_diffuse_part())
-    diffuse.assign(lights, DiffuseSlice<P>(layout.diffuse_channels(), config.address_bits, config.data_bits));
+    diffuse.assign(lights, DiffuseSlice<P>(layout.diffuse_channels(), config.size));
   if (config.specular)
-    specular.assign(lights, SpecularSlice<P>(config.highlight_channels, config.powers, config.address_bits,
-                                             config.data_bits));
+    specular.assign(lights, SpecularSlice<P>(config.highlight_channels, config.powers, config.size));
 
   for (std::uint32_t source = 0; source < scene.triangles.size(); ++source) {
     std::vector<ScreenTriangle> on_screen;

@@ -266,8 +266,7 @@ const PowerParts& power_parts(int power) {
   static std::map<int, PowerParts> known;
   auto [it, is_new] = known.try_emplace(power);
   if (is_new) {
-    const tables::CosineTable table =
-        tables::cosine_table(true, power, c_size.address_bits, c_size.data_bits);
+    const tables::CosineTable table = tables::cosine_table(true, power, c_size);
     it->second = {c_steps * tables::table_error(table), c_steps * c_drift * steepest(power)};
   }
   return it->second;
@@ -352,17 +351,17 @@ std::int64_t drawn_colour(const tables::CosineTable& table, double half_bells, d
   const std::int64_t magnitude = word < 0 ? ~word : word;
   const std::int64_t sample =
       magnitude < unit
-          ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - table.address_bits))]
+          ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - table.size.address_bits))]
           : 0;
-  const std::int64_t half = std::int64_t{1} << (7 + table.data_bits);
-  return std::min<std::int64_t>(255, (half + factor * sample) >> (8 + table.data_bits));
+  const std::int64_t half = std::int64_t{1} << (7 + table.size.data_bits);
+  return std::min<std::int64_t>(255, (half + factor * sample) >> (8 + table.size.data_bits));
 }
 
 /// The largest error of colours by the shader's arithmetic at angles up to `farthest`, including angles that
 /// have drifted. Each is within the sum of the parts.
 double largest_error(double n, const tables::CosineTable& table, double half_bells_per_radian, double gain,
                      double farthest, double most_drift, const Parts& bound, Random& random) {
-  const std::int64_t largest = (1 << table.data_bits) - 1;
+  const std::int64_t largest = table.size.largest_entry();
   const std::int64_t factor = std::llround(c_steps * gain * 256.0 * double(largest + 1) / double(largest));
   double worst = 0.0;
   for (int i = 0; i < 20000; ++i) {
@@ -386,9 +385,8 @@ TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
     const Bell bell = fitted_bell(n);
     const Parts bound = parts(n, bell);
     const double farthest = 1.2 * std::max(c_pi / (2 * bell.scale), 2 / std::sqrt(n));
-    const double worst =
-        largest_error(n, tables::cosine_table(true, bell.power, c_size.address_bits, c_size.data_bits),
-                      bell.scale / (c_pi / 2), bell.gain, farthest, c_drift, bound, random);
+    const double worst = largest_error(n, tables::cosine_table(true, bell.power, c_size),
+                                       bell.scale / (c_pi / 2), bell.gain, farthest, c_drift, bound, random);
     nearest = std::max(nearest, worst / bound.total());
   }
   EXPECT_GT(nearest, 0.8) << "the bound is far from what is seen";
@@ -435,10 +433,9 @@ TEST(OwnTable, EveryExponentIsWithinOneStep) {
   EXPECT_LE(all.total(), 1.0) << all << " at n = " << at;
   EXPECT_LE(c_steps * (tables::c_own_end + c_own_drift * at_end) + all.factor + all.rounding, 1.0);
   // Diffuse light: the cosine of the same size, with the slope pi/2.
-  const double diffuse =
-      c_steps * (tables::error_bound(tables::cosine_table(true, 1, address_bits, data_bits)) +
-                 c_own_drift * c_pi / 2) +
-      all.factor + all.rounding;
+  const double diffuse = c_steps * (tables::error_bound(tables::cosine_table(true, 1, tables::c_own_size)) +
+                                    c_own_drift * c_pi / 2) +
+                         all.factor + all.rounding;
   EXPECT_NEAR(diffuse, 0.86, 0.005);
   // docs/accuracy.md lists the parts.
   EXPECT_NEAR(all.total(), 0.99, 0.005);
@@ -454,7 +451,7 @@ TEST(OwnTable, ColoursStayWithinOneStep) {
   double worst = 0.0;
   for (const double n : exponents) {
     const double reach = tables::own_reach(n);
-    const tables::CosineTable table = tables::own_table(n, 2, address_bits, data_bits);
+    const tables::CosineTable table = tables::own_table(n, 2, tables::c_own_size);
     worst = std::max(worst, largest_error(n, table, 1.0 / reach, 1.0, 1.1 * reach, c_own_drift,
                                           own_parts(table, own_steepest(n, n)), random));
   }

@@ -17,9 +17,9 @@ struct SphericalConfig {
   bool diffuse = true, specular = true;
   int highlight_channels = 3;  ///< 1: every highlight is grey; one multiplier per light serves all channels
   unsigned powers = 2;         ///< bit i: the table of cosine to the power 2^i exists
-  int address_bits = 0, data_bits = 0;
+  CosineSize size;             ///< of the tables
   std::span<const CosineTable> tables =
-      c_cosine_tables;  ///< must contain a table of this size and outlive the shader
+      c_cosine_tables;  ///< must contain tables of this size and outlive the shader
 };
 
 template <class Preset>

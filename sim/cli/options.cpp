@@ -158,7 +158,7 @@ DrawSettings checked(const DrawOptions& o) {
   s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
   check_hardware(o, s.plan.shader, s.plan.preset);
   check_table_size(o);
-  if (o.address_bits) s.plan.tables = TableSize{*o.address_bits, *o.data_bits};
+  if (o.address_bits) s.plan.tables = words::CosineSize{*o.address_bits, *o.data_bits};
   s.plan.all_effects = o.all_effects;
   if (o.form == "folded")
     s.plan.form = ProcessorForm::folded;

@@ -70,12 +70,10 @@ struct Drawn {
 void take_own_tables(const Scene& scene, SimulateSettings& settings,
                      std::optional<tables::MadeTables>& made) {
   std::vector<double> own = must(own_exponents(scene));
-  const TableSize size =
-      settings.plan.tables.value_or(TableSize{tables::c_own_size.address_bits, tables::c_own_size.data_bits});
-  const tables::CosineSize made_size{size.address_bits, size.data_bits};
-  made.emplace(true, made_size, own);
+  const words::CosineSize size = settings.plan.tables.value_or(tables::c_own_size);
+  made.emplace(true, size, own);
   settings.folders.source =
-      must(tables::rtl_with(true, made_size, {}, settings.folders.source, settings.folders.cache, own));
+      must(tables::rtl_with(true, size, {}, settings.folders.source, settings.folders.cache, own));
   settings.plan.tables = size;
   settings.plan.made_tables = made->tables();
   settings.plan.own = std::move(own);

@@ -223,17 +223,18 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
                 },
                 {slice.path + "in_range"});
       if (slice.channels > 0)
-        this->add(slice.name + " sample", {config_.data_bits}, within("cosine_rom", slice.entity),
+        this->add(slice.name + " sample", {config_.size.data_bits}, within("cosine_rom", slice.entity),
                   [golden](const Shader& s, SpanXWord) { return golden(s).sample(); },
                   {slice.path + slice.sample});
     });
     this->begin_stage({"product", "triangle_walker", {"span_step"}, 4});
-    const int bits = P::c_factor_bits + config_.data_bits;
+    const int bits = P::c_factor_bits + config_.size.data_bits;
     for_each_slice([&](const Slice& slice, auto golden) {
       for (int c = 0; c < slice.channels; ++c)
         this->add(fmt::format("{} {}product", slice.name,
                               slice.channels == 1 ? "" : channel_name(static_cast<unsigned>(c), 3) + " "),
-                  {bits, P::c_factor_fraction_bits + config_.data_bits}, within("multiplier", slice.entity),
+                  {bits, P::c_factor_fraction_bits + config_.size.data_bits},
+                  within("multiplier", slice.entity),
                   [golden, c, light = slice.light](const Shader& s, SpanXWord) {
                     if constexpr (requires { golden(s).lit(); })
                       return golden(s).product(c);

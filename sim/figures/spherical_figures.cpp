@@ -210,9 +210,9 @@ void draw_figure_10(const Context& context, Drawing& out) {
 constexpr std::array c_figure_11_bits{4, 6};
 
 double entry_at(const tables::CosineTable& table, double x) {
-  const double cells = std::ldexp(1.0, table.address_bits - 1);
+  const double cells = std::ldexp(1.0, table.size.address_bits - 1);
   const auto cell = to_integer<std::size_t>(std::min(x / c_half_pi * cells, cells - 1.0));
-  return table.entries[cell] / (std::ldexp(1.0, table.data_bits) - 1.0);
+  return table.entries[cell] / double(table.size.largest_entry());
 }
 
 void draw_figure_11(const Context& context, Drawing& out) {
@@ -220,7 +220,7 @@ void draw_figure_11(const Context& context, Drawing& out) {
   std::string blocks;
   for (std::size_t i = 0; i < c_figure_11_bits.size(); ++i) {
     const int bits = c_figure_11_bits[i];
-    const tables::CosineTable table = tables::cosine_table(false, 2, bits, bits);
+    const tables::CosineTable table = tables::cosine_table(false, 2, {bits, bits});
     error[i] = tables::table_error(table);
     constexpr int c_samples = 192;  // six samples per entry with 6 address bits
     std::vector<std::vector<double>> rows;
@@ -235,7 +235,7 @@ void draw_figure_11(const Context& context, Drawing& out) {
   }
   out.measured["largest error by 6 and 6 bits as a part of that by 4 and 4"] =
       measured(error[1] / error[0], "{:.2f} ({:.1f}/255 of {:.1f}/255)", 255 * error[1], 255 * error[0]);
-  const double ours = tables::table_error(tables::cosine_table(true, 2, 9, 8));
+  const double ours = tables::table_error(tables::cosine_table(true, 2, words::c_exact_cosine_size));
   out.measured["largest error by 6 and 6 bits"] =
       measured(255 * error[1], "{:.1f}/255; by the 9 and 8 of preset exact {:.1f}/255", 255 * ours);
   const std::string script =
@@ -348,9 +348,10 @@ void draw_figure_15(const Context& context, Drawing& out) {
   std::array<Rings, 2> rings;
   for (std::size_t i = 0; i < 2; ++i) {
     const int bits = c_figure_11_bits[i];
-    rings[i] = measure_rings(
-        draw({.shader = Shader::spherical, .preset = Preset::published, .tables = TableSize{bits, bits}}),
-        without);
+    rings[i] = measure_rings(draw({.shader = Shader::spherical,
+                                   .preset = Preset::published,
+                                   .tables = words::CosineSize{bits, bits}}),
+                             without);
     out.measured[fmt::format("{} bits: largest step between neighbouring pixels at highlights", bits)] = {
         fmt::format("{}/255; without tables {}/255", rings[i].largest_step, none.largest_step),
         static_cast<double>(rings[i].largest_step - none.largest_step)};

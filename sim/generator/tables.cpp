@@ -61,8 +61,8 @@ void print_tables(const tables::CosineSizes& sizes) {
     const double error = tables::table_error(table);
     fmt::print(
         "{:<9}  cos^{:<2}  {:>2}/{:<2} address/data bits  {:>6} bits  largest error {:5.2f}/255 ({:.5f})\n",
-        table.exact ? "exact" : "published", table.power, table.address_bits, table.data_bits, table.bits(),
-        255 * error, error);
+        table.exact ? "exact" : "published", table.power, table.size.address_bits, table.size.data_bits,
+        table.bits(), 255 * error, error);
   }
 }
 
@@ -78,7 +78,7 @@ void print_errors(bool exact) {
                : address == c_fewest + 1 ? "bits"
                                          : "");
     for (int data = c_fewest; data <= c_most; ++data)
-      fmt::print("{:>7.2f}", 255 * tables::table_error(tables::cosine_table(exact, 2, address, data)));
+      fmt::print("{:>7.2f}", 255 * tables::table_error(tables::cosine_table(exact, 2, {address, data})));
     fmt::print("\n");
   }
 }

@@ -357,10 +357,8 @@ nlohmann::ordered_json number_or_null(std::optional<Number> number) {
 std::string unusual_tables(const HardwareKey& key) {
   const tables::CosineSizes sizes;
   const tables::CosineSize usual = (key.preset == Preset::exact ? sizes.exact : sizes.published).front();
-  const TableSize size = key.spherical.tables;
-  if (key.shader != Shader::spherical || !key.spherical.records() ||
-      size == TableSize{usual.address_bits, usual.data_bits})
-    return {};
+  const words::CosineSize size = key.spherical.tables;
+  if (key.shader != Shader::spherical || !key.spherical.records() || size == usual) return {};
   return fmt::format(", {}tables {}/{}", key.spherical.own.empty() ? "" : "own ", size.address_bits,
                      size.data_bits);
 }

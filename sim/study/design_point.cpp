@@ -140,7 +140,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   constexpr tables::CosineSize c_least = tables::c_smallest_cosine_size,
                                c_most = tables::c_largest_cosine_size;
   lengths("address_bits", c_least.address_bits, c_most.address_bits, [](DesignPoint& p, int address) {
-    p.tables = TableSize{address, 0};
+    p.tables = words::CosineSize{address, 0};
   });
   lengths("data_bits", c_least.data_bits, c_most.data_bits, [&](DesignPoint& p, int data) {
     if (!p.tables) sweep.fail("data_bits", "is only allowed with address_bits");

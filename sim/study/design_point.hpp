@@ -54,7 +54,7 @@ inline const char* name_of(SpanEnds ends) {
 struct DesignPoint {
   Method method = Method::quadratic;
   Preset preset = Preset::exact;                 ///< of hardware methods
-  std::optional<TableSize> tables;               ///< of spherical; std::nullopt: the preset's tables
+  std::optional<words::CosineSize> tables;       ///< of spherical; std::nullopt: the preset's tables
   bool own_tables = false;                       ///< of spherical in preset exact; then `tables` has a value
   tables::WordLengths words{};                   ///< of the method; std::nullopt: the preset's lengths
   ProcessorForm form = ProcessorForm::unrolled;  ///< of processors methods

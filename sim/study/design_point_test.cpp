@@ -142,7 +142,7 @@ TEST_F(SpaceTest, ErrorsNameFileAndLine) {
 
 TEST(DesignPoint, NameContainsAllParameters) {
   DesignPoint point{
-      .method = Method::spherical, .tables = TableSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
+      .method = Method::spherical, .tables = words::CosineSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
   EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");
   point.own_tables = true;
   EXPECT_EQ(point.name(), "spherical exact 9x8 own, threshold 4, 320x240, exponent 50");

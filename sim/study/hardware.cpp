@@ -29,9 +29,9 @@ namespace {
 // The size of the point's tables if they are not compiled in.
 std::optional<tables::CosineSize> made_size(const DesignPoint& point) {
   if (point.method != Method::spherical || !point.tables) return std::nullopt;
-  const tables::CosineSize size{point.tables->address_bits, point.tables->data_bits};
-  if (!point.own_tables && tables::compiled_in(point.preset == Preset::exact, size)) return std::nullopt;
-  return size;
+  if (!point.own_tables && tables::compiled_in(point.preset == Preset::exact, *point.tables))
+    return std::nullopt;
+  return point.tables;
 }
 
 std::vector<double> own_exponents_of(const DesignPoint& point, const Scene& scene) {

@@ -285,7 +285,7 @@ TEST_F(QueryTest, PrintsTheMostAccurateWithinATime) {
 TEST_F(QueryTest, PrintsTheVariedParameters) {
   const auto more = [&](const DesignPoint& point) { add(point, "quadratic", 3, 1000, 63600); };
   more({.method = Method::spherical});
-  more({.method = Method::spherical, .tables = TableSize{6, 8}});
+  more({.method = Method::spherical, .tables = words::CosineSize{6, 8}});
   more({.method = Method::adaptive, .threshold = 4.0});
   const auto markets = markets_of(records_, hardware_, {});
   const auto text = ask({.largest_error = 2.0});

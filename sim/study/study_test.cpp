@@ -289,8 +289,8 @@ TEST_F(StudyTest, ReportsThePointThatFails) {
 // Draw with table sizes that are not compiled in, in RTL and golden model. measure() compares each fragment.
 TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
   settings_.points.clear();
-  for (const auto size :
-       {std::optional<TableSize>{}, std::optional(TableSize{5, 4}), std::optional(TableSize{3, 2})})
+  for (const auto size : {std::optional<words::CosineSize>{}, std::optional(words::CosineSize{5, 4}),
+                          std::optional(words::CosineSize{3, 2})})
     settings_.points.push_back(
         {.method = Method::spherical, .tables = size, .tessellation = 0.5, .size = {160, 120}});
   const Study made = study();
@@ -322,7 +322,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
 }
 
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
-  const DesignPoint point{.method = Method::spherical, .tables = TableSize{5, 4}, .size = {160, 120}};
+  const DesignPoint point{.method = Method::spherical, .tables = words::CosineSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
   const auto folder = must(tables::rtl_with_tables(true, {5, 4}, c_source_folder, folder_.path()));
   const std::filesystem::path package = folder / "rtl/tables/cosine_pkg.vhd";

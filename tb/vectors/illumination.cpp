@@ -50,7 +50,7 @@ Products products_of(int channels, const Product& product) {
 struct SliceSize {
   int channels;
   unsigned powers;  ///< of a specular slice
-  int address_bits, data_bits;
+  words::CosineSize table;
 };
 
 void add_products(VectorFile& file, const Products& products, int channels, int bits) {
@@ -88,7 +88,7 @@ void write_diffuse(const Folder& folder, const SliceSize& size) {
   const int bits = Preset::c_diffuse_header_bits + size.channels * Preset::c_diffuse_channel_bits;
   Random random(bits);
   VectorFile file;
-  golden::DiffuseSlice<Preset> twin(size.channels, size.address_bits, size.data_bits);
+  golden::DiffuseSlice<Preset> twin(size.channels, size.table);
   Multiplier<Products> multiplier{};
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
@@ -96,13 +96,13 @@ void write_diffuse(const Folder& folder, const SliceSize& size) {
     const SpanStrobes s = random_span_strobes(random, i);
     add_slice_clock(file, i, part, bits, s);
     file.flag(twin.lit());
-    add_products(file, multiplier.multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
+    add_products(file, multiplier.multiplied, size.channels, Preset::c_factor_bits + size.table.data_bits);
     file.end_vector();
     multiplier.clock(s, twin, part,
                      [&] { return products_of(size.channels, [&](int c) { return twin.product(c); }); });
   }
-  file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.address_bits,
-                                  size.data_bits));
+  file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.table.address_bits,
+                                  size.table.data_bits));
 }
 
 // A line: checked, part, span_load, span_step, sample_step, lit; products, before the edge.
@@ -111,7 +111,7 @@ void write_specular(const Folder& folder, const SliceSize& size) {
   const int bits = Preset::c_specular_header_bits + size.channels * Preset::c_specular_channel_bits;
   Random random(bits);
   VectorFile file;
-  golden::SpecularSlice<Preset> twin(size.channels, size.powers, size.address_bits, size.data_bits);
+  golden::SpecularSlice<Preset> twin(size.channels, size.powers, size.table);
   Multiplier<Products> multiplier{};
   for (int i = 0; i < 3000; ++i) {
     InitVector part = random_vector(random, bits);
@@ -120,13 +120,13 @@ void write_specular(const Folder& folder, const SliceSize& size) {
     const bool lit = !random.one_in(5);
     add_slice_clock(file, i, part, bits, s);
     file.flag(lit);
-    add_products(file, multiplier.multiplied, size.channels, Preset::c_factor_bits + size.data_bits);
+    add_products(file, multiplier.multiplied, size.channels, Preset::c_factor_bits + size.table.data_bits);
     file.end_vector();
     multiplier.clock(s, twin, part,
                      [&] { return products_of(size.channels, [&](int c) { return twin.product(c, lit); }); });
   }
   file.write(folder / fmt::format("{}_{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.powers,
-                                  size.address_bits, size.data_bits));
+                                  size.table.address_bits, size.table.data_bits));
 }
 
 // A light. tb/vectors/rows.toml has the same list.
@@ -172,7 +172,7 @@ void write_light(const Folder& folder, const LightWords& light) {
     const SpanStrobes s = random_span_strobes(random, i);
     add_slice_clock(file, i, part, bits, s);
     for (const ColourTerms& group : multiplier.multiplied)
-      add_products(file, group, config.channels, Preset::c_factor_bits + config.data_bits);
+      add_products(file, group, config.channels, Preset::c_factor_bits + config.size.data_bits);
     file.end_vector();
     multiplier.clock(s, twin, part, terms);
   }
@@ -232,20 +232,20 @@ void write_cosine_rom(const Folder& folder) {
   for (const words::CosineTable& table : words::c_cosine_tables) {
     VectorFile file;
     Random random(table.entries.size());
-    const golden::CosineRom twin(table.exact, table.power, table.address_bits, table.data_bits);
+    const golden::CosineRom twin(table.exact, table.power, table.size);
     std::uint32_t sample = 0;
     // Read every entry, one per clock, then at random with pauses.
-    const int entries = 1 << table.address_bits;
+    const int entries = table.size.entries();
     for (int i = 0; i < 2 * entries + 2; ++i) {
       const bool enable = i < entries || random.one_in(2);
       const auto address = i < entries ? static_cast<std::uint32_t>(i)
-                                       : static_cast<std::uint32_t>(random.bits(table.address_bits));
-      file.flag(i > 0).flag(enable).word(address, table.address_bits);
-      file.word(sample, table.data_bits).end_vector();
+                                       : static_cast<std::uint32_t>(random.bits(table.size.address_bits));
+      file.flag(i > 0).flag(enable).word(address, table.size.address_bits);
+      file.word(sample, table.size.data_bits).end_vector();
       if (enable) sample = twin.sample(address);
     }
     const auto name = fmt::format("{}_{}_{}_{}.txt", table.exact ? "exact" : "published", table.power,
-                                  table.address_bits, table.data_bits);
+                                  table.size.address_bits, table.size.data_bits);
     file.write(folder / name);
   }
 }

@@ -56,11 +56,10 @@ inline HardwareKey spherical_key(const Scene& scene, Preset preset = Preset::exa
 /// Greatest difference, in colour steps, between a fragment and the illumination model if the interpolation
 /// stays within the threshold. It adds the errors of bells and tables for each light, and the rounding.
 inline double promised_steps(const Scene& scene, const HardwareKey& key, double threshold) {
-  const TableSize size = key.spherical.tables;
+  const words::CosineSize size = key.spherical.tables;
   const auto error = [&](int power) {
     // Includes the angle's drift of up to 2^-11 of a half bell. No table is steeper than 4 per half bell.
-    return tables::table_error(tables::cosine_table(true, power, size.address_bits, size.data_bits)) +
-           0x1p-11 * 4;
+    return tables::table_error(tables::cosine_table(true, power, size)) + 0x1p-11 * 4;
   };
   double largest = 0.0;
   for (const Material& m : scene.materials) {

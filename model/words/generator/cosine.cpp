@@ -31,7 +31,7 @@ std::span<const int> powers(bool exact) {
 
 // The cell [low, low + 1] of an entry, counted from angle 0.
 int low_of_cell(const CosineTable& table, int entry) {
-  const int cells = 1 << table.address_bits;
+  const int cells = table.size.entries();
   return table.exact || entry < cells / 2 ? entry : entry - cells;
 }
 
@@ -52,7 +52,7 @@ long double highlight(double exponent, long double x) {
 // cosine, including the rounding of its angle; each squaring doubles the error and rounds once.
 long double bell(const CosineTable& table, long double position) {
   // The number of cells per quarter turn is a power of two, so the quotient is exact.
-  const long double cells = std::ldexp(1.0L, table.address_bits - shift_of_cells(table));
+  const long double cells = std::ldexp(1.0L, table.size.address_bits - shift_of_cells(table));
   const long double quarters = position / cells;
   if (table.own > 0.0) return highlight(table.own, std::fabs(quarters) * own_reach(table.own));
   if (std::fabs(quarters) >= 1.0L) return 0.0L;
@@ -66,7 +66,7 @@ double exponent_of(const CosineTable& table) {
 }
 
 long double largest_word(const CosineTable& table) {
-  return std::ldexp(1.0L, table.data_bits) - 1.0L;
+  return std::ldexp(1.0L, table.size.data_bits) - 1.0L;
 }
 
 std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
@@ -77,13 +77,13 @@ std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format(
         "cosine table: entry {} of cos^{}, {}/{} bits, is too near a tie to be rounded in long double", entry,
-        exponent_of(table), table.address_bits, table.data_bits));
+        exponent_of(table), table.size.address_bits, table.size.data_bits));
   return to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
 }
 
 std::string constant_name(const CosineTable& table) {
-  return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.address_bits,
-                     table.data_bits);
+  return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.size.address_bits,
+                     table.size.data_bits);
 }
 
 std::string bound_comment(const CosineTable& table, std::string_view mark) {
@@ -97,12 +97,13 @@ constexpr std::string_view c_cosine_notice =
 CosineTable made_table(CosineTable table) {
   const auto within = [](int bits, int smallest, int largest) { return bits >= smallest && bits <= largest; };
   if (std::ranges::find(powers(table.exact), table.power) == powers(table.exact).end() ||
-      !within(table.address_bits, c_smallest_cosine_size.address_bits, c_largest_cosine_size.address_bits) ||
-      !within(table.data_bits, c_smallest_cosine_size.data_bits, c_largest_cosine_size.data_bits))
+      !within(table.size.address_bits, c_smallest_cosine_size.address_bits,
+              c_largest_cosine_size.address_bits) ||
+      !within(table.size.data_bits, c_smallest_cosine_size.data_bits, c_largest_cosine_size.data_bits))
     throw std::invalid_argument(fmt::format("cosine table: there is no {} cos^{} of {}/{} bits",
-                                            preset_name(table.exact), exponent_of(table), table.address_bits,
-                                            table.data_bits));
-  const int entries = 1 << table.address_bits;
+                                            preset_name(table.exact), exponent_of(table),
+                                            table.size.address_bits, table.size.data_bits));
+  const int entries = table.size.entries();
   table.entries.reserve(entries);
   for (int entry = 0; entry < entries; ++entry) table.entries.push_back(correctly_rounded(table, entry));
   return table;
@@ -113,20 +114,20 @@ void add_own_tables(const CosineSizes& sizes, const CosineSize& size, std::vecto
   if (sizes.own.size() > c_most_own_tables)
     throw std::invalid_argument(
         fmt::format("cosine table: {} own tables, not at most {}", sizes.own.size(), c_most_own_tables));
-  tables.push_back(cosine_table(true, 1, size.address_bits, size.data_bits));
+  tables.push_back(cosine_table(true, 1, size));
   for (std::size_t i = 0; i < sizes.own.size(); ++i)
-    tables.push_back(own_table(sizes.own[i], c_exact_powers[i + 1], size.address_bits, size.data_bits));
+    tables.push_back(own_table(sizes.own[i], c_exact_powers[i + 1], size));
 }
 
 }  // namespace
 
-CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits) {
-  return made_table({exact, power, address_bits, data_bits, {}});
+CosineTable cosine_table(bool exact, int power, const CosineSize& size) {
+  return made_table({exact, power, size, {}});
 }
 
-CosineTable own_table(double exponent, int power, int address_bits, int data_bits) {
+CosineTable own_table(double exponent, int power, const CosineSize& size) {
   if (!(exponent >= 1.0)) throw std::invalid_argument(fmt::format("own table: exponent {} < 1", exponent));
-  return made_table({true, power, address_bits, data_bits, {}, exponent});
+  return made_table({true, power, size, {}, exponent});
 }
 
 std::vector<CosineTable> cosine_tables(const CosineSizes& sizes) {
@@ -140,8 +141,7 @@ std::vector<CosineTable> cosine_tables(const CosineSizes& sizes) {
         add_own_tables(sizes, size, tables);
         continue;
       }
-      for (const int power : powers(exact))
-        tables.push_back(cosine_table(exact, power, size.address_bits, size.data_bits));
+      for (const int power : powers(exact)) tables.push_back(cosine_table(exact, power, size));
     }
   }
   return tables;
@@ -161,7 +161,7 @@ double table_error(const CosineTable& table) {
 
 double error_bound(const CosineTable& table) {
   const double half_bell = table.own > 0.0 ? own_reach(table.own) : std::numbers::pi / 2;
-  const double cell = half_bell * std::ldexp(1.0, shift_of_cells(table) - table.address_bits);
+  const double cell = half_bell * std::ldexp(1.0, shift_of_cells(table) - table.size.address_bits);
   return 0.5 / static_cast<double>(largest_word(table)) + steepest_slope(exponent_of(table)) * cell / 2;
 }
 
@@ -195,7 +195,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
     fmt::format_to(to,
                    "    if {}exact and power = {} and address_bits = {} and data_bits = {} then\n"
                    "      return {};\n    end if;\n",
-                   table.exact ? "" : "not ", table.power, table.address_bits, table.data_bits,
+                   table.exact ? "" : "not ", table.power, table.size.address_bits, table.size.data_bits,
                    constant_name(table));
   out +=
       "    report \"cosine_table: there is no table for exact \" & boolean'image(exact) & \", power \" & "
@@ -240,9 +240,9 @@ std::string cosine_cpp_header(const CosineSizes& sizes) {
       "// peak; preset published: over a full period, the address signed, and zero where the cosine is "
       "negative.\n"
       "#pragma once\n\n#include <array>\n#include <cstdint>\n#include <span>\n\n"
+      "#include \"words/generator/cosine_size.hpp\"\n\n"
       "namespace halfway::words {{\n\n"
-      "struct CosineSize {{\n  int address_bits, data_bits;\n}};\n\n"
-      "struct CosineTable {{\n  bool exact;\n  int power, address_bits, data_bits;\n"
+      "struct CosineTable {{\n  bool exact;\n  int power;\n  CosineSize size;\n"
       "  std::span<const std::uint16_t> entries;\n}};\n\n"
       "// The default size.\n",
       c_cosine_notice);
@@ -259,8 +259,8 @@ std::string cosine_cpp_header(const CosineSizes& sizes) {
   fmt::format_to(to, "\ninline constexpr std::array<CosineTable, {}> c_cosine_tables = {{{{\n",
                  tables.size());
   for (const CosineTable& table : tables)
-    fmt::format_to(to, "    {{{}, {}, {}, {}, {}}},\n", table.exact, table.power, table.address_bits,
-                   table.data_bits, constant_name(table));
+    fmt::format_to(to, "    {{{}, {}, {{{}, {}}}, {}}},\n", table.exact, table.power, table.size.address_bits,
+                   table.size.data_bits, constant_name(table));
   out += "}};\n\n}  // namespace halfway::words\n";
   return out;
 }

@@ -7,13 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "words/generator/cosine_size.hpp"
+
 namespace halfway::tables {
 
-/// A table has 2^address_bits entries of data_bits each.
-struct CosineSize {
-  int address_bits, data_bits;
-  bool operator==(const CosineSize&) const = default;
-};
+using words::CosineSize;
 
 inline constexpr CosineSize c_smallest_cosine_size{3, 2};
 inline constexpr CosineSize c_largest_cosine_size{12, 12};
@@ -46,19 +44,18 @@ double own_reach(double exponent);
 struct CosineTable {
   bool exact;
   int power;
-  int address_bits;
-  int data_bits;
+  CosineSize size;
   std::vector<std::uint32_t> entries;
   double own = 0.0;  ///< exponent of an own table, at least 1; 0: cos^power
 
-  int bits() const { return data_bits << address_bits; }
+  int bits() const { return size.data_bits * size.entries(); }
 };
 
 /// Throws std::invalid_argument for sizes and powers not listed above.
-CosineTable cosine_table(bool exact, int power, int address_bits, int data_bits);
+CosineTable cosine_table(bool exact, int power, const CosineSize& size);
 
 /// The own table of an exponent, at least 1, instead of cos^power. Throws as cosine_table.
-CosineTable own_table(double exponent, int power, int address_bits, int data_bits);
+CosineTable own_table(double exponent, int power, const CosineSize& size);
 
 /// Every table of these sizes once: preset exact first, then by size, then by power.
 std::vector<CosineTable> cosine_tables(const CosineSizes& sizes = {});

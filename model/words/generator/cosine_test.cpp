@@ -21,12 +21,13 @@ namespace {
 constexpr int c_exact_powers[] = {1, 2, 4, 8, 16};
 constexpr int c_published_powers[] = {1, 2};
 
-std::string name_of(bool exact, int power, int address_bits, int data_bits) {
-  return fmt::format("{} cos^{}, {}/{} bits", exact ? "exact" : "published", power, address_bits, data_bits);
+std::string name_of(bool exact, int power, const CosineSize& size) {
+  return fmt::format("{} cos^{}, {}/{} bits", exact ? "exact" : "published", power, size.address_bits,
+                     size.data_bits);
 }
 
 std::string name_of(const CosineTable& table) {
-  return name_of(table.exact, table.power, table.address_bits, table.data_bits);
+  return name_of(table.exact, table.power, table.size);
 }
 
 // The angle at the middle of an entry's cell is pi * `odd` / 2^`shift`.
@@ -36,11 +37,11 @@ struct Angle {
 
 Angle middle_of(const CosineTable& table, int entry) {
   // (k + 1/2) / 2^K of pi/2.
-  if (table.exact) return {2 * entry + 1, table.address_bits + 2};
+  if (table.exact) return {2 * entry + 1, table.size.address_bits + 2};
   // (a' + 1/2) / 2^(K-1) of pi/2 (power 2) or of pi (power 1), a' the address as a signed number.
-  const int half = 1 << (table.address_bits - 1);
+  const int half = 1 << (table.size.address_bits - 1);
   const int address = entry < half ? entry : entry - 2 * half;
-  return {2 * address + 1, table.power == 2 ? table.address_bits + 1 : table.address_bits};
+  return {2 * address + 1, table.power == 2 ? table.size.address_bits + 1 : table.size.address_bits};
 }
 
 // Distance of an entry from its exact value, and of the exact value from a tie, in units of an entry's last
@@ -53,13 +54,13 @@ Distance distance(const CosineTable& table, int entry) {
   const Angle angle = middle_of(table, entry);
   BigReal cosine = cos(BigReal::pi() * angle.odd / std::ldexp(1.0, angle.shift));
   if (table.power == 1 && cosine < 0.0) cosine = 0.0;
-  const BigReal value = pow(cosine, table.power) * ((1 << table.data_bits) - 1);
+  const BigReal value = pow(cosine, table.power) * table.size.largest_entry();
   return {std::fabs(static_cast<double>(value - table.entries[static_cast<std::size_t>(entry)])),
           std::fabs(static_cast<double>(fraction(value) - 0.5))};
 }
 
 void expect_correctly_rounded(const CosineTable& table) {
-  ASSERT_EQ(table.entries.size(), std::size_t{1} << table.address_bits) << name_of(table);
+  ASSERT_EQ(table.entries.size(), static_cast<std::size_t>(table.size.entries())) << name_of(table);
   for (int entry = 0; entry < static_cast<int>(table.entries.size()); ++entry) {
     const Distance off = distance(table, entry);
     ASSERT_LT(off.from_true, 0.5) << name_of(table) << ", entry " << entry << " is " << table.entries[entry];
@@ -71,33 +72,33 @@ TEST(Cosine, EveryEntryOfEverySizeIsTheNearestToMpfr) {
   for (int address_bits = 3; address_bits <= 12; ++address_bits)
     for (int data_bits = 2; data_bits <= 12; ++data_bits) {
       for (const int power : c_exact_powers)
-        expect_correctly_rounded(cosine_table(true, power, address_bits, data_bits));
+        expect_correctly_rounded(cosine_table(true, power, {address_bits, data_bits}));
       for (const int power : c_published_powers)
-        expect_correctly_rounded(cosine_table(false, power, address_bits, data_bits));
+        expect_correctly_rounded(cosine_table(false, power, {address_bits, data_bits}));
     }
 }
 
 TEST(Cosine, ThereAreNoOtherSizesAndPowers) {
-  EXPECT_THROW(cosine_table(true, 2, 2, 8), std::invalid_argument);
-  EXPECT_THROW(cosine_table(true, 2, 13, 8), std::invalid_argument);
-  EXPECT_THROW(cosine_table(true, 2, 9, 1), std::invalid_argument);
-  EXPECT_THROW(cosine_table(true, 2, 9, 13), std::invalid_argument);
-  EXPECT_THROW(cosine_table(true, 3, 9, 8), std::invalid_argument);
-  EXPECT_THROW(cosine_table(true, 32, 9, 8), std::invalid_argument);
-  EXPECT_THROW(cosine_table(false, 4, 6, 6), std::invalid_argument);
+  EXPECT_THROW(cosine_table(true, 2, {2, 8}), std::invalid_argument);
+  EXPECT_THROW(cosine_table(true, 2, {13, 8}), std::invalid_argument);
+  EXPECT_THROW(cosine_table(true, 2, {9, 1}), std::invalid_argument);
+  EXPECT_THROW(cosine_table(true, 2, {9, 13}), std::invalid_argument);
+  EXPECT_THROW(cosine_table(true, 3, {9, 8}), std::invalid_argument);
+  EXPECT_THROW(cosine_table(true, 32, {9, 8}), std::invalid_argument);
+  EXPECT_THROW(cosine_table(false, 4, {6, 6}), std::invalid_argument);
 }
 
 TEST(Cosine, ThePublishedTableIsAWholePeriod) {
   using ::testing::ElementsAre;
-  EXPECT_THAT(cosine_table(false, 2, 4, 4).entries,
+  EXPECT_THAT(cosine_table(false, 2, {4, 4}).entries,
               ElementsAre(15, 14, 12, 9, 6, 3, 1, 0, 0, 1, 3, 6, 9, 12, 14, 15));
-  EXPECT_THAT(cosine_table(false, 1, 4, 4).entries,
+  EXPECT_THAT(cosine_table(false, 1, {4, 4}).entries,
               ElementsAre(15, 12, 8, 3, 0, 0, 0, 0, 0, 0, 0, 0, 3, 8, 12, 15));
 }
 
 // An independent definition of the table's function at `position` cells from angle 0.
 double truth(const CosineTable& table, double position) {
-  const double cells = std::ldexp(1.0, table.address_bits);
+  const double cells = std::ldexp(1.0, table.size.address_bits);
   if (table.exact) return std::pow(std::cos(std::numbers::pi / 2 * position / cells), table.power);
   if (table.power == 2) return std::pow(std::cos(std::numbers::pi * position / cells), 2);
   return std::max(0.0, std::cos(2 * std::numbers::pi * position / cells));
@@ -109,7 +110,7 @@ double sampled_error(const CosineTable& table) {
   for (int entry = 0; entry < cells; ++entry)
     for (const double part : {0.0, 1e-6, 0.1, 0.25, 0.5, 0.75, 0.9, 1 - 1e-6}) {
       const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
-      const double value = table.entries[entry] / (std::ldexp(1.0, table.data_bits) - 1);
+      const double value = table.entries[entry] / double(table.size.largest_entry());
       largest = std::max(largest, std::fabs(value - truth(table, low + part)));
     }
   return largest;
@@ -126,15 +127,15 @@ TEST(Cosine, TheErrorIsTheLargestOverAllAngles) {
   for (const auto& [address_bits, data_bits] :
        {std::pair{3, 2}, {3, 12}, {4, 4}, {5, 6}, {6, 6}, {9, 8}, {12, 2}, {12, 12}}) {
     for (const int power : c_exact_powers)
-      expect_error_is_reached(cosine_table(true, power, address_bits, data_bits));
+      expect_error_is_reached(cosine_table(true, power, {address_bits, data_bits}));
     for (const int power : c_published_powers)
-      expect_error_is_reached(cosine_table(false, power, address_bits, data_bits));
+      expect_error_is_reached(cosine_table(false, power, {address_bits, data_bits}));
   }
 }
 
 TEST(Cosine, AWrongEntryRaisesTheError) {
   for (const bool exact : {true, false}) {
-    CosineTable table = cosine_table(exact, 2, 6, 6);
+    CosineTable table = cosine_table(exact, 2, {6, 6});
     for (std::size_t i = 0; i < table.entries.size(); ++i) {
       CosineTable wrong = table;
       wrong.entries[i] ^= 32;
@@ -194,15 +195,15 @@ void expect_texts_carry(const CosineSizes& sizes) {
   EXPECT_EQ(in_vhdl, in_cpp);
   for (const CosineTable& t : tables) {
     const std::string name = fmt::format("c_{}_cosine_{}_{}_{}", t.exact ? "exact" : "published", t.power,
-                                         t.address_bits, t.data_bits);
+                                         t.size.address_bits, t.size.data_bits);
     ASSERT_TRUE(in_vhdl.contains(name)) << name;
     EXPECT_EQ(in_vhdl.at(name), t.entries) << name;
     EXPECT_THAT(vhdl,
                 ::testing::HasSubstr(fmt::format(
                     "if {} and power = {} and address_bits = {} and data_bits = {} then\n      return {};",
-                    t.exact ? "exact" : "not exact", t.power, t.address_bits, t.data_bits, name)));
-    EXPECT_THAT(cpp, ::testing::HasSubstr(fmt::format("{{{}, {}, {}, {}, {}}}", t.exact, t.power,
-                                                      t.address_bits, t.data_bits, name)));
+                    t.exact ? "exact" : "not exact", t.power, t.size.address_bits, t.size.data_bits, name)));
+    EXPECT_THAT(cpp, ::testing::HasSubstr(fmt::format("{{{}, {}, {{{}, {}}}, {}}}", t.exact, t.power,
+                                                      t.size.address_bits, t.size.data_bits, name)));
   }
   for (const std::string& text : {vhdl, cpp})
     for (std::size_t start = 0, end; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
@@ -220,14 +221,11 @@ TEST(Cosine, TheCompiledTablesAreTheGeneratedOnes) {
   ASSERT_EQ(words::c_cosine_tables.size(), tables.size());
   for (std::size_t i = 0; i < tables.size(); ++i) {
     const words::CosineTable& compiled = words::c_cosine_tables[i];
-    EXPECT_EQ(name_of(compiled.exact, compiled.power, compiled.address_bits, compiled.data_bits),
-              name_of(tables[i]));
+    EXPECT_EQ(name_of(compiled.exact, compiled.power, compiled.size), name_of(tables[i]));
     EXPECT_THAT(compiled.entries, ::testing::ElementsAreArray(tables[i].entries));
   }
-  EXPECT_EQ(words::c_exact_cosine_size.address_bits, 9);
-  EXPECT_EQ(words::c_exact_cosine_size.data_bits, 8);
-  EXPECT_EQ(words::c_published_cosine_size.address_bits, 6);
-  EXPECT_EQ(words::c_published_cosine_size.data_bits, 6);
+  EXPECT_EQ(words::c_exact_cosine_size, (CosineSize{9, 8}));
+  EXPECT_EQ(words::c_published_cosine_size, (CosineSize{6, 6}));
 }
 
 // ---- own tables
@@ -246,7 +244,7 @@ TEST(OwnTable, EndsWhereTheHighlightEnds) {
 TEST(OwnTable, EntriesAreTheNearestToTheHighlight) {
   for (const double n : {1.0, 1.305, 2.65, 20.0, 1000.0})
     for (const auto& [address_bits, data_bits] : {std::pair{5, 4}, {9, 8}, {11, 11}, {12, 12}}) {
-      const CosineTable table = own_table(n, 4, address_bits, data_bits);
+      const CosineTable table = own_table(n, 4, {address_bits, data_bits});
       const double largest = std::ldexp(1.0, data_bits) - 1;
       double found = 0.0;
       for (std::size_t i = 0; i < table.entries.size(); ++i) {
@@ -274,7 +272,7 @@ TEST(OwnTable, TakesThePlaceOfAPower) {
   expect_texts_carry(sizes);
   sizes.own = {1, 2, 3, 4, 5};
   EXPECT_THROW(cosine_tables(sizes), std::invalid_argument);
-  EXPECT_THROW(own_table(0.99, 2, 9, 8), std::invalid_argument);
+  EXPECT_THROW(own_table(0.99, 2, {9, 8}), std::invalid_argument);
 }
 
 }  // namespace

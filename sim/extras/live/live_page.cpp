@@ -42,18 +42,6 @@ std::vector<Scene> mesh_scenes() {
   return std::vector<Scene>{grey, std::move(coloured)};
 }
 
-// Sizes of the cosine tables that are built into the program, the preset's own first.
-std::vector<TableSize> table_sizes(Preset preset) {
-  const bool exact = preset == Preset::exact;
-  const words::CosineSize own = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
-  std::vector<TableSize> sizes = {{own.address_bits, own.data_bits}};
-  for (const words::CosineTable& table : words::c_cosine_tables)
-    if (const TableSize size{table.address_bits, table.data_bits};
-        table.exact == exact && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
-      sizes.push_back(size);
-  return sizes;
-}
-
 template <class Enumerators>
 Json names_of(const Enumerators& enumerators) {
   Json names = Json::array();
@@ -107,7 +95,7 @@ std::vector<HardwareKey> live_keys(const LiveSettings& settings) {
   for (const Scene& scene : drawn)
     for (const Shader shader : c_shaders)
       for (const Preset preset : c_presets)
-        for (const TableSize size : table_sizes(preset)) {
+        for (const words::CosineSize size : cosine_sizes(preset)) {
           PlanRequest request{.shader = shader, .preset = preset};
           if (shader == Shader::spherical) request.tables = size;
           if (const auto key = planned_key(scene, request)) keys.emplace(key->name(), *key);
@@ -135,7 +123,7 @@ LivePage write_live(const LiveSettings& settings) {
                  {"presets", names_of(c_presets)},
                  {"pictures", c_picture_names}}}};
   for (const Preset preset : c_presets)
-    for (const TableSize size : table_sizes(preset))
+    for (const words::CosineSize size : cosine_sizes(preset))
       data["tables"][to_string(preset)].push_back(fmt::format("{}x{}", size.address_bits, size.data_bits));
   Json modules = {{{"name", "core"}, {"text", std::move(packed_core)}}};
   for (const auto& [name, built] : hardware) {

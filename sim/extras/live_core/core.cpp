@@ -201,7 +201,7 @@ int live_plan(int shader, int preset, int address_bits, int data_bits) {
   auto& c = core();
   c.hardware.reset();
   PlanRequest request{.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)};
-  if (address_bits != 0) request.tables = TableSize{address_bits, data_bits};
+  if (address_bits != 0) request.tables = words::CosineSize{address_bits, data_bits};
   const auto key = c.frame.plan(request);
   if (!key) return c.report(key.error());
   c.hardware.emplace(*key);

@@ -11,9 +11,7 @@ CosineSizes compiled_sizes() {
   CosineSizes sizes{{}, {}};
   for (const words::CosineTable& table : words::c_cosine_tables) {
     auto& list = table.exact ? sizes.exact : sizes.published;
-    if (const CosineSize size{table.address_bits, table.data_bits};
-        std::ranges::find(list, size) == list.end())
-      list.push_back(size);
+    if (std::ranges::find(list, table.size) == list.end()) list.push_back(table.size);
   }
   return sizes;
 }

@@ -49,7 +49,7 @@ MadeTables::MadeTables(bool exact, CosineSize size, const std::vector<double>& o
     std::vector<std::uint16_t> entries;
     for (const std::uint32_t entry : made.entries) entries.push_back(static_cast<std::uint16_t>(entry));
     entries_.push_back(std::move(entries));
-    tables_.push_back({exact, made.power, made.address_bits, made.data_bits, entries_.back()});
+    tables_.push_back({exact, made.power, made.size, entries_.back()});
   }
 }
 

@@ -24,13 +24,12 @@ using ::testing::Not;
 TEST(MadeTables, EqualTheCompiledTables) {
   std::size_t compared = 0;
   for (const words::CosineTable& table : words::c_cosine_tables) {
-    const CosineSize size{table.address_bits, table.data_bits};
+    const CosineSize size = table.size;
     EXPECT_TRUE(compiled_in(table.exact, size));
     const MadeTables made(table.exact, size);
     for (const words::CosineTable& other : made.tables()) {
       EXPECT_EQ(other.exact, table.exact);
-      EXPECT_EQ(other.address_bits, size.address_bits);
-      EXPECT_EQ(other.data_bits, size.data_bits);
+      EXPECT_EQ(other.size, size);
       if (other.power != table.power) continue;
       EXPECT_THAT(other.entries, ElementsAreArray(table.entries));
       ++compared;

@@ -23,7 +23,7 @@ ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
                      .generics = key.generics()}};
 }
 
-HardwareKey spherical(Preset preset, unsigned channels, unsigned powers, TableSize tables) {
+HardwareKey spherical(Preset preset, unsigned channels, unsigned powers, words::CosineSize tables) {
   return {.shader = Shader::spherical,
           .preset = preset,
           .channels = channels,
@@ -65,7 +65,7 @@ std::vector<ListedDesign> all_designs() {
     const std::pair<std::string, std::string> is_exact = {"g_exact", exact ? "true" : "false"};
     const tables::PresetFormats& formats = presets[exact ? 0 : 1];
     const auto of = [&](std::string_view format) { return bits(formats, format); };
-    const TableSize tables = exact ? TableSize{9, 8} : TableSize{6, 6};
+    const words::CosineSize tables = exact ? words::CosineSize{9, 8} : words::CosineSize{6, 6};
     const Generics table = {{"g_address_bits", std::to_string(tables.address_bits)},
                             {"g_data_bits", std::to_string(tables.data_bits)}};
     const auto add = [&](const std::string& entity, Generics generics, bool quick = false,

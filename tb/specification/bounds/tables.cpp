@@ -27,9 +27,9 @@ TableFinding cosine_finding(const CosineTable& table) {
   TableFinding finding;
   finding.table =
       fmt::format("{}{} cos^{} {}/{}", table.exact ? "exact" : "published", table.own > 0.0 ? " own" : "",
-                  table.own > 0.0 ? table.own : table.power, table.address_bits, table.data_bits);
+                  table.own > 0.0 ? table.own : table.power, table.size.address_bits, table.size.data_bits);
   finding.bound = finding.derived = tables::error_bound(table);
-  const int cells = 1 << table.address_bits, full = (1 << table.data_bits) - 1;
+  const int cells = table.size.entries(), full = table.size.largest_entry();
   const int quarter = cells >> (table.exact ? 0 : table.power == 1 ? 2 : 1);  // cells
   for (int entry = 0; entry < cells; ++entry) {
     const int low = table.exact || entry < cells / 2 ? entry : entry - cells;
@@ -106,8 +106,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
   for (const CosineTable& table : tables::cosine_tables()) findings.push_back(cosine_finding(table));
   // Own tables, of exponents from the smallest to the largest.
   for (const double exponent : {1.0, 1.305, 2.65, 20.0, 1000.0, 1e6})
-    findings.push_back(cosine_finding(
-        tables::own_table(exponent, 2, tables::c_own_size.address_bits, tables::c_own_size.data_bits)));
+    findings.push_back(cosine_finding(tables::own_table(exponent, 2, tables::c_own_size)));
   // All other sizes that `make tables` accepts.
   TableFinding others{.table = "the other sizes, 3/2 to 12/12"};
   double nearest = 0, farthest_away = 1;
@@ -117,7 +116,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
     for (int data = 2; data <= 12; data += step)
       for (const auto& [exact, power] :
            {std::pair{true, 1}, {true, 2}, {true, 4}, {true, 8}, {true, 16}, {false, 1}, {false, 2}}) {
-        const TableFinding finding = cosine_finding(tables::cosine_table(exact, power, address, data));
+        const TableFinding finding = cosine_finding(tables::cosine_table(exact, power, {address, data}));
         ++count;
         const double ratio = finding.worst / finding.bound;
         farthest_away = std::min(farthest_away, ratio);

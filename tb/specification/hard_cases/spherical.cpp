@@ -76,7 +76,8 @@ void four_bit_tables(Trial& trial) {
     scene.materials[0] = {
         .name = "m", .brdf = brdf, .ambient = 0.0, .diffuse = 0.0, .specular = 1.0, .exponent = 2.0};
     scene.directional.push_back({glm::normalize(glm::dvec3(0.05, 0.02, 1.0)), glm::dvec3(1.0)});
-    show(trial, scene, brdf == Brdf::blinn ? "blinn" : "phong", {.published_tables = TableSize{4, 4}});
+    show(trial, scene, brdf == Brdf::blinn ? "blinn" : "phong",
+         {.published_tables = words::CosineSize{4, 4}});
   }
 }
 

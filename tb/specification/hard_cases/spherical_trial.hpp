@@ -43,7 +43,7 @@ struct Shown {
 struct ShowOptions {
   FrameSize frame = c_stage_frame;
   int least_red = 0;  ///< least red of the brightest pixel
-  std::optional<TableSize> published_tables{};
+  std::optional<words::CosineSize> published_tables{};
 };
 
 /// Draws the scene in preset exact, with ends on the surface. Compares each fragment's largest channel error
