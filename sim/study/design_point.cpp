@@ -14,6 +14,7 @@
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/toml_file.hpp"
+#include "words/cosine_tables.hpp"
 #include "words/formats.hpp"
 #include "words/generator/cosine.hpp"
 
@@ -49,167 +50,237 @@ class Sweep {
         fail(key.str(), fmt::format("is not a key here; the keys are {}", fmt::join(keys, ", ")));
   }
 
-  // Replace each point by one copy per value of the key (one value or a list). If the key is missing, leave
-  // the points unchanged. `set` writes a value into a point.
-  template <class Set>
-  void multiply(std::vector<DesignPoint>& points, std::string_view key, const Set& set) const {
-    const toml::node* node = table_.get(key);
-    if (node == nullptr) return;
-    const toml::array one{*node};
-    const toml::array& values = node->is_array() ? *node->as_array() : one;
-    if (values.empty()) fail(key, "is an empty list");
-    std::vector<DesignPoint> product;
-    for (const DesignPoint& point : points)
-      for (const toml::node& value : values) set(product.emplace_back(point), value);
-    points = std::move(product);
-  }
-
-  double number(std::string_view key, const toml::node& node, double least, double largest) const {
-    const auto value = node.value<double>();
-    if (!value || !(*value >= least && *value <= largest))
-      fail(key, fmt::format("takes numbers from {:g} to {:g}", least, largest));
-    return *value;
-  }
-
-  int whole(std::string_view key, const toml::node& node, int least, int largest) const {
-    const double value = number(key, node, least, largest);
-    if (to_integer<int>(value) != value) fail(key, "takes whole numbers");
-    return to_integer<int>(value);
-  }
-
-  FrameSize size(std::string_view key, const toml::node& node, std::uint32_t least) const {
-    const auto size = parse_frame_size(node.value<std::string>().value_or(""));
-    if (!size || std::min(size->width, size->height) < least ||
-        std::max(size->width, size->height) > c_max_frame_side)
-      fail(key, fmt::format("takes WIDTHxHEIGHT in pixels, such as 640x480, each {} to {}", least,
-                            c_max_frame_side));
-    return *size;
-  }
-
-  // Look up one of the given values by its name.
-  template <class Value>
-  Value name(std::string_view key, const toml::node& node, const std::vector<Value>& known) const {
-    std::vector<std::string> all;
-    for (const Value value : known) {
-      if (node.value<std::string>() == name_of(value)) return value;
-      all.emplace_back(name_of(value));
-    }
-    fail(key, fmt::format("takes {}", fmt::join(all, ", ")));
-  }
+  // Replace each point by one copy per value of the parameter (one value or a list). If the key is missing,
+  // leave the points unchanged.
+  void multiply(std::vector<DesignPoint>& points, const Knob& knob) const;
+  bool has(std::string_view key) const { return table_.contains(key); }
 
  private:
   const toml::table& table_;
   std::string file_;
 };
 
-bool is_processors(Method method) {
-  return method == Method::processors_1 || method == Method::processors_2;
+}  // namespace
+
+class SpaceValue {
+ public:
+  SpaceValue(const Sweep& sweep, const char* key, const toml::node& node)
+      : sweep_(sweep), key_(key), node_(node) {}
+
+  [[noreturn]] void fail(std::string_view what) const { sweep_.fail(key_, what); }
+
+  double number(double least, double largest) const {
+    const auto value = node_.value<double>();
+    if (!value || !(*value >= least && *value <= largest))
+      fail(fmt::format("takes numbers from {:g} to {:g}", least, largest));
+    return *value;
+  }
+  int whole(int least, int largest) const {
+    const double value = number(least, largest);
+    if (to_integer<int>(value) != value) fail("takes whole numbers");
+    return to_integer<int>(value);
+  }
+  bool flag() const {
+    const auto value = node_.value_exact<bool>();
+    if (!value) fail("takes true or false");
+    return *value;
+  }
+  FrameSize size(std::uint32_t least) const {
+    const auto size = parse_frame_size(node_.value<std::string>().value_or(""));
+    if (!size || std::min(size->width, size->height) < least ||
+        std::max(size->width, size->height) > c_max_frame_side)
+      fail(fmt::format("takes WIDTHxHEIGHT in pixels, such as 640x480, each {} to {}", least,
+                       c_max_frame_side));
+    return *size;
+  }
+  // One of the given values, by its name.
+  template <class Value>
+  Value name(const std::vector<Value>& known) const {
+    std::vector<std::string> all;
+    for (const Value value : known) {
+      if (node_.value<std::string>() == name_of(value)) return value;
+      all.emplace_back(name_of(value));
+    }
+    fail(fmt::format("takes {}", fmt::join(all, ", ")));
+  }
+  // A word length, empty if it is the preset's own.
+  std::optional<int> length(const DesignPoint& p, tables::Range range, int exact, int published) const {
+    const int bits = whole(range.least, range.most);
+    return bits == (p.preset == Preset::exact ? exact : published) ? std::nullopt : std::optional(bits);
+  }
+
+ private:
+  const Sweep& sweep_;
+  const char* key_;
+  const toml::node& node_;
+};
+
+namespace {
+
+bool is_quadratic(const DesignPoint& p) {
+  return p.method == Method::planes || p.method == Method::quadratic || p.method == Method::adaptive;
+}
+bool is_adaptive(const DesignPoint& p) {
+  return p.method == Method::adaptive;
+}
+bool is_spherical(const DesignPoint& p) {
+  return p.method == Method::spherical;
+}
+bool is_processors(const DesignPoint& p) {
+  return p.method == Method::processors_1 || p.method == Method::processors_2;
+}
+bool has_hardware(const DesignPoint& p) {
+  return in_hardware(p.method);
+}
+bool always(const DesignPoint&) {
+  return true;
+}
+
+template <class Number>
+std::string text_or_none(const std::optional<Number>& number) {
+  return number ? fmt::format("{:g}", double(*number)) : std::string();
+}
+
+using Point = DesignPoint;
+using Value = SpaceValue;
+constexpr tables::CosineSize c_least = tables::c_smallest_cosine_size, c_most = tables::c_largest_cosine_size;
+
+constexpr Knob c_knobs[] = {
+    {"size", true, always, [](const Value& v, Point& p) { p.size = v.size(1); },
+     [](const Point& p) { return to_string(p.size); }},
+    {"tile", true, always, [](const Value& v, Point& p) { p.tile = v.size(c_least_tile); },
+     [](const Point& p) { return to_string(p.tile); }},
+    {"tessellation", true, always, [](const Value& v, Point& p) { p.tessellation = v.number(0.05, 100.0); },
+     [](const Point& p) { return fmt::format("{:g}", p.tessellation); }},
+    {"exponent", true, always, [](const Value& v, Point& p) { p.exponent = v.number(1.0, 1e6); },
+     [](const Point& p) { return text_or_none(p.exponent); }},
+    {"method", false, always,
+     [](const Value& v, Point& p) {
+       std::vector<Method> methods;
+       for (std::size_t i = 0; i < c_method_names.size(); ++i) methods.push_back(static_cast<Method>(i));
+       p.method = v.name(methods);
+     },
+     [](const Point& p) { return std::string(to_string(p.method)); }},
+    {"preset", false, has_hardware,
+     [](const Value& v, Point& p) {
+       p.preset = v.name<Preset>({Preset::exact, Preset::published});
+     },
+     [](const Point& p) { return std::string(to_string(p.preset)); }},
+    {"address_bits", false, is_spherical,
+     [](const Value& v, Point& p) {
+       p.tables = {v.whole(c_least.address_bits, c_most.address_bits), 0};
+     },
+     [](const Point& p) { return p.tables ? std::to_string(p.tables->address_bits) : ""; }},
+    {"data_bits", false, is_spherical,
+     [](const Value& v, Point& p) {
+       const int bits = v.whole(c_least.data_bits, c_most.data_bits);
+       if (p.tables) p.tables->data_bits = bits;
+     },
+     [](const Point& p) { return p.tables ? std::to_string(p.tables->data_bits) : ""; }},
+    {"angle_bits", false, is_spherical,
+     [](const Value& v, Point& p) {
+       p.words.angle_bits = v.length(p, tables::c_angle_range, words::Exact::c_angle_fraction_bits,
+                                     words::Published::c_angle_fraction_bits);
+     },
+     [](const Point& p) { return text_or_none(p.words.angle_bits); }},
+    {"fraction_bits", false, is_quadratic,
+     [](const Value& v, Point& p) {
+       p.words.fraction_bits = v.length(p, tables::c_fraction_range, words::Exact::c_intensity_fraction_bits,
+                                        words::Published::c_intensity_fraction_bits);
+     },
+     [](const Point& p) { return text_or_none(p.words.fraction_bits); }},
+    {"seed_bits", false, is_processors,
+     [](const Value& v, Point& p) {
+       p.words.seed_bits = v.length(p, tables::c_seed_range, words::Exact::c_root_entry_fraction_bits,
+                                    words::Published::c_root_entry_fraction_bits);
+     },
+     [](const Point& p) { return text_or_none(p.words.seed_bits); }},
+    {"newton", false, is_processors,
+     [](const Value& v, Point& p) {
+       const bool newton = v.flag();
+       // In preset published, a square has no more bits than the table's entries are accurate for.
+       if (newton && p.preset == Preset::published && is_processors(p))
+         v.fail("is only allowed in preset exact");
+       if (newton != (p.preset == Preset::exact)) p.words.newton = newton;
+     },
+     [](const Point& p) { return text_or_none(p.words.newton); }},
+    {"form", false, is_processors,
+     [](const Value& v, Point& p) {
+       p.form = v.name<ProcessorForm>({ProcessorForm::folded, ProcessorForm::unrolled});
+     },
+     [](const Point& p) { return std::string(to_string(p.form)); }},
+    {"highlight_test", false, is_adaptive,
+     [](const Value& v, Point& p) {
+       p.test = v.name<HighlightTest>({HighlightTest::conservative, HighlightTest::centroid});
+     },
+     [](const Point& p) { return std::string(name_of(p.test)); }},
+    {"span_ends", false, [](const Point& p) { return p.has_ends(); },
+     [](const Value& v, Point& p) {
+       p.ends = v.name<SpanEnds>({SpanEnds::on_surface, SpanEnds::slerped_along_edges});
+     },
+     [](const Point& p) { return std::string(name_of(p.ends)); }},
+    {"own_tables", false, [](const Point& p) { return p.has_ends(); },
+     [](const Value& v, Point& p) {
+       p.own_tables = v.flag();
+       if (p.own_tables && p.has_ends() && !p.tables)
+         v.fail("is only allowed with address_bits and data_bits");
+     },
+     [](const Point& p) { return std::string(p.own_tables ? "1" : ""); }},
+    {"threshold", false, [](const Point& p) { return p.has_threshold(); },
+     [](const Value& v, Point& p) { p.threshold = v.number(0.01, 255.0); },
+     [](const Point& p) { return fmt::format("{:g}", p.threshold); }},
+};
+
+void Sweep::multiply(std::vector<DesignPoint>& points, const Knob& knob) const {
+  const toml::node* node = table_.get(knob.name);
+  if (node == nullptr) return;
+  const toml::array one{*node};
+  const toml::array& values = node->is_array() ? *node->as_array() : one;
+  if (values.empty()) fail(knob.name, "is an empty list");
+  std::vector<DesignPoint> product;
+  for (const DesignPoint& point : points)
+    for (const toml::node& value : values) {
+      DesignPoint& next = product.emplace_back(point);
+      knob.read({*this, knob.name, value}, next);
+      // The value is checked, but has no effect.
+      if (!knob.applies(next)) next = point;
+    }
+  points = std::move(product);
 }
 
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
-  sweep.allow({"method", "preset", "address_bits", "data_bits", "own_tables", "angle_bits", "fraction_bits",
-               "seed_bits", "newton", "form", "highlight_test", "span_ends", "threshold", "tessellation",
-               "exponent", "size", "tile"});
+  std::vector<std::string_view> names;
+  for (const Knob& knob : c_knobs) names.emplace_back(knob.name);
+  sweep.allow(names);
+  if (!sweep.has("method")) sweep.fail("method", "is missing");
   std::vector<DesignPoint> points(1);
-  const auto multiply = [&](std::string_view key, const auto& set) { sweep.multiply(points, key, set); };
-  const auto numbers = [&](std::string_view key, double least, double largest, const auto& set) {
-    multiply(key, [&](DesignPoint& p, const toml::node& node) {
-      set(p, sweep.number(key, node, least, largest));
-    });
-  };
-  const auto lengths = [&](std::string_view key, int least, int largest, const auto& set) {
-    multiply(key,
-             [&](DesignPoint& p, const toml::node& node) { set(p, sweep.whole(key, node, least, largest)); });
-  };
-  multiply("size", [&](DesignPoint& p, const toml::node& node) { p.size = sweep.size("size", node, 1); });
-  multiply("tile",
-           [&](DesignPoint& p, const toml::node& node) { p.tile = sweep.size("tile", node, c_least_tile); });
-  numbers("tessellation", 0.05, 100.0, [](DesignPoint& p, double factor) { p.tessellation = factor; });
-  numbers("exponent", 1.0, 1e6, [](DesignPoint& p, double exponent) { p.exponent = exponent; });
-  bool has_method = false;
-  multiply("method", [&](DesignPoint& p, const toml::node& node) {
-    std::vector<Method> methods;
-    for (std::size_t i = 0; i < c_method_names.size(); ++i) methods.push_back(static_cast<Method>(i));
-    p.method = sweep.name("method", node, methods);
-    has_method = true;
-  });
-  if (!has_method) sweep.fail("method", "is missing");
-  multiply("preset", [&](DesignPoint& p, const toml::node& node) {
-    p.preset = sweep.name<Preset>("preset", node, {Preset::exact, Preset::published});
-  });
-  constexpr tables::CosineSize c_least = tables::c_smallest_cosine_size,
-                               c_most = tables::c_largest_cosine_size;
-  lengths("address_bits", c_least.address_bits, c_most.address_bits, [](DesignPoint& p, int address) {
-    p.tables = words::CosineSize{address, 0};
-  });
-  lengths("data_bits", c_least.data_bits, c_most.data_bits, [&](DesignPoint& p, int data) {
-    if (!p.tables) sweep.fail("data_bits", "is only allowed with address_bits");
-    p.tables->data_bits = data;
-  });
-  if (std::ranges::any_of(points, [](const DesignPoint& p) { return p.tables && p.tables->data_bits == 0; }))
+  for (const Knob& knob : c_knobs) sweep.multiply(points, knob);
+  if (sweep.has("address_bits") != sweep.has("data_bits"))
     sweep.fail("data_bits", "is only allowed with address_bits");
-  multiply("own_tables", [&](DesignPoint& p, const toml::node& node) {
-    const auto own = node.value_exact<bool>();
-    if (!own) sweep.fail("own_tables", "takes true or false");
-    if (p.method != Method::spherical || p.preset != Preset::exact) return;
-    if (*own && !p.tables) sweep.fail("own_tables", "is only allowed with address_bits and data_bits");
-    p.own_tables = *own;
-  });
-  // A word length applies to some methods only. The preset's own length counts as not given.
-  const auto length = [&](std::string_view key, tables::Range range, bool (*has)(Method),
-                          std::optional<int> tables::WordLengths::*word, int exact, int published) {
-    lengths(key, range.least, range.most, [&](DesignPoint& p, int value) {
-      const int own = p.preset == Preset::exact ? exact : published;
-      if (value != own && has(p.method)) p.words.*word = value;
-    });
-  };
-  length(
-      "angle_bits", tables::c_angle_range, [](Method m) { return m == Method::spherical; },
-      &tables::WordLengths::angle_bits, words::Exact::c_angle_fraction_bits,
-      words::Published::c_angle_fraction_bits);
-  length(
-      "fraction_bits", tables::c_fraction_range,
-      [](Method m) { return m == Method::planes || m == Method::quadratic || m == Method::adaptive; },
-      &tables::WordLengths::fraction_bits, words::Exact::c_intensity_fraction_bits,
-      words::Published::c_intensity_fraction_bits);
-  length("seed_bits", tables::c_seed_range, is_processors, &tables::WordLengths::seed_bits,
-         words::Exact::c_root_entry_fraction_bits, words::Published::c_root_entry_fraction_bits);
-  multiply("newton", [&](DesignPoint& p, const toml::node& node) {
-    const auto newton = node.value_exact<bool>();
-    if (!newton) sweep.fail("newton", "takes true or false");
-    if (!is_processors(p.method)) return;
-    // In preset published, a square has no more bits than the table's entries are accurate for.
-    if (*newton && p.preset == Preset::published) sweep.fail("newton", "is only allowed in preset exact");
-    if (*newton != (p.preset == Preset::exact)) p.words.newton = newton;
-  });
-  for (const DesignPoint& p : points)
-    if (p.method == Method::spherical && p.words.angle_bits) {
-      const int address = p.tables ? p.tables->address_bits : p.preset == Preset::exact ? 9 : 6;
-      if (*p.words.angle_bits < address)
-        sweep.fail("angle_bits", fmt::format("must be {} at least, the table's address", address));
-    }
-  multiply("form", [&](DesignPoint& p, const toml::node& node) {
-    p.form = sweep.name<ProcessorForm>("form", node, {ProcessorForm::folded, ProcessorForm::unrolled});
-  });
-  multiply("highlight_test", [&](DesignPoint& p, const toml::node& node) {
-    const HighlightTest test = sweep.name<HighlightTest>(
-        "highlight_test", node, {HighlightTest::conservative, HighlightTest::centroid});
-    if (p.method == Method::adaptive) p.test = test;
-  });
-  multiply("span_ends", [&](DesignPoint& p, const toml::node& node) {
-    const SpanEnds ends =
-        sweep.name<SpanEnds>("span_ends", node, {SpanEnds::on_surface, SpanEnds::slerped_along_edges});
-    if (p.has_ends()) p.ends = ends;
-  });
+  for (const DesignPoint& p : points) {
+    if (!p.words.angle_bits) continue;
+    const words::CosineSize usual =
+        p.preset == Preset::exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
+    const int address = p.tables.value_or(usual).address_bits;
+    if (*p.words.angle_bits < address)
+      sweep.fail("angle_bits", fmt::format("must be {} at least, the table's address", address));
+  }
   // Version I uses the interpolated N without normalization; in preset exact that would be N/w.
   std::erase_if(points, [](const DesignPoint& p) {
     return p.method == Method::processors_1 && p.preset == Preset::exact;
   });
-  numbers("threshold", 0.01, 255.0, [](DesignPoint& p, double threshold) { p.threshold = threshold; });
   return points;
 }
 
 }  // namespace
+
+std::span<const Knob> knobs() {
+  return c_knobs;
+}
+
+std::string text_of(const Knob& knob, const DesignPoint& point) {
+  return knob.applies(point) ? knob.text(point) : std::string();
+}
 
 bool DesignPoint::has_threshold() const {
   return method == Method::adaptive || (has_ends() && ends == SpanEnds::on_surface);
@@ -232,7 +303,7 @@ std::string DesignPoint::design() const {
   if (words.fraction_bits) text += fmt::format(" fraction {}", *words.fraction_bits);
   if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);
   if (words.newton) text += *words.newton ? " with Newton" : " without Newton";
-  if (is_processors(method) && form == ProcessorForm::folded) text += " folded";
+  if (is_processors(*this) && form == ProcessorForm::folded) text += " folded";
   if (method == Method::adaptive && test != HighlightTest::conservative)
     text += fmt::format(" {}", name_of(test));
   if (has_ends() && ends != SpanEnds::on_surface) text += fmt::format(" {}", name_of(ends));
@@ -252,7 +323,7 @@ PlanRequest DesignPoint::plan() const {
     request.tables = tables;
   } else if (method == Method::planes) {
     request.degree = 1;
-  } else if (is_processors(method)) {
+  } else if (is_processors(*this)) {
     request.shader = Shader::processors;
     request.form = form;
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,23 @@ struct DesignPoint {
   PlanRequest plan() const;
   SetupOptions setup() const;
 };
+
+class SpaceValue;  // of a space file, with its place
+
+/// A parameter of a point: a key of spaces, a column of study.csv, a name in answers to queries.
+struct Knob {
+  const char* name;
+  bool is_picture;  ///< changes scene or picture, not the design
+  bool (*applies)(const DesignPoint& point);
+  /// Sets the parameter. Throws Failure with file and line if the value is not one of its values.
+  void (*read)(const SpaceValue& value, DesignPoint& point);
+  /// Text of its value; empty: the default of the method.
+  std::string (*text)(const DesignPoint& point);
+};
+/// All parameters, in the order in which spaces multiply them.
+std::span<const Knob> knobs();
+/// The value of a parameter; empty if it does not apply to the point, or is the default.
+std::string text_of(const Knob& knob, const DesignPoint& point);
 
 /// Remove duplicates and put points of the same picture next to each other, because they share one reference.
 std::vector<DesignPoint> ordered(std::vector<DesignPoint> points);

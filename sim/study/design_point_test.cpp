@@ -117,6 +117,12 @@ TEST(Spaces, VaryTheExpectedParameters) {
       EXPECT_TRUE(full.contains(design)) << file << ": " << design;
 }
 
+TEST_F(SpaceTest, EveryKeyIsDocumented) {
+  const std::string page =
+      must(read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/study/spaces/README.md"));
+  for (const Knob& knob : knobs()) EXPECT_THAT(page, HasSubstr(fmt::format("`{}`", knob.name)));
+}
+
 TEST_F(SpaceTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
               HasSubstr("space.toml:3: exponent takes numbers from 1"));

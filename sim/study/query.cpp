@@ -139,53 +139,17 @@ std::string difference_text(const Offer& here, const Offer& there) {
   return texts.empty() ? "no other cost" : fmt::format("{}", fmt::join(texts, ", "));
 }
 
-struct Knob {
-  const char* name;  // a key of a space file
-  std::string value;
-};
-
-// The parameters that distinguish designs. Parameters that do not apply to a design are omitted.
-std::vector<Knob> knobs_of(const DesignPoint& p) {
-  const auto text_of = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
-  std::vector<Knob> knobs = {{"method", to_string(p.method)}, {"preset", to_string(p.preset)}};
-  switch (p.method) {
-    case Method::planes:
-    case Method::quadratic:
-    case Method::adaptive:
-      knobs.push_back({"fraction_bits", text_of(p.words.fraction_bits)});
-      break;
-    case Method::spherical:
-      knobs.push_back({"address_bits", p.tables ? std::to_string(p.tables->address_bits) : ""});
-      knobs.push_back({"data_bits", p.tables ? std::to_string(p.tables->data_bits) : ""});
-      knobs.push_back({"own_tables", p.own_tables ? "true" : ""});
-      knobs.push_back({"angle_bits", text_of(p.words.angle_bits)});
-      break;
-    case Method::processors_1:
-    case Method::processors_2:
-      knobs.push_back({"form", to_string(p.form)});
-      knobs.push_back({"seed_bits", text_of(p.words.seed_bits)});
-      knobs.push_back({"newton", text_of(p.words.newton)});
-      break;
-    case Method::phong:
-    case Method::gouraud:
-    case Method::phong_mesa:
-      break;
-  }
-  if (p.method == Method::adaptive) knobs.push_back({"highlight_test", name_of(p.test)});
-  if (p.has_ends()) knobs.push_back({"span_ends", name_of(p.ends)});
-  if (p.has_threshold()) knobs.push_back({"threshold", fmt::format("{:g}", p.threshold)});
-  return knobs;
-}
-
 // The searched space: the number of designs and the parameters in which they differ.
 std::string knobs_text(const Market& market, std::span<const Record> records) {
   std::vector<std::pair<std::string, std::set<std::string>>> values;
-  for (const Offer& offer : market.offers)
-    for (const auto& [name, value] : knobs_of(records[offer.record].point)) {
-      auto known = std::ranges::find(values, name, &std::pair<std::string, std::set<std::string>>::first);
-      if (known == values.end()) known = values.insert(known, {name, {}});
-      known->second.insert(value);
-    }
+  for (const Knob& knob : knobs()) {
+    if (knob.is_picture) continue;
+    std::set<std::string> of;
+    for (const Offer& offer : market.offers)
+      if (const DesignPoint& point = records[offer.record].point; knob.applies(point))
+        of.insert(knob.text(point));
+    if (!of.empty()) values.emplace_back(knob.name, std::move(of));
+  }
   std::vector<std::string> turned, left;
   for (const auto& [name, of] : values) (of.size() > 1 ? turned : left).push_back(name);
   std::string text = fmt::format("  {:<14} {} points of hardware", "looked at", market.offers.size());

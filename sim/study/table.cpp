@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -51,6 +52,10 @@ std::string ratio(std::uint64_t part, std::uint64_t whole) {
 using Column = std::pair<std::string, std::string>;  // name and value
 using Line = std::vector<Column>;
 
+Column knob_of(const DesignPoint& point, std::string_view name) {
+  return {std::string(name), text_of(*std::ranges::find(knobs(), name, &Knob::name), point)};
+}
+
 Line line_of(const Provenance& provenance, const Record& record, const HardwareFigures* known,
              const std::optional<bool>& on_front) {
   const auto& [p, m] = record;
@@ -66,14 +71,14 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
                {"scene_hash", provenance.scene_hash},
                {"tools", quoted(provenance.tools + (hardware.tools.empty() ? "" : ", " + hardware.tools))},
                {"point", quoted(p.name())},
-               {"method", to_string(p.method)},
-               {"preset", in_hardware(p.method) ? to_string(p.preset) : ""},
-               {"address_bits", text_of(p.tables, &words::CosineSize::address_bits)},
-               {"data_bits", text_of(p.tables, &words::CosineSize::data_bits)},
-               {"form", p.plan().form ? to_string(p.form) : ""},
-               {"threshold", p.has_threshold() ? fmt::format("{:g}", p.threshold) : ""},
-               {"tessellation", fmt::format("{:g}", p.tessellation)},
-               {"exponent", text_of(p.exponent, "{:g}")},
+               knob_of(p, "method"),
+               knob_of(p, "preset"),
+               knob_of(p, "address_bits"),
+               knob_of(p, "data_bits"),
+               knob_of(p, "form"),
+               knob_of(p, "threshold"),
+               knob_of(p, "tessellation"),
+               knob_of(p, "exponent"),
                {"width", text_of(p.size.width)},
                {"height", text_of(p.size.height)}};
   for_each_figure(m, [&](const char* name, const auto& value) { line.emplace_back(name, text_of(value)); });
@@ -96,15 +101,17 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
                      {"ice40_carries", text_of(ice40, &synth::Ice40Cells::carries)},
                      {"ice40_flip_flops", text_of(ice40, &synth::Ice40Cells::flip_flops)},
                      {"ice40_rams", text_of(ice40, &synth::Ice40Cells::rams)},
-                     {"angle_bits", text_of(p.words.angle_bits)},
-                     {"fraction_bits", text_of(p.words.fraction_bits)},
-                     {"seed_bits", text_of(p.words.seed_bits)},
-                     {"newton", text_of(p.words.newton, "{:d}")},
-                     {"tiles", text_of(p.tiles().size())},
-                     {"highlight_test", p.method == Method::adaptive ? name_of(p.test) : ""},
-                     {"span_ends", p.has_ends() ? name_of(p.ends) : ""},
-                     {"own_tables", p.own_tables ? "1" : ""}};
+                     knob_of(p, "angle_bits"),
+                     knob_of(p, "fraction_bits"),
+                     knob_of(p, "seed_bits"),
+                     knob_of(p, "newton"),
+                     {"tiles", text_of(p.tiles().size())}};
   line.insert(line.end(), rest.begin(), rest.end());
+  // The other parameters. Size and tile have columns of their own.
+  for (const Knob& knob : knobs())
+    if (const std::string name = knob.name;
+        name != "size" && name != "tile" && std::ranges::find(line, name, &Column::first) == line.end())
+      line.emplace_back(name, text_of(knob, p));
   return line;
 }
 
