@@ -232,8 +232,8 @@ synth: configure ## compare cells on two FPGAs and the clock on one with the thr
 	@build/tb/halfway_synth clocks --jobs "$(jobs)" $(call option,SEEDS,--seeds) $${DESIGN:+"$$DESIGN"}
 
 board: configure ## make the bitstream of the board and compare its figures with the thresholds
-	@$(lock) cmake --build build -j "$(jobs)" --target halfway_board
-	@build/tb/halfway_board . build/cache build/board/board.bin
+	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth
+	@build/tb/halfway_synth board
 
 bench: configure ## make evidence PAGE=speed: ways to the same picture, whole frames, frames in a browser, small triangles
 	@$(call measure,speed)

@@ -24,7 +24,7 @@ hard_cases 7 docs/results/hard_cases.md halfway_stability
 proofs 14 docs/results/proofs.md halfway_proofs
 mutants 12 docs/results/mutants.md halfway_mutants halfway_vectors
 speed 30 docs/results/speed.md halfway halfway_bench
-clocks 300 docs/results/synthesis.md halfway_synth halfway_board'
+clocks 300 docs/results/synthesis.md halfway_synth'
 by_name='speed clocks'
 
 names() { echo "$pages" | cut -d ' ' -f 1; }
@@ -105,7 +105,7 @@ run() { # page, options
     cells) build/tb/halfway_synth cells ${evidence:+--page} --jobs "$jobs" "$@" ;;
     clocks)
       build/tb/halfway_synth clocks ${evidence:+--page} --jobs "$jobs" "$@"
-      [ -z "$evidence" ] || build/tb/halfway_board --page . build/cache build/board/board.bin
+      [ -z "$evidence" ] || build/tb/halfway_synth board --page
       ;;
     proofs) build/tb/halfway_proofs $evidence . build/proofs "$@" ;;
     mutants)

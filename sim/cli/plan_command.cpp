@@ -22,7 +22,8 @@
 #include "reference/renderer.hpp"
 #include "setup/setup.hpp"
 #include "sim/cli/options.hpp"
-#include "sim/cost/cells.hpp"
+#include "sim/cost/cost.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/engines/ghdl/hardware_units.hpp"
 #include "sim/engines/verilator/shader_netlist.hpp"
 #include "sim/files/load_scene.hpp"
@@ -31,7 +32,6 @@
 #include "sim/os/printable.hpp"
 #include "sim/os/threads.hpp"
 #include "sim/run/simulation_cost.hpp"
-#include "sim/study/hardware.hpp"
 
 namespace halfway::cli {
 namespace {
@@ -152,12 +152,12 @@ CellsByKey count_all(const Plan& plan, const SimulatorFolders& folders, unsigned
   if (plan.key.shader == Shader::quadratic)
     for (const int degree : {1, 2}) add(of_degree(plan.key, degree));
 
-  const CellCounter counter(folders);
+  const synth::Synthesizer synthesizer = synth::Synthesizer::open(folders.cache, false);
   progress.show(fmt::format("Yosys synthesizes {} netlists", keys.size()));
   std::mutex mutex;
   CellsByKey cells;
   must_for_each(threads, keys.size(), [&](std::size_t i) {
-    const Cells counted = counter.count(keys[i]);
+    const Cells counted = synthesizer.generic_cells(synth::design_of(keys[i], folders.source));
     const std::scoped_lock lock(mutex);
     cells[keys[i].name()] = counted;
   });
@@ -284,9 +284,8 @@ void print_errors(const std::string& which, const FrameDistance& planes, const F
 // The stored clocks, without placement.
 void print_clocks(const HardwareKey& planes, const HardwareKey& quadratics, const SimulatorFolders& folders) {
   const auto text = [&](const HardwareKey& key) -> std::string {
-    const auto figures = caught([&] {
-      return study::stored_figures({{.key = key, .tables = {}}, folders}, folders);
-    });
+    const auto figures =
+        caught([&] { return synth::Costing(folders).stored(synth::design_of(key, folders.source)); });
     return figures && figures->mhz ? fmt::format("{:.1f}", *figures->mhz) : "-";
   };
   print_row("clock, MHz on an iCE40 HX8K, as stored", text(planes), text(quadratics), "");

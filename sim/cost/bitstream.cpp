@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "sim/cost/placement.hpp"
+#include "sim/cost/yosys.hpp"
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
@@ -49,13 +51,10 @@ BoardFigures read_figures(const std::filesystem::path& folder) {
   BoardFigures figures;
   try {
     const json report = json::parse(must(read_file(folder / "report.json")));
-    // Others are cells of pins, clocks and the PLL.
-    count_cells(folder, {{"SB_LUT4", &figures.cells.luts},
-                         {"SB_CARRY", &figures.cells.carries},
-                         {"SB_DFF", &figures.cells.flip_flops},
-                         {"SB_RAM40_4K", &figures.cells.rams},
-                         {"SB_", nullptr}});
-    figures.logic_cells = report.at("utilization").at("ICESTORM_LC").at("used");
+    std::vector<CellKind> kinds(c_ice40.kinds.begin(), c_ice40.kinds.end());
+    kinds.push_back({"SB_", nullptr});  // cells of pins, clocks and the PLL
+    figures.cells = count_cells(folder, kinds);
+    figures.logic_cells = report.at("utilization").at(c_hx8k.names.logic_cell).at("used");
     for (const auto& [clock, speed] : report.at("fmax").items()) figures.mhz = speed.at("achieved");
     figures.strobe_ns = strobe_delay(report);
   } catch (const json::exception& error) {
@@ -101,11 +100,11 @@ BoardFigures make_bitstream(const SimulatorFolders& folders, const std::filesyst
   must(write_file(folder / "netlist.v", netlist));
   const std::vector<std::vector<std::string>> commands = {
       {"yosys", "-q", "-p",
-       fmt::format("read_verilog netlist.v; synth_ice40 -device hx -top {} -json board.json; {}", c_top,
+       fmt::format("read_verilog netlist.v; {} -top {} -json board.json; {}", c_ice40.pass, c_top,
                    c_statistics)},
-      {"nextpnr-ice40", "--hx8k", "--package", "ct256", "--freq", std::to_string(c_board_mhz), "--pcf",
-       (folders.source / c_constraints).string(), "--json", "board.json", "--asc", "board.asc", "--seed",
-       c_seed, "--report", "report.json", "--quiet"},
+      placer_command(c_hx8k, c_board_mhz,
+                     {"--pcf", (folders.source / c_constraints).string(), "--json", "board.json", "--asc",
+                      "board.asc", "--seed", c_seed, "--report", "report.json", "--quiet"}),
       {"icepack", "board.asc", "board.bin"}};
   for (const std::vector<std::string>& command : commands) run_tool(command, folder, c_top);
   const BoardFigures figures = read_figures(folder);

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "common/result.hpp"
-#include "sim/cost/synthesis.hpp"
+#include "sim/cost/families.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::synth {
@@ -24,7 +24,7 @@ Result<std::string> mend_cells(std::string_view netlist);
 
 /// What the tools report of a bitstream.
 struct BoardFigures {
-  Ice40Cells cells;               ///< after Yosys
+  Cells cells;                    ///< after Yosys
   std::uint64_t logic_cells = 0;  ///< of the HX8K, after placement
   double mhz = 0;                 ///< the clock
   double strobe_ns = 0;           ///< the longest path to the late clock

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/to_integer.hpp"
 #include "sim/os/csv.hpp"
 #include "sim/os/file.hpp"
@@ -14,6 +16,10 @@ const std::vector<std::string> c_columns = {"design", "luts",  "carries", "flip_
                                             "mhz",    "seeds", "tools",   "netlist"};
 
 }  // namespace
+
+ClockStore::const_iterator clock_of(const ClockStore& clocks, const std::string& netlist) {
+  return std::ranges::find_if(clocks, [&](const auto& clock) { return clock.second.netlist == netlist; });
+}
 
 Result<ClockStore> read_clocks(const std::filesystem::path& root) {
   ClockStore clocks;
@@ -47,9 +53,9 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root) {
 Status write_clocks(const std::filesystem::path& root, const ClockStore& clocks) {
   Table table{c_columns, {}};
   for (const auto& [design, clock] : clocks) {
-    const auto& [luts, carries, flip_flops, rams] = clock.cells;
-    table.rows.push_back({design, std::to_string(luts), std::to_string(carries), std::to_string(flip_flops),
-                          std::to_string(rams), fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds),
+    const auto text = [&](std::uint64_t Cells::*number) { return std::to_string(clock.cells.*number); };
+    table.rows.push_back({design, text(&Cells::luts), text(&Cells::carries), text(&Cells::flip_flops),
+                          text(&Cells::rams), fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds),
                           clock.tools, clock.netlist});
   }
   return write_file(root / c_clocks, to_csv(table));

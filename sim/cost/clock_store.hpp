@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "sim/cost/synthesis.hpp"
+#include "sim/cost/families.hpp"
 
 namespace halfway::synth {
 
@@ -15,13 +15,16 @@ namespace halfway::synth {
 inline constexpr const char* c_clocks = "docs/results/clocks.csv";
 
 struct StoredClock {
-  Ice40Cells cells;
+  Cells cells;                     ///< on an iCE40
   double mhz = 0;                  ///< median of the placements; 0: the hardware is not placed
   unsigned seeds = 0;              ///< number of placements
   std::string tools{}, netlist{};  ///< Synthesizer::versions, netlist_identity
 };
 /// By the name of the design, or of the hardware key.
 using ClockStore = std::map<std::string, StoredClock>;
+
+/// The first clock of a netlist with this identity.
+ClockStore::const_iterator clock_of(const ClockStore& clocks, const std::string& netlist);
 
 /// Empty if there is no file.
 Result<ClockStore> read_clocks(const std::filesystem::path& root);

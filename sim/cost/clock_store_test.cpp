@@ -21,12 +21,14 @@ TEST(ClockStore, ReadsWhatItWrites) {
   ASSERT_TRUE(clocks) << clocks.error().message;
   ASSERT_EQ(clocks->size(), 2U);
   const StoredClock& a = clocks->at("a");
-  EXPECT_EQ(a.cells, (Ice40Cells{1, 2, 3, 4}));
+  EXPECT_EQ(a.cells, (Cells{1, 2, 3, 4}));
   EXPECT_EQ(a.mhz, 87.5);
   EXPECT_EQ(a.seeds, 3U);
   EXPECT_EQ(a.tools, "GHDL 2, Yosys 1");
   EXPECT_EQ(a.netlist, "ab");
   EXPECT_EQ(clocks->at("large").mhz, 0);
+  EXPECT_EQ(clock_of(*clocks, "cd")->first, "large");
+  EXPECT_EQ(clock_of(*clocks, "ef"), clocks->end());
 
   const auto text = read_file(root / c_clocks);
   ASSERT_TRUE(text);

@@ -13,8 +13,6 @@
 #include <tuple>
 #include <vector>
 
-#include "sim/cost/ice40_cells.hpp"
-
 namespace halfway::synth {
 namespace {
 
@@ -24,6 +22,10 @@ using Net = std::int64_t;
 bool is_net(const ordered_json& bit) {
   return bit.is_number_integer();
 }  // otherwise a constant, such as "0"
+
+bool is_register(const ordered_json& cell) {
+  return cell.at("type").get_ref<const std::string&>().starts_with("SB_DFF");
+}
 
 // std::nullopt if the pin is missing or constant.
 std::optional<Net> net_at(const ordered_json& cell, const char* pin) {
@@ -86,54 +88,38 @@ std::vector<Enable> chosen_enables(const ordered_json& module) {
   return chosen;
 }
 
-class Buffers {
- public:
-  explicit Buffers(ordered_json& module) : cells_(module.at("cells")), names_(module.at("netnames")) {
-    for (const ordered_json& cell : cells_)
-      for (const ordered_json& bits : cell.at("connections"))
-        for (const ordered_json& bit : bits)
-          if (is_net(bit)) last_ = std::max(last_, bit.get<Net>());
-    for (const ordered_json& named : names_)
-      for (const ordered_json& bit : named.at("bits"))
-        if (is_net(bit)) last_ = std::max(last_, bit.get<Net>());
-  }
+Net last_net(const ordered_json& module) {
+  Net last = 0;
+  const auto see = [&](const ordered_json& bits) {
+    for (const ordered_json& bit : bits)
+      if (is_net(bit)) last = std::max(last, bit.get<Net>());
+  };
+  for (const ordered_json& cell : module.at("cells"))
+    for (const ordered_json& bits : cell.at("connections")) see(bits);
+  for (const ordered_json& named : module.at("netnames")) see(named.at("bits"));
+  return last;
+}
 
-  void insert_clock(Net net) {
-    const Net buffered = ++last_;
-    for (ordered_json& cell : cells_)
-      for (auto& [pin, bits] : cell.at("connections").items())
-        if (cell.at("port_directions").at(pin) == "input")
-          std::replace(bits.begin(), bits.end(), ordered_json(net), ordered_json(buffered));
-    add("clk", net, buffered);
-  }
-
-  void insert_enable(const Enable& enable) {
-    const Net buffered = ++last_;
-    for (ordered_json& cell : cells_)
-      if (is_register(cell) && net_at(cell, "E") == enable.net) cell["connections"]["E"] = {buffered};
-    add(enable.name, enable.net, buffered);
-  }
-
- private:
-  void add(const std::string& name, Net from, Net to) {
-    const std::string buffer = fmt::format("{}_SB_GB", name);
-    cells_[buffer] = {
-        {"hide_name", 0},
-        {"type", "SB_GB"},
-        {"parameters", ordered_json::object()},
-        {"attributes", ordered_json::object()},
-        {"port_directions", {{"USER_SIGNAL_TO_GLOBAL_BUFFER", "input"}, {"GLOBAL_BUFFER_OUTPUT", "output"}}},
-        {"connections",
-         {{"USER_SIGNAL_TO_GLOBAL_BUFFER", ordered_json::array({from})},
-          {"GLOBAL_BUFFER_OUTPUT", ordered_json::array({to})}}}};
-    names_[buffer + "_O"] = {
-        {"hide_name", 0}, {"bits", ordered_json::array({to})}, {"attributes", ordered_json::object()}};
-  }
-
-  ordered_json& cells_;
-  ordered_json& names_;
-  Net last_ = 0;
-};
+// Insert a buffer between the net `from` and those of its pins that are loads of the buffer.
+template <class IsLoad>
+void insert_buffer(ordered_json& module, const std::string& name, Net from, const IsLoad& is_load) {
+  const Net to = last_net(module) + 1;
+  for (ordered_json& cell : module.at("cells"))
+    for (auto& [pin, bits] : cell.at("connections").items())
+      if (is_load(cell, pin)) std::replace(bits.begin(), bits.end(), ordered_json(from), ordered_json(to));
+  const std::string buffer = name + "_SB_GB";
+  module.at("cells")[buffer] = {
+      {"hide_name", 0},
+      {"type", "SB_GB"},
+      {"parameters", ordered_json::object()},
+      {"attributes", ordered_json::object()},
+      {"port_directions", {{"USER_SIGNAL_TO_GLOBAL_BUFFER", "input"}, {"GLOBAL_BUFFER_OUTPUT", "output"}}},
+      {"connections",
+       {{"USER_SIGNAL_TO_GLOBAL_BUFFER", ordered_json::array({from})},
+        {"GLOBAL_BUFFER_OUTPUT", ordered_json::array({to})}}}};
+  module.at("netnames")[buffer + "_O"] = {
+      {"hide_name", 0}, {"bits", ordered_json::array({to})}, {"attributes", ordered_json::object()}};
+}
 
 }  // namespace
 
@@ -143,9 +129,13 @@ Result<std::string> with_global_buffers(std::string_view netlist) {
     ordered_json& module = design.at("modules").at("wrapped");
     const Net clock = module.at("ports").at("clk").at("bits").at(0).get<Net>();
     const std::vector<Enable> enables = chosen_enables(module);
-    Buffers buffers(module);
-    buffers.insert_clock(clock);
-    for (const Enable& enable : enables) buffers.insert_enable(enable);
+    insert_buffer(module, "clk", clock, [](const ordered_json& cell, const std::string& pin) {
+      return cell.at("port_directions").at(pin) == "input";
+    });
+    for (const Enable& enable : enables)
+      insert_buffer(module, enable.name, enable.net, [](const ordered_json& cell, const std::string& pin) {
+        return is_register(cell) && pin == "E";
+      });
     return design.dump();
   } catch (const ordered_json::exception& error) {
     return tool_failed(fmt::format("not a netlist to place, by Yosys with a clock clk: {}", error.what()));

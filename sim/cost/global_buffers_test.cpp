@@ -225,7 +225,7 @@ TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
   ASSERT_TRUE(make_folders(root / "rtl"));
   ASSERT_TRUE(write_file(root / "rtl/files.f", "sums.vhd\n"));
   ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_buffered_entity));
-  Synthesizer::open({root, cache}, true).pack({.name = "sums", .entity = "sums", .generics = {}});
+  Synthesizer::open(cache, true).pack({.name = "sums", .entity = "sums", .root = root});
   std::optional<std::string> said;
   for (const auto& kept : fs::directory_iterator(cache / "synth"))
     if (const auto text = read_file(kept.path() / "packing")) said = *text;

@@ -12,20 +12,33 @@
 
 namespace halfway::synth {
 
+std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end) {
+  return fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing, command.arguments.front(),
+                     end.how(), end.output, to_string(command));
+}
+
 std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
                      const std::string& doing) {
   const Command command{
       .arguments = std::move(arguments), .working_folder = folder, .timeout = c_tool_timeout};
   const ProcessEnd end = must(run_process(command, c_install_tools));
   if (end.succeeded()) return end.output;
-  throw Failure{
-      tool_failed(fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing,
-                              command.arguments.front(), end.how(), end.output, to_string(command)))};
+  throw Failure{tool_failed(failed_text(doing, command, end))};
 }
 
 std::string version_of(const std::string& tool, const std::string& option) {
   const std::string said = run_tool({tool, option}, {}, "looking for " + tool);
   return said.substr(0, said.find('\n'));
+}
+
+std::filesystem::path kept(const std::filesystem::path& cache, const std::string& name,
+                           const std::vector<std::string_view>& key,
+                           const std::function<void(const std::filesystem::path&)>& make) {
+  ContentHash hash;
+  for (const std::string_view text : key) hash.add(text);
+  std::filesystem::path folder = cache / fmt::format("{}-{}", name, hash.hex());
+  make_once(folder, make);
+  return folder;
 }
 
 Yosys Yosys::find(const std::filesystem::path& cache) {
@@ -34,16 +47,13 @@ Yosys Yosys::find(const std::filesystem::path& cache) {
 
 std::filesystem::path Yosys::run(const std::string& name, const std::string& script, const Files& files,
                                  const std::function<void(const std::filesystem::path&)>& check) const {
-  ContentHash hash;
-  hash.add("yosys 1").add(version_).add(script);
-  for (const auto& [file, text] : files) hash.add(file).add(text);
-  std::filesystem::path folder = cache_ / fmt::format("{}-{}", name, hash.hex());
-  make_once(folder, [&](const std::filesystem::path& fresh) {
+  std::vector<std::string_view> key{"yosys 1", version_, script};
+  for (const auto& [file, text] : files) key.insert(key.end(), {file, text});
+  return kept(cache_, name, key, [&](const std::filesystem::path& fresh) {
     for (const auto& [file, text] : files) must(write_file(fresh / file, text));
     run_tool({"yosys", "-q", "-p", script}, fresh, name);
     check(fresh);
   });
-  return folder;
 }
 
 nlohmann::json read_statistics(const std::filesystem::path& folder) {
@@ -55,7 +65,8 @@ nlohmann::json read_statistics(const std::filesystem::path& folder) {
       tool_failed(fmt::format("{}: not the output of Yosys's stat; delete it and try again", path.string()))};
 }
 
-void count_cells(const std::filesystem::path& folder, std::initializer_list<CellKind> kinds) {
+Cells count_cells(const std::filesystem::path& folder, std::span<const CellKind> kinds) {
+  Cells cells;
   const nlohmann::json statistics = read_statistics(folder);
   for (const auto& [type, count] : statistics.at("num_cells_by_type").items()) {
     const auto kind = std::ranges::find_if(
@@ -63,8 +74,9 @@ void count_cells(const std::filesystem::path& folder, std::initializer_list<Cell
     if (kind == kinds.end())
       throw Failure{
           tool_failed(fmt::format("{}: cells of type {}, which nothing counts", folder.string(), type))};
-    if (kind->number != nullptr) *kind->number += kind->weight * count.get<std::uint64_t>();
+    if (kind->number != nullptr) cells.*kind->number += kind->weight * count.get<std::uint64_t>();
   }
+  return cells;
 }
 
 }  // namespace halfway::synth

@@ -3,20 +3,25 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "sim/cost/families.hpp"
+#include "sim/os/subprocess.hpp"
+
 namespace halfway::synth {
 
 inline constexpr std::chrono::minutes c_tool_timeout{60};
 inline constexpr const char* c_install_tools = "apt-get install yosys nextpnr-ice40 fpga-icestorm";
+
+/// The message for a command that failed while `doing`.
+std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end);
 
 /// What the command prints. If it fails, the error has its output; `doing` is for the message.
 std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
@@ -24,6 +29,12 @@ std::string run_tool(std::vector<std::string> arguments, const std::filesystem::
 
 /// The first line that a tool prints for its version.
 std::string version_of(const std::string& tool, const std::string& option);
+
+/// The folder of a result in the cache: that of the same key, or a fresh one that `make` fills. Without an
+/// error it is kept. Thread-safe.
+std::filesystem::path kept(const std::filesystem::path& cache, const std::string& name,
+                           const std::vector<std::string_view>& key,
+                           const std::function<void(const std::filesystem::path&)>& make);
 
 class Yosys {
  public:
@@ -49,13 +60,7 @@ class Yosys {
 inline constexpr std::string_view c_statistics = "tee -q -o cells.json stat -json";
 nlohmann::json read_statistics(const std::filesystem::path& folder);
 
-/// Cell types whose names start with `prefix` add `weight` to the number; nullptr: they are not counted.
-struct CellKind {
-  std::string_view prefix;
-  std::uint64_t* number;
-  std::uint64_t weight = 1;
-};
-/// Count each type of the folder's statistics as the first kind that it is of.
-void count_cells(const std::filesystem::path& folder, std::initializer_list<CellKind> kinds);
+/// The folder's statistics. Throws Failure if a cell is of no kind.
+Cells count_cells(const std::filesystem::path& folder, std::span<const CellKind> kinds);
 
 }  // namespace halfway::synth

@@ -227,7 +227,7 @@ StudyPlot plotted(const Table& points, const Measure& along, const Measure& erro
     } else if (!x) {
       const std::string& clock = points.text(row, "clock");
       const bool has_no_room =
-          along.column == c_time.column && !clock.empty() && clock != study::c_not_placed;
+          along.column == c_time.column && !clock.empty() && clock != synth::c_not_placed;
       ++(has_no_room ? made.too_large : made.missing)[name];
     } else {
       const auto s = static_cast<std::size_t>(std::ranges::find(series, name) - series.begin());

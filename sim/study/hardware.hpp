@@ -7,16 +7,13 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "plan/hardware_key.hpp"
 #include "scene/scene.hpp"
-#include "sim/cost/cells.hpp"
-#include "sim/cost/clock_store.hpp"
-#include "sim/cost/synthesis.hpp"
+#include "sim/cost/cost.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/generator/word_lengths/made_formats.hpp"
 #include "sim/generator/word_lengths/made_tables.hpp"
@@ -43,64 +40,25 @@ PointHardware drawing_hardware_of(const DesignPoint& point, const Scene& scene,
 /// or word lengths are not compiled into the program.
 SimulatorFolders rtl_of(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders);
 
-/// Hardware and its RTL sources.
-struct HardwareSource {
-  PointHardware hardware;
-  SimulatorFolders folders;  ///< rtl_of(point, scene)
-  synth::Design design() const;
-};
-
-inline constexpr const char* c_not_placed = "not placed";
-inline constexpr const char* c_stored = "stored";
-
-struct HardwareFigures {
-  std::optional<Cells> cells;  ///< generic synthesis, no FPGA family; std::nullopt without Yosys
-  /// On an iCE40 HX8K with registered ports: the median of synth::c_seeds placements.
-  std::optional<double> mhz;
-  /// Origin of the clock: `stored` or `placed`; otherwise the reason why there is none.
-  std::string clock = c_not_placed;
-  /// Cells of hardware that was placed, in this run or for the store, without the port registers.
-  std::optional<synth::Ice40Cells> ice40;
-  /// False: the hardware is larger than the device, so it has no clock.
-  bool fits = true;
-  /// Of hardware that does not fit: the slowest of its parts whose clock is stored, and that clock. The clock
-  /// of the whole is not higher. Empty: no part's clock is stored.
-  std::string slowest_part{};
-  std::optional<double> part_mhz{};
-  /// Tool versions for all values, such as `placed with nextpnr-ice40 0.4, cells by Yosys 0.23`.
-  std::string tools{};
-};
 /// By the key's name.
-using HardwareTable = std::map<std::string, HardwareFigures>;
-
-/// LUTs and flip-flops, including tables and multipliers built of LUTs. Writable memory counts as one LUT per
-/// 16 bits.
-double cell_count(const Cells& cells);
-
-/// The stored clocks by synth::netlist_identity, with the names of their designs.
-using ClocksByNetlist = std::map<std::string, std::pair<std::string, synth::StoredClock>>;
+using HardwareTable = std::map<std::string, synth::Cost>;
 
 struct FiguresOptions {
   unsigned threads = 1;
-  bool cells = true;  ///< false: run Yosys only if `place` needs it
   /// Synthesize and place hardware without a stored clock (minutes each). false: such clocks stay unknown.
   bool place = false;
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
 };
 
 /// Each hardware of the points once, in their order. Points that cannot draw the scene have none.
-std::vector<HardwareSource> hardware_of_space(const std::string& scene, std::span<const DesignPoint> points,
-                                              const SimulatorFolders& folders);
+std::vector<synth::Design> hardware_of_space(const std::string& scene, std::span<const DesignPoint> points,
+                                             const SimulatorFolders& folders);
 
-/// The cells and clocks of all hardware that the records name, from the cache if present. Without Yosys the
-/// table has no cells. A stored clock belongs to hardware with the same netlist, whatever its name is.
+/// The costs of all hardware that the records name.
 HardwareTable hardware_figures(const std::string& scene, std::span<const Record> records,
                                const SimulatorFolders& folders, const FiguresOptions& options);
 
-/// The stored clock and cells of one hardware, if there are any. `folders`: with the stored clocks.
-HardwareFigures stored_figures(const HardwareSource& source, const SimulatorFolders& folders);
-
-/// The slowest part of hardware_figures with `place`, in independent pieces: a placement of each hardware
+/// The longest step of hardware_figures with `place`, in independent pieces: a placement of each hardware
 /// with each seed. Results are stored in the cache with a mark for each finished piece. If the hardware does
 /// not fit the device, the mark is the only result.
 class Placements {
@@ -119,11 +77,12 @@ class Placements {
 
  private:
   static unsigned seed_of(std::size_t number) { return static_cast<unsigned>(1 + number % synth::c_seeds); }
-  const HardwareSource& source_of(std::size_t number) const { return hardware_[number / synth::c_seeds]; }
+  const synth::Design& design_of(std::size_t number) const { return hardware_[number / synth::c_seeds]; }
   std::filesystem::path mark(std::size_t number) const;
 
-  std::vector<HardwareSource> hardware_;
-  ClocksByNetlist stored_;
+  std::vector<synth::Design> hardware_;
+  synth::Costing costing_;
+  std::filesystem::path cache_;
   std::filesystem::path marks_;
   std::string made_by_;  ///< hash of all that a placement depends on, except the hardware's name and the seed
 };

@@ -26,24 +26,24 @@ namespace fs = std::filesystem;
 
 using ::testing::ElementsAre;
 
-// Fast replacements for Yosys and nextpnr with given results. The clock of a placement is 100 to 104 MHz and
-// depends on the seed.
+// Fast replacements for Yosys and nextpnr with results given in the environment. The clock of a placement is
+// 100 to 104 MHz and depends on the seed.
 constexpr const char* c_yosys = R"(#!/bin/sh
 [ "$1" = -V ] && echo 'Yosys 0.23' && exit
 echo >mapped.il
 echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 case "$*" in
-  *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": LUTS, "SB_DFF": 4}}}' >cells.json ;;
-  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": FLIP_FLOPS}}}' >cells.json ;;
+  *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": '$LUTS', "SB_DFF": 4}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": '$FLIP_FLOPS'}}}' >cells.json ;;
 esac
 )";
 constexpr const char* c_nextpnr = R"(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
 case "$*" in
-  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  PACKED/ 7680    1%' ; exit ;;
+  *--pack-only*) echo 'Info: 	 ICESTORM_LC:  '$PACKED'/ 7680    1%' ; exit ;;
 esac
 seed=${*##*--seed } ; seed=${seed%% *}
-echo "$seed" >>'LOG'
+echo "$seed" >>"$LOG"
 echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critical_paths": [],
   "fmax": {"clk": {"achieved": '$((100 + seed * 7 % 5))'}}}' >report.json
 )";
@@ -62,7 +62,12 @@ class HardwareFiguresTest : public ::testing::Test {
     ASSERT_TRUE(make_folders(folders_.cache));
     ASSERT_TRUE(make_folders(c_source_folder / "build/cache/ghdl"));
     fs::create_directory_symlink(c_source_folder / "build/cache/ghdl", folders_.cache / "ghdl");
-    put_tools("4", "30", "40");
+    const fs::path bin = folder_.path() / "bin";
+    put_program(bin / "yosys", c_yosys);
+    put_program(bin / "nextpnr-ice40", c_nextpnr);
+    ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
+    ::setenv("LOG", log().c_str(), 1);
+    set_results("4", "30", "6912");  // as full as can be placed
     key_ = hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_)).key;
     Record record{point_, {}};
     record.measured.hardware = key_.name();
@@ -75,31 +80,20 @@ class HardwareFiguresTest : public ::testing::Test {
   }
   std::string netlist_of(const std::string& entity,
                          const std::vector<std::pair<std::string, std::string>>& generics) const {
-    const auto library = must(GhdlLibrary::for_synthesis(
-        must(GhdlTool::find()), must(read_rtl_sources(c_source_folder)), folders_.cache));
-    return synth::netlist_identity(must(mend_netlist(must(library.synthesize(entity, generics)))));
+    const synth::Design design{.entity = entity, .generics = generics, .root = c_source_folder};
+    return synth::netlist_identity(synth::netlist_of(design, folders_.cache));
   }
-  void put_tools(const std::string& flip_flops, const std::string& luts, const std::string& packed) {
-    using Words = std::vector<std::pair<std::string, std::string>>;
-    const fs::path bin = folder_.path() / "bin";
-    const auto put = [&](const char* name, std::string text, const Words& words) {
-      for (const auto& [what, by] : words) {
-        const std::size_t at = text.find(what);
-        ASSERT_NE(at, std::string::npos);
-        text.replace(at, what.size(), by);
-      }
-      put_program(bin / name, text);
-    };
-    put("yosys", c_yosys, {{"FLIP_FLOPS", flip_flops}, {"LUTS", luts}});
-    put("nextpnr-ice40", c_nextpnr, {{"LOG", log().string()}, {"PACKED", packed}});
-    ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
+  static void set_results(const char* flip_flops, const char* luts, const char* packed) {
+    ::setenv("FLIP_FLOPS", flip_flops, 1);
+    ::setenv("LUTS", luts, 1);
+    ::setenv("PACKED", packed, 1);
   }
   fs::path log() const { return folder_.path() / "placements"; }
   std::size_t placements() const {
     const auto text = read_file(log());
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
   }
-  HardwareFigures figures(bool place) const {
+  synth::Cost figures(bool place) const {
     return hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place}).at(key_.name());
   }
 
@@ -125,8 +119,8 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
        {"inside", clock("quadratic_interpolator", {{"g_exact", "false"}, {"g_parts", "2"}}, 80)},
        {"exact", clock("quadratic_interpolator", {{"g_exact", "true"}, {"g_parts", "2"}}, 20)},  // not inside
        {"dot", clock("dot_product", {{"g_bits", "16"}}, 10)}});                                  // not inside
-  put_tools("9000", "30", "40");
-  const HardwareFigures bounded = figures(false);
+  set_results("9000", "30", "40");
+  const synth::Cost bounded = figures(false);
   EXPECT_FALSE(bounded.fits);
   EXPECT_FALSE(bounded.mhz);
   ASSERT_TRUE(bounded.part_mhz);
@@ -135,23 +129,23 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
 }
 
 TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOnly) {
-  const HardwareFigures none = figures(false);
+  const synth::Cost none = figures(false);
   EXPECT_FALSE(none.mhz);
   EXPECT_FALSE(none.part_mhz);
-  EXPECT_EQ(none.clock, c_not_placed);
+  EXPECT_EQ(none.clock, synth::c_not_placed);
   const std::string netlist = netlist_of(key_.entity(), key_.generics());
   store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist}}});
-  const HardwareFigures stored = figures(true);
+  const synth::Cost stored = figures(true);
   EXPECT_EQ(stored.mhz, 87.5);
-  EXPECT_EQ(stored.clock, c_stored);
-  EXPECT_EQ(stored.ice40, (synth::Ice40Cells{1, 2, 3, 4}));
+  EXPECT_EQ(stored.clock, synth::c_stored);
+  EXPECT_EQ(stored.ice40, (Cells{1, 2, 3, 4}));
   EXPECT_EQ(stored.tools, "placed with Placer 1, cells by Yosys 0.23");
   EXPECT_EQ(placements(), 0U);
   store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist + "0"}}});
   EXPECT_FALSE(figures(false).mhz);
   // Hardware that has no placement.
   store({{"any", {{7681, 2, 3, 4}, 0, 0, "Placer 1", netlist}}});
-  const HardwareFigures large = figures(true);
+  const synth::Cost large = figures(true);
   EXPECT_FALSE(large.mhz);
   EXPECT_FALSE(large.fits);
   EXPECT_EQ(large.clock, "does not fit the HX8K: 7681 LUTs of 7680");
@@ -159,12 +153,12 @@ TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOnly) {
 }
 
 TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsCached) {
-  const HardwareFigures placed = figures(true);
+  const synth::Cost placed = figures(true);
   // 102, 104, 101
   EXPECT_EQ(placed.mhz, 102.0);
   EXPECT_EQ(placed.clock, "placed");
   EXPECT_TRUE(placed.fits);
-  EXPECT_EQ(placed.ice40, (synth::Ice40Cells{.luts = 30, .flip_flops = 4}));
+  EXPECT_EQ(placed.ice40, (Cells{.luts = 30, .flip_flops = 4}));
   EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
                                 "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
   EXPECT_EQ(placements(), synth::c_seeds);
@@ -174,14 +168,14 @@ TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsCached) {
 
 TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
   const auto why = [&](const char* flip_flops, const char* luts, const char* packed) {
-    for (const char* made : {"yosys", "synth"}) fs::remove_all(folders_.cache / made);
-    put_tools(flip_flops, luts, packed);
-    const HardwareFigures none = figures(true);
+    fs::remove_all(folders_.cache / "synth");
+    set_results(flip_flops, luts, packed);
+    const synth::Cost none = figures(true);
     EXPECT_FALSE(none.mhz);
     EXPECT_FALSE(none.fits);
     return none.clock;
   };
-  EXPECT_EQ(why("4", "30", "7000"), "too full: 7000 of the HX8K's 7680 logic cells");
+  EXPECT_EQ(why("4", "30", "6913"), "too full: 6913 of the HX8K's 7680 logic cells");
   EXPECT_EQ(why("4", "7681", "40"), "does not fit the HX8K: 7681 LUTs of 7680");
   // Reported before synthesis for the device.
   EXPECT_EQ(why("7681", "NONE", "40"), "does not fit the HX8K: 7681 flip-flops of 7680");
@@ -190,17 +184,20 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 
 // The stored clocks must be of the netlists of the current RTL.
 TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
-  const auto points = read_space(c_source_folder / "sim/study/spaces/small.toml");
+  auto points = read_space(c_source_folder / "sim/study/spaces/small.toml");
+  std::erase_if(points, [](const DesignPoint& point) {
+    return point.method == Method::processors_1 || point.method == Method::processors_2;
+  });
   std::size_t clocks = 0;
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   const std::string scene = c_source_folder / "sim/study/spaces/sphere.toml";
-  for (const HardwareSource& source : hardware_of_space(scene, points, folders)) {
-    if (source.hardware.key.shader == Shader::processors) continue;
-    const auto figures = stored_figures(source, folders);
-    EXPECT_EQ(figures.clock == c_stored, figures.mhz.has_value());
-    EXPECT_NE(figures.clock, c_not_placed)
-        << source.design().name << ": its clock is not stored; make evidence PAGE=clocks places it";
-    clocks += figures.mhz ? 1 : 0;
+  const synth::Costing costing(folders);
+  for (const synth::Design& design : hardware_of_space(scene, points, folders)) {
+    const synth::Cost cost = costing.stored(design);
+    EXPECT_EQ(cost.clock == synth::c_stored, cost.mhz.has_value());
+    EXPECT_NE(cost.clock, synth::c_not_placed)
+        << design.name << ": its clock is not stored; make evidence PAGE=clocks places it";
+    clocks += cost.mhz ? 1 : 0;
   }
   EXPECT_GT(clocks, 18U);
 }
@@ -227,7 +224,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_EQ(run(2) + run(0), 2U);
   EXPECT_TRUE(open().empty());
   EXPECT_EQ(placements(), synth::c_seeds);
-  const HardwareFigures placed = figures(true);
+  const synth::Cost placed = figures(true);
   EXPECT_EQ(placed.mhz, 102.0);
   EXPECT_EQ(placed.clock, "placed");
   EXPECT_EQ(placements(), synth::c_seeds);
@@ -239,7 +236,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
 }
 
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
-  put_tools("4", "7681", "40");
+  set_results("4", "7681", "40");
   const StudySettings settings{
       .scene = scene_, .out = folder_.path() / "out", .folders = folders_, .placed = {point_}};
   EXPECT_EQ(run_study(settings).placements, synth::c_seeds);

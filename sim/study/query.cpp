@@ -240,8 +240,8 @@ std::vector<Market> markets_of(std::span<const Record> records, const HardwareTa
     if (measured.host_instructions && measured.triangles > 0)
       offer.host = static_cast<double>(*measured.host_instructions) / static_cast<double>(measured.triangles);
     if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
-      const HardwareFigures& figures = found->second;
-      if (figures.cells) offer.cells = cell_count(*figures.cells);
+      const synth::Cost& figures = found->second;
+      if (figures.cells) offer.cells = synth::cell_count(*figures.cells);
       offer.fits = figures.fits;
     }
     if (const auto mhz = mhz_of(measured.hardware, hardware, clock))

@@ -152,7 +152,7 @@ class QueryTest : public ::testing::Test {
     add({.method = Method::processors_2, .exponent = 5.0}, "processors", 1, 1005, 50000);
     hardware_["quadratic"].cells = Cells{.luts = 1500, .flip_flops = 500};
     hardware_["processors"].cells = Cells{
-        .luts = 1000, .flip_flops = 800, .memory_bits = 3200, .multipliers = 10, .multiplier_luts = 8000};
+        .luts = 1000, .flip_flops = 800, .multipliers = 10, .memory_bits = 3200, .multiplier_luts = 8000};
   }
   void add(const DesignPoint& point, const std::string& hardware, unsigned error, std::uint64_t cycles,
            std::optional<std::uint64_t> instructions) {

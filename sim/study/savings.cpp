@@ -30,14 +30,14 @@ HardwareCost measure(const SavingsCase& which, bool all, const SimulatorFolders&
   const Scene scene = must(load_scene(which.scene, folders.source / "sim" / "scenes"));
   const auto plan = must(plan_scene(scene, PlanRequest{.shader = which.shader, .preset = which.preset}));
   const HardwareKey& key = all ? plan.everything : plan.called_for;
-  const Cells cells = CellCounter(folders).count(key);
+  const Cells cells =
+      synth::Synthesizer::open(folders.cache, false).generic_cells(synth::design_of(key, folders.source));
   const FrameSize size = which.shader == Shader::processors ? FrameSize{320, 240} : FrameSize{640, 480};
   CostSettings settings;
   settings.size = size;
   settings.ghdl = false;
   settings.folders = folders;
-  return {cells.luts, cells.flip_flops, cells.memory_bits, cells.multipliers,
-          simulation_cost(scene, key, settings).cycles};
+  return {cells, simulation_cost(scene, key, settings).cycles};
 }
 
 // 58298 as "58 298".

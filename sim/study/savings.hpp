@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "plan/plan.hpp"
-#include "sim/cost/cells.hpp"
+#include "sim/cost/synthesis.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
@@ -22,10 +22,9 @@ struct SavingsCase {
 };
 std::span<const SavingsCase> savings_cases();
 
-/// Cost of one hardware.
-struct HardwareCost {
-  std::uint64_t luts = 0, flip_flops = 0, memory_bits = 0, multipliers = 0;  ///< as in CellCounter
-  std::uint64_t cycles = 0;                                                  ///< for the frame
+/// Cost of one hardware: its generic cells, and the cycles for the frame.
+struct HardwareCost : Cells {
+  std::uint64_t cycles = 0;
 };
 struct Savings {
   HardwareCost called_for, everything;

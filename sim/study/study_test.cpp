@@ -386,7 +386,7 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
   settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
   const Study made = study();
   HardwareTable hardware;
-  HardwareFigures& figures = hardware[made.records[2].measured.hardware];
+  synth::Cost& figures = hardware[made.records[2].measured.hardware];
   figures.cells = Cells{.luts = 100, .flip_flops = 20};
   figures.mhz = 80.0;
   figures.clock = "stored";

@@ -56,12 +56,12 @@ Column knob_of(const DesignPoint& point, std::string_view name) {
   return {std::string(name), text_of(*std::ranges::find(knobs(), name, &Knob::name), point)};
 }
 
-Line line_of(const Provenance& provenance, const Record& record, const HardwareFigures* known,
+Line line_of(const Provenance& provenance, const Record& record, const synth::Cost* known,
              const std::optional<bool>& on_front) {
   const auto& [p, m] = record;
-  const HardwareFigures hardware = known != nullptr ? *known : HardwareFigures{};
+  const synth::Cost hardware = known != nullptr ? *known : synth::Cost{};
   const std::optional<Cells>& cells = hardware.cells;
-  const std::optional<synth::Ice40Cells>& ice40 = hardware.ice40;
+  const std::optional<Cells>& ice40 = hardware.ice40;
   const auto cycles = static_cast<double>(m.cycles);
   std::optional<double> frame_ns, fragment_ns;
   if (hardware.mhz) frame_ns = 1e3 * cycles / *hardware.mhz;
@@ -87,7 +87,7 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
                      {"memory_bits", text_of(cells, &Cells::memory_bits)},
                      {"multipliers", text_of(cells, &Cells::multipliers)},
                      {"product_bits", text_of(cells, &Cells::product_bits)},
-                     {"cells", cells ? fmt::format("{:.0f}", cell_count(*cells)) : ""},
+                     {"cells", cells ? fmt::format("{:.0f}", synth::cell_count(*cells)) : ""},
                      {"front", text_of(on_front, "{:d}")},
                      {"cycles_a_fragment", ratio(m.cycles, m.fragments)},
                      {"host_instructions_a_triangle", ratio(m.host_instructions.value_or(0), m.triangles)},
@@ -97,10 +97,10 @@ Line line_of(const Provenance& provenance, const Record& record, const HardwareF
                      {"clock", known != nullptr ? quoted(hardware.clock) : ""},
                      {"frame_ns", text_of(frame_ns, "{:.6g}")},
                      {"fragment_ns", text_of(fragment_ns, "{:.6g}")},
-                     {"ice40_luts", text_of(ice40, &synth::Ice40Cells::luts)},
-                     {"ice40_carries", text_of(ice40, &synth::Ice40Cells::carries)},
-                     {"ice40_flip_flops", text_of(ice40, &synth::Ice40Cells::flip_flops)},
-                     {"ice40_rams", text_of(ice40, &synth::Ice40Cells::rams)},
+                     {"ice40_luts", text_of(ice40, &Cells::luts)},
+                     {"ice40_carries", text_of(ice40, &Cells::carries)},
+                     {"ice40_flip_flops", text_of(ice40, &Cells::flip_flops)},
+                     {"ice40_rams", text_of(ice40, &Cells::rams)},
                      knob_of(p, "angle_bits"),
                      knob_of(p, "fraction_bits"),
                      knob_of(p, "seed_bits"),

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "plan/plan.hpp"
+#include "sim/cost/cost.hpp"
 #include "sim/extras/live/core_module.hpp"
 #include "sim/extras/live/hardware_module.hpp"
 #include "sim/extras/live_core/core_values.hpp"
@@ -23,7 +24,6 @@
 #include "sim/os/shared_library.hpp"
 #include "sim/os/threads.hpp"
 #include "sim/report/html.hpp"
-#include "sim/study/hardware.hpp"
 #include "words/cosine_tables.hpp"
 
 namespace halfway::live {
@@ -76,10 +76,10 @@ std::map<std::string, Hardware> build_hardware(const std::vector<HardwareKey>& k
       settings.on_progress(fmt::format("hardware {} of {}: {}", ++begun, keys.size(), name));
     }
     std::string text = packed(must(build_hardware_module(keys[i], settings.folders)));
-    const auto figures =
-        study::stored_figures({{.key = keys[i], .tables = {}}, settings.folders}, settings.folders);
+    const synth::Cost cost =
+        synth::Costing(settings.folders).stored(synth::design_of(keys[i], settings.folders.source));
     const std::lock_guard lock(mutex);
-    built.emplace(name, Hardware{std::move(text), figures.mhz});
+    built.emplace(name, Hardware{std::move(text), cost.mhz});
   });
   return built;
 }

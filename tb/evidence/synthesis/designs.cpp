@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "plan/hardware_key.hpp"
+#include "sim/os/must.hpp"
 #include "words/formats.hpp"
 #include "words/generator/formats.hpp"
 
@@ -18,9 +19,9 @@ ListedDesign shader(const std::string& name, const HardwareKey& key) {
 
 // The shader with AXI4-Stream ports.
 ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
-  return {.design = {.name = name,
-                     .entity = to_string(key.shader) + std::string("_axi"),
-                     .generics = key.generics()}};
+  ListedDesign top = shader(name, key);
+  top.design.entity = to_string(key.shader) + std::string("_axi");
+  return top;
 }
 
 HardwareKey spherical(Preset preset, unsigned channels, unsigned powers, words::CosineSize tables) {
@@ -50,12 +51,13 @@ std::string bits(const tables::PresetFormats& preset, std::string_view format) {
 
 }  // namespace
 
-std::vector<ListedDesign> all_designs() {
+std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
   std::vector<ListedDesign> all;
   for (const char* width : {"24", "32", "40"})
     all.push_back({.design = {.name = fmt::format("accumulator_{}", width),
                               .entity = "accumulator",
-                              .generics = {{"g_bits", width}}},
+                              .generics = {{"g_bits", width}},
+                              .more = c_accumulator},
                    .quick = true});
 
   const auto presets = tables::preset_formats();
@@ -167,7 +169,23 @@ std::vector<ListedDesign> all_designs() {
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
     all.back().ice40 = !exact;
   }
+  for (ListedDesign& listed : all) listed.design.root = root;
   return all;
+}
+
+std::vector<ListedDesign> selected(const Options& options) {
+  std::vector<ListedDesign> designs = all_designs(options.folders.source);
+  std::erase_if(designs, [&](const ListedDesign& listed) {
+    return (options.quick && !listed.quick) || listed.design.name.find(options.part) == std::string::npos;
+  });
+  if (designs.empty())
+    throw Failure{
+        bad_input(fmt::format("{}: no design has this in its name; {} lists them", options.part, c_page))};
+  return designs;
+}
+
+std::string quoted(const Design& design) {
+  return fmt::format("`{}`", design.name);
 }
 
 }  // namespace halfway::synth

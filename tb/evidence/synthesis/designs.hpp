@@ -3,10 +3,11 @@
 // the list with rtl/.
 #pragma once
 
-#include <string>
+#include <filesystem>
 #include <vector>
 
-#include "sim/cost/synthesis.hpp"
+#include "pages.hpp"
+#include "sim/cost/design.hpp"
 
 namespace halfway::synth {
 
@@ -19,7 +20,13 @@ struct ListedDesign {
                       ///< thresholds
 };
 
-/// All designs, in the order of the page.
-std::vector<ListedDesign> all_designs();
+/// All designs, in the order of the page. `root`: the project's.
+std::vector<ListedDesign> all_designs(const std::filesystem::path& root);
+
+/// Those of them that the options select, at least one. Throws Failure.
+std::vector<ListedDesign> selected(const Options& options);
+
+/// The name, as code in Markdown.
+std::string quoted(const Design& design);
 
 }  // namespace halfway::synth

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "evidence/thresholds.hpp"
-#include "performance.hpp"
+#include "pages.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway::synth {
@@ -31,7 +31,7 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   for (const VhdlSource& source : *sources)
     for (std::sregex_iterator it(source.content.begin(), source.content.end(), entity), end; it != end; ++it)
       there.insert((*it)[1]);
-  for (const ListedDesign& design : all_designs()) listed.insert(design.design.entity);
+  for (const ListedDesign& design : all_designs(c_root)) listed.insert(design.design.entity);
   // The shader and axi_adapter, which are measured. With one light it does not fit the device.
   EXPECT_TRUE(listed.insert("processors_axi").second);
   // These are measured inside the shading processors: a generic of record type has no value on GHDL's command
@@ -51,7 +51,7 @@ TEST(SynthDesigns, HaveThresholds) {
   ASSERT_TRUE(thresholds) << thresholds.error().message;
   std::set<std::string> names;
   std::vector<page::Value> values;
-  for (const ListedDesign& listed : all_designs()) {
+  for (const ListedDesign& listed : all_designs(c_root)) {
     const std::string& name = listed.design.name;
     EXPECT_TRUE(names.insert(name).second) << name << ": a second design of this name";
     if (!listed.ice40) continue;

@@ -44,8 +44,7 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
   const HardwareKey key = plan->key;
 
   const std::string netlist =
-      Synthesizer::open(folders, false)
-          .simulated({.name = key.name(), .entity = key.entity(), .generics = key.generics()});
+      Synthesizer::open(folders.cache, false).simulated(design_of(key, folders.source));
   const auto simulator = shared_engine(VerilatorSimulator::open(
       key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = netlist}));
   ASSERT_TRUE(simulator) << simulator.error().message;

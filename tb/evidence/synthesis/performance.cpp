@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "performance.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
+#include "pages.hpp"
 #include "sim/files/template.hpp"
 #include "sim/os/must.hpp"
 

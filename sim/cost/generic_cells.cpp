@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/cost/cells.hpp"
+#include "sim/cost/generic_cells.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "sim/engines/verilator/netlist.hpp"
-#include "sim/engines/verilator/shader_netlist.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
-namespace halfway {
+namespace halfway::synth {
 namespace {
 
 using Json = nlohmann::json;
@@ -43,11 +41,11 @@ Extension extension_of(const Json& word) {
 }
 
 // Same steps as Yosys's `synth`, except that writable memory stays memory.
-std::string yosys_script(const HardwareKey& key) {
-  const std::string top = key.entity();
+std::string yosys_script(const Design& design) {
+  const std::string& top = design.entity;
   std::string coarse = fmt::format("synth -flatten -lut 4 -top {} -run begin:fine", top), multipliers;
   // Otherwise abc would spend most of its time on the many wide multipliers.
-  if (key.shader == Shader::processors) {
+  if (design.has_products) {
     coarse = fmt::format(
         "read_verilog -lib {0}.v; hierarchy -top {1}; proc; flatten; opt_expr; opt_clean; opt -nodffe "
         "-nosdff; "
@@ -58,7 +56,45 @@ std::string yosys_script(const HardwareKey& key) {
   return fmt::format(
       "read_verilog netlist.v; {}; opt -fast -full; memory_map -rom-only; opt -full; techmap; opt -fast; "
       "abc -fast -lut 4; opt -fast; memory_unpack; {}{}",
-      coarse, synth::c_statistics, multipliers);
+      coarse, c_statistics, multipliers);
+}
+
+constexpr CellKind c_kinds[] = {{"$lut", &Cells::luts},
+                                {c_multiplier, &Cells::multipliers},
+                                {"$_DFF", &Cells::flip_flops},
+                                {"$_SDFF", &Cells::flip_flops},
+                                // Ports of memories; memory_bits counts these.
+                                {"$memrd", nullptr},
+                                {"$memwr", nullptr}};
+
+std::uint64_t luts_of(const Yosys& yosys, const MultiplierShape& shape) {
+  const std::string sign = shape.is_signed ? "signed " : "";
+  const std::string model = fmt::format(
+      "module multiplier (input {0}[{1}:0] a, input {0}[{2}:0] b, output {0}[{3}:0] y);\n  assign y = a * "
+      "{4};\nendmodule\n",
+      sign, shape.a_bits - 1, shape.b_bits - 1, shape.product_bits - 1, shape.square ? "a" : "b");
+  const std::string script =
+      fmt::format("read_verilog multiplier.v; {} -top multiplier; {}", c_ice40.pass, c_statistics);
+  const std::filesystem::path folder = yosys.run(fmt::format("multiplier-{}x{}", shape.a_bits, shape.b_bits),
+                                                 script, {{"multiplier.v", model}}, read_statistics);
+  return count_cells(folder, c_ice40.kinds).luts;
+}
+
+Cells read_cells(const Yosys& yosys, const std::filesystem::path& folder) {
+  Cells cells = count_cells(folder, c_kinds);
+  cells.memory_bits = read_statistics(folder).value("num_memory_bits", std::uint64_t{0});
+  if (cells.multipliers == 0) return cells;
+  const std::string text = read_own_file(folder / c_multipliers);
+  const std::vector<MultiplierShape> shapes = read_multiplier_shapes(text, c_multiplier);
+  if (shapes.size() != cells.multipliers)
+    throw Failure{
+        tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again",
+                                (folder / c_multipliers).string(), shapes.size(), cells.multipliers))};
+  for (const MultiplierShape& shape : shapes) {
+    cells.product_bits += shape.product_bits;
+    cells.multiplier_luts += luts_of(yosys, shape);
+  }
+  return cells;
 }
 
 }  // namespace
@@ -97,52 +133,11 @@ std::vector<MultiplierShape> read_multiplier_shapes(const std::string& netlist, 
   return shapes;
 }
 
-CellCounter::CellCounter(const SimulatorFolders& folders)
-    : yosys_(synth::Yosys::find(folders.cache / "yosys")), library_(must(rtl_library(folders))) {}
-
-Cells CellCounter::count(const HardwareKey& key) const {
-  const std::string netlist = must(mend_netlist(must(library_.synthesize(key.entity(), key.generics()))));
-  const auto read = [&](const std::filesystem::path& folder) { return read_cells(folder); };
-  return read(yosys_.run(key.name(), yosys_script(key),
-                         {{"netlist.v", netlist}, {fmt::format("{}.v", c_multiplier), c_multiplier_model}},
-                         read));
+Cells generic_cells(const Yosys& yosys, const Design& design, const std::string& netlist) {
+  const auto read = [&](const std::filesystem::path& folder) { return read_cells(yosys, folder); };
+  return read(yosys.run(design.name, yosys_script(design),
+                        {{"netlist.v", netlist}, {fmt::format("{}.v", c_multiplier), c_multiplier_model}},
+                        read));
 }
 
-Cells CellCounter::read_cells(const std::filesystem::path& folder) const {
-  Cells cells;
-  cells.memory_bits = synth::read_statistics(folder).value("num_memory_bits", std::uint64_t{0});
-  synth::count_cells(folder, {{"$lut", &cells.luts},
-                              {c_multiplier, &cells.multipliers},
-                              {"$_DFF", &cells.flip_flops},
-                              {"$_SDFF", &cells.flip_flops},
-                              // Ports of memories; memory_bits counts these.
-                              {"$memrd", nullptr},
-                              {"$memwr", nullptr}});
-  if (cells.multipliers == 0) return cells;
-  const std::string text = read_own_file(folder / c_multipliers);
-  const std::vector<MultiplierShape> shapes = read_multiplier_shapes(text, c_multiplier);
-  if (shapes.size() != cells.multipliers)
-    throw Failure{
-        tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again",
-                                (folder / c_multipliers).string(), shapes.size(), cells.multipliers))};
-  for (const MultiplierShape& shape : shapes) {
-    cells.product_bits += shape.product_bits;
-    cells.multiplier_luts += luts_of(shape);
-  }
-  return cells;
-}
-
-std::uint64_t CellCounter::luts_of(const MultiplierShape& shape) const {
-  const std::string sign = shape.is_signed ? "signed " : "";
-  const std::string model = fmt::format(
-      "module multiplier (input {0}[{1}:0] a, input {0}[{2}:0] b, output {0}[{3}:0] y);\n  assign y = a * "
-      "{4};\nendmodule\n",
-      sign, shape.a_bits - 1, shape.b_bits - 1, shape.product_bits - 1, shape.square ? "a" : "b");
-  const std::string script = fmt::format(
-      "read_verilog multiplier.v; synth_ice40 -device hx -top multiplier; {}", synth::c_statistics);
-  const std::filesystem::path folder = yosys_.run(fmt::format("multiplier-{}x{}", shape.a_bits, shape.b_bits),
-                                                  script, {{"multiplier.v", model}}, synth::read_statistics);
-  return synth::read_statistics(folder).at("num_cells_by_type").value("SB_LUT4", std::uint64_t{0});
-}
-
-}  // namespace halfway
+}  // namespace halfway::synth

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/cost/cells.hpp"
+#include "sim/cost/generic_cells.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,13 @@
 #include <set>
 
 #include "common/test/is_error.hpp"
+#include "sim/cost/synthesis.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
 #include "sim/os/test/test_files.hpp"
 
-namespace halfway {
+namespace halfway::synth {
 namespace {
 
 class CellsTest : public ::testing::Test {
@@ -24,13 +27,15 @@ class CellsTest : public ::testing::Test {
     ::setenv("PATH", ((folder_.path() / "bin").string() + ":" + path_).c_str(), 1);
   }
   Result<Cells> count(const HardwareKey& key) const {
-    return caught([&] { return CellCounter(folders_).count(key); });
+    return caught([&] {
+      return Synthesizer::open(folders_.cache, false).generic_cells(design_of(key, folders_.source));
+    });
   }
   std::size_t cached() const {
     std::error_code error;
     std::size_t count = 0;
     for ([[maybe_unused]] const auto& entry :
-         std::filesystem::directory_iterator(folders_.cache / "yosys", error))
+         std::filesystem::directory_iterator(folders_.cache / "synth", error))
       ++count;
     return count;
   }
@@ -42,7 +47,7 @@ class CellsTest : public ::testing::Test {
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << synth::c_install_tools;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_tools;
   const Cells grey = must(count(grey_)), coloured = must(count(coloured_));
   // A channel has six line interpolators of 40 bits, six constant words, and ten words for each of the
   // waiting triangles.
@@ -53,7 +58,7 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
   EXPECT_EQ(cached(), 2U);
 
   // The second count uses the cache. Yosys only reports its version.
-  const ProcessEnd version = must(run_process({.arguments = {"yosys", "-V"}}, synth::c_install_tools));
+  const ProcessEnd version = must(run_process({.arguments = {"yosys", "-V"}}, c_install_tools));
   put_yosys("[ $# = 1 ] && printf '" + version.output + "' || exit 9\n");
   EXPECT_EQ(must(count(grey_)), grey);
   EXPECT_FALSE(count({.preset = Preset::published}));
@@ -84,7 +89,7 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
 
 // Only the shading processors, whose multipliers are wide and many.
 TEST_F(CellsTest, MultipliersOfTheShadingProcessorsAreNotLuts) {
-  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << synth::c_install_tools;
+  ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_tools;
   HardwareKey key{.shader = Shader::processors, .preset = Preset::published, .channels = 1};
   const Cells ambient = must(count(key));
   // Only k I.
@@ -142,7 +147,7 @@ TEST_F(CellsTest, InvalidCountsAreRefused) {
            "}}}\nEOF\n";
   };
   put_yosys(stat("\"$lut\": 12, \"$_DFF_P_\": 3, \"$_SDFFCE_PP0P_\": 4"));
-  EXPECT_EQ(must(count(coloured_)), (Cells{12, 7}));
+  EXPECT_EQ(must(count(coloured_)), (Cells{.luts = 12, .flip_flops = 7}));
   const std::size_t before = cached();
   const std::vector<std::pair<std::string, std::string>> cases = {
       {stat("\"$lut\": 12, \"$_DLATCH_P_\": 1"), "$_DLATCH_P_"},
@@ -163,4 +168,4 @@ TEST_F(CellsTest, InvalidCountsAreRefused) {
 }
 
 }  // namespace
-}  // namespace halfway
+}  // namespace halfway::synth

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sim/cost/cost.hpp"
+
+#include "sim/cost/netlist_identity.hpp"
+#include "sim/os/subprocess.hpp"
+
+namespace halfway::synth {
+namespace {
+
+void add_tools(Cost& cost, const std::string& tools) {
+  if (!cost.tools.empty()) cost.tools += ", ";
+  cost.tools += tools;
+}
+
+// Generic cells already show that some hardware is too large for the device, because every cell takes at
+// least one logic cell. This avoids minutes and gigabytes of synthesis for the device.
+void take_size(Cost& cost) {
+  if (cost.mhz || !cost.fits) return;
+  std::string why = does_not_fit(c_hx8k, "flip-flops", cost.cells->flip_flops, c_hx8k.cells);
+  if (why.empty())
+    why = does_not_fit(c_hx8k, "LUTs of multipliers", cost.cells->multiplier_luts, c_hx8k.cells);
+  if (why.empty()) return;
+  cost.clock = std::move(why);
+  cost.fits = false;
+}
+
+void add_placement(const Synthesizer& synthesizer, const Design& design, Cost& cost) {
+  const Clock clock = synthesizer.clock(design, c_seeds);
+  cost.ice40 = synthesizer.cells(design, c_ice40);
+  add_tools(cost, "placed with " + synthesizer.versions());
+  if (const Placement* median = clock.median(); median != nullptr) {
+    cost.mhz = median->mhz;
+    cost.clock = "placed";
+  } else {
+    cost.clock = clock.none;
+    cost.fits = clock.endless > 0;
+  }
+}
+
+}  // namespace
+
+double cell_count(const Cells& cells) {
+  constexpr double c_lut_bits = 16;
+  return static_cast<double>(cells.luts + cells.flip_flops + cells.multiplier_luts) +
+         static_cast<double>(cells.memory_bits) / c_lut_bits;
+}
+
+Cost Costing::stored(const Design& design) const {
+  Cost cost;
+  const auto found = clock_of(clocks_, netlist_identity(netlist_of(design, cache_)));
+  if (found == clocks_.end()) return cost;
+  const StoredClock& stored = found->second;
+  cost.ice40 = stored.cells;
+  cost.fits = stored.mhz > 0;
+  if (cost.fits) {
+    cost.mhz = stored.mhz;
+    cost.clock = c_stored;
+  } else {
+    cost.clock = does_not_fit(c_hx8k, stored.cells);
+    if (cost.clock.empty()) cost.clock = "too full, or nextpnr does not end";
+  }
+  add_tools(cost, "placed with " + stored.tools);
+  return cost;
+}
+
+void Costing::add_slowest_part(const Design& design, Cost& cost) const {
+  for (const std::string& part : part_identities(netlist_of(design, cache_))) {
+    const auto found = clock_of(clocks_, part);
+    if (found == clocks_.end()) continue;
+    const auto& [name, stored] = *found;
+    if (stored.mhz <= 0 || (cost.part_mhz && *cost.part_mhz <= stored.mhz)) continue;
+    cost.part_mhz = stored.mhz;
+    cost.slowest_part = name;
+  }
+}
+
+Cost Costing::of(const Design& design, bool place) const {
+  Cost cost = stored(design);
+  if (!find_program("yosys").empty()) {
+    const Synthesizer synthesizer = Synthesizer::open(cache_, place);
+    cost.cells = synthesizer.generic_cells(design);
+    add_tools(cost, "cells by " + synthesizer.yosys_version());
+    take_size(cost);
+    if (place && !cost.mhz && cost.fits) add_placement(synthesizer, design, cost);
+  }
+  if (!cost.fits) add_slowest_part(design, cost);
+  return cost;
+}
+
+}  // namespace halfway::synth

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What hardware costs is asked of: an entity with generics, and its sources.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plan/hardware_key.hpp"
+
+namespace halfway::synth {
+
+struct Design {
+  std::string name;  ///< without spaces; prefix of messages and cache folders
+  std::string entity;
+  std::vector<std::pair<std::string, std::string>> generics{};
+  std::filesystem::path root{};  ///< the project, or a copy of its RTL
+  std::string more{};         ///< a VHDL source in addition to those of rtl/, relative to the root; or empty
+  bool has_products = false;  ///< nine tenths of it would be multipliers in LUTs (generic_cells.hpp)
+};
+
+/// The hardware of a key, with the RTL of `root`.
+Design design_of(const HardwareKey& key, const std::filesystem::path& root);
+
+/// The netlist by GHDL, mended. Cached. Throws Failure.
+std::string netlist_of(const Design& design, const std::filesystem::path& cache);
+
+}  // namespace halfway::synth

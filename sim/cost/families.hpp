@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The FPGA families: how Yosys synthesizes for them, which cells are counted, and how nextpnr places them. A
+// further family is a further row here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "common/result.hpp"
+#include "sim/cost/global_buffers.hpp"
+
+namespace halfway {
+
+/// Numbers of cells. Each family has some of these kinds.
+struct Cells {
+  std::uint64_t luts = 0, carries = 0, flip_flops = 0, rams = 0, multipliers = 0;
+  /// Only of no family (sim/cost/generic_cells.hpp): bits of writable memory, the sum of all products' bits,
+  /// and the LUTs of multipliers on an iCE40.
+  std::uint64_t memory_bits = 0, product_bits = 0, multiplier_luts = 0;
+  friend bool operator==(Cells, Cells) = default;
+};
+
+namespace synth {
+
+/// Cell types whose names start with `prefix` add `weight` to the number; nullptr: they are not counted.
+struct CellKind {
+  std::string_view prefix;
+  std::uint64_t Cells::*number;
+  std::uint64_t weight = 1;
+};
+
+/// A number of the page of synthesis.
+struct CellColumn {
+  std::string_view title;
+  std::uint64_t Cells::*number;
+};
+
+/// Names in nextpnr's reports and in the netlists that it reads.
+struct PlacedNames {
+  std::string_view logic_cell;                 ///< in the utilisation
+  std::string_view flip_flop, input, output;   ///< prefix of the types, and pins
+  std::string_view lut, lut_output;            ///< type and pin
+  std::string_view carry_output;               ///< pin
+  std::string_view mark;                       ///< in names that Yosys makes
+  std::span<const std::string_view> packed{};  ///< suffixes of the cells that nextpnr packs
+};
+
+/// The device on which a family's designs are placed.
+struct Device {
+  std::string_view name;
+  /// Logic cells, the largest number of them that nextpnr's placers can place, and block RAMs.
+  std::uint64_t cells, most_placed, rams;
+  std::string_view placer;                            ///< program
+  std::span<const std::string_view> options;          ///< device and package
+  std::span<const std::string_view> clock_options{};  ///< more of them if a clock is determined
+  Result<std::string> (*prepare)(std::string_view);   ///< from Yosys's netlist to the one to place
+  PlacedNames names;
+};
+
+struct Family {
+  std::string_view name;            ///< in names of cache folders
+  std::string_view pass;            ///< of Yosys, without -top
+  std::span<const CellKind> kinds;  ///< the first of a type counts
+  std::span<const CellColumn> columns;
+  const Device* device = nullptr;  ///< none: designs are not placed
+  std::string_view models{};       ///< of the cells, for Yosys's read_verilog; of a placed family
+};
+
+inline constexpr CellKind c_ice40_kinds[] = {{"SB_LUT4", &Cells::luts},
+                                             {"SB_CARRY", &Cells::carries},
+                                             {"SB_DFF", &Cells::flip_flops},
+                                             {"SB_RAM40_4K", &Cells::rams}};
+inline constexpr CellColumn c_ice40_columns[] = {{"LUTs", &Cells::luts},
+                                                 {"carries", &Cells::carries},
+                                                 {"flip-flops", &Cells::flip_flops},
+                                                 {"RAMs", &Cells::rams}};
+inline constexpr std::string_view c_ice40_packed[] = {"_DFFLC", "_LC", "_RAM", "$nextpnr_RAM"};
+inline constexpr std::string_view c_hx8k_options[] = {"--hx8k", "--package", "ct256"};
+inline constexpr std::string_view c_hx8k_clock_options[] = {"--no-promote-globals"};
+/// nextpnr 0.4's placers do not finish at 95 % of the logic cells.
+inline constexpr Device c_hx8k = {.name = "HX8K",
+                                  .cells = 7680,
+                                  .most_placed = 6912,
+                                  .rams = 32,
+                                  .placer = "nextpnr-ice40",
+                                  .options = c_hx8k_options,
+                                  .clock_options = c_hx8k_clock_options,
+                                  .prepare = with_global_buffers,
+                                  .names = {.logic_cell = "ICESTORM_LC",
+                                            .flip_flop = "SB_DFF",
+                                            .input = "D",
+                                            .output = "Q",
+                                            .lut = "SB_LUT4",
+                                            .lut_output = "O",
+                                            .carry_output = "COUT",
+                                            .mark = "_SB_",
+                                            .packed = c_ice40_packed}};
+
+inline constexpr CellKind c_ecp5_kinds[] = {{"LUT4", &Cells::luts},
+                                            {"CCU2C", &Cells::luts, 2},
+                                            {"TRELLIS_FF", &Cells::flip_flops},
+                                            {"DP16KD", &Cells::rams},
+                                            {"MULT18X18D", &Cells::multipliers},
+                                            {"TRELLIS_DPR16X4", &Cells::luts, 4},
+                                            // Multiplexers between the LUTs of a slice.
+                                            {"PFUMX", nullptr},
+                                            {"L6MUX21", nullptr}};
+inline constexpr CellColumn c_ecp5_columns[] = {{"ECP5: LUTs", &Cells::luts},
+                                                {"ECP5: flip-flops", &Cells::flip_flops},
+                                                {"ECP5: RAMs", &Cells::rams},
+                                                {"ECP5: multipliers", &Cells::multipliers}};
+
+/// In the order of the page's columns.
+inline constexpr Family c_families[] = {
+    {.name = "ice40",
+     .pass = "synth_ice40 -device hx",
+     .kinds = c_ice40_kinds,
+     .columns = c_ice40_columns,
+     .device = &c_hx8k,
+     .models = "-D ICE40_HX +/ice40/cells_sim.v"},
+    {.name = "ecp5", .pass = "synth_ecp5", .kinds = c_ecp5_kinds, .columns = c_ecp5_columns}};
+inline constexpr const Family& c_ice40 = c_families[0];
+
+}  // namespace synth
+}  // namespace halfway
