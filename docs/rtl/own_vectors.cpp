@@ -78,8 +78,8 @@ std::vector<std::uint32_t> from_screen(const Scene& scene) {
           255.0 *
           radiance(scene, scene.materials[triangle.material], point.position_world, point.normal_world).r;
     }
-    append_vectors(words, c_channels, triangle.source, plan_walks(points, c_subpixel_bits, c_frame), points,
-                   c_subpixel_bits, depth, samples);
+    append_exact({words, c_channels}, {triangle.source, points, c_subpixel_bits,
+                                       plan_walks(points, c_subpixel_bits, c_frame), depth, samples});
   }
   return words;
 }

@@ -255,22 +255,22 @@ constexpr int c_exact_fraction = Exact::c_intensity_fraction_bits;
 // Appends one vector of preset exact per walk. words_at(start) returns a function, which returns the words of
 // channel c.
 template <class WordsAt>
-void append_walks(std::vector<std::uint32_t>& words, int degree, int channels, std::uint32_t triangle,
-                  std::span<const Walk> walks, const DepthFit& depth, WordsAt&& words_at) {
+void append_walks(const QuadraticStream& to, std::uint32_t triangle, std::span<const Walk> walks,
+                  const DepthFit& depth, WordsAt&& words_at) {
   using ChannelAt = Exact::init_channel_at;
   for (const Walk& walk : walks) {
-    InitVector init(words, vector_bits<Exact>(degree, channels));
+    InitVector init(to.words, vector_bits<Exact>(to.degree, to.channels));
     const DifferenceStart start = difference_start(walk);
     put_header(init, triangle, walk, depth.words(start, half(Exact::c_depth_sum_fraction_bits)));
     const auto channel_words = words_at(start);
-    for (int c = 0; c < channels; ++c) {
+    for (int c = 0; c < to.channels; ++c) {
       const QuadraticWords w = channel_words(static_cast<std::size_t>(c));
-      const int low = channel_low<Exact>(degree, c);
+      const int low = channel_low<Exact>(to.degree, c);
       init.put(ChannelAt::value, w.value, low);
       init.put(ChannelAt::dx, w.dx, low);
       init.put(ChannelAt::de0, w.de0, low);
       init.put(ChannelAt::de1, w.de1, low);
-      if (degree == 1) continue;
+      if (to.degree == 1) continue;
       init.put(ChannelAt::dxx, w.dxx, low);
       init.put(ChannelAt::dxe0, w.dxe0, low);
       init.put(ChannelAt::dxe1, w.dxe1, low);
@@ -283,13 +283,16 @@ void append_walks(std::vector<std::uint32_t>& words, int degree, int channels, s
 
 }  // namespace
 
-void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                    std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
-                    const DepthFit& depth, const ChannelSamples& samples, int degree) {
-  const auto sample = [&](std::size_t c, std::size_t i) { return fixed(samples[c][i], c_exact_fraction); };
-  if (degree == 1) {
-    const PlaneFit plane(points, unit_bits);
-    append_walks(words, 1, channels, triangle, walks, depth, [&](const DifferenceStart& walk_start) {
+void append_exact(const QuadraticStream& to, const ExactPiece& piece) {
+  const auto append = [&](auto&& words_at) {
+    append_walks(to, piece.triangle, piece.walks, piece.depth, words_at);
+  };
+  const auto sample = [&](std::size_t c, std::size_t i) {
+    return fixed(piece.samples[c][i], c_exact_fraction);
+  };
+  if (to.degree == 1) {
+    const PlaneFit plane(piece.points, piece.unit_bits);
+    append([&](const DifferenceStart& walk_start) {
       return [&, start = plane.at(walk_start)](std::size_t c) {
         const DepthWords w =
             plane.words({sample(c, 0), sample(c, 1), sample(c, 2)}, start, half(c_exact_fraction));
@@ -298,8 +301,8 @@ void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32
     });
     return;
   }
-  const QuadraticFit fit(points, unit_bits);
-  append_walks(words, 2, channels, triangle, walks, depth, [&](const DifferenceStart& walk_start) {
+  const QuadraticFit fit(piece.points, piece.unit_bits);
+  append([&](const DifferenceStart& walk_start) {
     return [&, start = fit.at(walk_start)](std::size_t c) {
       return start.words(
           {{sample(c, 0), sample(c, 1), sample(c, 2)}, sample(c, 3), sample(c, 4), sample(c, 5)},
@@ -308,8 +311,8 @@ void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32
   });
 }
 
-std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                           const std::array<HalfVertex, 3>& p, const ChannelSamples& samples, int degree) {
+std::size_t append_published(const QuadraticStream& to, std::uint32_t triangle,
+                             const std::array<HalfVertex, 3>& p, const ChannelSamples& samples) {
   constexpr int c_fraction = Published::c_intensity_fraction_bits, c_bits = Published::c_intensity_bits;
   using ChannelAt = Published::init_channel_at;
   using Real = long double;
@@ -317,16 +320,16 @@ std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std:
   const Real d = x2 * y3 - y2 * x3;
   const std::vector<HalfTriangle> halves = half_triangles(p);
   for (const HalfTriangle& half_triangle : halves) {
-    InitVector init(words, vector_bits<Published>(degree, channels));
+    InitVector init(to.words, vector_bits<Published>(to.degree, to.channels));
     put_header(init, triangle, half_triangle, p);
     const Real u = half_triangle.x_start - p[0].x, v = static_cast<Real>(half_triangle.y) - p[0].y;
     const Real a = half_triangle.slope_start;
-    for (int c = 0; c < channels; ++c) {
-      const int low = channel_low<Published>(degree, c);
+    for (int c = 0; c < to.channels; ++c) {
+      const int low = channel_low<Published>(to.degree, c);
       const auto sample = [&](std::size_t n) { return Real{samples[static_cast<std::size_t>(c)][n]}; };
       // Degree 1: the midpoints are on the plane through the vertices.
       const auto i = [&](std::size_t n) {
-        if (degree == 2 || n < 3) return sample(n);
+        if (to.degree == 2 || n < 3) return sample(n);
         return (sample(n == 5 ? 1 : 0) + sample(n == 3 ? 1 : 2)) / 2;
       };
       const Real c2 = 4 * i(3) - 3 * i(0) - i(1), c3 = 4 * i(4) - 3 * i(0) - i(2);
@@ -342,7 +345,7 @@ std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std:
       init.put(ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2), low);
       init.put(ChannelAt::de0,
                word(t5 * a * a + (2 * t5 * u + t4 * v + t4 + t2) * a + t4 * u + 2 * t3 * v + t3 + t1), low);
-      if (degree == 1) continue;
+      if (to.degree == 1) continue;
       init.put(ChannelAt::dxx, word(2 * t5), low);
       init.put(ChannelAt::dxe0, word(2 * t5 * a + t4), low);
       init.put(ChannelAt::de0e0, word(2 * (t5 * a * a + t4 * a + t3)), low);
@@ -403,6 +406,7 @@ class QuadraticSetup::ExactTriangle {
   }
 
  private:
+  QuadraticStream stream() const { return {words_, setup_.channels_, setup_.degree_}; }
   Walks walks_of(const std::array<ScreenPoint, 3>& points, int level) const {
     return plan_walks(points, subpixel_bits_ + level, setup_.frame_);
   }
@@ -412,9 +416,9 @@ class QuadraticSetup::ExactTriangle {
 
   void append_quadratic(const std::array<ScreenPoint, 3>& points, const Piece& piece,
                         const Walks& walks) const {
-    append_vectors(words_, setup_.channels_, triangle_.source, walks, points, subpixel_bits_ + piece.level,
-                   depth_fit(piece.level), clamped_samples(piece, setup_.channels_, setup_.degree_, counts_),
-                   setup_.degree_);
+    append_exact(stream(),
+                 {triangle_.source, points, subpixel_bits_ + piece.level, walks, depth_fit(piece.level),
+                  clamped_samples(piece, setup_.channels_, setup_.degree_, counts_)});
     counts_.vectors += walks.size();
   }
 
@@ -428,12 +432,9 @@ class QuadraticSetup::ExactTriangle {
             fixed(clamped_sample(radiance[c], counts_), c_exact_fraction));
     }
     const PixelFit fit(pixels);
-    append_walks(words_, setup_.degree_, setup_.channels_, triangle_.source, walks, depth_fit(level),
-                 [&](const DifferenceStart& start) {
-                   return [&, start](std::size_t c) {
-                     return fit.words(colour[c], start, half(c_exact_fraction));
-                   };
-                 });
+    append_walks(stream(), triangle_.source, walks, depth_fit(level), [&](const DifferenceStart& start) {
+      return [&, start](std::size_t c) { return fit.words(colour[c], start, half(c_exact_fraction)); };
+    });
     counts_.vectors += walks.size();
   }
 
@@ -479,9 +480,9 @@ class QuadraticSetup::Worker final : public SetupWorker {
                   const Sample& sample = piece.samples[i];
                   return half_vertex(sample.corner.point, piece.level, depth_steps(sample.surface.z));
                 };
-                counts.vectors +=
-                    append_vectors(words, channels, triangle.source, {vertex(0), vertex(1), vertex(2)},
-                                   clamped_samples(piece, channels, degree, counts), degree);
+                counts.vectors += halfway::append_published({words, channels, degree}, triangle.source,
+                                                            {vertex(0), vertex(1), vertex(2)},
+                                                            clamped_samples(piece, channels, degree, counts));
               });
   }
 

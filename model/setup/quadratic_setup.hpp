@@ -23,17 +23,28 @@ namespace halfway {
 /// midpoints of edges 1-2, 1-3, 2-3.
 using ChannelSamples = std::array<std::array<double, 6>, 3>;
 
-/// Appends the vectors of preset exact that draw a screen triangle or a piece of one, one vector per walk.
-/// Points are in 1/2^unit_bits pixels. `depth` may be the plane of a larger triangle. Degree 1 is the plane
-/// through the samples at the vertices.
-void append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                    std::span<const Walk> walks, const std::array<ScreenPoint, 3>& points, int unit_bits,
-                    const DepthFit& depth, const ChannelSamples& samples, int degree = 2);
+/// The init words of a quadratic shader. Degree 1 draws the plane through the samples at the vertices.
+struct QuadraticStream {
+  std::vector<std::uint32_t>& words;
+  int channels;
+  int degree = 2;
+};
 
-/// The same for preset published, one vector per half. Returns the number of vectors.
-std::size_t append_vectors(std::vector<std::uint32_t>& words, int channels, std::uint32_t triangle,
-                           const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples,
-                           int degree = 2);
+/// A screen triangle of preset exact, or a piece of one.
+struct ExactPiece {
+  std::uint32_t triangle;             ///< its number
+  std::array<ScreenPoint, 3> points;  ///< in 1/2^unit_bits pixels
+  int unit_bits;
+  std::span<const Walk> walks;
+  const DepthFit& depth;  ///< may be the plane of a larger triangle
+  ChannelSamples samples;
+};
+/// Appends one vector per walk.
+void append_exact(const QuadraticStream& to, const ExactPiece& piece);
+
+/// Preset published: appends one vector per half. Returns their number.
+std::size_t append_published(const QuadraticStream& to, std::uint32_t triangle,
+                             const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples);
 
 /// Hardware of degree 1 draws planes through the samples at the three vertices, as in Gouraud's shading.
 /// With degree 2, preset exact with the conservative test draws small leaves pixel by pixel (PixelFit), so

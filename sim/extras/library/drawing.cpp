@@ -139,9 +139,9 @@ void append_triangle(const halfway_screen_triangle& given, const HardwareKey& ke
     for (std::size_t i = 0; i < 6; ++i) samples[c][i] = given.colour[order[i]][c];
   const std::array<ScreenPoint, 3> points = screen_points(triangle);
   const DepthFit depth(points, c_subpixel_bits, fixed_depths(triangle));
-  append_vectors(words, static_cast<int>(key.channels), given.number,
-                 plan_walks(points, c_subpixel_bits, frame), points, c_subpixel_bits, depth, samples,
-                 key.degree);
+  append_exact(
+      {words, static_cast<int>(key.channels), key.degree},
+      {given.number, points, c_subpixel_bits, plan_walks(points, c_subpixel_bits, frame), depth, samples});
 }
 
 }  // namespace

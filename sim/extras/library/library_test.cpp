@@ -90,8 +90,8 @@ TEST(Library, ScreenTrianglesGiveTheVectorsOfTheSetUp) {
       }
       for (std::size_t i = 0; i < 6; ++i)
         for (std::size_t c = 0; c < 3; ++c) samples[c][i] = t.colour[i][c];
-      append_vectors(expected, 3, t.number, plan_walks(points, 4, c_frame), points, 4,
-                     DepthFit(points, 4, depths), samples, degree);
+      append_exact({expected, 3, degree}, {t.number, points, 4, plan_walks(points, 4, c_frame),
+                                           DepthFit(points, 4, depths), samples});
     }
     const HardwarePointer hardware = quadratic(3, degree);
     std::vector<halfway_screen_triangle> turned;

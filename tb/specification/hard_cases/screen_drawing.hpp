@@ -40,8 +40,12 @@ inline void append_exact(const ScreenPiece& piece, std::uint32_t tag, FrameSize 
   const auto depth = [&](std::size_t i) {
     return fixed(piece.depth[i], words::Exact::c_depth_sum_fraction_bits);
   };
-  append_vectors(words, 1, tag, walks, piece.points, piece.unit_bits,
-                 DepthFit(piece.points, piece.unit_bits, {depth(0), depth(1), depth(2)}), {piece.sample});
+  halfway::append_exact({words, 1}, {tag,
+                                     piece.points,
+                                     piece.unit_bits,
+                                     walks,
+                                     DepthFit(piece.points, piece.unit_bits, {depth(0), depth(1), depth(2)}),
+                                     {piece.sample}});
 }
 
 /// The vertices of preset published: each is the pixel in which the point lies.
@@ -55,7 +59,7 @@ inline std::array<HalfVertex, 3> published_vertices(const ScreenPiece& piece) {
 }
 
 inline void append_published(const ScreenPiece& piece, std::uint32_t tag, std::vector<std::uint32_t>& words) {
-  append_vectors(words, 1, tag, published_vertices(piece), {piece.sample});
+  halfway::append_published({words, 1}, tag, published_vertices(piece), {piece.sample});
 }
 
 /// Returns whether preset published can draw the piece without cutting it at the frame.

@@ -117,8 +117,9 @@ Subject subject_of(std::uint32_t seed) {
 void append(const Subject& s, std::uint32_t triangle, std::vector<std::uint32_t>& words) {
   const Walks walks = plan_walks(s.piece, s.unit_bits, s.frame);
   if (walks.empty()) return;
-  append_vectors(words, static_cast<int>(s.channels), triangle, walks, s.piece, s.unit_bits,
-                 DepthFit(s.whole, s.unit_bits, s.depth), s.sample);
+  halfway::append_exact(
+      {words, static_cast<int>(s.channels)},
+      {triangle, s.piece, s.unit_bits, walks, DepthFit(s.whole, s.unit_bits, s.depth), s.sample});
 }
 
 class TriangleSearch final : public Search {
