@@ -135,9 +135,15 @@ TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
   const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
   const auto trace = scratch.path() / "golden.trace";
   const auto finish = [&](std::shared_ptr<StandIn> engine) {
-    RtlFrame frame(std::move(engine), {3, 1}, {}, {.late_golden = stored_fragments(trace)});
+    bool complete = false;
+    RtlFrame frame(std::move(engine), {3, 1}, {},
+                   {.late_golden = [&complete, stored = stored_fragments(trace)](std::size_t most) {
+                     EXPECT_TRUE(complete) << "the trace is read while it is written";
+                     return stored(most);
+                   }});
     // These fragments are only counted.
     EXPECT_TRUE(frame.add({}, std::vector<Fragment>(3, fragment(2, 99))));
+    complete = true;
     const Status ended = frame.finish();
     return ended ? Result<SimulatorRun>(frame.result()) : ended.error();
   };
