@@ -18,12 +18,21 @@ tab=$(printf '\t')
 
 say() { printf 'set-up: %s\n' "$*" >&2; }
 
+# The main version of the clang that is installed, or of the one that apt would install; empty if neither is known.
+clang_version() {
+  { dpkg-query -W -f '${Version}' clang || apt-cache show --no-all-versions clang; } 2>/dev/null |
+    sed -n 's/^\(Version: \)\{0,1\}\([0-9]*:\)\{0,1\}\([0-9]*\).*/\3/p'
+}
+
 # Every line of the list without comments, with tabs between its six columns.
-rows() { awk -v OFS='\t' '!/^ *(#|$)/ { u = $6; for (i = 7; i <= NF; i++) u = u " " $i; print $1, $2, $3, $4, $5, u }' "$list"; }
+rows() {
+  awk -v OFS='\t' -v clang="$(clang_version)" '!/^ *(#|$)/ { if (clang == "") gsub(/-@/, ""); gsub(/@/, clang); u = $6; for (i = 7; i <= NF; i++) u = u " " $i
+    print $1, $2, $3, $4, $5, u }' "$list"
+}
 
 find_header() {
   for folder in /usr/include /usr/include/*-linux-gnu* /usr/local/include; do
-    if [ -f "$folder/$1" ]; then return 0; fi
+    for file in $folder/$1; do [ ! -f "$file" ] || return 0; done
   done
   old_ifs=$IFS
   IFS=:
@@ -123,13 +132,10 @@ has_lists() { ls /var/lib/apt/lists/*_Packages* >/dev/null 2>&1; }
 install() {
   # shellcheck disable=SC2086 # the names are words on purpose
   set -- $1
-  : >"$log"
-  if has_lists; then
-    status=0
-    apt install --no-install-recommends "$@" || status=$?
-    if [ "$status" != 1 ]; then return "$status"; fi
-    say "apt-get install failed: trying again with fresh package lists"
-  fi
+  status=0
+  apt install --no-install-recommends "$@" || status=$?
+  if [ "$status" != 1 ]; then return "$status"; fi
+  say "apt-get install failed: trying again with fresh package lists"
   apt update && apt install --no-install-recommends "$@"
 }
 
@@ -161,6 +167,12 @@ set_up() {
     command -v apt-get >/dev/null || fail "$packages" "there is no apt-get here"
     can_be_root || fail "$packages" "installing needs root, or sudo without a password"
     mkdir -p build
+    : >"$log"
+    if ! has_lists; then
+      apt update || fail "$packages" "apt-get update failed, see $log"
+      # shellcheck disable=SC2086 # now the names of the release are known
+      packages=$(lacking $groups)
+    fi
     say "installing$packages"
     say "(a few minutes on a bare machine; log: $log)"
     began=$(date +%s)

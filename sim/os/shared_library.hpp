@@ -16,9 +16,7 @@ namespace halfway {
 inline constexpr const char* c_install_verilator = "apt-get install verilator";
 inline constexpr const char* c_install_compiler = "apt-get install clang";
 /// The tools and libraries that compile C++ for a browser.
-inline constexpr const char* c_install_web_assembly =
-    "apt-get install clang lld wasi-libc libc++-14-dev-wasm32 libc++abi-14-dev-wasm32 "
-    "libclang-rt-14-dev-wasm32 binaryen";
+inline constexpr const char* c_install_web_assembly = "scripts/setup.sh tools";
 
 /// Return the output of the command. If the command fails, the error contains all of its output and starts
 /// with `doing`.

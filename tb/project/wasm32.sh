@@ -13,8 +13,8 @@ fail() {
   exit "${2:-1}"
 }
 command -v $compiler >/dev/null || fail "$compiler: not found; install it with: apt-get install clang" 3
-[ -d /usr/include/wasm32-wasi ] || fail 'wasi-libc: not found; install it with: apt-get install wasi-libc' 3
-[ -d /usr/include/wasm32-wasi/c++/v1 ] || fail 'libc++: not found; install it with: apt-get install libc++-14-dev-wasm32' 3
+[ -d /usr/include/wasm32-wasi ] || fail 'wasi-libc: not found; install it with: scripts/setup.sh tools' 3
+[ -d /usr/include/wasm32-wasi/c++/v1 ] || fail 'libc++: not found; install it with: scripts/setup.sh tools' 3
 
 # Use only these two libraries of /usr/include, because its other headers are those of another system.
 rm -rf "$scratch"
