@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <thread>
-#include <tuple>
+#include <utility>
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
@@ -36,46 +38,181 @@ std::string name_of(const Hardware& hardware) {
   return name;
 }
 
-// An option for other hardware would be ignored, so refuse it.
-void check_hardware(const DrawOptions& o, Shader shader, Preset preset) {
-  struct Option {
-    const char* name;
-    bool given;
-    std::vector<Hardware> belongs_to;
-  };
-  const Option options[] = {
-      {"--highlight-test", o.highlight_test.has_value(), {{Shader::quadratic}}},
-      {"--max-level", o.max_level.has_value(), {{Shader::quadratic}}},
-      {"--threshold", o.threshold.has_value(), {{Shader::quadratic}, {Shader::spherical, Preset::exact}}},
-      {"--span-ends", o.span_ends.has_value(), {{Shader::spherical, Preset::exact}}},
-      {"--address-bits", o.address_bits.has_value(), {{Shader::spherical}}},
-      {"--data-bits", o.data_bits.has_value(), {{Shader::spherical}}},
-      {"--lights", o.lights.has_value(), {{Shader::spherical}, {Shader::processors}}},
-      {"--degree", o.degree.has_value(), {{Shader::quadratic}}},
-      {"--form", o.form.has_value(), {{Shader::processors}}}};
-  for (const Option& option : options) {
-    if (!option.given || std::ranges::any_of(option.belongs_to, [&](const Hardware& hardware) {
-          return hardware.shader == shader && hardware.preset.value_or(preset) == preset;
-        }))
-      continue;
-    std::vector<std::string> names;
-    std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
-    const std::string owners = fmt::format("{}", fmt::join(names, " and "));
-    throw Failure{bad_input(
-        fmt::format("{} in preset {}", of_other_hardware(option.name, owners, shader), to_string(preset)))};
+// The text of a given option, and its value.
+struct Given {
+  const char* flag;
+  const std::string& text;
+
+  [[noreturn]] void fail(std::string_view what) const {
+    throw Failure{bad_input(fmt::format("{}: {}", flag, what))};
   }
+
+  int whole_number(int least, int most) const {
+    int value = 0;
+    if (!read(value, "a whole number") || value < least || value > most)
+      fail(fmt::format("{} is not {} to {}", text, least, most));
+    return value;
+  }
+
+  double above_zero() const {
+    double value = 0.0;
+    if (!read(value, "a number") || !(value > 0.0) || !std::isfinite(value))
+      fail(fmt::format("{} is not above 0", text));
+    return value;
+  }
+
+  template <class Value>
+  Value one_of(std::initializer_list<std::pair<const char*, Value>> choices) const {
+    std::vector<const char*> names;
+    for (const auto& [name, value] : choices) {
+      if (text == name) return value;
+      names.push_back(name);
+    }
+    fail(fmt::format("'{}' is not one of its values; take {}", text, fmt::join(names, " or ")));
+  }
+
+ private:
+  // False if the number is out of the type's range.
+  template <class Number>
+  bool read(Number& number, const char* what) const {
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (stop != end || error == std::errc::invalid_argument) fail(fmt::format("'{}' is not {}", text, what));
+    return error == std::errc();
+  }
+};
+
+int table_bits(const Given& given, int words::CosineSize::*bits) {
+  return given.whole_number(tables::c_smallest_cosine_size.*bits, tables::c_largest_cosine_size.*bits);
 }
 
-void check_table_size(const DrawOptions& o) {
-  for (const auto& [name, given, bits] :
-       {std::tuple{"--address-bits", o.address_bits, &tables::CosineSize::address_bits},
-        std::tuple{"--data-bits", o.data_bits, &tables::CosineSize::data_bits}}) {
-    const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
-    if (given && (*given < smallest || *given > largest))
-      throw Failure{bad_input(fmt::format("{}: {} is not {} to {}", name, *given, smallest, largest))};
-  }
-  if (o.address_bits.has_value() != o.data_bits.has_value())
+words::CosineSize& table_of(DrawSettings& settings) {
+  return settings.plan.tables ? *settings.plan.tables : settings.plan.tables.emplace(0, 0);
+}
+
+// An option of some shaders.
+struct Option {
+  const char* flag;
+  std::vector<Hardware> belongs_to;
+  bool selects_hardware;  // otherwise it applies to the set-up only
+  std::string help;
+  void (*apply)(const Given& given, DrawSettings& settings);
+};
+
+// All options of some shaders, in the order of the help. A new one is a row here, and a field of PlanRequest
+// or SetupOptions.
+const std::vector<Option>& options_of_some_shaders() {
+  static const std::vector<Option> c_options = {
+      {"--highlight-test",
+       {{Shader::quadratic}},
+       false,
+       "quadratic: test for splitting a triangle in four: none, centroid (as published), or\n"
+       "conservative (default: conservative in preset exact, centroid in published)",
+       [](const Given& given, DrawSettings& s) {
+         s.setup.quadratic.test =
+             given.one_of<HighlightTest>({{"none", HighlightTest::none},
+                                          {"centroid", HighlightTest::centroid},
+                                          {"conservative", HighlightTest::conservative}});
+       }},
+      {"--threshold",
+       {{Shader::quadratic}, {Shader::spherical, Preset::exact}},
+       false,
+       fmt::format("error above which a triangle is split (quadratic) or cut into strips (spherical, preset\n"
+                   "exact), in colour steps of 1/255 (default: {})",
+                   QuadraticSetupOptions{}.threshold),
+       [](const Given& given, DrawSettings& s) {
+         s.setup.quadratic.threshold = s.setup.spherical.threshold = given.above_zero();
+       }},
+      {"--max-level",
+       {{Shader::quadratic}},
+       false,
+       fmt::format("quadratic: levels of splitting, 0 to {0} (default: {0})", c_most_levels),
+       [](const Given& given, DrawSettings& s) {
+         s.setup.quadratic.max_level = given.whole_number(0, c_most_levels);
+       }},
+      {"--address-bits",
+       {{Shader::spherical}},
+       true,
+       "spherical: address bits of the cosine tables; with --data-bits, a size that `make tables`\n"
+       "has made (default: the preset's)",
+       [](const Given& given, DrawSettings& s) {
+         table_of(s).address_bits = table_bits(given, &words::CosineSize::address_bits);
+       }},
+      {"--data-bits",
+       {{Shader::spherical}},
+       true,
+       "spherical: data bits of the cosine tables",
+       [](const Given& given, DrawSettings& s) {
+         table_of(s).data_bits = table_bits(given, &words::CosineSize::data_bits);
+       }},
+      {"--lights",
+       {{Shader::spherical}, {Shader::processors}},
+       true,
+       fmt::format("spherical and processors, with --all-effects: number of lights, up to {} (default: that\n"
+                   "of the scene, at least one)",
+                   c_most_lights),
+       [](const Given& given, DrawSettings& s) {
+         if (!s.plan.all_effects) throw Failure{bad_input("--lights goes with --all-effects; give both")};
+         s.plan.lights = static_cast<unsigned>(given.whole_number(1, c_most_lights));
+       }},
+      {"--degree",
+       {{Shader::quadratic}},
+       true,
+       "quadratic: 2, or 1: planes through the colours at the vertices, as in Gouraud's shading,\n"
+       "by hardware without second differences (default: 2)",
+       [](const Given& given, DrawSettings& s) { s.plan.degree = given.whole_number(1, 2); }},
+      {"--form",
+       {{Shader::processors}},
+       true,
+       "processors: unrolled, one object per clock, or folded, as published: one datapath\n"
+       "per processor, several clocks per object (default: unrolled)",
+       [](const Given& given, DrawSettings& s) {
+         s.plan.form = given.one_of<ProcessorForm>(
+             {{"unrolled", ProcessorForm::unrolled}, {"folded", ProcessorForm::folded}});
+       }},
+      {"--span-ends",
+       {{Shader::spherical, Preset::exact}},
+       false,
+       "spherical, preset exact: surface or slerp: vectors at a span's ends from the surface, or by\n"
+       "slerp along the edges, as published: never cut into strips, so errors are large close to a\n"
+       "light (default: surface)",
+       [](const Given& given, DrawSettings& s) {
+         s.setup.spherical.ends = given.one_of<SpanEnds>(
+             {{"surface", SpanEnds::on_surface}, {"slerp", SpanEnds::slerped_along_edges}});
+       }},
+  };
+  return c_options;
+}
+
+std::optional<std::string> text_of(const DrawOptions& options, const char* flag) {
+  const auto found = options.of_some_shaders.find(flag);
+  return found == options.of_some_shaders.end() ? std::nullopt : found->second;
+}
+
+// An option for other hardware would be ignored, so refuse it.
+void check_hardware(const Option& option, Shader shader, Preset preset) {
+  if (std::ranges::any_of(option.belongs_to, [&](const Hardware& hardware) {
+        return hardware.shader == shader && hardware.preset.value_or(preset) == preset;
+      }))
+    return;
+  std::vector<std::string> names;
+  std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
+  const std::string owners = fmt::format("{}", fmt::join(names, " and "));
+  throw Failure{bad_input(
+      fmt::format("{} in preset {}", of_other_hardware(option.flag, owners, shader), to_string(preset)))};
+}
+
+// The options of some shaders that are given, in the order of the table.
+void apply_options(const DrawOptions& o, DrawSettings& s) {
+  for (const Option& option : options_of_some_shaders())
+    if (text_of(o, option.flag)) check_hardware(option, s.plan.shader, s.plan.preset);
+  for (const Option& option : options_of_some_shaders())
+    if (const auto text = text_of(o, option.flag)) option.apply({option.flag, *text}, s);
+  if (text_of(o, "--address-bits").has_value() != text_of(o, "--data-bits").has_value())
     throw Failure{bad_input("--address-bits and --data-bits go together; give both")};
+  if (text_of(o, "--threshold") && s.plan.shader == Shader::spherical &&
+      s.setup.spherical.ends == SpanEnds::slerped_along_edges)
+    throw Failure{bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut")};
 }
 
 }  // namespace
@@ -91,41 +228,12 @@ void DrawOptions::add_to(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
   command.add_option("--out", out, "folder for results")->capture_default_str();
-  command.add_option("--highlight-test", highlight_test,
-                     "quadratic: test for splitting a triangle in four: none, centroid (as published), or\n"
-                     "conservative (default: conservative in preset exact, centroid in published)");
-  command.add_option(
-      "--threshold", threshold,
-      fmt::format("error above which a triangle is split (quadratic) or cut into strips (spherical, preset\n"
-                  "exact), in colour steps of 1/255 (default: {})",
-                  QuadraticSetupOptions{}.threshold));
-  command.add_option("--max-level", max_level,
-                     fmt::format("quadratic: levels of splitting, 0 to {0} (default: {0})", c_most_levels));
-  command.add_option(
-      "--address-bits", address_bits,
-      "spherical: address bits of the cosine tables; with --data-bits, a size that `make tables`\n"
-      "has made (default: the preset's)");
-  command.add_option("--data-bits", data_bits, "spherical: data bits of the cosine tables");
   command.add_flag(
       "--all-effects", all_effects,
       "elaborate every effect of the shader, not only those that the scene needs; unused effects\n"
       "have coefficients of zero, and the frame stays the same");
-  command.add_option(
-      "--lights", lights,
-      "spherical and processors, with --all-effects: number of lights, up to 16 (default: that\n"
-      "of the scene, at least one)");
-  command.add_option(
-      "--degree", degree,
-      "quadratic: 2, or 1: planes through the colours at the vertices, as in Gouraud's shading,\n"
-      "by hardware without second differences (default: 2)");
-  command.add_option("--form", form,
-                     "processors: unrolled, one object per clock, or folded, as published: one datapath\n"
-                     "per processor, several clocks per object (default: unrolled)");
-  command.add_option(
-      "--span-ends", span_ends,
-      "spherical, preset exact: surface or slerp: vectors at a span's ends from the surface, or by\n"
-      "slerp along the edges, as published: never cut into strips, so errors are large close to a\n"
-      "light (default: surface)");
+  for (const Option& option : options_of_some_shaders())
+    command.add_option(option.flag, of_some_shaders[option.flag], option.help);
   command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
       ->capture_default_str();
 }
@@ -156,48 +264,11 @@ DrawSettings checked(const DrawOptions& o) {
     throw Failure{
         bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset))};
   s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
-  check_hardware(o, s.plan.shader, s.plan.preset);
-  check_table_size(o);
-  if (o.address_bits) s.plan.tables = words::CosineSize{*o.address_bits, *o.data_bits};
   s.plan.all_effects = o.all_effects;
-  if (o.form == "folded")
-    s.plan.form = ProcessorForm::folded;
-  else if (o.form && o.form != "unrolled")
-    throw Failure{bad_input(fmt::format("--form: '{}' is not a form; take folded or unrolled", *o.form))};
-  if (o.degree && *o.degree != 1 && *o.degree != 2)
-    throw Failure{bad_input(fmt::format("--degree: {} is not 1 or 2", *o.degree))};
-  s.plan.degree = o.degree;
-  if (o.lights && !o.all_effects) throw Failure{bad_input("--lights goes with --all-effects; give both")};
-  s.plan.lights = o.lights;
-  if (o.span_ends == "slerp")
-    s.setup.spherical.ends = SpanEnds::slerped_along_edges;
-  else if (o.span_ends && o.span_ends != "surface")
-    throw Failure{
-        bad_input(fmt::format("--span-ends: '{}' is not a way; take surface or slerp", *o.span_ends))};
   s.size = checked_size(o.size);
   s.setup.quadratic.test =
       s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
-  if (o.highlight_test == "none")
-    s.setup.quadratic.test = HighlightTest::none;
-  else if (o.highlight_test == "centroid")
-    s.setup.quadratic.test = HighlightTest::centroid;
-  else if (o.highlight_test == "conservative")
-    s.setup.quadratic.test = HighlightTest::conservative;
-  else if (o.highlight_test)
-    throw Failure{bad_input(fmt::format(
-        "--highlight-test: '{}' is not a test; take none, centroid or conservative", *o.highlight_test))};
-  if (o.threshold) {
-    if (!(*o.threshold > 0.0) || !std::isfinite(*o.threshold))
-      throw Failure{bad_input(fmt::format("--threshold: {} is not above 0", *o.threshold))};
-    if (s.plan.shader == Shader::spherical && s.setup.spherical.ends == SpanEnds::slerped_along_edges)
-      throw Failure{bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut")};
-    s.setup.quadratic.threshold = s.setup.spherical.threshold = *o.threshold;
-  }
-  if (o.max_level) {
-    if (*o.max_level < 0 || *o.max_level > c_most_levels)
-      throw Failure{bad_input(fmt::format("--max-level: {} is not 0 to {}", *o.max_level, c_most_levels))};
-    s.setup.quadratic.max_level = *o.max_level;
-  }
+  apply_options(o, s);
   if (o.threads > 1024) throw Failure{bad_input(fmt::format("--threads: {} is more than 1024", o.threads))};
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   if (o.out.empty()) throw Failure{bad_input("--out: the folder has no name")};
@@ -205,6 +276,14 @@ DrawSettings checked(const DrawOptions& o) {
     throw Failure{bad_input("--out: the folder's name holds a control character")};
   s.out = o.out;
   return s;
+}
+
+std::string hardware_options(const DrawOptions& o) {
+  std::string line = fmt::format("--shader {} --preset {}", o.shader, o.preset);
+  for (const Option& option : options_of_some_shaders())
+    if (const auto text = text_of(o, option.flag); text && option.selects_hardware)
+      line += fmt::format(" {} {}", option.flag, *text);
+  return line + (o.all_effects ? " --all-effects" : "");
 }
 
 std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names,

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,22 +18,17 @@
 
 namespace halfway::cli {
 
-/// Options of every command that draws. Setup or the plan chooses the values of options that are not given.
+/// Options of every command that draws.
 struct DrawOptions {
   std::string shader = "quadratic";
-  std::optional<int> address_bits, data_bits;  ///< of the spherical shader's tables
-  bool all_effects = false;
-  std::optional<unsigned> lights;  ///< with all effects
-  std::optional<std::string> span_ends;
   std::string preset = "exact";
-  std::optional<int> degree;        ///< of the quadratic shader; std::nullopt: 2
-  std::optional<std::string> form;  ///< of the shading processors; std::nullopt: unrolled
   std::string size = "640x480";
   std::string out = "build/out";
-  std::optional<std::string> highlight_test;
-  std::optional<double> threshold;
-  std::optional<int> max_level;
+  bool all_effects = false;
   unsigned threads = 0;
+  /// The options of some shaders, as given. Setup or the plan chooses the values of the others. Their table
+  /// is in options.cpp.
+  std::map<std::string, std::optional<std::string>> of_some_shaders;
 
   void add_to(CLI::App& command);
 };
@@ -47,6 +43,9 @@ struct DrawSettings {
 };
 
 DrawSettings checked(const DrawOptions& options);
+
+/// The given options that select the hardware of a scene, as on the command line.
+std::string hardware_options(const DrawOptions& options);
 
 /// Parses WIDTHxHEIGHT, the form of the option.
 FrameSize checked_size(const std::string& text, const char* option = "--size");

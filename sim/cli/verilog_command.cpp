@@ -47,26 +47,14 @@ std::string netlist_of_top(const HardwareKey& key, const std::string& top, const
   return must(mend_netlist(must(library.synthesize(top, key.generics()))));
 }
 
-// The options that select the hardware, as on the command line.
-std::string command_line(const VerilogCommand& command) {
-  const DrawOptions& draw = command.draw;
-  std::string line = fmt::format("halfway verilog {} --shader {} --preset {}", printable(command.scene),
-                                 draw.shader, draw.preset);
-  if (draw.degree) line += fmt::format(" --degree {}", *draw.degree);
-  if (draw.form) line += fmt::format(" --form {}", *draw.form);
-  if (draw.address_bits) line += fmt::format(" --address-bits {}", *draw.address_bits);
-  if (draw.data_bits) line += fmt::format(" --data-bits {}", *draw.data_bits);
-  if (draw.all_effects) line += " --all-effects";
-  if (draw.lights) line += fmt::format(" --lights {}", *draw.lights);
-  return line + (command.axi ? " --axi" : "");
-}
-
 std::string header(const VerilogCommand& command, const HardwareKey& key, const std::string& top,
                    const std::vector<Port>& ports, const std::string& version) {
   std::string text = fmt::format(
-      "// SPDX-License-Identifier: Apache-2.0\n// {}, hardware key {}: written by Halfway {} with\n//   {}\n"
+      "// SPDX-License-Identifier: Apache-2.0\n// {}, hardware key {}: written by Halfway {} with\n"
+      "//   halfway verilog {} {}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
-      top, key.name(), version, command_line(command));
+      top, key.name(), version, printable(command.scene), hardware_options(command.draw),
+      command.axi ? " --axi" : "");
   for (const auto& [name, value] : key.generics()) text += fmt::format(" {}={}", name, value);
   text += "\n// Ports, in this order:\n";
   for (const Port& port : ports)
