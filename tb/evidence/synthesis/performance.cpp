@@ -11,8 +11,8 @@
 namespace halfway::synth {
 namespace {
 
-const StoredClock& placed(const ClockStore& clocks, const std::string& name) {
-  const auto found = clocks.find(name);
+const StoredClock& placed(const ClockStore& clocks, std::string_view name) {
+  const auto found = clocks.find(std::string(name));
   if (found == clocks.end() || found->second.mhz == 0)
     throw Failure{
         bad_input(fmt::format("{}: {}: has no clock, which docs/performance.md shows", c_clocks, name))};

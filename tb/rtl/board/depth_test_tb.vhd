@@ -7,6 +7,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.board_pkg.all;
+use work.sram_words_pkg.all;
 use work.sram_model_pkg.all;
 use work.tb_pkg.all;
 

@@ -8,7 +8,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.tb_pkg.all;
 
-package sram_model_pkg is
+package sram_words_pkg is
 
   type sram_t is protected
     procedure randomize;
@@ -16,12 +16,9 @@ package sram_model_pkg is
     impure function get (address : natural) return std_logic_vector;
   end protected;
 
-  -- The contents of the only instance, for the testbench.
-  shared variable sram : sram_t;
-
 end package;
 
-package body sram_model_pkg is
+package body sram_words_pkg is
 
   type sram_t is protected body
     type words_t is array (0 to 2 ** 18 - 1) of natural range 0 to 65535;
@@ -49,6 +46,16 @@ package body sram_model_pkg is
   end protected body;
 
 end package body;
+
+use work.sram_words_pkg.all;
+
+-- A package of its own: the body of the type is before the variable.
+package sram_model_pkg is
+
+  -- The contents of the only instance, for the testbench.
+  shared variable sram : sram_t;
+
+end package;
 
 library ieee;
 use ieee.std_logic_1164.all;
