@@ -6,12 +6,27 @@
 #define TOML_EXCEPTIONS 0
 #define TOML_HEADER_ONLY 1
 #define TOML_ENABLE_FORMATTERS 0
+
+#include <fstream>
+#include <istream>
+#include <string>
+
+// A function of toml++ opens a file, which nothing here calls. The standard library for a browser has no
+// files since libc++ 19: this stream opens none.
+#if defined(_LIBCPP_HAS_NO_FILESYSTEM) || (defined(_LIBCPP_HAS_FILESYSTEM) && !_LIBCPP_HAS_FILESYSTEM)
+template <>
+class std::basic_ifstream<char> : public std::istream {
+ public:
+  basic_ifstream() : std::istream(nullptr) {}
+  void open(const std::string&, std::ios_base::openmode) {}
+  bool is_open() const { return false; }
+};
+#endif
 #include <toml++/toml.h>
 
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

@@ -418,6 +418,7 @@ double own_steepest_at_end(double from, double to, double value) {
 // slopes, which are bounded on intervals of n. Where the word is beyond the table's end, the colour is 0 and
 // cos^n at most c_own_end plus the drift.
 TEST(OwnTable, EveryExponentIsWithinOneStep) {
+  const auto [address_bits, data_bits] = tables::c_own_size;
   const double half_word = 0.5 / std::ldexp(1.0, data_bits), half_cell = std::ldexp(0.5, -address_bits);
   constexpr double c_step = 1.001;
   double steepest_slope = 0.0, at = 0.0, at_end = 0.0;

@@ -127,9 +127,10 @@ Synthesizer Synthesizer::open(const Folder& cache, bool place, const Family& fam
 }
 
 Synthesizer::Folder Synthesizer::mapped(const Design& design, const Family& family) const {
-  const std::string script =
-      fmt::format("read_verilog netlist.v; {} -top {}; {}{}", family.pass, design.entity, c_statistics,
-                  family.device != nullptr ? "; write_rtlil mapped.il" : "");
+  const std::string script = fmt::format(
+      "read_verilog netlist.v; {0} -top {1}; {2}{3}", family.pass, design.entity, c_statistics,
+      // Only the design: of the cells' models, later versions keep those with parameters.
+      family.device != nullptr ? "; select " + design.entity + "; write_rtlil -selected mapped.il" : "");
   return yosys_.run(fmt::format("{}-{}", design.name, family.name), script,
                     {{"netlist.v", netlist_of(design, ghdl_cache_)}}, read_statistics);
 }
@@ -166,7 +167,7 @@ std::string Synthesizer::simulated(const Design& design) const {
 // crosses the boundary.
 std::string Synthesizer::wrapped(const Design& design) const {
   const std::string script = fmt::format(
-      "read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top {0}; read_verilog wrapper.v; "
+      "read_rtlil mapped.il; blackbox {0}; setattr -mod -unset top ={0}; read_verilog wrapper.v; "
       "{1} -top wrapped; read_rtlil -overwrite mapped.il; setattr -mod -unset top {0}; "
       "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {2}",
       design.entity, family_->pass, c_wrapped);

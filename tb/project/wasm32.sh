@@ -44,11 +44,13 @@ refused() {
 refused 'an exception' <<'END'
 int f(int x) { if (x < 0) throw x; return x; }
 END
-refused '<thread>' <<'END'
+refused 'a thread' <<'END'
 #include <thread>
+std::thread other;
 END
-refused '<filesystem>' <<'END'
+refused 'a path' <<'END'
 #include <filesystem>
+bool f() { return std::filesystem::exists("x"); }
 END
 refused 'from_chars of double' <<'END'
 #include <charconv>

@@ -18,9 +18,10 @@ const std::vector<std::string> c_analysis_flags = {
     "--std=08", "-Wlibrary", "-Wdefault-binding", "-Wbinding", "-Wport", "-Wunused",
     "-Whide",   "-Wshared",  "-Wstatic",          "-Wuseless", "-Werror"};
 
-/// GHDL 2.0.0 omits the VHDL's `when others` in a Verilog `case`, and the Verilog does not show it. GHDL's
-/// VHDL netlist does: accept only "X...X when others" after a full list of choices.
-void check_choices(const std::string& entity, std::string_view vhdl) {
+/// GHDL 2 omits the VHDL's `when others` in a Verilog `case`, and the Verilog does not show it. GHDL's VHDL
+/// netlist does: accept only "X...X when others" after a full list of choices. Later versions print `default`.
+void check_choices(const std::string& entity, std::string_view vhdl, std::string_view verilog) {
+  if (verilog.find("default:") != std::string_view::npos) return;
   constexpr std::string_view c_mark = " when others;";
   for (std::size_t at = vhdl.find(c_mark); at != std::string_view::npos; at = vhdl.find(c_mark, at + 1)) {
     const std::size_t begin = vhdl.rfind('\n', at) + 1;
@@ -173,8 +174,8 @@ std::string GhdlLibrary::netlist(const std::string& entity, const Generics& gene
     return must(read_file(command.standard_output));
   };
   const std::string vhdl = synthesized("vhdl");
-  check_choices(entity, vhdl);
   const std::string verilog = synthesized("verilog");
+  check_choices(entity, vhdl, verilog);
   must(make_folders(folder_ / "netlists"));
   must(write_file(kept + ".vhd", vhdl));
   must(write_file(kept + ".v", verilog));

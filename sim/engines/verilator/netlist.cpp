@@ -42,20 +42,34 @@ Error refuse(std::size_t line_number, std::string_view line, std::string_view wh
       fmt::format("netlist.v:{}: {}; write the RTL without it: {}", line_number, what, trim(line)));
 }
 
-// Faults of GHDL 2.0.0 that are visible in the text. The first two are repaired, the others are refused.
+// Faults of GHDL that are visible in the text. The first two are repaired, the others are refused.
 
-/// GHDL prints a constant of more than 32 bits as a quoted string of its digits, which Verilog reads as
-/// characters: make it a binary number. False if the string holds anything else.
+/// True for a text of Verilog itself: the value of an attribute, or of a vendor's parameter.
+bool is_text(std::string_view code, std::size_t open) {
+  static const std::regex c_before_text(R"(\(\* \w+=$|\.\w+\($)");
+  const std::string_view before = code.substr(0, open);
+  return std::regex_search(before.begin(), before.end(), c_before_text);
+}
+
+/// GHDL 2 prints a constant of more than 32 bits as a quoted string of its digits, which Verilog reads as
+/// characters: make it a binary number. False if the string holds anything else and is no text.
 bool mend_constants(std::string& code) {
-  for (std::size_t open; (open = code.find('"')) != std::string::npos;) {
+  std::size_t open = 0;
+  while ((open = code.find('"', open)) != std::string::npos) {
     const std::size_t close = code.find('"', open + 1);
     if (close == std::string::npos || close == open + 1) return false;
     std::string digits = code.substr(open + 1, close - open - 1);
+    bool is_number = true;
     for (char& digit : digits) {
       if (std::string_view("UXWZ-").find(digit) != std::string_view::npos) digit = 'x';
-      if (digit != '0' && digit != '1' && digit != 'x') return false;
+      is_number = is_number && (digit == '0' || digit == '1' || digit == 'x');
     }
-    code.replace(open, close + 1 - open, fmt::format("{}'b{}", digits.size(), digits));
+    if (is_number)
+      code.replace(open, close + 1 - open, fmt::format("{}'b{}", digits.size(), digits));
+    else if (is_text(code, open))
+      open = close + 1;
+    else
+      return false;
   }
   return true;
 }
@@ -66,11 +80,13 @@ void mend_undriven_bits(std::string& code) {
   for (std::size_t at = 0; (at = code.find("'bZ", at)) != std::string::npos; ++at) code[at + 2] = 'x';
 }
 
-/// GHDL names the operation in a comment, but prints the operands without $signed.
-bool is_signed_division(std::string_view line) {
-  for (const std::string_view mark : {"// sdiv", "// smod", "// srem"})
-    if (line.find(mark) != std::string_view::npos) return true;
-  return false;
+/// GHDL names the operation in a comment, but version 2 prints the operands without $signed. No version prints
+/// `mod` of signed numbers: the operator of Verilog is `rem`.
+bool is_wrong_division(std::string_view line) {
+  if (line.find("// smod") != std::string_view::npos) return true;
+  const bool divides =
+      line.find("// sdiv") != std::string_view::npos || line.find("// srem") != std::string_view::npos;
+  return divides && line.find("$signed(") == std::string_view::npos;
 }
 
 /// GHDL prints `>>`, which shifts zeros in, where `>>>` would repeat the sign.
@@ -110,7 +126,7 @@ Result<std::string> mend_netlist(std::string_view netlist) {
   bool in_always = false;
   for (const std::string_view line : lines_of(netlist)) {
     ++number;
-    if (is_signed_division(line)) return refuse(number, line, "a signed division, printed as unsigned");
+    if (is_wrong_division(line)) return refuse(number, line, "a signed division, printed wrongly");
     std::string code = without_comments(line);
     if (!mend_constants(code)) return refuse(number, line, "a quoted string");
     mend_undriven_bits(code);

@@ -148,6 +148,7 @@ class GraphBuilder {
       return bits;
     }
     if (op == "not") return ops_.invert(a);
+    if (op == "lognot") return ops_.invert(ops_.whole(ops_.any_bit(a), 1));
     if (op == "redor") return ops_.whole(ops_.any_bit(a), 1);
     if (op == "negate") return ops_.difference(ops_.zeros(width), a);
     if (op == "replicate") {
@@ -165,6 +166,8 @@ class GraphBuilder {
       ops_.append(bits, a);
       return bits;
     }
+    if (op == "logand" || op == "logor")
+      return binary(node, op.substr(3), ops_.whole(ops_.any_bit(a), 1), ops_.whole(ops_.any_bit(b), 1));
     if (op == "cond") return ops_.choose(ops_.to_mask(a), b, value(second.next_sibling()));
     return binary(node, op, a, b);
   }

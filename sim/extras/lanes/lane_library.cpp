@@ -36,16 +36,17 @@ const std::vector<std::string> c_web_assembly_flags = {
     // Debian's wasi-libc contains debug information, more than the hardware's code.
     "-Wl,--strip-debug"};
 
-/// The compiler's option for vectors that are not the widest of the processor.
+/// The compiler's option for vectors that are not the widest of the processor: an older processor, because clang 19
+/// keeps AVX-512 with -mno-avx512f on processors that have AVX10.
 std::string flag_of(LaneVectors vectors) {
 #ifdef __x86_64__
   switch (vectors) {
     case LaneVectors::avx512:
       return "";
     case LaneVectors::avx2:
-      return "-mno-avx512f";
+      return __builtin_cpu_supports("avx2") != 0 ? "-march=x86-64-v3" : "";
     case LaneVectors::sse:
-      return "-mno-avx";
+      return "-march=x86-64-v2";
     case LaneVectors::none:
       return "-mno-sse";
   }

@@ -33,9 +33,11 @@ constexpr const char* c_page = R"(<!DOCTYPE html><meta charset="utf-8"><title>mo
 const bytesOf = text => Uint8Array.from(atob(text), c => c.charCodeAt(0));
 const wordsOf = text => new Uint32Array(bytesOf(text).buffer);
 let hardware;
-const start = async module => {{
-  const made = await WebAssembly.instantiate(bytesOf(module), {{}});
-  hardware = made.instance.exports;
+const start = async text => {{
+  // Functions of an operating system, which the C library may import, are not called.
+  const module = await WebAssembly.compile(bytesOf(text)), imports = {{}};
+  for (const {{module: from, name}} of WebAssembly.Module.imports(module)) (imports[from] ??= {{}})[name] = () => {{ throw name; }};
+  hardware = (await WebAssembly.instantiate(module, imports)).exports;
   hardware._initialize();
 }};
 const put = (room, words, count) => {{

@@ -2,6 +2,7 @@
 // Wrong input comes back as a code and a text, from a program in C++.
 #include <halfway.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
