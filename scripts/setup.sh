@@ -53,7 +53,7 @@ package_version() {
     sed -n 's/^installed \([0-9]*:\)\{0,1\}\([0-9.]*\).*/\2/p' || true
 }
 
-# Sets `found` to a version, or "?" where none can be read, and `state` to ok, older or missing.
+# Sets `found` to a version, or "?" where none can be read, and `state` to ok, older, broken or missing.
 examine() { # package provides minimum
   found=-
   state=missing
@@ -64,7 +64,14 @@ examine() { # package provides minimum
       ;;
     *)
       command -v "$2" >/dev/null || return 0
-      found=$("$2" --version 2>&1 | grep -oE '[0-9]+(\.[0-9]+)+' | head -n 1) || true
+      # Some know no --version, and end with 1. A tool that does not start ends with 126 or more.
+      status=0
+      found=$("$2" --version 2>&1 </dev/null) || status=$?
+      if [ "$status" -ge 126 ]; then
+        state=broken found='?'
+        return 0
+      fi
+      found=$(printf '%s\n' "$found" | grep -oE '[0-9]+(\.[0-9]+)+' | head -n 1) || true
       ;;
   esac
   state=ok
@@ -81,6 +88,26 @@ lacking() {
     case " $* " in *" $group "*) ;; *) continue ;; esac
     examine "$package" "$provides" "$minimum"
     if [ "$state" != ok ]; then printf ' %s' "$package"; fi
+  done
+}
+
+# Of the packages given, what apt does not know, a line each: what it has to provide, and the lowest version.
+unknown() {
+  for name in "$@"; do
+    [ -z "$(apt-cache show --no-all-versions "$name" 2>/dev/null)" ] || continue
+    rows | awk -F '\t' -v name="$name" '$2 == name { printf "  %s: provides %s, at least version %s: %s\n", name, $3, $4, $6 }'
+  done
+}
+
+# What is found of the packages given, on one line.
+state_of() {
+  rows | while IFS=$tab read -r group package provides minimum tested use; do
+    case " $* " in *" $package "*) ;; *) continue ;; esac
+    examine "$package" "$provides" "$minimum"
+    case $state in
+      older | broken) printf ' %s is %s (version %s; at least %s);' "$provides" "$state" "$found" "$minimum" ;;
+      missing) printf ' %s is missing;' "$package" ;;
+    esac
   done
 }
 
@@ -140,7 +167,7 @@ install() {
 }
 
 fail() { # packages why
-  say "$2; missing or too old:$1"
+  say "$2:$(state_of "$1")"
   say "this command mends it: $(mending_command "$1")"
   exit 3
 }
@@ -172,6 +199,18 @@ set_up() {
       apt update || fail "$packages" "apt-get update failed, see $log"
       # shellcheck disable=SC2086 # now the names of the release are known
       packages=$(lacking $groups)
+    fi
+    # shellcheck disable=SC2086
+    strange=$(unknown $packages)
+    if [ -n "$strange" ]; then
+      say "$(. /etc/os-release 2>/dev/null && printf '%s' "${PRETTY_NAME-}"): these packages have no such name here, so nothing is installed:"
+      printf '%s\n' "$strange" >&2
+      say "install by hand what they provide"
+      for name in $packages; do
+        case "$strange" in *"  $name: "*) ;; *) known="${known-} $name" ;; esac
+      done
+      [ -z "${known-}" ] || say "and the others with: $(mending_command "$known")"
+      exit 3
     fi
     say "installing$packages"
     say "(a few minutes on a bare machine; log: $log)"
