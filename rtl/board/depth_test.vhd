@@ -83,6 +83,13 @@ architecture rtl of depth_test is
   signal word               : std_logic_vector(31 downto 0); -- of the batch memory at r.index
   signal nearer, kept       : std_logic;
 
+  type memory_t is array (0 to c_places - 1) of std_logic_vector(word'range);
+
+  signal memory : memory_t;
+
+  attribute ram_style           : string;
+  attribute ram_style of memory : signal is "block";
+
 begin
 
   ascends  <= flag(pixel_place = r.place + 1);
@@ -174,16 +181,12 @@ begin
     end if;
   end process;
 
-  -- The batch. A variable, because GHDL keeps a driver for every bit of a signal.
   batch : process (clk)
-    type memory_t is array (0 to c_places - 1) of std_logic_vector(word'range);
-
-    variable memory : memory_t;
   begin
     if rising_edge(clk) then
       word <= memory(to_integer(r_next.index(index_t'range)));
       if take = '1' then
-        memory(to_integer(r.count(index_t'range))) := pixel_depth & pixel_colour;
+        memory(to_integer(r.count(index_t'range))) <= pixel_depth & pixel_colour;
       end if;
     end if;
   end process;

@@ -77,6 +77,14 @@ architecture rtl of scan_out is
 
   signal word : word_t;
 
+  -- Two lines.
+  type memory_t is array (0 to 2 ** (frame_x_t'length + 1) - 1) of word_t;
+
+  signal memory : memory_t;
+
+  attribute ram_style           : string;
+  attribute ram_style of memory : signal is "block";
+
 begin
 
   combinational : process (all)
@@ -132,16 +140,12 @@ begin
     end if;
   end process;
 
-  -- Two lines. A variable, because GHDL keeps a driver for every bit of a signal.
   line_buffer : process (clk)
-    type memory_t is array (0 to 2 ** (frame_x_t'length + 1) - 1) of word_t;
-
-    variable memory : memory_t;
   begin
     if rising_edge(clk) then
       word <= memory(to_integer(line(1) & column(9 downto 1)));
       if data_valid = '1' then
-        memory(to_integer(r.load_bank & r.load)) := data;
+        memory(to_integer(r.load_bank & r.load)) <= data;
       end if;
     end if;
   end process;

@@ -61,6 +61,13 @@ architecture rtl of shadow_counter is
 
   signal r, r_next : reg_t;
 
+  type memory_t is array (2 ** x'length - 1 downto 0) of count_t;
+
+  signal counted : memory_t;
+
+  attribute ram_style            : string;
+  attribute ram_style of counted : signal is "block";
+
   signal moved    : std_logic;
   signal memory_q : count_t; -- data read from the memory
   signal held     : count_t;
@@ -151,18 +158,14 @@ begin
     end if;
   end process;
 
-  -- A variable, because GHDL keeps a driver for every bit of a signal.
   memory : process (clk)
-    type memory_t is array (2 ** x'length - 1 downto 0) of count_t;
-
-    variable counted : memory_t;
   begin
     if rising_edge(clk) then
       if moved = '1' then
         memory_q <= counted(to_integer(unsigned(x)));
       end if;
       if writes = '1' then
-        counted(to_integer(write_at)) := written;
+        counted(to_integer(write_at)) <= written;
       end if;
     end if;
   end process;

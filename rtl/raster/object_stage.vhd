@@ -74,6 +74,13 @@ architecture rtl of object_stage is
 
   signal r, r_next : reg_t;
 
+  type memory_t is array (2 ** column_t'length - 1 downto 0) of entry_t;
+
+  signal entries : memory_t;
+
+  attribute ram_style            : string;
+  attribute ram_style of entries : signal is "block";
+
   signal token             : std_logic_vector(g_bits - 1 downto 0);
   signal in_column, column : column_t;
   signal command           : command_t;
@@ -184,18 +191,14 @@ begin
   write_at     <= r.last when r.clearing = '1' else column;
   written      <= c_nothing when r.clearing = '1' else changed;
 
-  -- A variable, because GHDL keeps a driver for every bit of a signal.
   memory : process (clk)
-    type memory_t is array (2 ** column_t'length - 1 downto 0) of entry_t;
-
-    variable entries : memory_t;
   begin
     if rising_edge(clk) then
       if take = '1' then
         memory_q <= entries(to_integer(in_column));
       end if;
       if write_enable = '1' then
-        entries(to_integer(write_at)) := written;
+        entries(to_integer(write_at)) <= written;
       end if;
     end if;
   end process;
