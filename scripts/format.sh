@@ -56,16 +56,17 @@ format_cpp() {
   fi
 }
 
-# Every VHDL file so that units come before their users: rtl/files.f, packages, the rest, and testbenches last.
+# Every VHDL file so that units come before their users.
 compile_order() {
-  sed -e 's/[#].*//' -e 's/--.*//' -e 's/ *$//' -e '/^$/d' -e 's|^|rtl/|' rtl/files.f
+  for list in rtl/files.f rtl/board/files.f; do
+    sed -e 's/[#].*//' -e 's/ *$//' -e '/^$/d' -e "s|^|$(dirname "$list")/|" "$list"
+  done
   find rtl tb -type f -name '*_pkg.vhd' | sort
-  find rtl tb docs -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
+  find tb/rtl/stream tb/rtl/board rtl tb docs -type f -name '*.vhd' ! -name '*_tb.vhd'
   find rtl tb -type f -name '*_tb.vhd' | sort
 }
 
-# `ghdl fmt` needs the units that a file uses, and finds them where they are imported: analysing them all would take
-# half a minute. It drops comments after the last `end`, which compare-tokens does not see.
+# `ghdl fmt` needs the units that a file uses, analysed since version 5. It drops comments after the last `end`, which compare-tokens does not see.
 format_vhdl() {
   if ! command -v ghdl >/dev/null; then
     missing ghdl
@@ -76,7 +77,7 @@ format_vhdl() {
   mkdir "$scratch/work"
   # Its messages for a broken file are repeated below.
   while read -r file; do if [ -f "$file" ]; then printf '%s\0' "$file"; fi; done <"$scratch/order" |
-    xargs -0 ghdl -i --std=08 --workdir="$scratch/work" >"$scratch/errors" 2>&1 || true
+    xargs -0 ghdl -a --std=08 --workdir="$scratch/work" >"$scratch/errors" 2>&1 || true
   while read -r file; do
     if [ ! -f "$file" ]; then
       report "$file" "rtl/files.f lists it, but the file does not exist: correct the list"
