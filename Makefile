@@ -50,7 +50,7 @@ about_DESIGN := mutate,synth only designs with this text in their names (default
 about_SEEDS := synth number of placement seeds (default: 3)
 about_PAGE := evidence only this page: bounds, cells, accuracy, transcripts, figures, gallery, hard_cases, proofs, mutants; or speed, clocks (default: all but speed and clocks)
 about_AGAIN := evidence 1: measure pages of this commit, too
-about_JOBS := sim,view,live,board-sim,compare,why,plan,verilog,savings,study,figures,report,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
+about_JOBS := sim,view,live,board-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
 
 variables := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
 comma := ,
@@ -258,13 +258,16 @@ configure: setup
 	cmake --log-level=NOTICE $$fresh -S . -B build -G Ninja && printf "%s\n" "$$key" >build/configure.stamp'
 
 # Installs missing packages of scripts/packages.txt: the groups build and sim for every target, others if needed.
-with_tools := bench board bounds diagrams evidence figures format check-format fuzz gallery lint live mutate prove report sanitize \
+with_tools := bench board bounds diagrams evidence figures format check-format fuzz gallery lint live mutate prove release report sanitize \
   savings study synth test test-all
 setup:
 	@$(lock) scripts/setup.sh $(if $(filter $(with_tools),$(MAKECMDGOALS)),tools) \
 	  $(if $(filter test test-all sanitize,$(MAKECMDGOALS)),test) \
 	  $(if $(filter plan,$(MAKECMDGOALS)),$(call flag,MEASURE,tools)) \
 	  $(if $(filter view,$(MAKECMDGOALS)),$(call flag,VIDEO,tools))
+
+release: program ## write sources, Verilog and page of this version in build/release, and tag the commit
+	@scripts/release.sh
 
 doctor: ## list tools and libraries, and the command that installs the missing ones
 	@sh scripts/setup.sh --doctor
