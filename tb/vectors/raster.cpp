@@ -124,7 +124,15 @@ void write_counter(const Folder& folder) {
   for (const Mix mix : {Mix::dense, Mix::mixed}) {
     golden::LineCounter<Preset> twin;
     bool valid = false, first = false, offered = false;
-    const std::vector<InitVector> triangles = walker_triangles<Preset>(random, mix);
+    std::vector<InitVector> triangles = walker_triangles<Preset>(random, mix);
+    if (mix == Mix::mixed) {
+      // As many lower lines as can be counted.
+      using At = typename Preset::init_header_at;
+      InitVector long_section = triangles.front();
+      set_bits(long_section, At::upper_lines, 1);
+      set_bits(long_section, At::lower_lines, ~0U);
+      triangles.push_back(long_section);
+    }
     std::size_t taken = 0;
     for (int clock = 0; taken < triangles.size() || valid; ++clock) {
       const bool full_speed = clock / 500 % 2 == 0;

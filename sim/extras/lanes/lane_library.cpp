@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "sim/os/file.hpp"
 
@@ -36,22 +37,23 @@ const std::vector<std::string> c_web_assembly_flags = {
     // Debian's wasi-libc contains debug information, more than the hardware's code.
     "-Wl,--strip-debug"};
 
-/// The compiler's option for vectors that are not the widest of the processor: an older processor, because clang 19
-/// keeps AVX-512 with -mno-avx512f on processors that have AVX10.
-std::string flag_of(LaneVectors vectors) {
+/// The compiler's options for vectors that are not the widest of the processor: an older processor, because
+/// clang 19 keeps AVX-512 with -mno-avx512f on processors that have AVX10.
+std::vector<std::string> flags_of(LaneVectors vectors) {
 #ifdef __x86_64__
   switch (vectors) {
     case LaneVectors::avx512:
-      return "";
+      return {};
     case LaneVectors::avx2:
-      return __builtin_cpu_supports("avx2") != 0 ? "-march=x86-64-v3" : "";
+      if (__builtin_cpu_supports("avx2") == 0) return {};
+      return {"-march=x86-64-v3"};
     case LaneVectors::sse:
-      return "-march=x86-64-v2";
+      return {"-march=x86-64-v2"};
     case LaneVectors::none:
-      return "-mno-sse";
+      return {"-march=x86-64", "-mno-sse"};
   }
 #endif
-  return "";
+  return {};
 }
 
 /// The sources of the generator and of the compiled text: this folder's, without tests, and the header of the
@@ -85,7 +87,7 @@ Toolchain toolchain_of(const LaneBuild& build) {
   if (web_assembly) {
     tools.optimizer = must(ask({"wasm-opt", "--version"}, c_install_web_assembly));
   } else {
-    if (const std::string vectors = flag_of(build.vectors); !vectors.empty()) tools.flags.push_back(vectors);
+    std::ranges::copy(flags_of(build.vectors), std::back_inserter(tools.flags));
     // g++ would share inline variables between all libraries of the process.
     if (tools.compiler.program.find("clang") == std::string::npos)
       tools.flags.emplace_back("-fno-gnu-unique");

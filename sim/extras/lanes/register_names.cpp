@@ -28,10 +28,14 @@ bool in_name(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// n12_q
-bool is_register(std::string_view name) {
-  return name.starts_with('n') && name.ends_with("_q") && name.size() > 3 &&
-         std::all_of(name.begin() + 1, name.end() - 2, [](char c) { return c >= '0' && c <= '9'; });
+/// The name in the Verilog, n12_q, of what may be a register; otherwise empty. In the VHDL netlist, GHDL 5
+/// prints n12.
+std::string register_of(std::string name) {
+  if (!name.ends_with("_q")) name += "_q";
+  const bool counted =
+      name.starts_with('n') && name.size() > 3 &&
+      std::all_of(name.begin() + 1, name.end() - 2, [](char c) { return c >= '0' && c <= '9'; });
+  return counted ? name : std::string();
 }
 
 std::string range(unsigned low, unsigned width) {
@@ -115,10 +119,9 @@ class RegisterNames::Reader {
       entity_->instances[words[0]] = words[3].substr(c_library.size());
     } else if (entity_ != nullptr && assigns && words[2].ends_with(';')) {
       // Prefer a signal to a port.
-      const std::string value = words[2].substr(0, words[2].size() - 1);
+      const std::string value = register_of(words[2].substr(0, words[2].size() - 1));
       const bool signal = words.size() >= 5 && words[4] == "(signal)";
-      if (is_register(value) && (signal || !entity_->signals.contains(value)))
-        entity_->signals[value] = words[0];
+      if (!value.empty() && (signal || !entity_->signals.contains(value))) entity_->signals[value] = words[0];
     } else if (entity_ != nullptr && assigns && words[3].starts_with('(')) {
       read_slice(words);
     }

@@ -32,9 +32,8 @@ std::optional<Guard> narrow(const LaneGraph& graph, Guard guard, int mask, bool 
 }
 
 bool excludes(const Guard& a, const Guard& b) {
-  return std::any_of(a.begin(), a.end(), [&](const auto& literal) {
-    return b.count({literal.first, !literal.second}) != 0;
-  });
+  return std::any_of(a.begin(), a.end(),
+                     [&](const auto& literal) { return b.count({literal.first, !literal.second}) != 0; });
 }
 
 }  // namespace halfway

@@ -112,9 +112,8 @@ void compile(const Compiler& compiler, const fs::path& root, const std::vector<s
   std::vector<std::string> flags = c_flags;
   flags.insert(flags.end(),
                {"-I" + (root / "model").string(), "-I" + root.string(), "-isystem", "include", "-c"});
-  must_for_each(std::max(1U, std::thread::hardware_concurrency()), sources.size(), [&](std::size_t i) {
-    run(flags, {(root / sources[i]).string(), "-o", object(i)});
-  });
+  must_for_each(std::max(1U, std::thread::hardware_concurrency()), sources.size(),
+                [&](std::size_t i) { run(flags, {(root / sources[i]).string(), "-o", object(i)}); });
   std::vector<std::string> objects;
   for (std::size_t i = 0; i < sources.size(); ++i) objects.push_back(object(i));
   objects.insert(objects.end(), {"-o", c_module_name});

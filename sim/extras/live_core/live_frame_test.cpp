@@ -230,7 +230,7 @@ TEST(LiveFrame, RefusesBadTextAndDrawsTheNextScene) {
 TEST(LiveFrame, RefusesSettingsOutOfRange) {
   LiveFrame live = loaded_frame("matte");
   GoldenEngine engine(*live.plan({}));
-  for (double Settings::*value :
+  for (double Settings::* value :
        {&Settings::width, &Settings::height, &Settings::azimuth, &Settings::elevation,
         &Settings::distance_factor, &Settings::exponent_factor, &Settings::light_azimuth,
         &Settings::light_elevation, &Settings::threshold}) {
@@ -253,7 +253,7 @@ TEST(LiveFrame, SettingsNeedNoOtherHardware) {
     GoldenEngine engine(*live.plan({.shader = shader}));
     ASSERT_TRUE(live.draw(small(), engine));
     const auto own = live.picture(Picture::hardware)->rgb;
-    for (double Settings::*value :
+    for (double Settings::* value :
          {&Settings::azimuth, &Settings::elevation, &Settings::distance_factor, &Settings::exponent_factor,
           &Settings::light_azimuth, &Settings::light_elevation}) {
       Settings settings = small();
