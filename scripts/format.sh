@@ -4,7 +4,9 @@
 #
 #   scripts/format.sh [--check]   --check changes nothing and names what would change
 #
-# Exit codes: 0 all is formatted, 1 something is not or cannot be, 2 bad usage, 3 a formatter is missing.
+# The style is that of Debian 13's versions; others break some lines and indent some blocks in another way.
+#
+# Exit codes: 0 all is formatted, 1 something is not or cannot be, 2 bad usage, 3 a formatter is missing or of another version.
 set -eu
 export LC_ALL=C
 cd "$(dirname "$0")/.."
@@ -24,9 +26,17 @@ trap 'rm -rf "$scratch"' EXIT
 bad=0
 lacks_tool=0
 
-missing() { # tool
-  echo "format: $1 is missing; scripts/setup.sh tools installs what formatting needs" >&2
+# True if the tool is there, in this main version.
+has() { # tool version
+  if ! command -v "$1" >/dev/null; then
+    echo "format: $1 is missing; scripts/setup.sh tools installs what formatting needs" >&2
+  elif ! "$1" --version | head -n 1 | grep -q "[^0-9.]$2\."; then
+    echo "format: $1 must be version $2, that of Debian 13; here is $("$1" --version | head -n 1)" >&2
+  else
+    return 0
+  fi
   lacks_tool=1
+  return 1
 }
 
 report() { # file what
@@ -42,10 +52,7 @@ sources() { # pattern
 }
 
 format_cpp() {
-  if ! command -v clang-format >/dev/null; then
-    missing clang-format
-    return
-  fi
+  has clang-format 19 || return 0
   sources '\.(cpp|hpp|h)$' | tr '\n' '\0' >"$scratch/cpp"
   if [ ! -s "$scratch/cpp" ]; then return; fi
   if ! $check; then
@@ -68,10 +75,7 @@ compile_order() {
 
 # `ghdl fmt` needs the units that a file uses, analysed since version 5. It drops comments after the last `end`, which compare-tokens does not see.
 format_vhdl() {
-  if ! command -v ghdl >/dev/null; then
-    missing ghdl
-    return
-  fi
+  has ghdl 5 || return 0
   sources '\.vhd$' >"$scratch/vhdl"
   compile_order | awk '!seen[$0]++' >"$scratch/order"
   mkdir "$scratch/work"

@@ -120,8 +120,7 @@ TEST(SphericalShader, SkipsTheRecordsOfEmptyLines) {
   };
   std::string seen;
   std::vector<Fragment> fragments;
-  d.shader.draw(
-      d.vectors, [&](const Fragment& f) { fragments.push_back(f); }, Watch{seen});
+  d.shader.draw(d.vectors, [&](const Fragment& f) { fragments.push_back(f); }, Watch{seen});
   EXPECT_EQ(seen, "lsslss");
   ASSERT_EQ(fragments.size(), 4U);
   EXPECT_EQ(fragments[0].red, 9);  // 255 / 256 of the factor

@@ -247,7 +247,7 @@ class PlyReader {
     return element.kind == Kind::face || element.kind == Kind::tristrips;
   }
   template <class Value>
-  static bool has_property(const Element& element, Value Property::*member, const Value& value) {
+  static bool has_property(const Element& element, Value Property::* member, const Value& value) {
     return std::any_of(element.properties.begin(), element.properties.end(),
                        [&](const Property& property) { return property.*member == value; });
   }

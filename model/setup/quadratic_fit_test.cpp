@@ -247,8 +247,7 @@ TEST(PixelFit, EachPixelHasItsColourExactly) {
       put_walk(init, walk);
       put_words(init, fit.words(colours, {walk.start.pixel, walk.y, walk.start.quotient, walk.backward}, 0));
       Shader shader;
-      shader.draw(
-          init, [](const Fragment&) {}, comparison);
+      shader.draw(init, [](const Fragment&) {}, comparison);
       if (HasFatalFailure()) return;
       backward += walk.backward;
       moved += walk.upper_lines + walk.lower_lines > 1 && (walk.start.quotient != 0 || walk.start.carry);

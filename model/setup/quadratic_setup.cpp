@@ -154,9 +154,8 @@ std::array<Piece, 4> split(const Piece& p, const Sampler& sampler) {
   const Sample ab_ac = sampler.between(ab, ac), ab_bc = sampler.between(ab, bc),
                ac_bc = sampler.between(ac, bc);
   const auto piece = [&](const Sample& x, const Sample& y, const Sample& z, const Sample& xy,
-                         const Sample& xz, const Sample& yz) {
-    return Piece{{x, y, z, xy, xz, yz}, p.level + 1};
-  };
+                         const Sample& xz,
+                         const Sample& yz) { return Piece{{x, y, z, xy, xz, yz}, p.level + 1}; };
   return {piece(a, ab, ac, sampler.between(a, ab), sampler.between(a, ac), ab_ac),
           piece(ab, b, bc, sampler.between(ab, b), ab_bc, sampler.between(b, bc)),
           piece(ac, bc, c, ac_bc, sampler.between(ac, c), sampler.between(bc, c)),

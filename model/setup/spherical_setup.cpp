@@ -453,8 +453,7 @@ class SphericalSetup::ExactTriangle {
     const std::size_t begin = part_.arcs.size();
     part_.arcs.resize(begin + setup_.lights_.size());
     const std::span<LightArcs> of_line = std::span(part_.arcs).subspan(begin);
-    setup_.set_arcs(
-        material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); }, of_line);
+    setup_.set_arcs(material_, ends, [&] { return vectors(point(at.first + at.last + 1, at.y)); }, of_line);
     part_.lines.push_back({false, ends.first, ends.step, ends.steps});
     return {of_line, ends.first, ends.step, ends.steps};
   }
@@ -588,8 +587,7 @@ void SphericalSetup::append_published(const ScreenTriangle& triangle, std::vecto
         span.step = 1.0 / static_cast<double>(steps);
       std::array<LightArcs, c_most_lights> arcs;
       const std::span<LightArcs> of_line = std::span(arcs).first(lights_.size());
-      set_arcs(
-          material, span, [&] { return slerped(span.begin, span.end, 0.5); }, of_line);
+      set_arcs(material, span, [&] { return slerped(span.begin, span.end, 0.5); }, of_line);
       put_record<Published>(record, triangle.material, {of_line, span.first, span.step, span.steps}, counts);
     }
   }

@@ -55,8 +55,7 @@ TEST(Word, SumsWrapAtEveryWidth) {
   std::mt19937_64 random(1);
   [&]<int... Zero>(std::integer_sequence<int, Zero...>) {
     (expect_sums_wrap<Zero + 1>(random), ...);
-  }
-  (std::make_integer_sequence<int, 64>());
+  }(std::make_integer_sequence<int, 64>());
 }
 
 TEST(Word, LowBitsKeepsTheLowestBits) {

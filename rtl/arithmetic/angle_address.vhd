@@ -41,11 +41,11 @@ begin
 
     signal magnitude : std_logic_vector(c_sign downto 0);
 
-    begin
+  begin
 
-      magnitude <= not angle when angle(c_sign) = '1' else angle;
-      address   <= magnitude(c_fraction - 1 downto c_fraction - g_address_bits);
-      in_range  <= '1' when magnitude(c_sign downto c_fraction) = c_inside else '0';
+    magnitude <= not angle when angle(c_sign) = '1' else angle;
+    address   <= magnitude(c_fraction - 1 downto c_fraction - g_address_bits);
+    in_range  <= '1' when magnitude(c_sign downto c_fraction) = c_inside else '0';
 
   else generate
 

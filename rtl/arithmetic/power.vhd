@@ -182,52 +182,52 @@ begin
 
     signal r : reg_t;
 
+  begin
+
+    registers : process (clk)
+      variable log_part   : unsigned(c_log_rest + c_log.slope_bits - 1 downto 0);
+      variable decay_part : unsigned(c_dec_rest + c_dec.slope_bits - 1 downto 0);
+      variable logarithm  : unsigned(c_log.value_bits - 1 downto 0);
+      variable lead       : loss_t;
+      variable wide       : unsigned(c_loss_bits + c_exponent - 1 downto 0);
     begin
+      if rising_edge(clk) then
+        if enable = '1' then
+          r.zeros <= is_zero & r.zeros(1 to 4);
 
-      registers : process (clk)
-        variable log_part   : unsigned(c_log_rest + c_log.slope_bits - 1 downto 0);
-        variable decay_part : unsigned(c_dec_rest + c_dec.slope_bits - 1 downto 0);
-        variable logarithm  : unsigned(c_log.value_bits - 1 downto 0);
-        variable lead       : loss_t;
-        variable wide       : unsigned(c_loss_bits + c_exponent - 1 downto 0);
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            r.zeros <= is_zero & r.zeros(1 to 4);
+          r.log_lead     <= split.lead;
+          r.log_rest     <= unsigned(split.mantissa(c_log_rest - 1 downto 0));
+          r.log_exponent <= unsigned(exponent);
 
-            r.log_lead     <= split.lead;
-            r.log_rest     <= unsigned(split.mantissa(c_log_rest - 1 downto 0));
-            r.log_exponent <= unsigned(exponent);
+          log_part  := unsigned(log_sample(log_sample'high downto c_log.value_bits)) * r.log_rest;
+          logarithm := unsigned(log_sample(c_log.value_bits - 1 downto 0))
+            + log_part(log_part'high downto c_log_rest);
+          lead                                        := (others => '0');
+          lead(lead'high downto c_log.fraction_bits)  := r.log_lead;
+          r.loss                                      <= lead - logarithm;
+          r.loss_exponent                             <= r.log_exponent;
 
-            log_part  := unsigned(log_sample(log_sample'high downto c_log.value_bits)) * r.log_rest;
-            logarithm := unsigned(log_sample(c_log.value_bits - 1 downto 0))
-              + log_part(log_part'high downto c_log_rest);
-            lead                                        := (others => '0');
-            lead(lead'high downto c_log.fraction_bits)  := r.log_lead;
-            r.loss                                      <= lead - logarithm;
-            r.loss_exponent                             <= r.log_exponent;
+          wide      := r.loss * r.loss_exponent;
+          r.product <= wide(wide'high downto c_cut);
 
-            wide      := r.loss * r.loss_exponent;
-            r.product <= wide(wide'high downto c_cut);
+          r.decay_whole <= r.product(c_product_bits - 1 downto c_decay_fraction);
+          r.decay_rest  <= r.product(c_dec_rest - 1 downto 0);
 
-            r.decay_whole <= r.product(c_product_bits - 1 downto c_decay_fraction);
-            r.decay_rest  <= r.product(c_dec_rest - 1 downto 0);
+          decay_part := unsigned(decay_sample(decay_sample'high downto c_dec.value_bits)) * r.decay_rest;
+          r.decay    <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0))
+            - decay_part(decay_part'high downto c_dec_rest);
+          r.whole    <= r.decay_whole;
 
-            decay_part := unsigned(decay_sample(decay_sample'high downto c_dec.value_bits)) * r.decay_rest;
-            r.decay    <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0))
-              - decay_part(decay_part'high downto c_dec_rest);
-            r.whole    <= r.decay_whole;
-
-            r.result <= shifted_weight(r.decay, r.whole);
-            if r.zeros(5) = '1' then
-              r.result <= (others => '0');
-            end if;
+          r.result <= shifted_weight(r.decay, r.whole);
+          if r.zeros(5) = '1' then
+            r.result <= (others => '0');
           end if;
         end if;
-      end process;
+      end if;
+    end process;
 
-      decay_address <= std_logic_vector(r.product(c_decay_fraction - 1 downto c_dec_rest));
-      result        <= r.result;
+    decay_address <= std_logic_vector(r.product(c_decay_fraction - 1 downto c_dec_rest));
+    result        <= r.result;
 
   else generate
 
@@ -249,52 +249,52 @@ begin
     signal raised  : product_t;
     signal shifted : weight_t;
 
+  begin
+
+    lessen : process (all)
+      variable lead : loss_t;
     begin
+      lead                                       := (others => '0');
+      lead(lead'high downto c_log.fraction_bits) := r.log_lead;
+      loss                                       <= lead - unsigned(log_sample);
+      if r.log_one = '1' then
+        loss <= (others => '0');
+      end if;
+    end process;
 
-      lessen : process (all)
-        variable lead : loss_t;
-      begin
-        lead                                       := (others => '0');
-        lead(lead'high downto c_log.fraction_bits) := r.log_lead;
-        loss                                       <= lead - unsigned(log_sample);
-        if r.log_one = '1' then
-          loss <= (others => '0');
-        end if;
-      end process;
+    raised        <= loss * r.log_exponent;
+    decay_address <= std_logic_vector(raised(c_decay_fraction - 1 downto c_decay_fraction - c_dec.address_bits));
 
-      raised        <= loss * r.log_exponent;
-      decay_address <= std_logic_vector(raised(c_decay_fraction - 1 downto c_decay_fraction - c_dec.address_bits));
-
-      registers : process (clk)
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            r.log_zero     <= is_zero;
-            r.log_one      <= base(c_fraction);
-            r.log_lead     <= split.lead;
-            r.log_exponent <= unsigned(exponent);
-            r.zero         <= r.log_zero;
-            r.one          <= '0';
-            if raised = (raised'range => '0') then
-              r.one <= '1';
-            end if;
-            r.whole <= raised(c_product_bits - 1 downto c_decay_fraction);
+    registers : process (clk)
+    begin
+      if rising_edge(clk) then
+        if enable = '1' then
+          r.log_zero     <= is_zero;
+          r.log_one      <= base(c_fraction);
+          r.log_lead     <= split.lead;
+          r.log_exponent <= unsigned(exponent);
+          r.zero         <= r.log_zero;
+          r.one          <= '0';
+          if raised = (raised'range => '0') then
+            r.one <= '1';
           end if;
+          r.whole <= raised(c_product_bits - 1 downto c_decay_fraction);
         end if;
-      end process;
+      end if;
+    end process;
 
-      shifted <= shifted_weight('0' & unsigned(decay_sample) & (c_low - 1 downto 0 => '0'), r.whole);
+    shifted <= shifted_weight('0' & unsigned(decay_sample) & (c_low - 1 downto 0 => '0'), r.whole);
 
-      choose : process (all)
-      begin
-        result <= shifted;
-        if r.zero = '1' then
-          result <= (others => '0');
-        elsif r.one = '1' then
-          result           <= (others => '0');
-          result(c_weight - 1) <= '1';
-        end if;
-      end process;
+    choose : process (all)
+    begin
+      result <= shifted;
+      if r.zero = '1' then
+        result <= (others => '0');
+      elsif r.one = '1' then
+        result           <= (others => '0');
+        result(c_weight - 1) <= '1';
+      end if;
+    end process;
 
   end generate;
 

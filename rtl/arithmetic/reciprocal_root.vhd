@@ -97,32 +97,32 @@ begin
 
     signal r : reg_t;
 
+  begin
+
+    registers : process (clk)
+      variable difference : unsigned(c_x_bits + c_square_bits - 1 downto 0);
+      variable twice      : unsigned(c_entry_bits + c_rest_bits - 1 downto 0);
     begin
-
-      registers : process (clk)
-        variable difference : unsigned(c_x_bits + c_square_bits - 1 downto 0);
-        variable twice      : unsigned(c_entry_bits + c_rest_bits - 1 downto 0);
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            r.table_below_one  <= below_one;
-            r.table_x          <= unsigned(x(c_high downto c_high - c_x_bits + 1));
-            r.square_below_one <= r.table_below_one;
-            r.square_x         <= r.table_x;
-            r.square_entry     <= unsigned(entry);
-            r.entry_square     <= unsigned(entry) * unsigned(entry);
-            r.rest_below_one   <= r.square_below_one;
-            r.rest_entry       <= r.square_entry;
-            difference         := (c_three & (c_cut - 1 downto 0 => '0')) - r.square_x * r.entry_square;
-            r.rest             <= difference(difference'high downto c_cut);
-            r.below_one        <= r.rest_below_one;
-            twice              := r.rest_entry * r.rest;
-            r.root             <= std_logic_vector(twice(c_root_low + c_formats.root.bits - 1 downto c_root_low));
-          end if;
+      if rising_edge(clk) then
+        if enable = '1' then
+          r.table_below_one  <= below_one;
+          r.table_x          <= unsigned(x(c_high downto c_high - c_x_bits + 1));
+          r.square_below_one <= r.table_below_one;
+          r.square_x         <= r.table_x;
+          r.square_entry     <= unsigned(entry);
+          r.entry_square     <= unsigned(entry) * unsigned(entry);
+          r.rest_below_one   <= r.square_below_one;
+          r.rest_entry       <= r.square_entry;
+          difference         := (c_three & (c_cut - 1 downto 0 => '0')) - r.square_x * r.entry_square;
+          r.rest             <= difference(difference'high downto c_cut);
+          r.below_one        <= r.rest_below_one;
+          twice              := r.rest_entry * r.rest;
+          r.root             <= std_logic_vector(twice(c_root_low + c_formats.root.bits - 1 downto c_root_low));
         end if;
-      end process;
+      end if;
+    end process;
 
-      reciprocal <= r.root & '0' when r.below_one = '1' else '0' & r.root;
+    reciprocal <= r.root & '0' when r.below_one = '1' else '0' & r.root;
 
   else generate
 
@@ -132,18 +132,18 @@ begin
 
     signal r : reg_t;
 
+  begin
+
+    registers : process (clk)
     begin
-
-      registers : process (clk)
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            r.below_one <= below_one;
-          end if;
+      if rising_edge(clk) then
+        if enable = '1' then
+          r.below_one <= below_one;
         end if;
-      end process;
+      end if;
+    end process;
 
-      reciprocal <= entry & '0' when r.below_one = '1' else '0' & entry;
+    reciprocal <= entry & '0' when r.below_one = '1' else '0' & entry;
 
   end generate;
 

@@ -64,21 +64,21 @@ begin
 
     signal unit : directions_t;
 
-    begin
+  begin
 
-      unit_normal : entity work.unit_vector
-        generic map (
-          g_exact       => c_exact,
-          g_vector_bits => c_formats.vector.bits
-          )
-        port map (
-          clk        => clk,
-          enable     => enable,
-          components => normal_of(g_config, token),
-          unit       => unit
-          );
+    unit_normal : entity work.unit_vector
+      generic map (
+        g_exact       => c_exact,
+        g_vector_bits => c_formats.vector.bits
+        )
+      port map (
+        clk        => clk,
+        enable     => enable,
+        components => normal_of(g_config, token),
+        unit       => unit
+        );
 
-      normal <= unit when delayed(pixel_header(c_exact).normalize.low) = '1' else plain;
+    normal <= unit when delayed(pixel_header(c_exact).normalize.low) = '1' else plain;
 
   else generate
 

@@ -67,31 +67,31 @@ begin
 
     signal exponent_q : std_logic_vector(exponent'range);
 
-    begin
+  begin
 
-      align_exponent : entity work.delay_line
-        generic map (
-          g_bits  => exponent'length,
-          g_depth => c_dot_product_latency
-          )
-        port map (
-          clk     => clk,
-          enable  => enable,
-          word    => exponent,
-          delayed => exponent_q
-          );
+    align_exponent : entity work.delay_line
+      generic map (
+        g_bits  => exponent'length,
+        g_depth => c_dot_product_latency
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => exponent,
+        delayed => exponent_q
+        );
 
-      raise : entity work.power
-        generic map (
-          g_exact => g_exact
-          )
-        port map (
-          clk      => clk,
-          enable   => enable,
-          base     => std_logic_vector(angle),
-          exponent => exponent_q,
-          result   => result
-          );
+    raise : entity work.power
+      generic map (
+        g_exact => g_exact
+        )
+      port map (
+        clk      => clk,
+        enable   => enable,
+        base     => std_logic_vector(angle),
+        exponent => exponent_q,
+        result   => result
+        );
 
   else generate
 

@@ -113,58 +113,58 @@ begin
 
     signal sample, gated : std_logic_vector(g_data_bits - 1 downto 0);
 
+  begin
+
+    factors_register : entity work.parameter_register
+      generic map (
+        g_bits => c_factors_bits
+        )
+      port map (
+        clk   => clk,
+        load  => span_load,
+        start => part(part'high downto c_factors_low),
+        value => carried_in(c_factors_bits downto 1)
+        );
+
+    rom : entity work.cosine_rom
+      generic map (
+        g_exact        => g_exact,
+        g_power        => 1,
+        g_address_bits => g_address_bits,
+        g_data_bits    => g_data_bits
+        )
+      port map (
+        clk     => clk,
+        enable  => span_step,
+        address => address,
+        sample  => sample
+        );
+
+    gated <= sample when in_range = '1' else (others => '0');
+
+    channels : for channel in 0 to g_channels - 1 generate
+
+      constant c_factor : slice_t := diffuse_channel(g_exact).factor;
+      constant c_low    : natural := 1 + channel * c_channel_bits;
+
     begin
 
-      factors_register : entity work.parameter_register
+      -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
+      product : entity work.multiplier
         generic map (
-          g_bits => c_factors_bits
-          )
-        port map (
-          clk   => clk,
-          load  => span_load,
-          start => part(part'high downto c_factors_low),
-          value => carried_in(c_factors_bits downto 1)
-          );
-
-      rom : entity work.cosine_rom
-        generic map (
-          g_exact        => g_exact,
-          g_power        => 1,
-          g_address_bits => g_address_bits,
-          g_data_bits    => g_data_bits
+          g_a_bits => g_data_bits,
+          g_b_bits => formats(g_exact).factor.bits,
+          g_gated  => g_exact -- in preset published no angle is out of range
           )
         port map (
           clk     => clk,
-          enable  => span_step,
-          address => address,
-          sample  => sample
+          enable  => sample_step,
+          a       => gated,
+          b       => carried(c_low + c_factor.high downto c_low + c_factor.low),
+          product => products((channel + 1) * c_product_bits - 1 downto channel * c_product_bits)
           );
 
-      gated <= sample when in_range = '1' else (others => '0');
-
-      channels : for channel in 0 to g_channels - 1 generate
-
-        constant c_factor : slice_t := diffuse_channel(g_exact).factor;
-        constant c_low    : natural := 1 + channel * c_channel_bits;
-
-        begin
-
-          -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
-          product : entity work.multiplier
-            generic map (
-              g_a_bits => g_data_bits,
-              g_b_bits => formats(g_exact).factor.bits,
-              g_gated  => g_exact -- in preset published no angle is out of range
-              )
-            port map (
-              clk     => clk,
-              enable  => sample_step,
-              a       => gated,
-              b       => carried(c_low + c_factor.high downto c_low + c_factor.low),
-              product => products((channel + 1) * c_product_bits - 1 downto channel * c_product_bits)
-              );
-
-      end generate;
+    end generate;
 
   else generate
 

@@ -52,30 +52,30 @@ begin
     signal sum  : std_logic_vector(c_axes * c_sum - 1 downto 0);
     signal unit : std_logic_vector(half'range);
 
+  begin
+
+    add : process (clk)
     begin
-
-      add : process (clk)
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            sum <= sums(to_light, to_eye, c_sum);
-          end if;
+      if rising_edge(clk) then
+        if enable = '1' then
+          sum <= sums(to_light, to_eye, c_sum);
         end if;
-      end process;
+      end if;
+    end process;
 
-      normalize : entity work.unit_vector
-        generic map (
-          g_exact       => g_exact,
-          g_vector_bits => c_sum
-          )
-        port map (
-          clk        => clk,
-          enable     => enable,
-          components => sum,
-          unit       => unit
-          );
+    normalize : entity work.unit_vector
+      generic map (
+        g_exact       => g_exact,
+        g_vector_bits => c_sum
+        )
+      port map (
+        clk        => clk,
+        enable     => enable,
+        components => sum,
+        unit       => unit
+        );
 
-      half <= unit when g_exact or positional = '1' else to_eye;
+    half <= unit when g_exact or positional = '1' else to_eye;
 
   else generate
 

@@ -109,26 +109,26 @@ begin
     signal counts : std_logic;
     signal clear  : std_logic;
 
-    begin
+  begin
 
-      counts <= '1' when command = c_shadow and own = '1' else '0';
-      clear  <= '1' when command = c_new_frame else '0';
+    counts <= '1' when command = c_shadow and own = '1' else '0';
+    clear  <= '1' when command = c_new_frame else '0';
 
-      counter : entity work.shadow_counter
-        port map (
-          clk        => clk,
-          reset      => reset,
-          ready      => ready,
-          step       => take,
-          clear      => clear,
-          counts     => counts,
-          opens      => token(c_header.opens.low),
-          object     => object,
-          x          => field_of(token, c_header.x),
-          around_eye => field_of(light, light_axes_header(g_config.exact).around_eye),
-          lit        => lit,
-          fault      => fault
-          );
+    counter : entity work.shadow_counter
+      port map (
+        clk        => clk,
+        reset      => reset,
+        ready      => ready,
+        step       => take,
+        clear      => clear,
+        counts     => counts,
+        opens      => token(c_header.opens.low),
+        object     => object,
+        x          => field_of(token, c_header.x),
+        around_eye => field_of(light, light_axes_header(g_config.exact).around_eye),
+        lit        => lit,
+        fault      => fault
+        );
 
   else generate
 

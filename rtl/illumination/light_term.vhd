@@ -113,81 +113,81 @@ begin
     signal way    : std_logic_vector(c_axes * half_light_bits(c_exact) - 1 downto 0); -- L; in preset published P_p - P, as the paper prints it
     signal to_eye : directions_t;                                                     -- V; in preset published E
 
+  begin
+
+    halfway : if c_exact generate
+
+      signal vectors     : std_logic_vector(2 * to_eye'length - 1 downto 0);
+      signal normal_now  : directions_t; -- N, aligned with L
+      signal horizon_dot : std_logic_vector(2 * c_formats.direction.bits downto 0);
+      signal above_now   : std_logic;
+
     begin
 
-      halfway : if c_exact generate
+      way <= to_light;
 
-        signal vectors     : std_logic_vector(2 * to_eye'length - 1 downto 0);
-        signal normal_now  : directions_t; -- N, aligned with L
-        signal horizon_dot : std_logic_vector(2 * c_formats.direction.bits downto 0);
-        signal above_now   : std_logic;
-
-        begin
-
-          way <= to_light;
-
-          align_vectors : entity work.delay_line
-            generic map (
-              g_bits  => vectors'length,
-              g_depth => c_at.to_light
-              )
-            port map (
-              clk     => clk,
-              enable  => enable,
-              word    => view_of(g_config, token) & direction_of(g_config, token),
-              delayed => vectors
-              );
-
-          to_eye     <= vectors(vectors'high downto to_eye'length);
-          normal_now <= vectors(normal_now'range);
-
-          horizon : entity work.dot_product
-            generic map (
-              g_bits => c_formats.direction.bits
-              )
-            port map (
-              clk    => clk,
-              enable => enable,
-              a      => normal_now,
-              b      => to_light,
-              sum    => horizon_dot
-              );
-
-          above_now <= is_positive(signed(horizon_dot));
-
-          align_horizon : entity work.delay_line
-            generic map (
-              g_bits  => 1,
-              g_depth => c_at.term - c_at.to_light - c_dot_product_latency
-              )
-            port map (
-              clk        => clk,
-              enable     => enable,
-              word(0)    => above_now,
-              delayed(0) => above
-              );
-
-      else generate
-
-        way    <= offsets(c_exact, light_place(c_exact, light), place_of(g_config, token), light_shift(c_exact, light));
-        to_eye <= light_half(c_exact, light);
-        above  <= '1';
-
-      end generate;
-
-      half_vector : entity work.half_vector
+      align_vectors : entity work.delay_line
         generic map (
-          g_exact     => c_exact,
-          g_normalize => c_shape.second
+          g_bits  => vectors'length,
+          g_depth => c_at.to_light
+          )
+        port map (
+          clk     => clk,
+          enable  => enable,
+          word    => view_of(g_config, token) & direction_of(g_config, token),
+          delayed => vectors
+          );
+
+      to_eye     <= vectors(vectors'high downto to_eye'length);
+      normal_now <= vectors(normal_now'range);
+
+      horizon : entity work.dot_product
+        generic map (
+          g_bits => c_formats.direction.bits
+          )
+        port map (
+          clk    => clk,
+          enable => enable,
+          a      => normal_now,
+          b      => to_light,
+          sum    => horizon_dot
+          );
+
+      above_now <= is_positive(signed(horizon_dot));
+
+      align_horizon : entity work.delay_line
+        generic map (
+          g_bits  => 1,
+          g_depth => c_at.term - c_at.to_light - c_dot_product_latency
           )
         port map (
           clk        => clk,
           enable     => enable,
-          positional => positional,
-          to_light   => way,
-          to_eye     => to_eye,
-          half       => direction
+          word(0)    => above_now,
+          delayed(0) => above
           );
+
+    else generate
+
+      way    <= offsets(c_exact, light_place(c_exact, light), place_of(g_config, token), light_shift(c_exact, light));
+      to_eye <= light_half(c_exact, light);
+      above  <= '1';
+
+    end generate;
+
+    half_vector : entity work.half_vector
+      generic map (
+        g_exact     => c_exact,
+        g_normalize => c_shape.second
+        )
+      port map (
+        clk        => clk,
+        enable     => enable,
+        positional => positional,
+        to_light   => way,
+        to_eye     => to_eye,
+        half       => direction
+        );
 
   else generate
 

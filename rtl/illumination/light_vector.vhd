@@ -61,75 +61,75 @@ begin
     signal way  : std_logic_vector(c_axes * c_offset - 1 downto 0);
     signal unit : std_logic_vector(to_light'range);
 
+  begin
+
+    scaled : if g_exact generate
+
+      signal places : std_logic_vector(c_axes * (c_place + c_vector) - 1 downto 0);
+      signal points : std_logic_vector(point'range);
+
     begin
 
-      scaled : if g_exact generate
-
-        signal places : std_logic_vector(c_axes * (c_place + c_vector) - 1 downto 0);
-        signal points : std_logic_vector(point'range);
-
-        begin
-
-          scale : entity work.vector_multiply
-            generic map (
-              g_a_bits => c_place,
-              g_b_bits => c_vector
-              )
-            port map (
-              clk      => clk,
-              enable   => enable,
-              a        => place,
-              b        => distance & distance & distance,
-              products => places
-              );
-
-          align_points : entity work.delay_line
-            generic map (
-              g_bits  => point'length,
-              g_depth => c_vector_multiply_latency
-              )
-            port map (
-              clk     => clk,
-              enable  => enable,
-              word    => point,
-              delayed => points
-              );
-
-          subtract : process (clk)
-          begin
-            if rising_edge(clk) then
-              if enable = '1' then
-                way <= offsets(g_exact, places, points, shift);
-              end if;
-            end if;
-          end process;
-
-      else generate
-
-        subtract : process (clk)
-        begin
-          if rising_edge(clk) then
-            if enable = '1' then
-              way <= offsets(g_exact, place, point, shift);
-            end if;
-          end if;
-        end process;
-
-      end generate;
-
-      normalize : entity work.unit_vector
+      scale : entity work.vector_multiply
         generic map (
-          g_exact       => g_exact,
-          g_vector_bits => c_offset
+          g_a_bits => c_place,
+          g_b_bits => c_vector
           )
         port map (
-          clk        => clk,
-          enable     => enable,
-          components => way,
-          unit       => unit
+          clk      => clk,
+          enable   => enable,
+          a        => place,
+          b        => distance & distance & distance,
+          products => places
           );
 
-      to_light <= unit when positional = '1' else direction;
+      align_points : entity work.delay_line
+        generic map (
+          g_bits  => point'length,
+          g_depth => c_vector_multiply_latency
+          )
+        port map (
+          clk     => clk,
+          enable  => enable,
+          word    => point,
+          delayed => points
+          );
+
+      subtract : process (clk)
+      begin
+        if rising_edge(clk) then
+          if enable = '1' then
+            way <= offsets(g_exact, places, points, shift);
+          end if;
+        end if;
+      end process;
+
+    else generate
+
+      subtract : process (clk)
+      begin
+        if rising_edge(clk) then
+          if enable = '1' then
+            way <= offsets(g_exact, place, point, shift);
+          end if;
+        end if;
+      end process;
+
+    end generate;
+
+    normalize : entity work.unit_vector
+      generic map (
+        g_exact       => g_exact,
+        g_vector_bits => c_offset
+        )
+      port map (
+        clk        => clk,
+        enable     => enable,
+        components => way,
+        unit       => unit
+        );
+
+    to_light <= unit when positional = '1' else direction;
 
   else generate
 

@@ -62,68 +62,68 @@ begin
     signal share_both  : weight_t;
     signal cosine_both : weight_t;
 
+  begin
+
+    axis_product : entity work.dot_product
+      generic map (
+        g_bits => c_direction
+        )
+      port map (
+        clk    => clk,
+        enable => enable,
+        a      => to_light,
+        b      => axis,
+        sum    => dot
+        );
+
+    cone : entity work.spot_cone
+      generic map (
+        g_exact => g_exact
+        )
+      port map (
+        clk      => clk,
+        enable   => enable,
+        axis_sum => dot,
+        outer    => outer,
+        slope    => slope,
+        factor   => share
+        );
+
+    align_share : entity work.delay_line
+      generic map (
+        g_bits  => share'length,
+        g_depth => c_both - c_share
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => share,
+        delayed => share_both
+        );
+
+    align_cosine : entity work.delay_line
+      generic map (
+        g_bits  => cosine'length,
+        g_depth => c_both - g_lead
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => cosine,
+        delayed => cosine_both
+        );
+
+    narrow : process (clk)
     begin
-
-      axis_product : entity work.dot_product
-        generic map (
-          g_bits => c_direction
-          )
-        port map (
-          clk    => clk,
-          enable => enable,
-          a      => to_light,
-          b      => axis,
-          sum    => dot
-          );
-
-      cone : entity work.spot_cone
-        generic map (
-          g_exact => g_exact
-          )
-        port map (
-          clk      => clk,
-          enable   => enable,
-          axis_sum => dot,
-          outer    => outer,
-          slope    => slope,
-          factor   => share
-          );
-
-      align_share : entity work.delay_line
-        generic map (
-          g_bits  => share'length,
-          g_depth => c_both - c_share
-          )
-        port map (
-          clk     => clk,
-          enable  => enable,
-          word    => share,
-          delayed => share_both
-          );
-
-      align_cosine : entity work.delay_line
-        generic map (
-          g_bits  => cosine'length,
-          g_depth => c_both - g_lead
-          )
-        port map (
-          clk     => clk,
-          enable  => enable,
-          word    => cosine,
-          delayed => cosine_both
-          );
-
-      narrow : process (clk)
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            weight <= cosine_both;
-            if spot = '1' then
-              weight <= coned_weight(g_exact, unsigned(cosine_both) * unsigned(share_both));
-            end if;
+      if rising_edge(clk) then
+        if enable = '1' then
+          weight <= cosine_both;
+          if spot = '1' then
+            weight <= coned_weight(g_exact, unsigned(cosine_both) * unsigned(share_both));
           end if;
         end if;
-      end process;
+      end if;
+    end process;
 
   else generate
 

@@ -89,29 +89,29 @@ begin
     signal factor   : std_logic_vector(c_weight - 1 downto 0);
     signal products : std_logic_vector(c_axes * c_product - 1 downto 0);
 
-    begin
+  begin
 
-      factor <= '0' & weight;
+    factor <= '0' & weight;
 
-      weigh : entity work.vector_multiply
-        generic map (
-          g_a_bits => c_reflected,
-          g_b_bits => c_weight
-          )
-        port map (
-          clk      => clk,
-          enable   => enable,
-          a        => reflections,
-          b        => factor & factor & factor,
-          products => products
-          );
+    weigh : entity work.vector_multiply
+      generic map (
+        g_a_bits => c_reflected,
+        g_b_bits => c_weight
+        )
+      port map (
+        clk      => clk,
+        enable   => enable,
+        a        => reflections,
+        b        => factor & factor & factor,
+        products => products
+        );
 
-      channels : for channel in 0 to g_channels - 1 generate
+    channels : for channel in 0 to g_channels - 1 generate
 
-        terms((channel + 1) * product_bits(g_exact) - 1 downto channel * product_bits(g_exact)) <=
-          products((channel + 1) * c_product - 3 downto channel * c_product);
+      terms((channel + 1) * product_bits(g_exact) - 1 downto channel * product_bits(g_exact)) <=
+        products((channel + 1) * c_product - 3 downto channel * c_product);
 
-      end generate;
+    end generate;
 
   else generate
 

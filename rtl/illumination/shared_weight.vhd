@@ -99,32 +99,32 @@ begin
     signal factor_now  : weight_t;
     signal factor_held : weight_t;
 
+  begin
+
+    spot_cone : entity work.spot_cone
+      generic map (
+        g_exact => c_exact
+        )
+      port map (
+        clk      => clk,
+        enable   => '1',
+        axis_sum => dot,
+        outer    => outer,
+        slope    => slope,
+        factor   => factor_now
+        );
+
+    hold_factor : process (clk)
     begin
-
-      spot_cone : entity work.spot_cone
-        generic map (
-          g_exact => c_exact
-          )
-        port map (
-          clk      => clk,
-          enable   => '1',
-          axis_sum => dot,
-          outer    => outer,
-          slope    => slope,
-          factor   => factor_now
-          );
-
-      hold_factor : process (clk)
-      begin
-        if rising_edge(clk) then
-          if cycle = c_at.factor then
-            factor_held <= factor_now;
-          end if;
+      if rising_edge(clk) then
+        if cycle = c_at.factor then
+          factor_held <= factor_now;
         end if;
-      end process;
+      end if;
+    end process;
 
-      factor <= factor_now when c_at.narrow = c_at.factor else factor_held;
-      weight <= weight_now when spot = '0' or (c_at.narrow = c_at.weigh_in and cycle = c_at.narrow) else held;
+    factor <= factor_now when c_at.narrow = c_at.factor else factor_held;
+    weight <= weight_now when spot = '0' or (c_at.narrow = c_at.weigh_in and cycle = c_at.narrow) else held;
 
   else generate
 

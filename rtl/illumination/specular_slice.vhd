@@ -197,39 +197,39 @@ begin
 
     signal span_power, power : std_logic_vector(c_part.power.high - c_part.power.low downto 0);
 
+  begin
+
+    span_power_register : entity work.parameter_register
+      generic map (
+        g_bits => power'length
+        )
+      port map (
+        clk   => clk,
+        load  => span_load,
+        start => part(c_part.power.high downto c_part.power.low),
+        value => span_power
+        );
+
+    power_register : entity work.parameter_register
+      generic map (
+        g_bits => power'length
+        )
+      port map (
+        clk   => clk,
+        load  => span_step,
+        start => span_power,
+        value => power
+        );
+
+    select_sample : process (all)
     begin
-
-      span_power_register : entity work.parameter_register
-        generic map (
-          g_bits => power'length
-          )
-        port map (
-          clk   => clk,
-          load  => span_load,
-          start => part(c_part.power.high downto c_part.power.low),
-          value => span_power
-          );
-
-      power_register : entity work.parameter_register
-        generic map (
-          g_bits => power'length
-          )
-        port map (
-          clk   => clk,
-          load  => span_step,
-          start => span_power,
-          value => power
-          );
-
-      select_sample : process (all)
-      begin
-        sample <= (others => '0');
-        for i in samples_t'range loop
-          if unsigned(power) = i then
-            sample <= samples(i);
-          end if;
-        end loop;
-      end process;
+      sample <= (others => '0');
+      for i in samples_t'range loop
+        if unsigned(power) = i then
+          sample <= samples(i);
+        end if;
+      end loop;
+    end process;
 
   else generate
 
@@ -243,22 +243,22 @@ begin
 
     constant c_low : natural := 1 + channel * c_channel_bits;
 
-    begin
+  begin
 
-      -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
-      product : entity work.multiplier
-        generic map (
-          g_a_bits => g_data_bits,
-          g_b_bits => formats(g_exact).factor.bits,
-          g_gated  => g_exact -- in preset published no angle is out of range
-          )
-        port map (
-          clk     => clk,
-          enable  => sample_step,
-          a       => gated,
-          b       => carried(c_low + c_factor.high downto c_low + c_factor.low),
-          product => products((channel + 1) * c_product_bits - 1 downto channel * c_product_bits)
-          );
+    -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
+    product : entity work.multiplier
+      generic map (
+        g_a_bits => g_data_bits,
+        g_b_bits => formats(g_exact).factor.bits,
+        g_gated  => g_exact -- in preset published no angle is out of range
+        )
+      port map (
+        clk     => clk,
+        enable  => sample_step,
+        a       => gated,
+        b       => carried(c_low + c_factor.high downto c_low + c_factor.low),
+        product => products((channel + 1) * c_product_bits - 1 downto channel * c_product_bits)
+        );
 
   end generate;
 

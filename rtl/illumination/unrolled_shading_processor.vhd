@@ -163,70 +163,70 @@ begin
     signal normal : directions_t;
     signal view   : directions_t;
 
+  begin
+
+    ambient_term : entity work.ambient_term
+      generic map (
+        g_config => c_config
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        light   => light,
+        token   => in_token,
+        delayed => term_token,
+        terms   => terms,
+        normal  => normal,
+        view    => view
+        );
+
+    reached <= '1';
+
+    renew : process (all)
+      variable v : token_t;
     begin
-
-      ambient_term : entity work.ambient_term
-        generic map (
-          g_config => c_config
-          )
-        port map (
-          clk     => clk,
-          enable  => enable,
-          light   => light,
-          token   => in_token,
-          delayed => term_token,
-          terms   => terms,
-          normal  => normal,
-          view    => view
-          );
-
-      reached <= '1';
-
-      renew : process (all)
-        variable v : token_t;
-      begin
-        v := term_token;
-        if object = '1' then
-          v := with_direction(c_config, v, normal);
-          if has_view(c_config) then
-            v := with_view(c_config, v, view);
-          end if;
+      v := term_token;
+      if object = '1' then
+        v := with_direction(c_config, v, normal);
+        if has_view(c_config) then
+          v := with_view(c_config, v, view);
         end if;
-        ready_token <= v;
-      end process;
+      end if;
+      ready_token <= v;
+    end process;
 
   else generate
 
     signal lit_term : std_logic;
     signal above    : std_logic;
 
-    begin
+  begin
 
-      light_term : entity work.light_term
-        generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
-        port map (
-          clk    => clk,
-          enable => enable,
-          light  => light,
-          token  => in_token,
-          terms  => terms,
-          above  => above
-          );
+    light_term : entity work.light_term
+      generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
+      port map (
+        clk    => clk,
+        enable => enable,
+        light  => light,
+        token  => in_token,
+        terms  => terms,
+        above  => above
+        );
 
-      align_lit : entity work.delay_line
-        generic map (
-          g_bits  => 1,
-          g_depth => c_at.term - 1
-          )
-        port map (
-          clk        => clk,
-          enable     => enable,
-          word(0)    => lit,
-          delayed(0) => lit_term
-          );
+    align_lit : entity work.delay_line
+      generic map (
+        g_bits  => 1,
+        g_depth => c_at.term - 1
+        )
+      port map (
+        clk        => clk,
+        enable     => enable,
+        word(0)    => lit,
+        delayed(0) => lit_term
+        );
 
-      reached     <= lit_term and above;
-      ready_token <= term_token;
+    reached     <= lit_term and above;
+    ready_token <= term_token;
 
   end generate;
 

@@ -38,22 +38,22 @@ begin
 
     signal history : history_t; -- the part now, one clock ago, and so on
 
-    begin
+  begin
 
-      history(0) <= skewed(c_high downto c_low);
+    history(0) <= skewed(c_high downto c_low);
 
-      delays : for clock in 1 to c_clocks generate
+    delays : for clock in 1 to c_clocks generate
 
-        registers : process (clk)
-        begin
-          if rising_edge(clk) then
-            history(clock) <= history(clock - 1);
-          end if;
-        end process;
+      registers : process (clk)
+      begin
+        if rising_edge(clk) then
+          history(clock) <= history(clock - 1);
+        end if;
+      end process;
 
-      end generate;
+    end generate;
 
-      word(c_high downto c_low) <= history(c_clocks);
+    word(c_high downto c_low) <= history(c_clocks);
 
   end generate;
 

@@ -90,37 +90,37 @@ begin
 
     signal dxe1, de0e1, de1e1, de1_step : word_t;
 
-    begin
+  begin
 
-      dxe1  <= constants(c_init.dxe1.high downto c_init.dxe1.low);
-      de0e1 <= constants(c_init.de0e1.high downto c_init.de0e1.low);
-      de1e1 <= constants(c_init.de1e1.high downto c_init.de1e1.low);
+    dxe1  <= constants(c_init.dxe1.high downto c_init.dxe1.low);
+    de0e1 <= constants(c_init.de0e1.high downto c_init.de0e1.low);
+    de1e1 <= constants(c_init.de1e1.high downto c_init.de1e1.low);
 
-      value_multiplexer : entity work.skewed_multiplexer
-        generic map (g_bits => c_bits, g_parts => g_parts)
-        port map (clk => clk, select_b => line_carry, a => edge_de0, b => edge_de1, value => value_step);
+    value_multiplexer : entity work.skewed_multiplexer
+      generic map (g_bits => c_bits, g_parts => g_parts)
+      port map (clk => clk, select_b => line_carry, a => edge_de0, b => edge_de1, value => value_step);
 
-      dx_multiplexer : entity work.skewed_multiplexer
-        generic map (g_bits => c_bits, g_parts => g_parts)
-        port map (clk => clk, select_b => line_carry, a => dxe0, b => dxe1, value => dx_step);
+    dx_multiplexer : entity work.skewed_multiplexer
+      generic map (g_bits => c_bits, g_parts => g_parts)
+      port map (clk => clk, select_b => line_carry, a => dxe0, b => dxe1, value => dx_step);
 
-      de0_multiplexer : entity work.skewed_multiplexer
-        generic map (g_bits => c_bits, g_parts => g_parts)
-        port map (clk => clk, select_b => line_carry, a => de0e0, b => de0e1, value => de0_step);
+    de0_multiplexer : entity work.skewed_multiplexer
+      generic map (g_bits => c_bits, g_parts => g_parts)
+      port map (clk => clk, select_b => line_carry, a => de0e0, b => de0e1, value => de0_step);
 
-      de1_multiplexer : entity work.skewed_multiplexer
-        generic map (g_bits => c_bits, g_parts => g_parts)
-        port map (clk => clk, select_b => line_carry, a => de0e1, b => de1e1, value => de1_step);
+    de1_multiplexer : entity work.skewed_multiplexer
+      generic map (g_bits => c_bits, g_parts => g_parts)
+      port map (clk => clk, select_b => line_carry, a => de0e1, b => de1e1, value => de1_step);
 
-      de1_along_edge : entity work.skewed_interpolator
-        generic map (g_bits => c_bits, g_parts => g_parts)
-        port map (
-          clk       => clk,
-          load      => line_load,
-          start     => init(c_init.de1.high downto c_init.de1.low),
-          step      => line_step,
-          increment => de1_step,
-          value     => edge_de1);
+    de1_along_edge : entity work.skewed_interpolator
+      generic map (g_bits => c_bits, g_parts => g_parts)
+      port map (
+        clk       => clk,
+        load      => line_load,
+        start     => init(c_init.de1.high downto c_init.de1.low),
+        step      => line_step,
+        increment => de1_step,
+        value     => edge_de1);
 
   else generate
 

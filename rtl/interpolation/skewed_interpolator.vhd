@@ -51,19 +51,19 @@ begin
     constant c_low  : natural := part_low(g_bits, g_parts, part);
     constant c_high : natural := part_low(g_bits, g_parts, part + 1) - 1;
 
-    begin
+  begin
 
-      interpolator : entity work.part_interpolator
-        generic map (g_bits => c_high - c_low + 1)
-        port map (
-          clk       => clk,
-          load      => loads(part),
-          start     => start(c_high downto c_low),
-          step      => steps(part),
-          increment => increment(c_high downto c_low),
-          carry_in  => carries(part),
-          value     => value(c_high downto c_low),
-          carry_out => carries(part + 1));
+    interpolator : entity work.part_interpolator
+      generic map (g_bits => c_high - c_low + 1)
+      port map (
+        clk       => clk,
+        load      => loads(part),
+        start     => start(c_high downto c_low),
+        step      => steps(part),
+        increment => increment(c_high downto c_low),
+        carry_in  => carries(part),
+        value     => value(c_high downto c_low),
+        carry_out => carries(part + 1));
 
   end generate;
 

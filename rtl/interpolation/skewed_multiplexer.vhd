@@ -42,9 +42,9 @@ begin
     constant c_low  : natural := part_low(g_bits, g_parts, part);
     constant c_high : natural := part_low(g_bits, g_parts, part + 1) - 1;
 
-    begin
+  begin
 
-      value(c_high downto c_low) <= b(c_high downto c_low) when selects(part) = '1' else a(c_high downto c_low);
+    value(c_high downto c_low) <= b(c_high downto c_low) when selects(part) = '1' else a(c_high downto c_low);
 
   end generate;
 

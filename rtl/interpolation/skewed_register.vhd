@@ -44,15 +44,15 @@ begin
       constant c_low  : natural := word * g_bits + part_low(g_bits, g_parts, part);
       constant c_high : natural := word * g_bits + part_low(g_bits, g_parts, part + 1) - 1;
 
-      begin
+    begin
 
-        part_register : entity work.parameter_register
-          generic map (g_bits => c_high - c_low + 1)
-          port map (
-            clk   => clk,
-            load  => loads(part),
-            start => start(c_high downto c_low),
-            value => value(c_high downto c_low));
+      part_register : entity work.parameter_register
+        generic map (g_bits => c_high - c_low + 1)
+        port map (
+          clk   => clk,
+          load  => loads(part),
+          start => start(c_high downto c_low),
+          value => value(c_high downto c_low));
 
     end generate;
 

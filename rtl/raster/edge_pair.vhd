@@ -69,93 +69,93 @@ begin
     signal load_stop                                   : std_logic;
     signal start_x, stop_x                             : std_logic_vector(span_x_t'range);
 
+  begin
+
+    init_start <= (
+      x         => init(c_init.start_x.high downto c_init.start_x.low),
+      quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
+      remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
+      divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
+      error     => init(c_init.start_error.high downto c_init.start_error.low),
+      carry     => init(c_init.start_carry.low));
+
+    init_upper <= (
+      x         => init(c_init.upper_x.high downto c_init.upper_x.low),
+      quotient  => init(c_init.upper_quotient.high downto c_init.upper_quotient.low),
+      remainder => init(c_init.upper_remainder.high downto c_init.upper_remainder.low),
+      divisor   => init(c_init.upper_divisor.high downto c_init.upper_divisor.low),
+      error     => init(c_init.upper_error.high downto c_init.upper_error.low),
+      carry     => init(c_init.upper_carry.low));
+
+    init_lower <= (
+      x         => init(c_init.lower_x.high downto c_init.lower_x.low),
+      quotient  => init(c_init.lower_quotient.high downto c_init.lower_quotient.low),
+      remainder => init(c_init.lower_remainder.high downto c_init.lower_remainder.low),
+      divisor   => init(c_init.lower_divisor.high downto c_init.lower_divisor.low),
+      error     => init(c_init.lower_error.high downto c_init.lower_error.low),
+      carry     => init(c_init.lower_carry.low));
+
+    combinational : process (all)
+      variable v : reg_t;
     begin
+      v := r;
+      -- Hold the lower section until the upper one ends.
+      if load = '1' then
+        v.lower := init_lower;
+      end if;
+      -- Take the direction with the first line.
+      if load = '1' and step = '1' then
+        v.backward := init(c_init.backward.low);
+      end if;
+      r_next <= v;
+    end process;
 
-      init_start <= (
-        x         => init(c_init.start_x.high downto c_init.start_x.low),
-        quotient  => init(c_init.start_quotient.high downto c_init.start_quotient.low),
-        remainder => init(c_init.start_remainder.high downto c_init.start_remainder.low),
-        divisor   => init(c_init.start_divisor.high downto c_init.start_divisor.low),
-        error     => init(c_init.start_error.high downto c_init.start_error.low),
-        carry     => init(c_init.start_carry.low));
+    registers : process (clk)
+    begin
+      if rising_edge(clk) then
+        r <= r_next;
+      end if;
+    end process;
 
-      init_upper <= (
-        x         => init(c_init.upper_x.high downto c_init.upper_x.low),
-        quotient  => init(c_init.upper_quotient.high downto c_init.upper_quotient.low),
-        remainder => init(c_init.upper_remainder.high downto c_init.upper_remainder.low),
-        divisor   => init(c_init.upper_divisor.high downto c_init.upper_divisor.low),
-        error     => init(c_init.upper_error.high downto c_init.upper_error.low),
-        carry     => init(c_init.upper_carry.low));
+    load_stop <= load or section_change;
+    section   <= init_upper when load = '1' else r.lower;
 
-      init_lower <= (
-        x         => init(c_init.lower_x.high downto c_init.lower_x.low),
-        quotient  => init(c_init.lower_quotient.high downto c_init.lower_quotient.low),
-        remainder => init(c_init.lower_remainder.high downto c_init.lower_remainder.low),
-        divisor   => init(c_init.lower_divisor.high downto c_init.lower_divisor.low),
-        error     => init(c_init.lower_error.high downto c_init.lower_error.low),
-        carry     => init(c_init.lower_carry.low));
+    start_edge : entity work.edge_walker
+      port map (
+        clk            => clk,
+        load           => load,
+        load_x         => init_start.x,
+        load_quotient  => init_start.quotient,
+        load_remainder => init_start.remainder,
+        load_divisor   => init_start.divisor,
+        load_error     => init_start.error,
+        load_carry     => init_start.carry,
+        step           => step,
+        x              => start_x,
+        carry          => carry
+        );
 
-      combinational : process (all)
-        variable v : reg_t;
-      begin
-        v := r;
-        -- Hold the lower section until the upper one ends.
-        if load = '1' then
-          v.lower := init_lower;
-        end if;
-        -- Take the direction with the first line.
-        if load = '1' and step = '1' then
-          v.backward := init(c_init.backward.low);
-        end if;
-        r_next <= v;
-      end process;
+    stop_edge : entity work.edge_walker
+      port map (
+        clk            => clk,
+        load           => load_stop,
+        load_x         => section.x,
+        load_quotient  => section.quotient,
+        load_remainder => section.remainder,
+        load_divisor   => section.divisor,
+        load_error     => section.error,
+        load_carry     => section.carry,
+        step           => step,
+        x              => stop_x,
+        carry          => open
+        );
 
-      registers : process (clk)
-      begin
-        if rising_edge(clk) then
-          r <= r_next;
-        end if;
-      end process;
+    start    <= signed(start_x);
+    stop     <= signed(stop_x);
+    backward <= r.backward;
 
-      load_stop <= load or section_change;
-      section   <= init_upper when load = '1' else r.lower;
-
-      start_edge : entity work.edge_walker
-        port map (
-          clk            => clk,
-          load           => load,
-          load_x         => init_start.x,
-          load_quotient  => init_start.quotient,
-          load_remainder => init_start.remainder,
-          load_divisor   => init_start.divisor,
-          load_error     => init_start.error,
-          load_carry     => init_start.carry,
-          step           => step,
-          x              => start_x,
-          carry          => carry
-          );
-
-      stop_edge : entity work.edge_walker
-        port map (
-          clk            => clk,
-          load           => load_stop,
-          load_x         => section.x,
-          load_quotient  => section.quotient,
-          load_remainder => section.remainder,
-          load_divisor   => section.divisor,
-          load_error     => section.error,
-          load_carry     => section.carry,
-          step           => step,
-          x              => stop_x,
-          carry          => open
-          );
-
-      start    <= signed(start_x);
-      stop     <= signed(stop_x);
-      backward <= r.backward;
-
-      to_x     <= resize(start, to_x'length) when r.backward = '1' else resize(stop, to_x'length);
-      not_from <= not resize(stop, to_x'length) when r.backward = '1' else not resize(start, to_x'length);
+    to_x     <= resize(start, to_x'length) when r.backward = '1' else resize(stop, to_x'length);
+    not_from <= not resize(stop, to_x'length) when r.backward = '1' else not resize(start, to_x'length);
 
   else generate
 
@@ -166,40 +166,40 @@ begin
     signal exclusive_x         : edge_x_t; -- the stop edge's first pixel that is not in the span
     signal not_start_x, stop_x : std_logic_vector(span_x_t'range);
 
-    begin
+  begin
 
-      exclusive_x <= unsigned(init(c_init.upper_x.high downto c_init.upper_x.low)) + c_one_pixel;
+    exclusive_x <= unsigned(init(c_init.upper_x.high downto c_init.upper_x.low)) + c_one_pixel;
 
-      start_edge : entity work.slope_walker
-        generic map (
-          g_complement => true
-          )
-        port map (
-          clk        => clk,
-          load       => load,
-          load_x     => init(c_init.start_x.high downto c_init.start_x.low),
-          load_slope => init(c_init.start_slope.high downto c_init.start_slope.low),
-          step       => step,
-          x          => not_start_x
-          );
+    start_edge : entity work.slope_walker
+      generic map (
+        g_complement => true
+        )
+      port map (
+        clk        => clk,
+        load       => load,
+        load_x     => init(c_init.start_x.high downto c_init.start_x.low),
+        load_slope => init(c_init.start_slope.high downto c_init.start_slope.low),
+        step       => step,
+        x          => not_start_x
+        );
 
-      stop_edge : entity work.slope_walker
-        port map (
-          clk        => clk,
-          load       => load,
-          load_x     => std_logic_vector(exclusive_x),
-          load_slope => init(c_init.upper_slope.high downto c_init.upper_slope.low),
-          step       => step,
-          x          => stop_x
-          );
+    stop_edge : entity work.slope_walker
+      port map (
+        clk        => clk,
+        load       => load,
+        load_x     => std_logic_vector(exclusive_x),
+        load_slope => init(c_init.upper_slope.high downto c_init.upper_slope.low),
+        step       => step,
+        x          => stop_x
+        );
 
-      start    <= signed(not not_start_x);
-      stop     <= signed(stop_x);
-      backward <= '0';
-      carry    <= '0';
+    start    <= signed(not not_start_x);
+    stop     <= signed(stop_x);
+    backward <= '0';
+    carry    <= '0';
 
-      to_x     <= resize(stop, to_x'length);
-      not_from <= resize(signed(not_start_x), to_x'length);
+    to_x     <= resize(stop, to_x'length);
+    not_from <= resize(signed(not_start_x), to_x'length);
 
   end generate;
 

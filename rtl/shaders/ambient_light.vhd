@@ -71,10 +71,10 @@ begin
 
     constant c_low : natural := ambient_channel_low(g_exact, channel);
 
-    begin
+  begin
 
-      terms((channel + 1) * c_term_bits - 1 downto channel * c_term_bits) <=
-        delayed_ambient(c_low + c_ambient.high downto c_low + c_ambient.low) & (g_data_bits - 1 downto 0 => '0');
+    terms((channel + 1) * c_term_bits - 1 downto channel * c_term_bits) <=
+      delayed_ambient(c_low + c_ambient.high downto c_low + c_ambient.low) & (g_data_bits - 1 downto 0 => '0');
 
   end generate;
 

@@ -49,33 +49,33 @@ begin
 
     signal channel_terms : std_logic_vector(g_terms * c_term_bits - 1 downto 0);
 
+  begin
+
+    -- Take the channel's term of every group.
+    groups : for group_number in 0 to g_terms - 1 generate
+
+      constant c_term : natural := group_number * g_channels + channel;
+
     begin
 
-      -- Take the channel's term of every group.
-      groups : for group_number in 0 to g_terms - 1 generate
+      channel_terms((group_number + 1) * c_term_bits - 1 downto group_number * c_term_bits) <=
+        terms((c_term + 1) * c_term_bits - 1 downto c_term * c_term_bits);
 
-        constant c_term : natural := group_number * g_channels + channel;
+    end generate;
 
-        begin
-
-          channel_terms((group_number + 1) * c_term_bits - 1 downto group_number * c_term_bits) <=
-            terms((c_term + 1) * c_term_bits - 1 downto c_term * c_term_bits);
-
-      end generate;
-
-      sum : entity work.saturating_sum
-        generic map (
-          g_terms         => g_terms,
-          g_term_bits     => c_term_bits,
-          g_fraction_bits => formats(g_exact).factor.fraction + g_data_bits,
-          g_result_bits   => c_colour
-          )
-        port map (
-          clk    => clk,
-          enable => enable,
-          terms  => channel_terms,
-          result => sums((channel + 1) * c_colour - 1 downto channel * c_colour)
-          );
+    sum : entity work.saturating_sum
+      generic map (
+        g_terms         => g_terms,
+        g_term_bits     => c_term_bits,
+        g_fraction_bits => formats(g_exact).factor.fraction + g_data_bits,
+        g_result_bits   => c_colour
+        )
+      port map (
+        clk    => clk,
+        enable => enable,
+        terms  => channel_terms,
+        result => sums((channel + 1) * c_colour - 1 downto channel * c_colour)
+        );
 
   end generate;
 
@@ -84,10 +84,10 @@ begin
     -- With one channel, copy it to all three colours.
     constant c_from : natural := colour * boolean'pos(g_channels > 1);
 
-    begin
+  begin
 
-      colours((colour + 1) * c_colour - 1 downto colour * c_colour) <=
-        sums((c_from + 1) * c_colour - 1 downto c_from * c_colour);
+    colours((colour + 1) * c_colour - 1 downto colour * c_colour) <=
+      sums((c_from + 1) * c_colour - 1 downto c_from * c_colour);
 
   end generate;
 

@@ -66,20 +66,20 @@ begin
 
     signal value : std_logic_vector(c_radiance + 1 downto 0);
 
-    begin
+  begin
 
-      value <= "00" & radiance((channel + 1) * c_radiance - 1 downto channel * c_radiance);
+    value <= "00" & radiance((channel + 1) * c_radiance - 1 downto channel * c_radiance);
 
-      to_result : entity work.saturate
-        generic map (
-          g_value_bits    => c_radiance + 2,
-          g_fraction_bits => c_formats.radiance.fraction,
-          g_result_bits   => c_colour
-          )
-        port map (
-          value  => value,
-          result => results((channel + 1) * c_colour - 1 downto channel * c_colour)
-          );
+    to_result : entity work.saturate
+      generic map (
+        g_value_bits    => c_radiance + 2,
+        g_fraction_bits => c_formats.radiance.fraction,
+        g_result_bits   => c_colour
+        )
+      port map (
+        value  => value,
+        result => results((channel + 1) * c_colour - 1 downto channel * c_colour)
+        );
 
   end generate;
 
@@ -88,9 +88,9 @@ begin
     -- With one channel, copy it to all three colours.
     constant c_from : natural := colour * boolean'pos(g_config.channels > 1) * c_colour;
 
-    begin
+  begin
 
-      colours((colour + 1) * c_colour - 1 downto colour * c_colour) <= results(c_from + c_colour - 1 downto c_from);
+    colours((colour + 1) * c_colour - 1 downto colour * c_colour) <= results(c_from + c_colour - 1 downto c_from);
 
   end generate;
 

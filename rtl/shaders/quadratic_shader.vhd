@@ -240,45 +240,45 @@ begin
 
     signal value : std_logic_vector(c_formats.intensity.bits - 1 downto 0);
 
-    begin
+  begin
 
-      -- Step the colour over the triangle.
-      colour : if g_degree = 2 generate
+    -- Step the colour over the triangle.
+    colour : if g_degree = 2 generate
 
-        interpolator : entity work.quadratic_interpolator
-          generic map (g_exact => g_exact, g_parts => c_parts)
-          port map (
-            clk        => clk,
-            init       => block_words,
-            line_load  => r.line_load,
-            line_step  => r.line_step,
-            line_carry => r.line_carry,
-            span_load  => r.span_load,
-            span_step  => r.span_step,
-            value      => value);
+      interpolator : entity work.quadratic_interpolator
+        generic map (g_exact => g_exact, g_parts => c_parts)
+        port map (
+          clk        => clk,
+          init       => block_words,
+          line_load  => r.line_load,
+          line_step  => r.line_step,
+          line_carry => r.line_carry,
+          span_load  => r.span_load,
+          span_step  => r.span_step,
+          value      => value);
 
-      else generate
+    else generate
 
-        interpolator : entity work.plane_interpolator
-          generic map (g_bits => c_formats.intensity.bits, g_carries => g_exact, g_parts => c_parts)
-          port map (
-            clk        => clk,
-            plane      => block_words,
-            line_load  => r.line_load,
-            line_step  => r.line_step,
-            line_carry => r.line_carry,
-            span_load  => r.span_load,
-            span_step  => r.span_step,
-            value      => value);
+      interpolator : entity work.plane_interpolator
+        generic map (g_bits => c_formats.intensity.bits, g_carries => g_exact, g_parts => c_parts)
+        port map (
+          clk        => clk,
+          plane      => block_words,
+          line_load  => r.line_load,
+          line_step  => r.line_step,
+          line_carry => r.line_carry,
+          span_load  => r.span_load,
+          span_step  => r.span_step,
+          value      => value);
 
-      end generate;
+    end generate;
 
-      to_colour : entity work.saturate
-        generic map (
-          g_value_bits    => c_formats.intensity.bits,
-          g_fraction_bits => c_formats.intensity.fraction,
-          g_result_bits   => c_colour)
-        port map (value => value, result => colours(channel));
+    to_colour : entity work.saturate
+      generic map (
+        g_value_bits    => c_formats.intensity.bits,
+        g_fraction_bits => c_formats.intensity.fraction,
+        g_result_bits   => c_colour)
+      port map (value => value, result => colours(channel));
 
   end generate;
 

@@ -67,31 +67,31 @@ begin
 
     signal products : std_logic_vector((c_diffuse_channels + boolean'pos(not g_diffuse)) * c_term_bits - 1 downto 0);
 
-    begin
+  begin
 
-      slice : entity work.diffuse_slice
-        generic map (
-          g_exact        => g_exact,
-          g_channels     => c_diffuse_channels,
-          g_address_bits => g_address_bits,
-          g_data_bits    => g_data_bits
-          )
-        port map (
-          clk         => clk,
-          part        => part(c_diffuse_bits - 1 downto 0),
-          span_load   => span_load,
-          span_step   => span_step,
-          sample_step => sample_step,
-          lit         => lit,
-          products    => products
-          );
+    slice : entity work.diffuse_slice
+      generic map (
+        g_exact        => g_exact,
+        g_channels     => c_diffuse_channels,
+        g_address_bits => g_address_bits,
+        g_data_bits    => g_data_bits
+        )
+      port map (
+        clk         => clk,
+        part        => part(c_diffuse_bits - 1 downto 0),
+        span_load   => span_load,
+        span_step   => span_step,
+        sample_step => sample_step,
+        lit         => lit,
+        products    => products
+        );
 
-        -- Without diffuse light the slice computes the horizon, and its products are one word of zeros.
-      diffuse_terms : if g_diffuse generate
+      -- Without diffuse light the slice computes the horizon, and its products are one word of zeros.
+    diffuse_terms : if g_diffuse generate
 
-        terms(products'range) <= products;
+      terms(products'range) <= products;
 
-      end generate;
+    end generate;
 
   else generate
 
@@ -106,37 +106,37 @@ begin
 
     signal products : std_logic_vector(g_highlight_channels * c_term_bits - 1 downto 0);
 
+  begin
+
+    slice : entity work.specular_slice
+      generic map (
+        g_exact        => g_exact,
+        g_channels     => g_highlight_channels,
+        g_powers       => g_powers,
+        g_address_bits => g_address_bits,
+        g_data_bits    => g_data_bits
+        )
+      port map (
+        clk         => clk,
+        part        => part(part'high downto c_diffuse_bits),
+        span_load   => span_load,
+        span_step   => span_step,
+        sample_step => sample_step,
+        lit         => lit,
+        products    => products
+        );
+
+    highlight_terms : for channel in 0 to g_channels - 1 generate
+
+      -- Add a grey highlight to every channel.
+      constant c_product : natural := channel * boolean'pos(g_highlight_channels > 1);
+
     begin
 
-      slice : entity work.specular_slice
-        generic map (
-          g_exact        => g_exact,
-          g_channels     => g_highlight_channels,
-          g_powers       => g_powers,
-          g_address_bits => g_address_bits,
-          g_data_bits    => g_data_bits
-          )
-        port map (
-          clk         => clk,
-          part        => part(part'high downto c_diffuse_bits),
-          span_load   => span_load,
-          span_step   => span_step,
-          sample_step => sample_step,
-          lit         => lit,
-          products    => products
-          );
+      terms((c_first + channel + 1) * c_term_bits - 1 downto (c_first + channel) * c_term_bits) <=
+        products((c_product + 1) * c_term_bits - 1 downto c_product * c_term_bits);
 
-      highlight_terms : for channel in 0 to g_channels - 1 generate
-
-        -- Add a grey highlight to every channel.
-        constant c_product : natural := channel * boolean'pos(g_highlight_channels > 1);
-
-        begin
-
-          terms((c_first + channel + 1) * c_term_bits - 1 downto (c_first + channel) * c_term_bits) <=
-            products((c_product + 1) * c_term_bits - 1 downto c_product * c_term_bits);
-
-      end generate;
+    end generate;
 
   end generate;
 

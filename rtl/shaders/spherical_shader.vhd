@@ -225,29 +225,29 @@ begin
 
     constant c_first : positive := 1 + number * c_light_groups; -- of its terms
 
-    begin
+  begin
 
-      -- Step the slices whenever the walker may step, with or without a pixel, so that a register enables them.
-      -- r.filled marks the clocks with a pixel.
-      light : entity work.spherical_light
-        generic map (
-          g_exact              => g_exact,
-          g_channels           => g_channels,
-          g_diffuse            => g_diffuse,
-          g_specular           => g_specular,
-          g_highlight_channels => g_highlight_channels,
-          g_powers             => g_powers,
-          g_address_bits       => g_address_bits,
-          g_data_bits          => g_data_bits
-          )
-        port map (
-          clk         => clk,
-          part        => init((number + 1) * c_light_bits - 1 downto number * c_light_bits),
-          span_load   => span_load,
-          span_step   => room,
-          sample_step => r.filled(c_sampled),
-          terms       => terms((c_first + c_light_groups) * c_group_bits - 1 downto c_first * c_group_bits)
-          );
+    -- Step the slices whenever the walker may step, with or without a pixel, so that a register enables them.
+    -- r.filled marks the clocks with a pixel.
+    light : entity work.spherical_light
+      generic map (
+        g_exact              => g_exact,
+        g_channels           => g_channels,
+        g_diffuse            => g_diffuse,
+        g_specular           => g_specular,
+        g_highlight_channels => g_highlight_channels,
+        g_powers             => g_powers,
+        g_address_bits       => g_address_bits,
+        g_data_bits          => g_data_bits
+        )
+      port map (
+        clk         => clk,
+        part        => init((number + 1) * c_light_bits - 1 downto number * c_light_bits),
+        span_load   => span_load,
+        span_step   => room,
+        sample_step => r.filled(c_sampled),
+        terms       => terms((c_first + c_light_groups) * c_group_bits - 1 downto c_first * c_group_bits)
+        );
 
   end generate;
 

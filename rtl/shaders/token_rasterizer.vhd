@@ -134,26 +134,26 @@ begin
 
     signal value : std_logic_vector(c_sum_bits - 1 downto 0);
 
-    begin
+  begin
 
-      interpolator : entity work.plane_interpolator
-        generic map (
-          g_bits => c_sum_bits
-          )
-        port map (
-          clk        => clk,
-          plane      => init(c_low + c_plane_bits - 1 downto c_low),
-          line_load  => line_load,
-          line_step  => line_advance,
-          line_carry => line_carry,
-          span_load  => span_load,
-          span_step  => span_advance,
-          value      => value
-          );
+    interpolator : entity work.plane_interpolator
+      generic map (
+        g_bits => c_sum_bits
+        )
+      port map (
+        clk        => clk,
+        plane      => init(c_low + c_plane_bits - 1 downto c_low),
+        line_load  => line_load,
+        line_step  => line_advance,
+        line_carry => line_carry,
+        span_load  => span_load,
+        span_step  => span_advance,
+        value      => value
+        );
 
-        -- The host has added half a step of the dropped bits.
-      vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
-        value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
+      -- The host has added half a step of the dropped bits.
+    vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
+      value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
 
   end generate;
 

@@ -41,18 +41,18 @@ begin
 
     signal words : words_t(1 to g_depth); -- words(i): taken i clocks with enable ago
 
+  begin
+
+    registers : process (clk)
     begin
-
-      registers : process (clk)
-      begin
-        if rising_edge(clk) then
-          if enable = '1' then
-            words <= word & words(1 to g_depth - 1);
-          end if;
+      if rising_edge(clk) then
+        if enable = '1' then
+          words <= word & words(1 to g_depth - 1);
         end if;
-      end process;
+      end if;
+    end process;
 
-      delayed <= words(g_depth);
+    delayed <= words(g_depth);
 
   end generate;
 

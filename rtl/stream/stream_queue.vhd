@@ -134,19 +134,19 @@ begin
 
     signal memory : memory_t;
 
-    begin
+  begin
 
-      places : process (clk)
-      begin
-        if rising_edge(clk) then
-          if reads = '1' then
-            out_data(word_t'range) <= memory(to_integer(r.read));
-          end if;
-          if in_valid = '1' then
-            memory(to_integer(r.write)) <= in_data(word_t'range);
-          end if;
+    places : process (clk)
+    begin
+      if rising_edge(clk) then
+        if reads = '1' then
+          out_data(word_t'range) <= memory(to_integer(r.read));
         end if;
-      end process;
+        if in_valid = '1' then
+          memory(to_integer(r.write)) <= in_data(word_t'range);
+        end if;
+      end if;
+    end process;
 
   end generate;
 

@@ -82,7 +82,7 @@ struct Given {
   }
 };
 
-int table_bits(const Given& given, int words::CosineSize::*bits) {
+int table_bits(const Given& given, int words::CosineSize::* bits) {
   return given.whole_number(tables::c_smallest_cosine_size.*bits, tables::c_largest_cosine_size.*bits);
 }
 

@@ -156,7 +156,7 @@ class Screen {
 
   void show(const Frame& frame, const std::string& caption) {
     std::uint32_t columns = o_.columns.value_or(80), lines = c_most_columns;
-    struct winsize window {};
+    struct winsize window{};
     if (terminal_ && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col != 0 &&
         window.ws_row > 1) {
       if (!o_.columns) columns = window.ws_col;

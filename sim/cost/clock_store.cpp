@@ -53,7 +53,7 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root) {
 Status write_clocks(const std::filesystem::path& root, const ClockStore& clocks) {
   Table table{c_columns, {}};
   for (const auto& [design, clock] : clocks) {
-    const auto text = [&](std::uint64_t Cells::*number) { return std::to_string(clock.cells.*number); };
+    const auto text = [&](std::uint64_t Cells::* number) { return std::to_string(clock.cells.*number); };
     table.rows.push_back({design, text(&Cells::luts), text(&Cells::carries), text(&Cells::flip_flops),
                           text(&Cells::rams), fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds),
                           clock.tools, clock.netlist});

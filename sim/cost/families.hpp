@@ -26,14 +26,14 @@ namespace synth {
 /// Cell types whose names start with `prefix` add `weight` to the number; nullptr: they are not counted.
 struct CellKind {
   std::string_view prefix;
-  std::uint64_t Cells::*number;
+  std::uint64_t Cells::* number;
   std::uint64_t weight = 1;
 };
 
 /// A number of the page of synthesis.
 struct CellColumn {
   std::string_view title;
-  std::uint64_t Cells::*number;
+  std::uint64_t Cells::* number;
 };
 
 /// Names in nextpnr's reports and in the netlists that it reads.

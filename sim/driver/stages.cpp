@@ -129,9 +129,7 @@ class StagesOf : public ShaderStages {
     void line(const GoldenShader& shader) { add(shader, 0, shader.walker().start()); }
     // The registers of all stages that the pixel passes. Each shading processor reports separately.
     void span(const GoldenShader& shader, SpanXWord x) {
-      constexpr bool c_alone = requires {
-        shader.token();
-      };
+      constexpr bool c_alone = requires { shader.token(); };
       const std::size_t end = c_alone ? 2 : table.stages_.size() - 1;
       for (std::size_t stage = 1; stage < end; ++stage) add(shader, stage, x);
     }
@@ -258,14 +256,12 @@ class SphericalStages final : public StagesOf<golden::SphericalShader<P>> {
     for (int l = 0; l < config_.lights; ++l) {
       const auto light = static_cast<std::size_t>(l);
       if (layout_.has_diffuse_part())
-        use(
-            Slice{fmt::format("light {} diffuse", l + 1), "diffuse_slice",
+        use(Slice{fmt::format("light {} diffuse", l + 1), "diffuse_slice",
                   fmt::format("lights({})/light/diffuse/slice/", l), "cosines/sample", light,
                   layout_.diffuse_channels()},
             [light](const Shader& s) -> const auto& { return s.diffuse(light); });
       if (config_.specular)
-        use(
-            Slice{fmt::format("light {} specular", l + 1), "specular_slice",
+        use(Slice{fmt::format("light {} specular", l + 1), "specular_slice",
                   fmt::format("lights({})/light/specular/slice/", l), "sample", light,
                   config_.highlight_channels},
             [light](const Shader& s) -> const auto& { return s.specular(light); });

@@ -111,9 +111,8 @@ TEST(Figures, AClaimsFileIsReadStrictly) {
   const std::string head =
       "[[figure]]\nid = \"x-1\"\nnumber = \"figure 1\"\ncaption = \"c\"\nshows = \"s\"\n";
   const auto read = [&](const std::string& claim) {
-    return caught([&] {
-      return read_figures(head + "claims = [\n" + claim + "]\n", "c.toml", {{"x-1", {}}});
-    });
+    return caught(
+        [&] { return read_figures(head + "claims = [\n" + claim + "]\n", "c.toml", {{"x-1", {}}}); });
   };
   const std::string names = "{ what = \"a\", published = \"b\"";
   const auto good =

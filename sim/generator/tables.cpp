@@ -141,7 +141,7 @@ void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
       ->capture_default_str();
   const tables::CosineSizes sizes;
   const auto add_bits = [&](const char* name, const char* what, std::optional<std::string>& text,
-                            int tables::CosineSize::*bits) {
+                            int tables::CosineSize::* bits) {
     return command->add_option(
         name, text,
         fmt::format("{}, {} to {} (default: {} in preset exact, {} in published)", what,

@@ -45,7 +45,7 @@ void remove_stale(const std::filesystem::path& folder, const std::string& prefix
     if (!entry->path().filename().string().starts_with(prefix)) continue;
     const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (file.get() < 0) continue;
-    struct stat status {};
+    struct stat status{};
     std::error_code ignored;
     if (::fstat(file.get(), &status) == 0 && ::time(nullptr) - status.st_mtime >= c_young_seconds &&
         ::flock(file.get(), LOCK_EX | LOCK_NB) == 0)
@@ -64,7 +64,7 @@ void mark_in_use(int descriptor) {
 std::string room_note(const std::vector<std::filesystem::path>& folders) {
   std::string note;
   for (const auto& folder : folders) {
-    struct statvfs disk {};
+    struct statvfs disk{};
     if (::statvfs(folder.c_str(), &disk) != 0) continue;
     if (disk.f_bavail * disk.f_frsize < c_little_room || (disk.f_files != 0 && disk.f_favail == 0))
       note += fmt::format("\n{}: {}; make room and try again", folder.string(), std::strerror(ENOSPC));

@@ -37,7 +37,7 @@ Interruption::Interruption(std::function<void()> tidy)
   reader_ = ends[0];
   writer = ends[1];
   watcher_ = std::jthread([this] { watch(); });
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = tell;
   action.sa_flags = SA_RESTART;
   for (auto& [signal, before] : before_)

@@ -162,14 +162,10 @@ constexpr Knob c_knobs[] = {
      },
      [](const Point& p) { return std::string(to_string(p.method)); }},
     {"preset", false, has_hardware,
-     [](const Value& v, Point& p) {
-       p.preset = v.name<Preset>({Preset::exact, Preset::published});
-     },
+     [](const Value& v, Point& p) { p.preset = v.name<Preset>({Preset::exact, Preset::published}); },
      [](const Point& p) { return std::string(to_string(p.preset)); }},
     {"address_bits", false, is_spherical,
-     [](const Value& v, Point& p) {
-       p.tables = {v.whole(c_least.address_bits, c_most.address_bits), 0};
-     },
+     [](const Value& v, Point& p) { p.tables = {v.whole(c_least.address_bits, c_most.address_bits), 0}; },
      [](const Point& p) { return p.tables ? std::to_string(p.tables->address_bits) : ""; }},
     {"data_bits", false, is_spherical,
      [](const Value& v, Point& p) {

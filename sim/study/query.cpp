@@ -296,8 +296,7 @@ Answer answer(std::span<const Offer> offers, const Demand& demand) {
   found.fastest = least(
       offers, [&](const Offer& o) { return joined({o.seconds.value_or(0)}, best_first(o)); },
       [](const Offer& o) { return o.seconds.has_value(); });
-  found.fewest_cycles = least(
-      offers, [&](const Offer& o) { return joined({o.cycles}, best_first(o)); }, any);
+  found.fewest_cycles = least(offers, [&](const Offer& o) { return joined({o.cycles}, best_first(o)); }, any);
   if (!found.cheapest) return found;
   const Offer& here = offers[*found.cheapest];
   found.cheaper = least(offers, best_first, [&](const Offer& o) { return price(o) < price(here); });

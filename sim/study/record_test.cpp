@@ -123,8 +123,8 @@ TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
   EXPECT_EQ(found->measured.cycles, 77U);
   EXPECT_EQ(found->measured.picture.psnr_db, std::numeric_limits<double>::infinity());
   EXPECT_EQ(found->measured.host_instructions, std::nullopt);
-  for (std::string Provenance::*part : {&Provenance::scene, &Provenance::scene_hash, &Provenance::program,
-                                        &Provenance::rtl, &Provenance::tools}) {
+  for (std::string Provenance::* part : {&Provenance::scene, &Provenance::scene_hash, &Provenance::program,
+                                         &Provenance::rtl, &Provenance::tools}) {
     Provenance other = here;
     other.*part += "0";
     EXPECT_FALSE(find(other, record.point)) << other.*part;

@@ -47,11 +47,11 @@ std::string spaced(std::uint64_t number) {
   return text;
 }
 
-std::string both(const Savings& s, std::uint64_t HardwareCost::*number) {
+std::string both(const Savings& s, std::uint64_t HardwareCost::* number) {
   return fmt::format("{} / {}", spaced(s.called_for.*number), spaced(s.everything.*number));
 }
 
-std::string saved(const Savings& s, std::uint64_t HardwareCost::*number) {
+std::string saved(const Savings& s, std::uint64_t HardwareCost::* number) {
   const auto few = static_cast<double>(s.called_for.*number), all = static_cast<double>(s.everything.*number);
   return fmt::format("{:.0f} %", 100 * (1 - few / all));
 }

@@ -35,7 +35,7 @@ std::string text_of(const std::optional<Value>& value, const char* format = "{}"
 }
 // The member's text; empty without an object.
 template <class Whole, class Part>
-std::string text_of(const std::optional<Whole>& whole, Part Whole::*part) {
+std::string text_of(const std::optional<Whole>& whole, Part Whole::* part) {
   return whole ? text_of((*whole).*part) : "";
 }
 
@@ -116,7 +116,7 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
 }
 
 /// The names or the values of all columns, with commas.
-std::string joined(const Line& line, std::string Column::*part) {
+std::string joined(const Line& line, std::string Column::* part) {
   std::vector<std::string_view> parts;
   for (const Column& column : line) parts.push_back(column.*part);
   return fmt::format("{}", fmt::join(parts, ","));

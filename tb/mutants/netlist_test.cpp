@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which constructs this GHDL prints rightly as Verilog, which are repaired or refused, and which are wrong: seen as a
-// difference between GHDL's simulation and the netlist in Verilator, for the same random vectors.
+// Which constructs this GHDL prints rightly as Verilog, which are repaired or refused, and which are wrong:
+// seen as a difference between GHDL's simulation and the netlist in Verilator, for the same random vectors.
 #include "sim/engines/verilator/netlist.hpp"
 
 #include <fmt/format.h>
@@ -137,7 +137,8 @@ class ConstructOfGhdl : public KnownBad, public testing::WithParamInterface<Cons
 TEST_P(ConstructOfGhdl, IsRightOrRefused) {
   const bool is_2 = tool_.version.starts_with("GHDL 2.");
   const Verdict expected = is_2 ? GetParam().by_2 : GetParam().later, found = verdict();
-  std::cout << tool_.version.substr(0, tool_.version.find('\n')) << ", " << GetParam().vhdl << ": " << found << '\n';
+  std::cout << tool_.version.substr(0, tool_.version.find('\n')) << ", " << GetParam().vhdl << ": " << found
+            << '\n';
   EXPECT_TRUE(found == expected || (!is_2 && found == Verdict::right)) << "expected: " << expected;
 }
 

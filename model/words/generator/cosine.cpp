@@ -205,7 +205,7 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       "      severity failure;\n"
       "    return (0 to 2 ** address_bits - 1 => 0);\n"
       "  end function;\n\n";
-  const auto choose = [&](std::string_view name, int CosineSize::*bits) {
+  const auto choose = [&](std::string_view name, int CosineSize::* bits) {
     fmt::format_to(to,
                    "  function {} (exact : boolean) return positive is\n  begin\n    if exact then\n"
                    "      return {};\n    end if;\n    return {};\n  end function;\n\n",

@@ -394,7 +394,7 @@ std::vector<Layout> published_layouts() {
 
 // Fields that only one preset has become null slices in the other, so that one RTL source serves both.
 std::vector<std::string_view> all_names(const std::vector<PresetFormats>& presets, std::size_t layout,
-                                        std::vector<Field> Layout::*part) {
+                                        std::vector<Field> Layout::* part) {
   std::vector<std::string_view> names;
   for (const PresetFormats& preset : presets)
     for (const Field& field : preset.layouts[layout].*part)

@@ -19,7 +19,8 @@ const std::vector<std::string> c_analysis_flags = {
     "-Whide",   "-Wshared",  "-Wstatic",          "-Wuseless", "-Werror"};
 
 /// GHDL 2 omits the VHDL's `when others` in a Verilog `case`, and the Verilog does not show it. GHDL's VHDL
-/// netlist does: accept only "X...X when others" after a full list of choices. Later versions print `default`.
+/// netlist does: accept only "X...X when others" after a full list of choices. Later versions print
+/// `default`.
 void check_choices(const std::string& entity, std::string_view vhdl, std::string_view verilog) {
   if (verilog.find("default:") != std::string_view::npos) return;
   constexpr std::string_view c_mark = " when others;";

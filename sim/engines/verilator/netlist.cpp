@@ -80,8 +80,8 @@ void mend_undriven_bits(std::string& code) {
   for (std::size_t at = 0; (at = code.find("'bZ", at)) != std::string::npos; ++at) code[at + 2] = 'x';
 }
 
-/// GHDL names the operation in a comment, but version 2 prints the operands without $signed. No version prints
-/// `mod` of signed numbers: the operator of Verilog is `rem`.
+/// GHDL names the operation in a comment, but version 2 prints the operands without $signed. No version
+/// prints `mod` of signed numbers: the operator of Verilog is `rem`.
 bool is_wrong_division(std::string_view line) {
   if (line.find("// smod") != std::string_view::npos) return true;
   const bool divides =

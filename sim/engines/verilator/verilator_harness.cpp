@@ -80,9 +80,7 @@ class Model {
 #endif
   }
 
-  std::uint64_t cycles() const {
-    return started_ ? last_move_ + 1 : 0;
-  }
+  std::uint64_t cycles() const { return started_ ? last_move_ + 1 : 0; }
 
   int advance(HalfwayStreams& streams, bool drain) {
     const bool stall = options_.stall_seed != 0;

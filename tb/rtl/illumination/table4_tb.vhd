@@ -131,83 +131,83 @@ begin
       signal out_valid   : std_logic;
       signal out_token   : token_t;
       signal busy, fault : std_logic;
-      begin
-        dut : entity work.shading_processor
-          generic map (
-            g_exact       => exact,
-            g_channels    => 3,
-            g_directional => c_directional,
-            g_positional  => c_run.positional,
-            g_spots       => c_run.spots,
-            g_diffuse     => true,
-            g_specular    => c_run.specular,
-            g_normalize   => c_run.hardware,
-            g_shadows     => c_run.hardware,
-            g_kind        => c_run.kind,
-            g_light       => c_light)
-          port map (
-            clk       => clk,
-            reset     => reset,
-            in_valid  => in_valid,
-            in_ready  => in_ready,
-            in_token  => in_token,
-            out_valid => out_valid,
-            out_ready => '1',
-            out_token => out_token,
-            busy      => busy,
-            fault     => fault);
+    begin
+      dut : entity work.shading_processor
+        generic map (
+          g_exact       => exact,
+          g_channels    => 3,
+          g_directional => c_directional,
+          g_positional  => c_run.positional,
+          g_spots       => c_run.spots,
+          g_diffuse     => true,
+          g_specular    => c_run.specular,
+          g_normalize   => c_run.hardware,
+          g_shadows     => c_run.hardware,
+          g_kind        => c_run.kind,
+          g_light       => c_light)
+        port map (
+          clk       => clk,
+          reset     => reset,
+          in_valid  => in_valid,
+          in_ready  => in_ready,
+          in_token  => in_token,
+          out_valid => out_valid,
+          out_ready => '1',
+          out_token => out_token,
+          busy      => busy,
+          fault     => fault);
 
-        run : process is
-          variable table  : vectors_t;
-          variable key    : std_logic_vector(c_work'range);
-          variable number : natural := 0;
-          variable clocks : natural;
-          variable wanted : natural;
+      run : process is
+        variable table  : vectors_t;
+        variable key    : std_logic_vector(c_work'range);
+        variable number : natural := 0;
+        variable clocks : natural;
+        variable wanted : natural;
 
-          -- Count the clocks until a token is taken.
-          procedure offer (token : token_t) is
-          begin
-            in_valid <= '1';
-            in_token <= token;
-            clocks   := 0;
-            loop
-              settle;
-              clocks := clocks + 1;
-              exit when in_ready = '1';
-              tick(clk);
-            end loop;
-            tick(clk);
-          end procedure;
+        -- Count the clocks until a token is taken.
+        procedure offer (token : token_t) is
         begin
-          -- Find the row of this work.
-          table.open_file(g_folder & "/table4.txt");
+          in_valid <= '1';
+          in_token <= token;
+          clocks   := 0;
           loop
-            table.expect_vector("work that is in no row, " & c_name);
-            table.read_word(key);
-            exit when key = c_work;
-            number := number + 1;
-          end loop;
-          wanted := table.read_number;
-          table.close_file;
-
-          for clock in 1 to 3 loop
             settle;
+            clocks := clocks + 1;
+            exit when in_ready = '1';
             tick(clk);
           end loop;
-          reset <= '0';
-          if c_run.light = '1' then
-            offer(definition);
-          end if;
+          tick(clk);
+        end procedure;
+      begin
+        -- Find the row of this work.
+        table.open_file(g_folder & "/table4.txt");
+        loop
+          table.expect_vector("work that is in no row, " & c_name);
+          table.read_word(key);
+          exit when key = c_work;
+          number := number + 1;
+        end loop;
+        wanted := table.read_number;
+        table.close_file;
+
+        for clock in 1 to 3 loop
+          settle;
+          tick(clk);
+        end loop;
+        reset <= '0';
+        if c_run.light = '1' then
+          offer(definition);
+        end if;
+        offer(measured);
+        for token in 1 to 5 loop
           offer(measured);
-          for token in 1 to 5 loop
-            offer(measured);
-            check("table 4, " & c_name & ", token", token, "number of clocks", clocks, wanted);
-          end loop;
-          report "table 4, " & c_name & ": " & to_string(clocks) severity note;
-          assert fault = '0' report c_name & ": fault" severity failure;
-          rows(exact)(i) <= number;
-          finish(finished);
-        end process;
+          check("table 4, " & c_name & ", token", token, "number of clocks", clocks, wanted);
+        end loop;
+        report "table 4, " & c_name & ": " & to_string(clocks) severity note;
+        assert fault = '0' report c_name & ": fault" severity failure;
+        rows(exact)(i) <= number;
+        finish(finished);
+      end process;
     end generate;
   end generate;
 

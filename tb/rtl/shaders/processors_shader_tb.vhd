@@ -34,16 +34,16 @@ architecture sim of processors_shader_tb is
 begin
   hardwares : for i in c_hardware'range generate
     constant c_shadows : boolean := c_hardware(i).shadows;
-    begin
-      checker : entity work.shader_checker
-        generic map (
-          g_hardware => c_hardware(i),
-          g_timed    => false,
-          g_gapless  => c_hardware(i).unrolled and not c_shadows,
-          g_one_side => g_whole or not c_shadows,
-          g_resets   => 10 - 8 * boolean'pos(c_shadows) - boolean'pos(c_shadows and not g_whole),
-          g_faults   => c_shadows and g_whole,
-          g_stem     => g_folder & "/" & nth_word(c_names, i) & "_");
+  begin
+    checker : entity work.shader_checker
+      generic map (
+        g_hardware => c_hardware(i),
+        g_timed    => false,
+        g_gapless  => c_hardware(i).unrolled and not c_shadows,
+        g_one_side => g_whole or not c_shadows,
+        g_resets   => 10 - 8 * boolean'pos(c_shadows) - boolean'pos(c_shadows and not g_whole),
+        g_faults   => c_shadows and g_whole,
+        g_stem     => g_folder & "/" & nth_word(c_names, i) & "_");
   end generate;
 
   report_end(finished, "processors_shader_tb");

@@ -38,87 +38,87 @@ begin
     signal out_token                 : std_logic_vector(in_token'range);
     signal busy, fault               : std_logic;
     signal fed                       : boolean;
+  begin
+    dut : entity work.shading_pipeline
+      generic map (
+        g_exact       => c_config.exact,
+        g_channels    => c_config.channels,
+        g_directional => c_config.directional,
+        g_positional  => c_config.positional,
+        g_spots       => c_config.spots,
+        g_diffuse     => c_config.diffuse,
+        g_specular    => c_config.specular,
+        g_normalize   => c_config.normalize,
+        g_shadows     => c_config.shadows,
+        g_unrolled    => c_unrolled)
+      port map (
+        clk       => clk,
+        reset     => reset,
+        in_valid  => in_valid,
+        in_ready  => in_ready,
+        in_token  => in_token,
+        out_valid => out_valid,
+        out_ready => out_ready,
+        out_token => out_token,
+        busy      => busy,
+        fault     => fault);
+
+    clk <= not clk after c_half_period when not ended;
+
+    source : entity work.stream_source
+      generic map (g_file => c_file, g_pace => c_pace, g_pause => 2)
+      port map (clk => clk, reset => reset, valid => in_valid, ready => in_ready, word => in_token, fed => fed);
+
+    sink : entity work.stream_sink
+      generic map (g_name => c_file, g_pace => 2 * c_pace, g_pause => 3)
+      port map (clk => clk, reset => reset, valid => out_valid, ready => out_ready, word => out_token);
+
+    check : process is
+      variable vectors : vectors_t;
+      variable word    : std_logic_vector(in_token'range);
+      variable comes   : std_logic;
+      variable faulty  : std_logic;
     begin
-      dut : entity work.shading_pipeline
-        generic map (
-          g_exact       => c_config.exact,
-          g_channels    => c_config.channels,
-          g_directional => c_config.directional,
-          g_positional  => c_config.positional,
-          g_spots       => c_config.spots,
-          g_diffuse     => c_config.diffuse,
-          g_specular    => c_config.specular,
-          g_normalize   => c_config.normalize,
-          g_shadows     => c_config.shadows,
-          g_unrolled    => c_unrolled)
-        port map (
-          clk       => clk,
-          reset     => reset,
-          in_valid  => in_valid,
-          in_ready  => in_ready,
-          in_token  => in_token,
-          out_valid => out_valid,
-          out_ready => out_ready,
-          out_token => out_token,
-          busy      => busy,
-          fault     => fault);
-
-      clk <= not clk after c_half_period when not ended;
-
-      source : entity work.stream_source
-        generic map (g_file => c_file, g_pace => c_pace, g_pause => 2)
-        port map (clk => clk, reset => reset, valid => in_valid, ready => in_ready, word => in_token, fed => fed);
-
-      sink : entity work.stream_sink
-        generic map (g_name => c_file, g_pace => 2 * c_pace, g_pause => 3)
-        port map (clk => clk, reset => reset, valid => out_valid, ready => out_ready, word => out_token);
-
-      check : process is
-        variable vectors : vectors_t;
-        variable word    : std_logic_vector(in_token'range);
-        variable comes   : std_logic;
-        variable faulty  : std_logic;
-      begin
-        vectors.open_file(c_file);
-        while vectors.next_vector loop
+      vectors.open_file(c_file);
+      while vectors.next_vector loop
+        vectors.read_word(word);
+        vectors.read_flag(comes);
+        if comes = '1' then
+          wait until rising_edge(clk) and out_valid = '1' and out_ready = '1' and reset = '0';
+          if busy /= '1' then
+            vectors.fail("an object leaves, but busy is " & to_string(busy));
+          end if;
+          vectors.check("object", out_token);
+        else
           vectors.read_word(word);
-          vectors.read_flag(comes);
-          if comes = '1' then
-            wait until rising_edge(clk) and out_valid = '1' and out_ready = '1' and reset = '0';
-            if busy /= '1' then
-              vectors.fail("an object leaves, but busy is " & to_string(busy));
-            end if;
-            vectors.check("object", out_token);
-          else
-            vectors.read_word(word);
-          end if;
-          vectors.read_flag(faulty);
-        end loop;
-        if not fed then
-          wait until fed;
         end if;
-        wait until rising_edge(clk) and busy = '0';
-        for clock in 1 to 10 loop
-          wait until rising_edge(clk);
-          if out_valid /= '0' or busy /= '0' then
-            vectors.fail("an object more than there are, or busy without one");
-          end if;
-        end loop;
-        if fault /= faulty then
-          vectors.fail("fault is " & to_string(fault) & " in the end, expected " & to_string(faulty));
+        vectors.read_flag(faulty);
+      end loop;
+      if not fed then
+        wait until fed;
+      end if;
+      wait until rising_edge(clk) and busy = '0';
+      for clock in 1 to 10 loop
+        wait until rising_edge(clk);
+        if out_valid /= '0' or busy /= '0' then
+          vectors.fail("an object more than there are, or busy without one");
         end if;
-        ended <= true;
-        finish(finished);
-      end process;
+      end loop;
+      if fault /= faulty then
+        vectors.fail("fault is " & to_string(fault) & " in the end, expected " & to_string(faulty));
+      end if;
+      ended <= true;
+      finish(finished);
+    end process;
 
-      -- After the last object only tokens that are discarded may follow.
-      dropped : process (clk) is
-      begin
-        if rising_edge(clk) and out_valid = '1' then
-          assert unsigned(out_token(2 downto 0)) <= c_new_scanline
-            report c_file & ": a token leaves that is no object" severity failure;
-        end if;
-      end process;
+    -- After the last object only tokens that are discarded may follow.
+    dropped : process (clk) is
+    begin
+      if rising_edge(clk) and out_valid = '1' then
+        assert unsigned(out_token(2 downto 0)) <= c_new_scanline
+          report c_file & ": a token leaves that is no object" severity failure;
+      end if;
+    end process;
   end generate;
 
   report_end(finished, "shading_pipeline_tb");

@@ -79,8 +79,7 @@ std::vector<StatedBound> bounds_of(std::string_view preset_name) {
 std::string name_of(const testing::TestParamInfo<StatedBound>& info) {
   const std::string_view of = info.param.bound->of;
   std::string name = fmt::format("{}{}{}", info.param.format->name, of.empty() ? "" : "_", of);
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  std::ranges::replace_if(name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
 

@@ -208,7 +208,7 @@ Finding component(const Context&, const Stated& stated) {
   constexpr int c_fraction = P::c_direction_fraction_bits;
   const std::int64_t most = std::int64_t{1} << c_fraction;
   Finding finding;
-  for (std::int64_t low = 0; low<std::min<std::int64_t>(most, 1 << 20); low += c_fraction> 20 ? 1021 : 1) {
+  for (std::int64_t low = 0; low < std::min<std::int64_t>(most, 1 << 20); low += c_fraction > 20 ? 1021 : 1) {
     const std::int64_t dot = most * (most / 3) + low * (most >> std::min(20, c_fraction));
     const double error =
         std::fabs(static_cast<double>((std::int64_t{golden::cosine<P>(dot)} << c_fraction) - dot)) *

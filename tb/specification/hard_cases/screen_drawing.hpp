@@ -73,7 +73,7 @@ inline bool in_frame(const ScreenPiece& piece, FrameSize frame) {
 /// The greatest number of forward-difference steps before a pixel of the piece: one per line, one per carry,
 /// and the pixels of a span.
 inline double most_steps(const ScreenPiece& piece, FrameSize frame) {
-  const auto pixels = [&](std::int32_t ScreenPoint::*axis, std::uint32_t side) {
+  const auto pixels = [&](std::int32_t ScreenPoint::* axis, std::uint32_t side) {
     const auto [least, greatest] =
         std::minmax({piece.points[0].*axis, piece.points[1].*axis, piece.points[2].*axis});
     return std::min<std::int64_t>(((greatest - least) >> piece.unit_bits) + 1, std::int64_t{side} - 1);

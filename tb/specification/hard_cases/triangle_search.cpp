@@ -61,7 +61,7 @@ FrameSize random_frame(RandomTriangles& random) {
 void bring_into_frame(RandomTriangles& random, FrameSize frame, const Points& piece, int level,
                       Points& corners) {
   const int share = random.within(0, 64), other = random.within(0, 64 - share);
-  const auto move = [&](std::int32_t ScreenPoint::*axis, std::uint32_t side) {
+  const auto move = [&](std::int32_t ScreenPoint::* axis, std::uint32_t side) {
     const auto at = [&](std::size_t n) { return std::int64_t{piece[n].*axis} >> level; };
     const auto [least, greatest] = std::minmax({corners[0].*axis, corners[1].*axis, corners[2].*axis});
     const std::int64_t place = (share * at(0) + other * at(1) + (64 - share - other) * at(2)) / 64,
