@@ -10,6 +10,7 @@
 #include <set>
 
 #include "sim/os/file.hpp"
+#include "sim/os/machine.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/toml_file.hpp"
 
@@ -78,8 +79,9 @@ Result<Thresholds> Thresholds::parse(std::string_view text) {
   if (!all) return all.error();
   for (const auto& [section_name, node] : *all) {
     const toml::table* table = node.as_table();
-    if (table == nullptr) continue;  // the release
+    if (table == nullptr) return at(node, fmt::format("{}: is not a section", section_name.str()));
     Section section{.line = node.source().begin.line};
+    section.release = (*table)["release"].value_or(std::string());
     section.columns = list_of<std::string>(table->get("columns"));
     for (const std::string& rule :
          list_of<std::string>(table->get(section.columns.empty() ? "rule" : "rules"))) {
@@ -91,7 +93,7 @@ Result<Thresholds> Thresholds::parse(std::string_view text) {
     if (section.rules.size() != section.columns.size())
       return at(node, fmt::format("{}: give a rule, or columns and as many rules", section_name.str()));
     for (const auto& [name, limit] : *table) {
-      if (name == "rule" || name == "rules" || name == "columns") continue;
+      if (name == "release" || name == "rule" || name == "rules" || name == "columns") continue;
       std::vector<double> numbers = list_of<double>(&limit);
       if (numbers.size() != section.columns.size())
         return at(limit, fmt::format("{}: wants {} numbers", name.str(), section.columns.size()));
@@ -105,7 +107,7 @@ Result<Thresholds> Thresholds::parse(std::string_view text) {
 std::vector<std::string> Thresholds::broken(const Value& value) const {
   const auto section = sections_.find(value.section);
   if (section == sections_.end()) return {fmt::format("{}: has no section [{}]", c_file, value.section)};
-  const auto& [columns, rules, limits, line] = section->second;
+  const auto& [columns, rules, limits, line, release] = section->second;
   const auto limit = limits.find(value.name);
   if (limit == limits.end())
     return {fmt::format("{}:{}: {}: {} has no threshold; it is {}", c_file, line, value.section, value.name,
@@ -152,10 +154,27 @@ std::vector<double> Thresholds::numbers(std::string_view section, std::string_vi
   return limit == found->second.limits.end() ? std::vector<double>() : limit->second.numbers;
 }
 
-Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> values) {
-  if (values.empty()) return ExitCode::equal;
+std::string Thresholds::release(std::string_view section) const {
+  const auto found = sections_.find(section);
+  return found == sections_.end() ? std::string() : found->second.release;
+}
+
+Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> all) {
+  if (all.empty()) return ExitCode::equal;
   const auto thresholds = Thresholds::read(root);
   if (!thresholds) return thresholds.error();
+
+  // Leave out what other tools measure in another way.
+  const std::string here = operating_system();
+  std::vector<Value> values(all.begin(), all.end());
+  std::set<std::string> elsewhere;
+  std::erase_if(values, [&](const Value& value) {
+    const std::string release = thresholds->release(value.section);
+    const bool is_elsewhere = !release.empty() && release != here;
+    if (is_elsewhere && elsewhere.insert(value.section).second)
+      fmt::print(stderr, "{}: [{}] is of the tools of {}: not judged on {}\n", c_file, value.section, release, here);
+    return is_elsewhere;
+  });
   std::vector<std::string> lines = thresholds->unmeasured(values);
   for (const Value& value : values)
     for (std::string& line : thresholds->broken(value)) lines.push_back(std::move(line));

@@ -11,6 +11,9 @@
 //   rules = ["within 3 % or 3", "equal"]
 //   accumulator_24 = [24, 24]
 //
+// With `release`, a section's numbers depend on the tools of that release of an operating system, and are judged there
+// only.
+//
 // Rules: `equal`, `at least`, `at most`, both also with a share of the number in %, `within P %` and
 // `within P % or N`.
 #pragma once
@@ -46,6 +49,8 @@ class Thresholds {
   /// The names of a section, and the numbers that stand in the file; empty if there are none.
   std::vector<std::string> names(std::string_view section) const;
   std::vector<double> numbers(std::string_view section, std::string_view name) const;
+  /// The only release whose measured values the section judges; empty: any.
+  std::string release(std::string_view section) const;
 
   /// How far a measured number may be below and above the number in the file: a share of it, or `margin` if
   /// that is more. Nothing: any distance.
@@ -66,12 +71,13 @@ class Thresholds {
     std::vector<Rule> rules;
     std::map<std::string, Limit, std::less<>> limits;
     std::size_t line;
+    std::string release{};
   };
   std::map<std::string, Section, std::less<>> sections_;
 };
 
 /// Print each threshold that the values break, and each name of their sections that they lack. Returns
-/// `differs` if there is one.
+/// `differs` if there is one. Says which sections are of another release.
 Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> values);
 
 }  // namespace halfway::page

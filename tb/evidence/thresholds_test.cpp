@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include "sim/os/file.hpp"
+#include "sim/os/machine.hpp"
+#include "sim/os/must.hpp"
+
 namespace halfway::page {
 namespace {
 
@@ -11,8 +15,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr const char* c_text =
-    "release = \"Debian 12\"\n"
     "[mutants]\n"
+    "release = \"Debian GNU/Linux 13 (trixie)\"\n"
     "rule = \"at least 90 %\"\n"
     "a = 80\n"
     "\"b.c\" = 50.5\n"
@@ -52,7 +56,7 @@ TEST(Thresholds, ThatAreBrokenAreReportedWithLineValueAndRule) {
 TEST(Thresholds, AreWantedForEachMeasuredName) {
   const Thresholds t = thresholds();
   EXPECT_THAT(t.broken({"mutants", "x", {7}}),
-              ElementsAre("tb/evidence/thresholds.toml:2: mutants: x has no threshold; it is 7"));
+              ElementsAre("tb/evidence/thresholds.toml:1: mutants: x has no threshold; it is 7"));
   EXPECT_THAT(t.broken({"none", "x", {7}}),
               ElementsAre("tb/evidence/thresholds.toml: has no section [none]"));
   EXPECT_THAT(t.broken({"cells", "d", {200}}), ElementsAre(HasSubstr("has 1 numbers, not 2")));
@@ -61,6 +65,21 @@ TEST(Thresholds, AreWantedForEachMeasuredName) {
               ElementsAre("tb/evidence/thresholds.toml:5: mutants: b.c is not measured any more; remove it"));
   EXPECT_THAT(t.numbers("cells", "d"), ElementsAre(200, 2));
   EXPECT_THAT(t.numbers("cells", "x"), IsEmpty());
+}
+
+TEST(Thresholds, OfAnotherReleaseAreNotJudged) {
+  const TemporaryFolder folder = must(TemporaryFolder::make(testing::TempDir()));
+  const Value broken[] = {{"mutants", "a", {1}}};
+  const auto judged_as = [&](const std::string& release) {
+    std::string text = c_text;
+    text.replace(text.find("Debian GNU/Linux 13 (trixie)"), 28, release);
+    must(make_folders(folder.path() / "tb/evidence"));
+    must(write_file(folder.path() / "tb/evidence/thresholds.toml", text));
+    return must(judged(folder.path(), broken));
+  };
+  EXPECT_EQ(judged_as("CP/M"), ExitCode::equal);
+  EXPECT_EQ(judged_as(operating_system()), ExitCode::differs);
+  EXPECT_EQ(judged_as(""), ExitCode::differs);
 }
 
 TEST(Thresholds, KnowRulesOfOneSide) {
