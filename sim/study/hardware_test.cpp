@@ -201,7 +201,9 @@ TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
         << design.name << ": make evidence PAGE=clocks places it";
     clocks += cost.mhz ? 1 : 0;
   }
-  if (are_stored) EXPECT_GT(clocks, 18U);
+  if (are_stored) {
+    EXPECT_GT(clocks, 18U);
+  }
 }
 
 // Placements as pieces of a study: the cache entries of all parts suffice for the table.

@@ -125,13 +125,12 @@ void write_counter(const Folder& folder) {
     golden::LineCounter<Preset> twin;
     bool valid = false, first = false, offered = false;
     std::vector<InitVector> triangles = walker_triangles<Preset>(random, mix);
-    if (mix == Mix::mixed) {
+    if constexpr (std::is_same_v<Preset, Exact>) {
       // As many lower lines as can be counted.
-      using At = typename Preset::init_header_at;
       InitVector long_section = triangles.front();
-      set_bits(long_section, At::upper_lines, 1);
-      set_bits(long_section, At::lower_lines, ~0U);
-      triangles.push_back(long_section);
+      set_bits(long_section, Exact::init_header_at::upper_lines, 1);
+      set_bits(long_section, Exact::init_header_at::lower_lines, ~0U);
+      if (mix == Mix::mixed) triangles.push_back(long_section);
     }
     std::size_t taken = 0;
     for (int clock = 0; taken < triangles.size() || valid; ++clock) {
