@@ -139,7 +139,7 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
       {{"plan", "matte", "--objects", "0"}, "--objects: 0 is not 1 to 1000"},
       {{"plan", "matte", "--form", "folded"},
        "--form belongs to the processors shader, and does not apply to the quadratic shader"},
-      {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take folded or unrolled"},
+      {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take unrolled or folded"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
   };
   for (const auto& [arguments, expected] : cases) EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));

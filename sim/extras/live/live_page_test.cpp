@@ -218,16 +218,17 @@ TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
              "span stage (triangle_walker, or quadratic_shader around it)"},
         Case{"quadratic", "channels(1)/colour/interpolator/value_along_span/parts(1)/interpolator/value", 10,
              "span stage (quadratic_interpolator, or quadratic_shader around it)"},
-        Case{"spherical", "lights(0)/light/diffuse/slice/along_line/r.value(31 downto 0)", 20,
+        Case{"spherical", "lights(0)/light/diffuse/slice/along_line/r(31 downto 0)", 20,
              "span stage (line_interpolator, or diffuse_slice around it)"},
         Case{"processors", "pipeline/chain(1)/form/unrolled/radiance_sum/result(43 downto 22)", 18,
              "diffuse 1 stage (unrolled_shading_processor)"}}) {
     SCOPED_TRACE(c.name);
     ASSERT_NO_FATAL_FAILURE(open(fmt::format("scene=spheres.toml&size=320x240&shader={}", c.shader)));
     EXPECT_EQ(evaluate("document.getElementById('first-stage').hidden"), true);
+    // GHDL 5 does not name the only field of a record.
     const int option = evaluate(
         fmt::format("[...document.querySelectorAll('#register option')].findIndex(({{textContent}}) => "
-                    "textContent.startsWith('{},'))",
+                    "textContent.replace('/r.value(', '/r(').startsWith('{},'))",
                     c.name));
     ASSERT_GE(option, 0);
     choose("register", std::to_string(option));
