@@ -63,10 +63,10 @@ architecture rtl of shadow_counter is
 
   type memory_t is array (2 ** x'length - 1 downto 0) of count_t;
 
-  signal counted : memory_t;
+  signal memory_counted : memory_t;
 
   attribute ram_style            : string;
-  attribute ram_style of counted : signal is "block";
+  attribute ram_style of memory_counted : signal is "block";
 
   signal moved    : std_logic;
   signal memory_q : count_t; -- data read from the memory
@@ -162,10 +162,10 @@ begin
   begin
     if rising_edge(clk) then
       if moved = '1' then
-        memory_q <= counted(to_integer(unsigned(x)));
+        memory_q <= memory_counted(to_integer(unsigned(x)));
       end if;
       if writes = '1' then
-        counted(to_integer(write_at)) <= written;
+        memory_counted(to_integer(write_at)) <= written;
       end if;
     end if;
   end process;

@@ -76,10 +76,10 @@ architecture rtl of object_stage is
 
   type memory_t is array (2 ** column_t'length - 1 downto 0) of entry_t;
 
-  signal entries : memory_t;
+  signal memory_entries : memory_t;
 
   attribute ram_style            : string;
-  attribute ram_style of entries : signal is "block";
+  attribute ram_style of memory_entries : signal is "block";
 
   signal token             : std_logic_vector(g_bits - 1 downto 0);
   signal in_column, column : column_t;
@@ -195,10 +195,10 @@ begin
   begin
     if rising_edge(clk) then
       if take = '1' then
-        memory_q <= entries(to_integer(in_column));
+        memory_q <= memory_entries(to_integer(in_column));
       end if;
       if write_enable = '1' then
-        entries(to_integer(write_at)) <= written;
+        memory_entries(to_integer(write_at)) <= written;
       end if;
     end if;
   end process;

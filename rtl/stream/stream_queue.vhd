@@ -132,7 +132,7 @@ begin
 
     type memory_t is array (2 ** g_index_bits - 1 downto 0) of word_t;
 
-    signal memory : memory_t;
+    signal places_memory : memory_t;
 
   begin
 
@@ -140,10 +140,10 @@ begin
     begin
       if rising_edge(clk) then
         if reads = '1' then
-          out_data(word_t'range) <= memory(to_integer(r.read));
+          out_data(word_t'range) <= places_memory(to_integer(r.read));
         end if;
         if in_valid = '1' then
-          memory(to_integer(r.write)) <= in_data(word_t'range);
+          places_memory(to_integer(r.write)) <= in_data(word_t'range);
         end if;
       end if;
     end process;
