@@ -159,22 +159,25 @@ std::string Thresholds::release(std::string_view section) const {
   return found == sections_.end() ? std::string() : found->second.release;
 }
 
+std::vector<Value> judged_here(const Thresholds& thresholds, std::vector<Value> values) {
+  const std::string here = operating_system();
+  std::set<std::string> elsewhere;
+  std::erase_if(values, [&](const Value& value) {
+    const std::string release = thresholds.release(value.section);
+    const bool is_elsewhere = !release.empty() && release != here;
+    if (is_elsewhere && elsewhere.insert(value.section).second)
+      fmt::print(stderr, "{}: [{}] is of the tools of {}: not judged on {}\n", c_file, value.section, release,
+                 here);
+    return is_elsewhere;
+  });
+  return values;
+}
+
 Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> all) {
   if (all.empty()) return ExitCode::equal;
   const auto thresholds = Thresholds::read(root);
   if (!thresholds) return thresholds.error();
-
-  // Leave out what other tools measure in another way.
-  const std::string here = operating_system();
-  std::vector<Value> values(all.begin(), all.end());
-  std::set<std::string> elsewhere;
-  std::erase_if(values, [&](const Value& value) {
-    const std::string release = thresholds->release(value.section);
-    const bool is_elsewhere = !release.empty() && release != here;
-    if (is_elsewhere && elsewhere.insert(value.section).second)
-      fmt::print(stderr, "{}: [{}] is of the tools of {}: not judged on {}\n", c_file, value.section, release, here);
-    return is_elsewhere;
-  });
+  const std::vector<Value> values = judged_here(*thresholds, {all.begin(), all.end()});
   std::vector<std::string> lines = thresholds->unmeasured(values);
   for (const Value& value : values)
     for (std::string& line : thresholds->broken(value)) lines.push_back(std::move(line));

@@ -76,8 +76,12 @@ class Thresholds {
   std::map<std::string, Section, std::less<>> sections_;
 };
 
+/// The values of sections that are judged with this machine's tools. Says which sections are of another
+/// release.
+std::vector<Value> judged_here(const Thresholds& thresholds, std::vector<Value> values);
+
 /// Print each threshold that the values break, and each name of their sections that they lack. Returns
-/// `differs` if there is one. Says which sections are of another release.
+/// `differs` if there is one.
 Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> values);
 
 }  // namespace halfway::page

@@ -37,7 +37,7 @@ ExitCode print(const Options& options, const Evidence& evidence, const std::vect
   for (const page::Section& section : page::sections_of(rows)) fmt::print("\n{}\n", section.body);
   const auto thresholds = must(page::Thresholds::read(options.folders.source));
   ExitCode end = ExitCode::equal;
-  for (const page::Value& value : evidence.values(rows))
+  for (const page::Value& value : page::judged_here(thresholds, evidence.values(rows)))
     for (const std::string& broken : thresholds.broken(value)) {
       cli::say(broken);
       end = ExitCode::differs;
