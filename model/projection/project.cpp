@@ -12,6 +12,7 @@
 
 #include "common/to_integer.hpp"
 #include "projection/unit_vector.hpp"
+#include "scene/mesh.hpp"
 
 namespace halfway {
 namespace {
@@ -55,6 +56,7 @@ glm::dvec3 geometric_normal_world(const ScreenTriangle& triangle) {
 ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
   visible += other.visible;
   back_facing += other.back_facing;
+  left_out += other.left_out;
   behind_near += other.behind_near;
   outside += other.outside;
   degenerate += other.degenerate;
@@ -209,6 +211,25 @@ std::vector<ScreenVertex> Projector::clip_and_snap(std::vector<ClipVertex>& poly
   return {};
 }
 
+// The side that the eye sees is that of the exact corners. A triangle that snapping reversed shows the other
+// side, and is not drawn.
+void Projector::turn_to_eye(ScreenTriangle& piece, bool faces_away) const {
+  if (has_averted_normals(*scene_, scene_->triangles[piece.source]) != faces_away) {
+    for (ScreenVertex& v : piece.vertex) v.normal_world = -v.normal_world;
+    piece.is_whole = false;
+  }
+  if (!faces_away) return;
+  std::swap(piece.vertex[1], piece.vertex[2]);
+  piece.is_whole = false;
+  piece.is_back = true;
+}
+
+void Projector::count_hidden(const SceneTriangle& triangle, bool faces_away, ProjectionCounts& counts) {
+  const bool is_culled = faces_away && triangle.culling != Culling::none;
+  ++(is_culled ? counts.back_facing : counts.degenerate);
+  counts.left_out += is_culled && triangle.culling == Culling::back;
+}
+
 void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out,
                         ProjectionCounts& counts) const {
   const SceneTriangle& source = scene_->triangles[triangle];
@@ -228,7 +249,8 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
   // neighbours, which share the moved vertices, cover its pixels.
   bool any = false;
   for (std::size_t i = 1; i + 1 < corner.size(); ++i) {
-    const ScreenTriangle piece{triangle, source.material, {corner[0], corner[i + 1], corner[i]}, false};
+    ScreenTriangle piece{triangle, source.material, {corner[0], corner[i + 1], corner[i]}, false};
+    if (source.culling == Culling::none) turn_to_eye(piece, away);
     if (piece.twice_area() <= 0) continue;
     out.push_back(piece);
     any = true;
@@ -236,7 +258,7 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
   if (any)
     ++counts.visible;
   else
-    ++(away ? counts.back_facing : counts.degenerate);
+    count_hidden(source, away, counts);
 }
 
 std::span<const ScreenTriangle> MeshProjector::project(std::uint32_t triangle, ProjectionCounts& counts) {
@@ -251,15 +273,17 @@ std::span<const ScreenTriangle> MeshProjector::project(std::uint32_t triangle, P
       return pieces_;
     }
   }
-  const ScreenTriangle whole{
+  const bool away = faces_away(corner[0], corner[1], corner[2]);
+  ScreenTriangle whole{
       triangle, source.material, {corner[0].screen, corner[2].screen, corner[1].screen}, true};
+  if (source.culling == Culling::none) projector_.turn_to_eye(whole, away);
   if (projector_.is_outside_frame(whole.vertex)) {
     ++counts.outside;
   } else if (whole.twice_area() > 0) {
     pieces_.push_back(whole);
     ++counts.visible;
   } else {
-    ++(faces_away(corner[0], corner[1], corner[2]) ? counts.back_facing : counts.degenerate);
+    Projector::count_hidden(source, away, counts);
   }
   return pieces_;
 }

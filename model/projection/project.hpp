@@ -46,7 +46,8 @@ inline constexpr double c_least_near = 1.0 / 1024.0;
 /// Number of the scene's triangles that are visible, and the reasons why the others are not.
 struct ProjectionCounts {
   std::uint64_t visible = 0;      ///< scene triangles with at least one screen triangle
-  std::uint64_t back_facing = 0;  ///< seen from behind
+  std::uint64_t back_facing = 0;  ///< seen from behind, and not drawn from there
+  std::uint64_t left_out = 0;     ///< those of them that may be in view: Culling::back
   std::uint64_t behind_near = 0;  ///< entirely in front of the near plane
   std::uint64_t outside = 0;      ///< beyond the far plane or outside the frame
   std::uint64_t degenerate = 0;   ///< zero area or reversed orientation after snapping
@@ -128,6 +129,9 @@ class Projector {
   bool is_inside(const ClipVertex& v) const;
   ProjectedVertex project_vertex(const VertexKey& vertex) const;
   bool is_outside_frame(std::span<const ScreenVertex> corners) const;
+  /// Turns a piece of a triangle that is drawn from both sides to the eye.
+  void turn_to_eye(ScreenTriangle& piece, bool faces_away) const;
+  static void count_hidden(const SceneTriangle& triangle, bool faces_away, ProjectionCounts& counts);
   /// The polygon's corners on the screen, in its order. Empty if it is outside the frame or the slice; the
   /// counts then include it.
   std::vector<ScreenVertex> clip_and_snap(std::vector<ClipVertex>& polygon, const DepthRange& slice,

@@ -11,13 +11,16 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "scene/builtin_meshes.hpp"
+#include "scene/mesh.hpp"
 #include "scene/test/add_mesh.hpp"
+#include "scene/test/sides_apart.hpp"
 #include "setup/test/pixels.hpp"
 
 namespace halfway {
@@ -299,7 +302,7 @@ TEST(MeshProjector, ProjectsAsItsProjector) {
         }
       }
       const auto all = [](const ProjectionCounts& n) {
-        return std::tuple(n.visible, n.back_facing, n.behind_near, n.outside, n.degenerate,
+        return std::tuple(n.visible, n.back_facing, n.left_out, n.behind_near, n.outside, n.degenerate,
                           n.unrepresentable);
       };
       EXPECT_EQ(all(counts), all(expected_counts));
@@ -351,6 +354,99 @@ TEST(Project, TwoSidedAddsTheBackFaces) {
     EXPECT_EQ(fronts, backs);
     EXPECT_GT(fronts, 400);
   }
+}
+
+// The corners of a polygon, whichever of them its fan starts from.
+std::set<std::tuple<std::int32_t, std::int32_t, double, double>> corners_of(
+    std::span<const ScreenTriangle> pieces) {
+  std::set<std::tuple<std::int32_t, std::int32_t, double, double>> corners;
+  for (const ScreenTriangle& piece : pieces)
+    for (const ScreenVertex& v : piece.vertex) corners.insert({v.x, v.y, v.z, v.inverse_w});
+  return corners;
+}
+
+// Two triangles, front and back, are the same as one that is drawn from both sides.
+TEST(Project, ABackIsTheFrontOfAReversedTriangle) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto point = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  Scene scene = empty_scene();
+  scene.camera.near = 3.8;
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const std::array<std::uint32_t, 3> corner{3 * i, 3 * i + 1, 3 * i + 2};
+    scene.triangles.push_back({corner, corner, 0, Culling::none});
+    for (int k = 0; k < 3; ++k) {
+      scene.positions_world.push_back(2.0 * point());
+      scene.normals_world.push_back(glm::normalize(point()));
+    }
+  }
+  const Scene apart = sides_apart(scene);
+  const FrameSize frame{160, 120};
+  const Projector projector(scene, frame, {}), projector_apart(apart, frame, {});
+  MeshProjector mesh(projector);
+  ProjectionCounts counts;
+  int backs = 0, fronts = 0, averted = 0, cut = 0, slivers = 0;
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    std::vector<ScreenTriangle> wanted, alone;
+    projector_apart.project(2 * i, wanted);
+    const bool is_back = wanted.empty();
+    if (is_back) projector_apart.project(2 * i + 1, wanted);
+    projector.project(i, alone);
+    const std::span<const ScreenTriangle> got = mesh.project(i, counts);
+    // Which pieces of a cut sliver have an area depends on the corner where its fan starts.
+    std::int64_t twice_area = 0;
+    for (const ScreenTriangle& piece : alone) twice_area += piece.twice_area();
+    if (twice_area < 1000 && !alone.empty() && !alone[0].is_whole) {
+      ++slivers;
+      continue;
+    }
+    ASSERT_EQ(corners_of(alone), corners_of(wanted)) << i;
+    ASSERT_EQ(corners_of(got), corners_of(wanted)) << i;
+    const bool is_averted = has_averted_normals(scene, scene.triangles[i]);
+    for (const ScreenTriangle& piece : got) {
+      EXPECT_EQ(piece.is_back, is_back);
+      EXPECT_GT(piece.twice_area(), 0);
+      EXPECT_EQ(piece.source, i);
+      if (got.size() != 1 || wanted.size() != 1) {
+        ++cut;
+        continue;
+      }
+      for (const ScreenVertex& v : piece.vertex) {
+        const auto& all = wanted[0].vertex;
+        const auto same = std::find_if(all.begin(), all.end(), [&](const ScreenVertex& w) {
+          return w.position_world == v.position_world && w.normal_world == v.normal_world;
+        });
+        ASSERT_NE(same, all.end()) << i;
+        ASSERT_EQ(std::tuple(v.x, v.y, v.z, v.inverse_w),
+                  std::tuple(same->x, same->y, same->z, same->inverse_w));
+      }
+      EXPECT_FALSE(piece.is_whole && (is_back || is_averted));
+      ++(is_back ? backs : fronts);
+      averted += is_averted;
+    }
+  }
+  EXPECT_EQ(counts.back_facing, 0u);
+  EXPECT_EQ(counts.visible, 400 - counts.behind_near - counts.outside - counts.degenerate);
+  EXPECT_GT(backs, 50);
+  EXPECT_GT(fronts, 50);
+  EXPECT_GT(averted, 50);
+  EXPECT_GT(cut, 50);
+  EXPECT_LT(slivers, 20);
+}
+
+TEST(Project, CountsBacksThatAreLeftOutAlthoughInView) {
+  Scene scene = one_triangle({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}});
+  for (const Culling culling : {Culling::closed, Culling::back, Culling::none})
+    for (const bool turned : {false, true}) {
+      scene.triangles[0].culling = culling;
+      scene.triangles[0].position = {0, turned ? 2U : 1U, turned ? 1U : 2U};
+      ProjectionCounts counts;
+      Projector(scene, {64, 64}, {}).project_all(&counts);
+      const bool is_drawn = turned || culling == Culling::none;
+      EXPECT_EQ(counts.visible, is_drawn);
+      EXPECT_EQ(counts.back_facing, !is_drawn);
+      EXPECT_EQ(counts.left_out, !is_drawn && culling == Culling::back);
+    }
 }
 
 // The part in front of the near plane and the visible part meet without a gap, and cover everything that a

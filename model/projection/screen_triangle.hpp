@@ -18,13 +18,16 @@ struct ScreenVertex {
   glm::dvec3 normal_world;  ///< as interpolated; not unit after clipping
 };
 
-/// Front-facing, not degenerate after snapping. The vertices are ordered so that twice_area() > 0.
+/// Not degenerate after snapping. The vertices are ordered so that twice_area() > 0. The back of a triangle
+/// that is drawn from both sides comes as a front: with reversed vertices and normals turned to the eye.
 struct ScreenTriangle {
   std::uint32_t source;    ///< number of the scene's triangle
   std::uint32_t material;  ///< index into Scene::materials
   std::array<ScreenVertex, 3> vertex;
-  /// True if the vertices are the corners 0, 2, 1 of the scene's triangle. False if it may have been clipped.
+  /// True if the vertices are the corners 0, 2, 1 of the scene's triangle, with its normals. False if it may
+  /// have been clipped, or turned to the eye.
   bool is_whole = false;
+  bool is_back = false;  ///< true: the eye sees the back of the scene's triangle
 
   /// (x2-x1)(y3-y1) - (y2-y1)(x3-x1), in squared subpixels.
   std::int64_t twice_area() const {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 #include <limits>
+#include <utility>
 
 #include "common/to_integer.hpp"
 #include "scene/camera.hpp"
@@ -162,9 +163,12 @@ ShadowRays::ShadowRays(const Scene& scene) : scene_(&scene) {
   if (!order_.empty()) builder.build();
 }
 
-bool ShadowRays::reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle) const {
+bool ShadowRays::reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle,
+                         bool is_back) const {
   const LightPoint from = light_of(*scene_, light).point;
-  if (is_averted(corners_world(*scene_, scene_->triangles[triangle]), from)) return false;
+  CornersWorld corners = corners_world(*scene_, scene_->triangles[triangle]);
+  if (is_back) std::swap(corners[1], corners[2]);
+  if (is_averted(corners, from)) return false;
   const double length = glm::length(from.way_from(point_world));
   if (!(length > touching_distance_)) return true;
   return !is_blocked(LightRay(point_world, from), touching_distance_ / length);

@@ -21,10 +21,11 @@ class ShadowRays {
   /// The scene must outlive this object.
   explicit ShadowRays(const Scene& scene);
 
-  /// True if the light reaches a point of one of the scene's triangles. False if the triangle itself faces
-  /// away from the light, for any interpolated normal, or if a triangle that faces away from the light
-  /// (light_ray.hpp) is between the point and the light.
-  bool reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle) const;
+  /// True if the light reaches a point of one of the scene's triangles, on its outside or its back. False if
+  /// this side itself faces away from the light, for any interpolated normal, or if a triangle that faces
+  /// away from the light (light_ray.hpp) is between the point and the light.
+  bool reaches(LightRef light, const glm::dvec3& point_world, std::uint32_t triangle,
+               bool is_back = false) const;
 
   /// True if a triangle that faces away from the light is on the ray, more than `least_way` from its start.
   bool is_blocked(const LightRay& ray, double least_way) const;

@@ -21,7 +21,7 @@ ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriang
       const SurfacePoint point =
           surface_point(triangle, barycentric_at_centre(triangle, options.subpixel_bits, x, y));
       const auto reaches = [&](LightRef light) {
-        return shadow_rays->reaches(light, point.position_world, triangle.source);
+        return shadow_rays->reaches(light, point.position_world, triangle.source, triangle.is_back);
       };
       return radiance(scene, scene.materials[triangle.material], point.position_world, point.normal_world,
                       shadow_rays ? LightFilter(reaches) : LightFilter());

@@ -14,6 +14,7 @@
 
 #include "projection/project.hpp"
 #include "scene/lights.hpp"
+#include "scene/test/sides_apart.hpp"
 #include "shading/light_ray.hpp"
 #include "shading/shade.hpp"
 #include "shading/test/random_solids.hpp"
@@ -107,6 +108,41 @@ TEST(Renderer, ShadesTheNearestTriangleAtEachCentre) {
       }
     }
   EXPECT_GT(covered, 1000);
+}
+
+TEST(Renderer, BacksAreShadedAsFronts) {
+  const Scene scene = drawn_from_both_sides(tangle(3, 120));
+  const Scene apart = sides_apart(scene);
+  const auto triangles = Projector(scene, c_frame, {}).project_all();
+  const auto triangles_apart = Projector(apart, c_frame, {}).project_all();
+  EXPECT_GT(triangles.size(), Projector(tangle(3, 120), c_frame, {}).project_all().size() + 40);
+  const auto expect_same = [](const ReferenceImage& image, const ReferenceImage& wanted) {
+    EXPECT_EQ(image.frame.rgb, wanted.frame.rgb);
+    EXPECT_EQ(image.mask, wanted.mask);
+  };
+  expect_same(render_reference(scene, triangles, {.frame = c_frame}),
+              render_reference(apart, triangles_apart, {.frame = c_frame}));
+  expect_same(render_gouraud(scene, triangles, {.frame = c_frame}),
+              render_gouraud(apart, triangles_apart, {.frame = c_frame}));
+}
+
+// A sheet that the light meets from behind: its back is lit, and its front is dark.
+TEST(Renderer, ALightReachesTheBackThatItMeets) {
+  Scene scene;
+  scene.shadows = true;
+  scene.materials.emplace_back();
+  scene.materials[0].ambient = scene.materials[0].specular = 0.0;
+  scene.directional = {{{0, 0, -1}, {1, 1, 1}}};
+  scene.positions_world = {{-9, -9, 0}, {9, -9, 0}, {0, 9, 0}};
+  scene.normals_world = {{0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0, Culling::none}};
+  for (const double side : {-5.0, 5.0}) {
+    scene.camera.eye_world = {0, 0, side};
+    const auto triangles = Projector(scene, c_frame, {}).project_all();
+    ASSERT_EQ(triangles.size(), 1u);
+    const ReferenceImage image = render_reference(scene, triangles, {.frame = c_frame});
+    EXPECT_EQ(image.frame.rgb[image.frame.offset(35, 26)], side < 0.0 ? to_byte(0.6) : 0);
+  }
 }
 
 // For each pixel, searches all triangles.

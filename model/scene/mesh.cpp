@@ -20,6 +20,8 @@ namespace {
 
 constexpr double c_min_height = 1e-12;
 constexpr double c_min_normal_length = 1e-9;
+// Relative to the sum of the terms' sizes: a volume below it is rounding, as that of two sheets back to back.
+constexpr double c_volume_rounding = 1e-12;
 
 struct PositionHash {
   std::size_t operator()(const glm::dvec3& position) const {
@@ -32,13 +34,14 @@ struct PositionHash {
   }
 };
 
-// Corner c of triangle t has number 3 t + c. Returns the corner that represents the smooth group of a corner.
-std::uint32_t group_of(std::vector<std::uint32_t>& parent, std::uint32_t corner) {
-  while (parent[corner] != corner) {
-    parent[corner] = parent[parent[corner]];
-    corner = parent[corner];
+// Returns the item that represents the group of an item: a corner, with the number 3 t + c for corner c of
+// triangle t, or a triangle.
+std::uint32_t group_of(std::vector<std::uint32_t>& parent, std::uint32_t item) {
+  while (parent[item] != item) {
+    parent[item] = parent[parent[item]];
+    item = parent[item];
   }
-  return corner;
+  return item;
 }
 
 void join_groups(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
@@ -47,12 +50,12 @@ void join_groups(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint3
   parent[std::max(group_a, group_b)] = std::min(group_a, group_b);
 }
 
-glm::dvec3 face_normal(const Mesh& mesh, const SceneTriangle& triangle) {
-  const glm::dvec3& a = mesh.positions[triangle.position[0]];
+glm::dvec3 face_normal(const std::vector<glm::dvec3>& positions, const SceneTriangle& triangle) {
+  const glm::dvec3& a = positions[triangle.position[0]];
   // Scale by the longest side first: the squares of very small or very large edges would exceed double's
   // range.
-  const glm::dvec3 ab = mesh.positions[triangle.position[1]] - a;
-  const glm::dvec3 ac = mesh.positions[triangle.position[2]] - a;
+  const glm::dvec3 ab = positions[triangle.position[1]] - a;
+  const glm::dvec3 ac = positions[triangle.position[2]] - a;
   const glm::dvec3 largest = glm::max(glm::abs(ab), glm::abs(ac));
   const double size = std::max({largest.x, largest.y, largest.z});
   return glm::normalize(glm::cross(ab / size, ac / size));
@@ -63,6 +66,72 @@ double corner_angle(const Mesh& mesh, const SceneTriangle& triangle, int corner)
   const glm::dvec3 left = glm::normalize(mesh.positions[triangle.position[(corner + 1) % 3]] - apex);
   const glm::dvec3 right = glm::normalize(mesh.positions[triangle.position[(corner + 2) % 3]] - apex);
   return std::atan2(glm::length(glm::cross(left, right)), glm::dot(left, right));
+}
+
+// One use of an edge by a triangle.
+struct EdgeUse {
+  std::uint32_t low, high;  // position indices
+  std::uint32_t triangle;
+  int way;  // 1 from low to high, -1 from high to low
+
+  auto edge() const { return std::pair(low, high); }
+};
+
+std::vector<EdgeUse> sorted_edge_uses(std::span<const SceneTriangle> triangles) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (int side = 0; side < 3; ++side) {
+      const std::uint32_t from = triangles[t].position[side], to = triangles[t].position[(side + 1) % 3];
+      if (from != to) uses.push_back({std::min(from, to), std::max(from, to), t, from < to ? 1 : -1});
+    }
+  }
+  std::sort(uses.begin(), uses.end(),
+            [](const EdgeUse& a, const EdgeUse& b) { return a.edge() < b.edge(); });
+  return uses;
+}
+
+// Calls found(use, net) for each edge, with one of its uses and the sum of the directions of all.
+template <class Found>
+void for_each_edge(const std::vector<EdgeUse>& uses, Found&& found) {
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    int net = 0;
+    for (; end < uses.size() && uses[end].edge() == uses[begin].edge(); ++end) net += uses[end].way;
+    found(uses[begin], net);
+  }
+}
+
+// -1 for the triangles that are wound against the first one of their surface, 1 for the others.
+std::vector<double> winding_signs(std::span<const SceneTriangle> triangles) {
+  // `against` compares a triangle with its parent.
+  std::vector<std::uint32_t> parent(triangles.size());
+  std::vector<bool> against(triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  const auto root_of = [&](std::uint32_t triangle) {
+    bool flipped = false;
+    while (parent[triangle] != triangle) {
+      const std::uint32_t above = parent[triangle];
+      against[triangle] = against[triangle] != against[above];
+      parent[triangle] = parent[above];
+      flipped = flipped != against[triangle];
+      triangle = parent[triangle];
+    }
+    return std::pair(triangle, flipped);
+  };
+  const std::vector<EdgeUse> uses = sorted_edge_uses(triangles);
+  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
+    while (end < uses.size() && uses[end].edge() == uses[begin].edge()) ++end;
+    if (end - begin != 2) continue;
+    const auto [a, a_flipped] = root_of(uses[begin].triangle);
+    const auto [b, b_flipped] = root_of(uses[begin + 1].triangle);
+    if (a == b) continue;
+    const bool is_conflict = uses[begin].way == uses[begin + 1].way;
+    parent[std::max(a, b)] = std::min(a, b);
+    against[std::max(a, b)] = (a_flipped != b_flipped) != is_conflict;
+  }
+  std::vector<double> signs(triangles.size());
+  for (std::uint32_t t = 0; t < signs.size(); ++t) signs[t] = root_of(t).second ? -1.0 : 1.0;
+  return signs;
 }
 
 // Groups the corners that share a normal.
@@ -183,7 +252,9 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
 
   std::vector<glm::dvec3> face_normals;
   face_normals.reserve(mesh.triangles.size());
-  for (const SceneTriangle& triangle : mesh.triangles) face_normals.push_back(face_normal(mesh, triangle));
+  const std::vector<double> sign = winding_signs(mesh.triangles);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    face_normals.push_back(sign[t] * face_normal(mesh.positions, mesh.triangles[t]));
 
   const std::vector<std::uint32_t> group = smooth_groups(mesh, face_normals, crease_degrees);
   std::vector<glm::dvec3> sum(group.size(), glm::dvec3(0.0));
@@ -192,7 +263,8 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
     sum[group[corner]] +=
         corner_angle(mesh, mesh.triangles[triangle], static_cast<int>(corner % 3)) * face_normals[triangle];
   }
-  std::vector<std::uint32_t> normal_of_group(group.size(), UINT32_MAX);
+  constexpr std::array<std::uint32_t, 2> c_none{UINT32_MAX, UINT32_MAX};
+  std::vector<std::array<std::uint32_t, 2>> normals_of_group(group.size(), c_none);  // by sign
   std::size_t filled = 0;
   const auto add_normal = [&mesh](const glm::dvec3& normal) {
     mesh.normals.push_back(normal);
@@ -205,39 +277,59 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
     ++filled;
     const double length = glm::length(sum[group[corner]]);
     if (length <= c_min_normal_length) {  // the faces cancel, as in two sheets back to back
-      normal = add_normal(face_normals[corner / 3]);
+      normal = add_normal(sign[corner / 3] * face_normals[corner / 3]);
       continue;
     }
-    std::uint32_t& shared = normal_of_group[group[corner]];
-    if (shared == UINT32_MAX) shared = add_normal(sum[group[corner]] / length);
+    std::uint32_t& shared = normals_of_group[group[corner]][sign[corner / 3] < 0.0];
+    if (shared == UINT32_MAX) shared = add_normal(sign[corner / 3] * sum[group[corner]] / length);
     normal = shared;
   }
   return filled;
 }
 
-std::size_t open_edges(std::span<const SceneTriangle> triangles) {
-  struct Use {
-    std::uint32_t low, high;
-    int way;
+std::vector<bool> shows_back(const Mesh& mesh) {
+  const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.triangles);
+  std::vector<std::uint32_t> parent(mesh.triangles.size());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (std::size_t i = 1; i < uses.size(); ++i)
+    if (uses[i].edge() == uses[i - 1].edge()) join_groups(parent, uses[i - 1].triangle, uses[i].triangle);
+  std::vector<bool> is_open(parent.size());
+  for_each_edge(uses, [&](const EdgeUse& use, int net) {
+    if (net != 0) is_open[group_of(parent, use.triangle)] = true;
+  });
+
+  // Six times the volume of each surface, and the sum of its terms' sizes.
+  struct Volume {
+    double signed_sum = 0.0, size = 0.0;
   };
-  std::vector<Use> uses;
-  uses.reserve(3 * triangles.size());
-  for (const SceneTriangle& triangle : triangles) {
-    for (int side = 0; side < 3; ++side) {
-      const std::uint32_t from = triangle.position[side], to = triangle.position[(side + 1) % 3];
-      if (from != to) uses.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
-    }
+  std::vector<Volume> volumes(parent.size());
+  for (std::uint32_t t = 0; t < parent.size(); ++t) {
+    const std::uint32_t group = group_of(parent, t);
+    const glm::dvec3& origin = mesh.positions[mesh.triangles[group].position[0]];
+    const auto corner = [&](int i) { return mesh.positions[mesh.triangles[t].position[i]] - origin; };
+    const glm::dvec3 a = corner(0), b = corner(1), c = corner(2);
+    volumes[group].signed_sum += glm::dot(a, glm::cross(b, c));
+    volumes[group].size += glm::length(a) * glm::length(b) * glm::length(c);
   }
-  const auto edge = [](const Use& use) { return std::pair(use.low, use.high); };
-  std::sort(uses.begin(), uses.end(), [&](const Use& a, const Use& b) { return edge(a) < edge(b); });
+  std::vector<bool> result(parent.size());
+  for (std::uint32_t t = 0; t < parent.size(); ++t) {
+    const std::uint32_t group = group_of(parent, t);
+    const Volume& volume = volumes[group];
+    result[t] = is_open[group] || volume.signed_sum < -c_volume_rounding * volume.size;
+  }
+  return result;
+}
+
+bool has_averted_normals(const Scene& scene, const SceneTriangle& triangle) {
+  glm::dvec3 sum{0.0};
+  for (const std::uint32_t normal : triangle.normal) sum += scene.normals_world[normal];
+  return glm::dot(sum, face_normal(scene.positions_world, triangle)) < 0.0;
+}
+
+std::size_t open_edges(std::span<const SceneTriangle> triangles) {
   std::size_t open = 0;
-  for (std::size_t begin = 0; begin < uses.size();) {
-    std::size_t end = begin;
-    int net = 0;
-    for (; end < uses.size() && edge(uses[end]) == edge(uses[begin]); ++end) net += uses[end].way;
-    open += static_cast<std::size_t>(std::abs(net));
-    begin = end;
-  }
+  for_each_edge(sorted_edge_uses(triangles),
+                [&](const EdgeUse&, int net) { open += static_cast<std::size_t>(std::abs(net)); });
   return open;
 }
 

@@ -46,12 +46,20 @@ struct SpotLight {
   glm::dvec3 intensity{1.0};
 };
 
+/// What is drawn of a triangle that shows its back to the eye.
+enum class Culling : std::uint32_t {
+  closed,  ///< nothing: it is part of a closed surface, which hides it
+  back,    ///< nothing, although it may be in view
+  none,    ///< its back, with the normals turned to the eye
+};
+
 /// One triangle; indices into Scene::positions_world, ::normals_world and ::materials.
 /// Counter-clockwise seen from outside.
 struct SceneTriangle {
   std::array<std::uint32_t, 3> position;
   std::array<std::uint32_t, 3> normal;
   std::uint32_t material;
+  Culling culling = Culling::closed;
 };
 
 struct Camera {

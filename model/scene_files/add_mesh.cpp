@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <glm/common.hpp>
+#include <vector>
 
 #include "scene/camera.hpp"
 
@@ -14,10 +15,20 @@ namespace {
 /// Files may contain many positions that no triangle uses.
 constexpr std::size_t c_max_positions = 3 * std::size_t{c_max_triangles};
 
+void set_culling(Mesh& mesh, const std::optional<Culling>& wanted) {
+  const std::vector<bool> shows = shows_back(mesh);
+  for (std::size_t i = 0; i < shows.size(); ++i) {
+    Culling& culling = mesh.triangles[i].culling;
+    culling = wanted.value_or(culling);
+    if (shows[i] && culling == Culling::closed) culling = Culling::none;
+    if (!shows[i] && culling == Culling::back) culling = Culling::closed;
+  }
+}
+
 }  // namespace
 
 Status add_mesh(Scene& scene, Mesh& mesh, const std::string& what, std::uint32_t first_material,
-                double crease_degrees, bool replace_normals) {
+                const AddOptions& options) {
   if (scene.positions_world.size() + mesh.positions.size() > c_max_positions) {
     return bad_input(
         fmt::format("{}: more than {} vertices up to this mesh; use coarser ones", what, c_max_positions));
@@ -28,14 +39,15 @@ Status add_mesh(Scene& scene, Mesh& mesh, const std::string& what, std::uint32_t
     return bad_input(fmt::format("{}: vertex {} has a coordinate beyond {:g}; scale the mesh down", what,
                                  i + 1, c_max_number));
   }
+  set_culling(mesh, options.culling);  // first, because a triangle without area may close a surface
   const std::size_t dropped = drop_zero_area(mesh);
   if (mesh.triangles.empty()) return bad_input(what + ": no triangle of the mesh has any area");
   if (dropped > 0) {
     scene.notes.push_back(fmt::format("{}: {} triangles without area left out", what, dropped));
   }
   const std::size_t corners = 3 * mesh.triangles.size();
-  const std::size_t filled = fill_normals(mesh, crease_degrees, replace_normals);
-  if (!replace_normals && filled > 0 && filled < corners) {
+  const std::size_t filled = fill_normals(mesh, options.crease_degrees, options.replace_normals);
+  if (!options.replace_normals && filled > 0 && filled < corners) {
     scene.notes.push_back(
         fmt::format("{}: {} of {} corners have no normal; theirs were computed", what, filled, corners));
   }

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 
 #include "common/result.hpp"
@@ -15,9 +16,17 @@ namespace halfway {
 /// Larger numbers would overflow double in squares and products.
 inline constexpr double c_max_number = 1e15;
 
+struct AddOptions {
+  double crease_degrees;
+  bool replace_normals = false;
+  /// Of every triangle. Empty: each triangle keeps its own, but Culling::closed becomes Culling::none where
+  /// the surface is not closed.
+  std::optional<Culling> culling = {};
+};
+
 /// Add a mesh in world space to a scene, with valid normals and materials. `what` is the prefix of messages.
 Status add_mesh(Scene& scene, Mesh& mesh, const std::string& what, std::uint32_t first_material,
-                double crease_degrees, bool replace_normals);
+                const AddOptions& options);
 
 /// Data for fitting a camera after the meshes are added.
 struct CameraFit {

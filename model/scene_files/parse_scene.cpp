@@ -89,12 +89,13 @@ class SceneReader {
   void read(const toml::table& root_table) {
     const TomlTable root(root_table, file_, "the scene",
                          {"camera", "ambient", "background", "shadows", "directional", "positional", "spot",
-                          "material", "mesh"},
+                          "material", "mesh", "cull"},
                          error_);
     scene_.name = file_stem(file_);
     scene_.ambient = root.colour("ambient", scene_.ambient);
     scene_.background = root.colour("background", scene_.background);
     scene_.shadows = root.flag("shadows", scene_.shadows);
+    culling_ = read_culling(root, std::nullopt);
     const std::optional<CameraFit> fit = read_camera(root);
     each(root, "directional", [this](const toml::table& table) { read_directional(table); });
     each(root, "positional", [this](const toml::table& table) { read_positional(table); });
@@ -256,7 +257,7 @@ class SceneReader {
     const auto open = [&](auto... own) {
       table.emplace(node, file_, "mesh",
                     std::vector<std::string_view>{own..., "material", "translate", "rotate", "scale",
-                                                  "crease_angle", "normals"},
+                                                  "crease_angle", "normals", "cull"},
                     error_);
     };
     LoadedMesh loaded;
@@ -310,7 +311,8 @@ class SceneReader {
 
   static std::vector<std::string_view> all_mesh_keys() {
     return {"kind",     "file",      "slices", "stacks", "radius",       "divisions", "size",
-            "material", "translate", "rotate", "scale",  "crease_angle", "normals"};
+            "material", "translate", "rotate", "scale",  "crease_angle", "normals",
+            "cull"};
   }
 
   // Returns false after an error, as check_triangles.
@@ -348,6 +350,7 @@ class SceneReader {
     }
     const double crease =
         table.number("crease_angle", loaded.default_crease_degrees, {.low = 0.0, .high = 180.0});
+    const std::optional<Culling> culling = read_culling(table, culling_);
     std::uint32_t first_material = 0;
     if (table.has("material")) {
       const std::string name = table.text("material");
@@ -365,8 +368,10 @@ class SceneReader {
     scene_.notes.insert(scene_.notes.end(), loaded.notes.begin(), loaded.notes.end());
     if (!mesh.materials.empty()) first_material = static_cast<std::uint32_t>(scene_.materials.size());
     const std::size_t first_triangle = scene_.triangles.size();
-    const Status added = add_mesh(scene_, mesh, what, first_material, crease,
-                                  normals == "computed" || table.has("crease_angle"));
+    const Status added = add_mesh(scene_, mesh, what, first_material,
+                                  {.crease_degrees = crease,
+                                   .replace_normals = normals == "computed" || table.has("crease_angle"),
+                                   .culling = culling});
     if (!added) error_.set(added.error());
     if (error_ || !scene_.shadows) return;
     if (const std::size_t open = open_edges(std::span(scene_.triangles).subspan(first_triangle)); open > 0) {
@@ -375,6 +380,17 @@ class SceneReader {
                       "faces away from the light",
                       what, open));
     }
+  }
+
+  // Empty: automatic.
+  static std::optional<Culling> read_culling(const TomlTable& table, std::optional<Culling> otherwise) {
+    if (!table.has("cull")) return otherwise;
+    const std::string cull = table.text("cull");
+    if (cull == "back") return Culling::back;
+    if (cull == "none") return Culling::none;
+    if (cull != "auto")
+      table.fail("cull", fmt::format("is '{}', but must be \"auto\", \"back\" or \"none\"", cull));
+    return std::nullopt;
   }
 
   glm::dmat4 read_transform(const TomlTable& table) {
@@ -399,6 +415,7 @@ class SceneReader {
   const ReadMesh& read_mesh_;
   LoadOptions options_;
   Scene scene_;
+  std::optional<Culling> culling_;  // of the scene's meshes without their own
   FirstError error_;
   std::unordered_map<std::string, std::uint32_t> named_materials_;
 };
@@ -423,7 +440,8 @@ Result<Scene> scene_of_mesh(LoadedMesh loaded, std::string_view file) {
   Scene scene;
   scene.name = file_stem(file);
   scene.notes = std::move(loaded.notes);
-  if (Status ok = add_mesh(scene, loaded.mesh, name, 0, loaded.default_crease_degrees, false); !ok)
+  if (Status ok = add_mesh(scene, loaded.mesh, name, 0, {.crease_degrees = loaded.default_crease_degrees});
+      !ok)
     return ok.error();
   scene.camera = CameraFit{}.camera(scene);
   if (Status ok = check_view(scene, name); !ok) return ok.error();

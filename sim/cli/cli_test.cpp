@@ -178,7 +178,7 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
     const auto scene = write(name + ".toml",
                              "[camera]\neye = [0.01, 0.013, 4]\ntarget = [0.01, 0.013, 0]\n[[directional]]\n"
                              "to_light = [0, 0, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"" +
-                                 name + ".obj\"\nmaterial = \"m\"\n");
+                                 name + ".obj\"\nmaterial = \"m\"\ncull = \"back\"\n");
     const std::vector<std::string> size = {"--size", "8x8", "--simulator", "verilator", "--out", out()};
     const auto with_size = [&](std::vector<std::string> arguments) {
       arguments.insert(arguments.end(), size.begin(), size.end());
@@ -197,6 +197,8 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
       else
         EXPECT_THAT(outcome.output, Not(HasSubstr("nothing was compared")));
     }
+    const std::string left_out = "1 triangles of surfaces that are not closed show their back and are left out";
+    EXPECT_EQ(drawn[0].output.find(left_out) != std::string::npos, !in_view) << drawn[0].output;
     EXPECT_EQ(with_size({"view", scene, "--frames", "1", "--no-compare"}).exit_code, 0);
     EXPECT_THAT(run({"why", scene, "--pixel", "3,3", "--size", "8x8"}),
                 Ends(1, AllOf(HasSubstr(name + ": nothing was compared: " +

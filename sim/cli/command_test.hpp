@@ -80,7 +80,7 @@ class CommandTest : public ::testing::Test {
         write_file(at("averted.toml"),
                    "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
                    "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
-                   "material = \"m\"\n"));
+                   "material = \"m\"\ncull = \"back\"\n"));
   }
   /// A replacement for ffmpeg that keeps its arguments and its input.
   static inline const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";

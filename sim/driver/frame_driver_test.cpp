@@ -10,6 +10,7 @@
 
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
+#include "scene/test/sides_apart.hpp"
 #include "shading/test/random_solids.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
@@ -192,6 +193,23 @@ TEST(FrameDriver, LargeTrianglesAfterSmallOnesEndTheirBatch) {
       EXPECT_GT(driver.fragments(), c_layers * c_size.width * c_size.height);
       EXPECT_LT(largest * sizeof(Fragment), threads * (std::size_t{12} << 20)) << threads;
     }
+  }
+}
+
+// Snapping reverses none of these triangles.
+TEST(FrameDriver, EveryShaderDrawsABackAsAFront) {
+  const auto folder = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
+  const Scene culled = must(load_scene("lights", folder));
+  const Scene scene = drawn_from_both_sides(culled);
+  const Scene apart = sides_apart(scene);
+  for (const Shader shader : c_shaders) {
+    const HardwareKey key = key_of(scene, shader);
+    SCOPED_TRACE(key.name());
+    const std::vector<Fragment> fragments = must(whole_stream(scene, c_stream_frame, key)).golden;
+    std::vector<Fragment> wanted = must(whole_stream(apart, c_stream_frame, key)).golden;
+    for (Fragment& f : wanted) f.triangle /= 2;
+    EXPECT_TRUE(fragments == wanted);
+    EXPECT_GT(2 * fragments.size(), 3 * must(whole_stream(culled, c_stream_frame, key)).golden.size());
   }
 }
 

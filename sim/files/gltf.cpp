@@ -105,6 +105,12 @@ class Item {
     if (!std::isfinite(number)) fail("is not finite; correct it");
     return number;
   }
+  bool flag(const char* key) const {
+    if (!has(key)) return false;
+    const Item item = at(key);
+    if (!item.value_->is_boolean()) item.fail("is not true or false; correct it");
+    return item.value_->get<bool>();
+  }
   double number(const char* key, double if_missing) const { return has(key) ? at(key).number() : if_missing; }
   template <std::size_t N>
   std::array<double, N> numbers(const char* key) const {
@@ -448,6 +454,7 @@ class GltfReader {
       }
     }
     const std::uint32_t material = material_of(primitive);
+    const Culling culling = culling_of(primitive);
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
       const std::array<std::uint32_t, 3> index = {corners[a], corners[b], corners[c]};
       // Triangles that use a vertex twice connect parts of a strip.
@@ -455,7 +462,8 @@ class GltfReader {
       if (++triangles_ > c_max_triangles) {
         primitive.fail(fmt::format("more than {} triangles up to here; reduce the mesh", c_max_triangles));
       }
-      part.triangles.push_back({index, has_normals ? index : std::array<std::uint32_t, 3>{}, material});
+      part.triangles.push_back(
+          {index, has_normals ? index : std::array<std::uint32_t, 3>{}, material, culling});
     };
     if (mode == 4) {
       if (corners.size() % 3 != 0) {
@@ -679,6 +687,12 @@ class GltfReader {
                                               : read_material(Item(no_keys(), "material"), "default"));
     }
     return entry->second;
+  }
+
+  Culling culling_of(const Item& primitive) const {
+    const bool both = primitive.has("material") &&
+                      materials_[primitive.at("material").index(materials_.size())].flag("doubleSided");
+    return both ? Culling::none : Culling::back;
   }
 
   Material read_material(const Item& source, std::string_view name) {

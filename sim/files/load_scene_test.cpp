@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/test/is_error.hpp"
+#include "projection/project.hpp"
 #include "scene/camera.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
@@ -402,6 +403,87 @@ TEST_F(LoadScene, MeshFilesAreRelativeToTheScene) {
   EXPECT_EQ(error("[[mesh]]\nfile = \"sub/t.obj\"\n")
                 .find("sub/t.obj:4: a face names vertex 4, but the file has 3"),
             0u);
+}
+
+std::string culling_of(const Scene& scene) {
+  std::string all;
+  for (const SceneTriangle& triangle : scene.triangles)
+    all += triangle.culling == Culling::closed ? 'c' : triangle.culling == Culling::back ? 'b' : 'n';
+  return all;
+}
+
+TEST_F(LoadScene, OpenSurfacesAreDrawnFromBothSidesUnlessCulled) {
+  const std::string tetra = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  write("both.obj", tetra + "v 5 0 0\nv 6 0 0\nv 5 1 0\nf 5 6 7\n");
+  const std::string mesh = "[[mesh]]\nfile = \"both.obj\"\n";
+  EXPECT_EQ(culling_of(must(load_scene((folder_ / "both.obj").string(), c_scenes))), "ccccn");
+  const auto culling = [&](const std::string& toml) { return culling_of(must(load(toml))); };
+  EXPECT_EQ(culling(mesh), "ccccn");
+  EXPECT_EQ(culling(mesh + "cull = \"auto\"\n"), "ccccn");
+  EXPECT_EQ(culling(mesh + "cull = \"back\"\n"), "ccccb");
+  EXPECT_EQ(culling(mesh + "cull = \"none\"\n"), "nnnnn");
+  EXPECT_EQ(culling(mesh + "scale = [1, -2, 1]\n"), "ccccn");
+  // A scene's own value holds for its meshes without one.
+  EXPECT_EQ(culling("cull = \"back\"\n" + mesh + "cull = \"none\"\n" + mesh), "nnnnnccccb");
+  EXPECT_EQ(culling("cull = \"none\"\n" + mesh + "cull = \"auto\"\n"), "ccccn");
+  EXPECT_EQ(error(mesh + "cull = \"front\"\n"),
+            "s.toml:3: cull of mesh is 'front', but must be \"auto\", \"back\" or \"none\"");
+  const std::string closed =
+      "[[mesh]]\nkind = \"box\"\n[[mesh]]\nkind = \"sphere\"\nslices = 3\nstacks = 2\n";
+  EXPECT_EQ(culling(closed), std::string(12 + 6, 'c'));
+  // The triangle without area closes the surface.
+  write("seam.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv .5 .5 0\n"
+        "f 1 5 2\nf 1 3 5\nf 2 5 3\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  EXPECT_EQ(culling_of(must(load_scene((folder_ / "seam.obj").string(), c_scenes))), "ccccc");
+}
+
+// A square, and a second one that shares an edge and is wound the other way.
+TEST_F(LoadScene, AFaceOfTheOtherWindingIsDrawn) {
+  const Scene scene = must(load_scene(
+      write("second_face_clockwise.obj",
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 3 6 5\n"),
+      c_scenes));
+  EXPECT_EQ(culling_of(scene), "nnnn");
+  const std::vector<ScreenTriangle> drawn = Projector(scene, {80, 60}, {}).project_all();
+  ASSERT_EQ(drawn.size(), 4u);
+  for (const ScreenTriangle& triangle : drawn) {
+    EXPECT_EQ(triangle.is_back, triangle.source >= 2);
+    for (const ScreenVertex& v : triangle.vertex) EXPECT_EQ(v.normal_world, glm::dvec3(0, 0, 1));
+  }
+}
+
+// The same triangle seen from its front and, by the other node, from behind.
+TEST_F(LoadScene, DoubleSidedOfGltfIsObeyed) {
+  const auto file = [](const std::string& material) {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"mesh":0,)"
+           R"("rotation":[0,1,0,0],"translation":[3,0,0]}],"meshes":[{"primitives":[{"attributes":)"
+           R"({"POSITION":0},"material":0}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,)"
+           R"("type":"VEC3"}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":)"
+           R"("data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"materials":[{)" +
+           material + "}]}";
+  };
+  const auto load_gltf = [&](const std::string& material) {
+    return load_scene(write("sides.gltf", file(material)), c_scenes);
+  };
+  const Scene both = must(load_gltf(R"("doubleSided":true)"));
+  EXPECT_EQ(culling_of(both), "nn");
+  const std::vector<ScreenTriangle> drawn = Projector(both, {80, 60}, {}).project_all();
+  ASSERT_EQ(drawn.size(), 2u);
+  for (const ScreenTriangle& triangle : drawn) {
+    EXPECT_EQ(triangle.is_back, triangle.source == 1);
+    for (const ScreenVertex& v : triangle.vertex) EXPECT_GT(v.normal_world.z, 0.99);
+  }
+  for (const char* one_sided : {"", R"("doubleSided":false)"}) {
+    const Scene front = must(load_gltf(one_sided));
+    EXPECT_EQ(culling_of(front), "bb");
+    ProjectionCounts counts;
+    EXPECT_EQ(Projector(front, {80, 60}, {}).project_all(&counts).size(), 1u);
+    EXPECT_EQ(counts.left_out, 1u);
+    const Scene scene = must(load("[[mesh]]\nfile = \"sides.gltf\"\ncull = \"none\"\n"));
+    EXPECT_EQ(culling_of(scene), "nn");
+  }
+  EXPECT_TRUE(is_error(load_gltf(R"("doubleSided":1)"), "materials[0].doubleSided"));
 }
 
 // toml++ parses and frees nested tables recursively.

@@ -127,6 +127,11 @@ class Simulation {
           triangles_in_view(n) != 0 ? ""
                                     : "; turn the camera to the scene, and give each triangle's corners "
                                       "counter-clockwise as seen from outside"));
+    if (n.projection.left_out != 0)
+      note(
+          fmt::format("{} triangles of surfaces that are not closed show their back and are left out, as cull = "
+                      "\"back\" or their glTF material wants; cull = \"none\" draws both sides",
+                      n.projection.left_out));
     const bool near_fitted = scene_.camera.near <= 0.0;
     if (n.projection.behind_near != 0 && near_fitted)
       note(fmt::format(
@@ -396,6 +401,7 @@ std::string to_json(const SceneSummary& s) {
         {"pixels_off", s.accuracy.off}}},
       {"setup",
        {{"back_facing", s.setup.projection.back_facing},
+        {"left_out", s.setup.projection.left_out},
         {"behind_near", s.setup.projection.behind_near},
         {"outside", s.setup.projection.outside},
         {"degenerate", s.setup.projection.degenerate},

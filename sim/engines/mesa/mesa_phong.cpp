@@ -20,12 +20,14 @@
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "frame/frame.hpp"
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
+#include "scene/mesh.hpp"
 #include "sim/engines/mesa/mesa_picture.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
@@ -186,18 +188,25 @@ class Picture {
 
   void load_triangles() {
     std::vector<glm::vec3> vertices;  // position, normal
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+    std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::uint32_t> known;
     std::vector<std::vector<std::uint32_t>> indices(scene_->materials.size());
-    for (const SceneTriangle& triangle : scene_->triangles)
-      for (int i = 0; i < 3; ++i) {
-        const auto [at, fresh] = known.try_emplace({triangle.position[i], triangle.normal[i]},
-                                                   static_cast<std::uint32_t>(known.size()));
-        if (fresh) {
-          vertices.emplace_back(scene_->positions_world[triangle.position[i]]);
-          vertices.emplace_back(scene_->normals_world[triangle.normal[i]]);
-        }
-        indices[triangle.material].push_back(at->second);
+    const auto add_corner = [&](const SceneTriangle& triangle, std::size_t i, bool turned) {
+      const auto [at, fresh] = known.try_emplace({triangle.position[i], triangle.normal[i], turned},
+                                                 static_cast<std::uint32_t>(known.size()));
+      if (fresh) {
+        vertices.emplace_back(scene_->positions_world[triangle.position[i]]);
+        vertices.emplace_back((turned ? -1.0 : 1.0) * scene_->normals_world[triangle.normal[i]]);
       }
+      indices[triangle.material].push_back(at->second);
+    };
+    for (const SceneTriangle& triangle : scene_->triangles) {
+      const bool both = triangle.culling == Culling::none;
+      const bool turned = both && has_averted_normals(*scene_, triangle);
+      for (const std::size_t i : {0, 1, 2}) add_corner(triangle, i, turned);
+      // OpenGL culls one of the two sides.
+      if (both)
+        for (const std::size_t i : {0, 2, 1}) add_corner(triangle, i, !turned);
+    }
     std::vector<std::uint32_t> all;
     for (std::uint32_t material = 0; material < indices.size(); ++material) {
       if (indices[material].empty()) continue;
