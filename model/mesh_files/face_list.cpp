@@ -16,7 +16,8 @@ void FaceList::add_position(const glm::vec3& position) {
   new_index_.push_back(c_no_index);
 }
 
-std::string FaceList::divide(std::span<const Corner> corners) {
+std::string FaceList::divide(std::span<const Corner> corners, const std::function<std::string()>& place,
+                             Notes& notes) {
   corners_ = corners;
   divided_.clear();
   if (corners.size() < 3) {
@@ -39,18 +40,18 @@ std::string FaceList::divide(std::span<const Corner> corners) {
       ++without_area_;
       break;
     case PolygonKind::crossing:
-      return "the outline of the face crosses itself; divide the face into triangles";
+      for (std::uint32_t i = 2; i < corners.size(); ++i) divided_.push_back({0, i - 1, i});
+      notes.add(place(), "the outline of a face crosses itself; it is drawn as a fan around its first corner");
+      break;
     case PolygonKind::out_of_work:
       return "the concave faces up to here have too many corners; divide them into triangles";
   }
   return {};
 }
 
-std::vector<std::string> FaceList::left_out() const {
-  std::vector<std::string> what;
-  if (points_and_lines_ > 0) what.push_back(fmt::format("{} points and lines left out", points_and_lines_));
-  if (without_area_ > 0) what.push_back(fmt::format("{} faces without area left out", without_area_));
-  return what;
+void FaceList::note_left_out(std::string_view file, Notes& notes) const {
+  if (points_and_lines_ > 0) notes.add(file, fmt::format("{} points and lines left out", points_and_lines_));
+  if (without_area_ > 0) notes.add(file, fmt::format("{} faces without area left out", without_area_));
 }
 
 void FaceList::append(std::uint32_t material, Mesh& mesh) {

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "mesh_files/loaded_mesh.hpp"
+#include "mesh_files/notes.hpp"
 #include "mesh_files/triangulate.hpp"
 
 namespace halfway {
@@ -24,8 +27,9 @@ class FaceList {
   std::size_t positions() const { return positions_.size(); }
 
   /// Divide a face. Returns what is wrong with it, or nothing. A face of one or two corners is a point or a
-  /// line. The corners must exist until `append`.
-  std::string divide(std::span<const Corner> corners);
+  /// line. A face whose outline crosses itself is a fan around its first corner, with a note at this place.
+  /// The corners must exist until `append`.
+  std::string divide(std::span<const Corner> corners, const std::function<std::string()>& place, Notes& notes);
   /// True if the last face has triangles.
   bool is_divided() const { return !divided_.empty(); }
   /// Append the triangles of the last `divide` to the mesh. Vertices are in the order of their first use.
@@ -36,8 +40,8 @@ class FaceList {
 
   /// Faces whose corners are on one line; they have no triangles.
   std::uint64_t without_area() const { return without_area_; }
-  /// What has no triangles, for notes.
-  std::vector<std::string> left_out() const;
+  /// Note what has no triangles.
+  void note_left_out(std::string_view file, Notes& notes) const;
 
  private:
   std::vector<glm::vec3> positions_;

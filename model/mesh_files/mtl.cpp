@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "mesh_files/number.hpp"
 #include "mesh_files/text_lines.hpp"
@@ -12,32 +14,57 @@ namespace halfway {
 
 namespace {
 
-/// Read one number or more, up to `most`, to the end of the line.
-Result<int> read_numbers(TextLines& lines, std::string_view key, float* values, int most) {
-  int count = 0;
+/// Read one number or more, up to `most`, to the end of the line. Returns what is wrong, or nothing.
+std::string read_numbers(TextLines& lines, std::span<float> values, std::size_t& count) {
+  count = 0;
   for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
     float value = 0.0f;
-    if (const NumberFault fault = read_number(word, value); fault != NumberFault::none) {
-      return lines.error(fmt::format("{}: {}; correct the number", key, fault_text(fault, word)));
-    }
-    if (count == most) return lines.error(fmt::format("{} has more than {} numbers", key, most));
+    if (const NumberFault fault = read_number(word, value); fault != NumberFault::none)
+      return fault_text(fault, word);
+    if (value < 0.0f) return quoted(word) + " is negative";
+    if (count == values.size()) return fmt::format("more than {} numbers", values.size());
     values[count++] = value;
   }
-  if (count == 0) return lines.error(fmt::format("{} has no number", key));
-  return count;
+  return count == 0 ? "no number" : "";
 }
 
 /// Read three numbers, or one for all three.
-Result<glm::dvec3> read_colour(TextLines& lines, std::string_view key) {
-  float values[3] = {};
-  const Result<int> count = read_numbers(lines, key, values, 3);
-  if (!count) return count.error();
-  if (*count == 2) return lines.error(fmt::format("{} has 2 numbers; it must have 3, or 1 for grey", key));
-  if (*count == 1) values[1] = values[2] = values[0];
-  for (const float value : values) {
-    if (value < 0.0f) return lines.error(fmt::format("{} is negative; correct the colour", key));
+std::string read_colour(TextLines& lines, glm::dvec3& colour) {
+  std::array<float, 3> values{};
+  std::size_t count = 0;
+  if (std::string fault = read_numbers(lines, values, count); !fault.empty()) return fault;
+  if (count == 2) return "2 numbers instead of 3, or 1 for grey";
+  if (count == 1) values[1] = values[2] = values[0];
+  colour = glm::dvec3(values[0], values[1], values[2]);
+  return {};
+}
+
+/// Read a key of a material. Returns what is wrong, or nothing.
+std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read) {
+  Material& material = read.material;
+  const bool is_texture = key.starts_with("map_") || key == "bump" || key == "disp" || key == "decal" ||
+                          key == "refl" || key == "norm";
+  glm::dvec3 colour;
+  if (key == "kd") {
+    if (std::string fault = read_colour(lines, colour); !fault.empty()) return fault;
+    material.colour = colour;
+    material.diffuse = colour == glm::dvec3(0.0) ? 0.0 : 1.0;
+  } else if (key == "ks") {
+    if (std::string fault = read_colour(lines, colour); !fault.empty()) return fault;
+    const bool is_black = colour == glm::dvec3(0.0);
+    material.specular_colour = is_black ? glm::dvec3(1.0) : colour;
+    material.specular = is_black ? 0.0 : 1.0;
+  } else if (key == "ns") {
+    std::array<float, 1> exponent{};
+    std::size_t count = 0;
+    if (std::string fault = read_numbers(lines, exponent, count); !fault.empty()) return fault;
+    read.file_exponent = static_cast<double>(exponent[0]);
+    material.exponent = std::max(read.file_exponent, 1.0);
+  } else {
+    read.has_textures |= is_texture;
+    lines.rest();
   }
-  return glm::dvec3(values[0], values[1], values[2]);
+  return {};
 }
 
 }  // namespace
@@ -53,46 +80,27 @@ Material plain_material(std::string_view name) {
   return material;
 }
 
-Status read_mtl(std::string_view text, std::string_view file, MtlMaterials& materials) {
+void read_mtl(std::string_view text, std::string_view file, MtlMaterials& materials, Notes& notes) {
   TextLines lines(text, file, {});
+  MtlMaterial nameless;
   MtlMaterial* current = nullptr;
   while (lines.next()) {
     const std::string_view word = lines.word();
     const std::string key = lower_case(word);
-    const bool is_texture = key.starts_with("map_") || key == "bump" || key == "disp" || key == "decal" ||
-                            key == "refl" || key == "norm";
     if (key == "newmtl") {
       const std::string name(lines.rest());
-      if (name.empty()) return lines.error("newmtl has no name");
-      const auto [entry, is_new] = materials.try_emplace(name);
-      current = &entry->second;
+      if (name.empty()) notes.add(lines.place(), "newmtl has no name; its material is left out");
+      const bool is_new = !name.empty() && materials.try_emplace(name).second;
+      current = name.empty() ? &nameless : &materials.at(name);
       if (is_new) current->material = plain_material(name);
-      continue;
-    }
-    if (key != "kd" && key != "ks" && key != "ns" && !is_texture) continue;
-    if (current == nullptr) return lines.error(fmt::format("{} before the first newmtl", word));
-    Material& material = current->material;
-    if (key == "kd") {
-      const Result<glm::dvec3> colour = read_colour(lines, word);
-      if (!colour) return colour.error();
-      material.colour = *colour;
-      material.diffuse = *colour == glm::dvec3(0.0) ? 0.0 : 1.0;
-    } else if (key == "ks") {
-      const Result<glm::dvec3> colour = read_colour(lines, word);
-      if (!colour) return colour.error();
-      const bool is_black = *colour == glm::dvec3(0.0);
-      material.specular_colour = is_black ? glm::dvec3(1.0) : *colour;
-      material.specular = is_black ? 0.0 : 1.0;
-    } else if (key == "ns") {
-      float exponent = 0.0f;
-      if (const Result<int> count = read_numbers(lines, word, &exponent, 1); !count) return count.error();
-      current->file_exponent = static_cast<double>(exponent);
-      material.exponent = std::max(current->file_exponent, 1.0);
-    } else {
-      current->has_textures = true;
+    } else if (current == nullptr) {
+      if (!word.empty()) notes.add(lines.place(), "a line before the first newmtl is left out");
+      lines.rest();
+    } else if (const std::string fault = read_key(lines, key, *current); !fault.empty()) {
+      notes.add(lines.place(), fmt::format("{}: {}; the line is left out", word, fault));
+      lines.rest();
     }
   }
-  return Ok{};
 }
 
 }  // namespace halfway

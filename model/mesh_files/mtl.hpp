@@ -6,7 +6,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "common/result.hpp"
+#include "mesh_files/notes.hpp"
 #include "scene/scene.hpp"
 
 namespace halfway {
@@ -21,8 +21,8 @@ using MtlMaterials = std::unordered_map<std::string, MtlMaterial>;
 /// A material without Kd, Ks and Ns: grey, without a highlight.
 Material plain_material(std::string_view name);
 
-/// Add the materials of a library. Repeated keys and definitions replace earlier ones. `file` is its name in
-/// messages.
-Status read_mtl(std::string_view text, std::string_view file, MtlMaterials& materials);
+/// Add the materials of a library. Repeated keys and definitions replace earlier ones. A line that cannot be
+/// read is left out with a note. `file` is the library's name in notes.
+void read_mtl(std::string_view text, std::string_view file, MtlMaterials& materials, Notes& notes);
 
 }  // namespace halfway

@@ -25,11 +25,12 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// True for the spellings of NaN and infinity, which are recognized for the message only.
+/// True for the spellings of NaN and infinity, also those of old C libraries: 1.#IND00, nan(ind).
 bool is_not_finite(std::string_view word) {
   std::string text = lower_case(word.substr(0, 9));
   if (text.starts_with('+') || text.starts_with('-')) text.erase(0, 1);
-  return text == "nan" || text == "inf" || text == "infinity";
+  return text == "nan" || text == "inf" || text == "infinity" || text.starts_with("nan(") ||
+         text.starts_with("1.#");
 }
 
 /// Round decimal digits times a power of ten to float. strtof rounds correctly, but its decimal point depends
@@ -74,7 +75,8 @@ NumberFault read_number(std::string_view word, float& value) {
   // Read the exponent.
   std::int64_t exponent = 0;
   if (at < word.size()) {
-    if (word[at] != 'e' && word[at] != 'E') return NumberFault::not_a_number;
+    if (word[at] != 'e' && word[at] != 'E')
+      return is_not_finite(whole) ? NumberFault::not_finite : NumberFault::not_a_number;
     ++at;
     const bool is_divisor = at < word.size() && word[at] == '-';
     if (is_divisor || (at < word.size() && word[at] == '+')) ++at;

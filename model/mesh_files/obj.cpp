@@ -8,8 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <glm/vec3.hpp>
-#include <set>
-#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -63,7 +61,8 @@ class ObjReader {
                                          file_, line_of_first_face_));
     }
     if (!has_materials_) loaded_.mesh.materials.push_back(default_material());
-    add_notes();
+    faces_.note_left_out(file_, notes_);
+    loaded_.notes = notes_.list();
     join_positions(loaded_.mesh);
     return std::move(loaded_);
   }
@@ -91,11 +90,11 @@ class ObjReader {
       } else if (keyword == "vn") {
         ok = read_normal(lines);
       } else if (keyword == "vt") {
-        ok = read_texel(lines);
+        ++texel_.all;
       } else if (keyword == "usemtl") {
         uses_material = true;
       } else if (keyword == "mtllib") {
-        ok = read_libraries(lines);
+        read_libraries(lines);
       }
       if (!ok) return ok;
     }
@@ -103,33 +102,29 @@ class ObjReader {
     return Ok{};
   }
 
-  /// Read the numbers of a line. Returns their count, which is one of those allowed.
-  static Result<int> read_numbers(TextLines& lines, Field& field, std::array<float, 6>& values,
-                                  std::span<const int> allowed, std::string_view allowed_text) {
-    if (field.all++ == field.most) {
-      return lines.error(
-          fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, field.most));
-    }
+  static Status count_item(const TextLines& lines, Field& field) {
+    if (field.all++ < field.most) return Ok{};
+    return lines.error(
+        fmt::format("{} {}, but {} is the most; reduce the mesh", field.what, field.all, field.most));
+  }
+
+  Status read_position(TextLines& lines) {
+    if (Status ok = count_item(lines, position_); !ok) return ok;
+    std::array<float, 6> v{};
     int count = 0;
     for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
       float value = 0.0f;
       if (const NumberFault fault = read_number(word, value); fault != NumberFault::none) {
         return lines.error(
-            fmt::format("{} {}: {}; correct the coordinate", field.what, field.all, fault_text(fault, word)));
+            fmt::format("vertex {}: {}; correct the coordinate", position_.all, fault_text(fault, word)));
       }
-      if (count < 6) values[static_cast<std::size_t>(count)] = value;
+      if (count < 6) v[static_cast<std::size_t>(count)] = value;
       ++count;
     }
-    if (std::find(allowed.begin(), allowed.end(), count) != allowed.end()) return count;
-    return lines.error(
-        fmt::format("{} {} has {} numbers; it must have {}", field.what, field.all, count, allowed_text));
-  }
-
-  Status read_position(TextLines& lines) {
-    std::array<float, 6> v{};
-    const Result<int> count = read_numbers(lines, position_, v, std::array{3, 4, 6}, "3, 4 or 6");
-    if (!count) return count.error();
-    if (*count == 4) {
+    if (count != 3 && count != 4 && count != 6)
+      return lines.error(
+          fmt::format("vertex {} has {} numbers; it must have 3, 4 or 6", position_.all, count));
+    if (count == 4) {
       if (v[3] == 0.0f) {
         return lines.error(
             fmt::format("vertex {} has the weight zero; correct the coordinate", position_.all));
@@ -141,47 +136,42 @@ class ObjReader {
         }
       }
     }
-    has_colours_ |= *count == 6;
+    if (count == 6) notes_.add(lines.place(), "vertex colours are left out");
     faces_.add_position({v[0], v[1], v[2]});
     return Ok{};
   }
 
   Status read_normal(TextLines& lines) {
-    std::array<float, 6> v{};
-    const Result<int> count = read_numbers(lines, normal_, v, std::array{3}, "3");
-    if (!count) return count.error();
-    loaded_.mesh.normals.emplace_back(v[0], v[1], v[2]);
-    return Ok{};
-  }
-
-  Status read_texel(TextLines& lines) {
-    std::array<float, 6> v{};
-    const Result<int> count = read_numbers(lines, texel_, v, std::array{1, 2, 3}, "1 to 3");
-    if (!count) return count.error();
+    if (Status ok = count_item(lines, normal_); !ok) return ok;
+    glm::vec3 normal(0.0f);
+    bool is_read = true;
+    for (int axis = 0; axis < 3; ++axis) is_read &= read_number(lines.word(), normal[axis]) == NumberFault::none;
+    if (!is_read) {
+      notes_.add(lines.place(), "a normal is not three finite numbers; it is computed");
+      normal = glm::vec3(0.0f);
+    }
+    loaded_.mesh.normals.emplace_back(normal);
     return Ok{};
   }
 
   /// The line is one name with blanks, or several names.
-  Status read_libraries(TextLines& lines) {
+  void read_libraries(TextLines& lines) {
     const std::string_view names = lines.rest();
-    if (names.empty()) return lines.error("mtllib names no file");
+    if (names.empty()) return notes_.add(lines.place(), "mtllib names no file");
     MaterialLibrary whole = read_library_(names);
     if (whole.text || names.find_first_of(" \t") == std::string_view::npos) return read_library(whole);
     TextLines each(names, file_, {.continuation = false});
     each.next();
-    for (std::string_view name = each.word(); !name.empty(); name = each.word()) {
-      if (Status ok = read_library(read_library_(name)); !ok) return ok;
-    }
-    return Ok{};
+    for (std::string_view name = each.word(); !name.empty(); name = each.word())
+      read_library(read_library_(name));
   }
 
-  Status read_library(const MaterialLibrary& library) {
-    if (!library.text) {
-      missing_libraries_.insert(library.path);
-      return Ok{};
-    }
+  void read_library(const MaterialLibrary& library) {
+    if (!library.text)
+      return notes_.add(file_, fmt::format("material library {} cannot be read; its materials are grey",
+                                           library.path));
     ++libraries_;
-    return read_mtl(*library.text, library.path, defined_);
+    read_mtl(*library.text, library.path, defined_, notes_);
   }
 
   // ---- Second pass: faces.
@@ -205,9 +195,9 @@ class ObjReader {
         material_name_ = lines.rest();
         material_ = c_none;
       } else if (contains(c_curves, keyword)) {
-        has_curves_ = true;
+        notes_.add(lines.place(), "curves and surfaces are left out");
       } else if (contains(c_textures, keyword)) {
-        has_textures_ = true;
+        notes_.add(lines.place(), "textures are left out");
       } else if (!keyword.empty() && keyword != "mtllib" && !contains(c_without_effect, keyword)) {
         ok = lines.error(quoted(keyword) + " is not a keyword of OBJ; correct or remove the line");
       }
@@ -269,7 +259,8 @@ class ObjReader {
   Status read_face(TextLines& lines) {
     if (Status ok = read_corners(lines); !ok) return ok;
     if (line_of_first_face_ == 0 && corners_.size() > 2) line_of_first_face_ = lines.line();
-    if (const std::string fault = faces_.divide(corners_); !fault.empty()) return lines.error(fault);
+    const std::string fault = faces_.divide(corners_, [&] { return lines.place(); }, notes_);
+    if (!fault.empty()) return lines.error(fault);
     if (!faces_.is_divided()) return Ok{};
     if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
     faces_.append(material_, loaded_.mesh);
@@ -289,7 +280,7 @@ class ObjReader {
     if (!is_new) return index->second;
     if (defined == defined_.end()) {
       loaded_.mesh.materials.push_back(plain_material(name.empty() ? "default" : name));
-      note(name.empty() ? "faces before the first usemtl are grey"
+      note(name.empty() ? "faces without a material are grey"
                         : fmt::format("material {} is not defined; it is grey", quoted(name)));
       return index->second;
     }
@@ -304,31 +295,18 @@ class ObjReader {
 
   // ---- Notes
 
-  void note(std::string_view what) { notes_.insert(fmt::format("{}: {}", file_, what)); }
-
-  void add_notes() {
-    for (const std::string& library : missing_libraries_) {
-      loaded_.notes.push_back(
-          fmt::format("{}: material library {} cannot be read; its materials are grey", file_, library));
-    }
-    if (has_colours_) note("vertex colours are left out");
-    if (has_textures_) note("textures are left out");
-    if (has_curves_) note("curves and surfaces are left out");
-    for (const std::string& left_out : faces_.left_out()) note(left_out);
-    loaded_.notes.insert(loaded_.notes.end(), notes_.begin(), notes_.end());
-  }
+  void note(std::string_view what) { notes_.add(file_, what); }
 
   std::string_view text_;
   std::string_view file_;
   const ReadLibrary& read_library_;
   LoadedMesh loaded_;
 
-  // Texture coordinates are not kept, so any number is read.
+  // Texture coordinates are counted only.
   Field position_{.what = "vertex"}, texel_{.what = "texture coordinate", .most = UINT64_MAX},
       normal_{.what = "normal"};
 
   MtlMaterials defined_;
-  std::set<std::string> missing_libraries_;
   int libraries_ = 0;
   bool has_materials_ = false;
   std::string_view material_name_;  ///< after the last usemtl
@@ -339,8 +317,7 @@ class ObjReader {
   FaceList faces_;
   std::uint64_t line_of_first_face_ = 0;
 
-  std::set<std::string> notes_;
-  bool has_colours_ = false, has_textures_ = false, has_curves_ = false;
+  Notes notes_;
 };
 
 }  // namespace

@@ -69,6 +69,8 @@ const Type* find_type(std::string_view name) {
 
 /// What a property of a vertex or face is used for. x to nz are indices of a vertex's numbers.
 enum class Use { x, y, z, nx, ny, nz, corners, none };
+/// The value of a word that is no finite number.
+constexpr double c_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view c_numbers[] = {"x", "y", "z", "nx", "ny", "nz"};
 constexpr std::string_view c_colours[] = {"red",         "green",         "blue",
                                           "diffuse_red", "diffuse_green", "diffuse_blue"};
@@ -116,7 +118,8 @@ class PlyReader {
                                        : "the mesh has no faces; export it with faces"));
     }
     if (has_colours_) note("vertex colours are left out");
-    for (const std::string& left_out : faces_.left_out()) note(left_out);
+    faces_.note_left_out(file_, notes_);
+    loaded_.notes = notes_.list();
     join_positions(loaded_.mesh);
     return std::move(loaded_);
   }
@@ -255,9 +258,8 @@ class PlyReader {
 
   Status check_elements() {
     for (const Element& element : elements_) {
-      const auto error = [&](std::string_view what) {
-        return bad_input(fmt::format("{}:{}: {}", file_, element.line, what));
-      };
+      const std::string at = fmt::format("{}:{}", file_, element.line);
+      const auto error = [&](std::string_view what) { return bad_input(fmt::format("{}: {}", at, what)); };
       if (element.count == 0) continue;
       // Items without properties take no bytes, so the file could request any number.
       if (element.properties.empty()) {
@@ -272,7 +274,8 @@ class PlyReader {
         }
         has_normals_ = uses(element, Use::nx);
         if (uses(element, Use::ny) != has_normals_ || uses(element, Use::nz) != has_normals_) {
-          return error("vertices have only a part of nx, ny and nz; give all three or none");
+          notes_.add(at, "vertices have only a part of nx, ny and nz; normals are computed");
+          has_normals_ = false;
         }
       }
       if (has_corners(element) && !uses(element, Use::corners)) {
@@ -303,12 +306,14 @@ class PlyReader {
       for (const Property& property : element.properties) {
         double length = 1.0;
         if (property.length_type) {
-          if (Status ok = read_value(element, property, *property.length_type, length); !ok) return ok;
+          if (Status ok = read_value(element, property, *property.length_type, true, length); !ok) return ok;
           if (length < 0.0) return error(element, fmt::format("a list of {} values; correct it", length));
         }
+        // A face needs its corners and their positions. Other numbers may be anything.
+        const bool is_needed = property.use <= Use::z || property.use == Use::corners;
         for (double i = 0.0; i < length; i += 1.0) {
           double value = 0.0;
-          if (Status ok = read_value(element, property, *property.type, value); !ok) return ok;
+          if (Status ok = read_value(element, property, *property.type, is_needed, value); !ok) return ok;
           if (property.use == Use::corners) {
             if (Status ok = add_corner(element, value); !ok) return ok;
           } else if (property.use != Use::none) {
@@ -336,8 +341,9 @@ class PlyReader {
   }
   /// An error at the current line or byte.
   Error error(std::string_view what) const {
-    return is_text_ ? lines_.error(what) : bad_input(fmt::format("{}: byte {}: {}", file_, at_, what));
+    return bad_input(fmt::format("{}: {}", place(), what));
   }
+  std::string place() const { return is_text_ ? lines_.place() : fmt::format("{}: byte {}", file_, at_); }
 
   /// Go to the next line that is not empty.
   bool next_line() {
@@ -358,14 +364,17 @@ class PlyReader {
                                         bytes_.size() - at_));
   }
 
-  /// Read the next number of this type. A number that is used is finite as a float.
-  Status read_value(const Element& element, const Property& property, const Type& type, double& value) {
+  /// Read the next number of this type. A number that is needed is finite as a float.
+  Status read_value(const Element& element, const Property& property, const Type& type, bool is_needed,
+                    double& value) {
     if (!is_text_) {
       if (bytes_.size() - at_ < type.size) return truncated(element);
       value = type.value_at(bytes_, at_, order_);
       // Half a unit above the largest float, the nearest float is infinite.
-      if (property.use != Use::none && type.is_real && !(std::abs(value) < 0x1.ffffffp127)) {
-        return error(element, fmt::format("{} is not finite, or too large; correct it", property.name));
+      if (type.is_real && !(std::abs(value) < 0x1.ffffffp127)) {
+        if (is_needed)
+          return error(element, fmt::format("{} is not finite, or too large; correct it", property.name));
+        value = c_unknown;
       }
       at_ += type.size;
       return Ok{};
@@ -373,14 +382,12 @@ class PlyReader {
     if (word_.empty()) {
       return error(element, fmt::format("{} is missing at the end of the line; add it", property.name));
     }
-    if (type.is_real) {
+    if (type.is_real || !is_needed) {
       float number = 0.0f;
       const NumberFault fault = read_number(word_, number);
-      const bool is_refused = property.use != Use::none || fault == NumberFault::not_a_number;
-      if (fault != NumberFault::none && is_refused) {
+      if (fault != NumberFault::none && is_needed)
         return error(element, fault_text(fault, word_) + "; correct the number");
-      }
-      value = static_cast<double>(number);
+      value = fault == NumberFault::none ? static_cast<double>(number) : c_unknown;
     } else {
       std::int64_t number = 0;
       const auto [end, fault] = std::from_chars(word_.data(), word_.data() + word_.size(), number);
@@ -415,7 +422,7 @@ class PlyReader {
     switch (element.kind) {
       case Kind::vertex:
         faces_.add_position({numbers[0], numbers[1], numbers[2]});
-        if (has_normals_) loaded_.mesh.normals.emplace_back(numbers[3], numbers[4], numbers[5]);
+        if (has_normals_) add_normal({numbers[3], numbers[4], numbers[5]});
         return Ok{};
       case Kind::face:
         return add_face(element, corners_);
@@ -427,8 +434,15 @@ class PlyReader {
     return Ok{};
   }
 
+  void add_normal(const glm::vec3& normal) {
+    const bool is_known = std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z);
+    if (!is_known) notes_.add(place(), "a normal is not three finite numbers; it is computed");
+    loaded_.mesh.normals.emplace_back(is_known ? normal : glm::vec3(0.0f));
+  }
+
   Status add_face(const Element& element, std::span<const FaceList::Corner> corners) {
-    if (const std::string fault = faces_.divide(corners); !fault.empty()) return error(element, fault);
+    const std::string fault = faces_.divide(corners, [&] { return place(); }, notes_);
+    if (!fault.empty()) return error(element, fault);
     faces_.append(0, loaded_.mesh);
     return Ok{};
   }
@@ -447,7 +461,7 @@ class PlyReader {
     return Ok{};
   }
 
-  void note(std::string_view what) { loaded_.notes.push_back(fmt::format("{}: {}", file_, what)); }
+  void note(std::string_view what) { notes_.add(file_, what); }
 
   std::string_view bytes_;
   std::string_view file_;
@@ -465,6 +479,7 @@ class PlyReader {
   std::vector<FaceList::Corner> corners_;  ///< of the current face or strip
   FaceList faces_;
   LoadedMesh loaded_;
+  Notes notes_;
 };
 
 }  // namespace

@@ -110,8 +110,7 @@ const std::vector<Spelling> c_ply_text = {
     // polygons
     {"notch", polygon("0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n"),
      "4,0,0 4,4,0 2,1,0; 2,1,0 0,4,0 0,0,0; 2,1,0 0,0,0 4,0,0"},
-    {"bow_tie", polygon("0 0 0\n4 4 0\n4 0 0\n0 4 0\n"),
-     "! a.ply:14: face 0: the outline of the face crosses itself; divide the face into triangles"},
+    {"bow_tie", polygon("0 0 0\n4 4 0\n4 0 0\n0 4 0\n"), "0,0,0 4,4,0 4,0,0; 0,0,0 4,0,0 0,4,0"},
     {"polygon_on_a_line", polygon("0 0 0\n1 1 1\n2 2 2\n3 3 3\n"),
      "! a.ply: no face of the mesh has any area; correct the vertices"},
     {"two_corners", face("2 0 1"), "! a.ply: the mesh has no faces; export it with faces"},
@@ -157,7 +156,9 @@ const std::vector<Spelling> c_ply_text = {
          "2 1 0 0 0\n3 0 1 0 1 -9\n255 3 0 1 2 6 0 0 1 0 .5 1\n0 1\n1 2\n",
      c_triangle},
     {"skipped_word",
-     changed(changed(c_plain, "end_header", "property char a\nend_header"), "3 0 1 2", "3 0 1 2 x"),
+     changed(changed(c_plain, "end_header", "property char a\nend_header"), "3 0 1 2", "3 0 1 2 x"), c_triangle},
+    {"length_of_a_skipped_list",
+     changed(changed(c_plain, "end_header", "property list char char a\nend_header"), "3 0 1 2", "3 0 1 2 x"),
      "! a.ply:14: face 0: 'x' is not an integer; correct it, or the type in the header"},
     {"not_ply", "plyx\n", "! a.ply:1: not a PLY file: its first line is not 'ply'; export it again"},
     {"no_format", changed(c_plain, "format ascii 1.0\n", ""),
@@ -206,9 +207,6 @@ const std::vector<Spelling> c_ply_text = {
     {"missing_z", changed(c_plain, "property float z\n", ""),
      "! a.ply:3: vertices have no property z; export the file again"},
     {"nameless", changed(c_plain, "float x", "float"), "! a.ply:4: a property without a name; give it one"},
-    {"normals_without_nz",
-     changed(c_plain, "element face", "property float nx\nproperty float ny\nelement face"),
-     "! a.ply:3: vertices have only a part of nx, ny and nz; give all three or none"},
     {"items_without_properties", changed(c_plain, "element vertex", "element nothing 50\nelement vertex"),
      "! a.ply:3: the 50 items of 'nothing' have no property; remove the element"},
 };
@@ -311,6 +309,19 @@ TEST(Ply, NormalsOfVerticesAreThoseOfTheirCorners) {
   EXPECT_EQ(normals_of(*loaded), "0.5,-0.5,1 0,0,2 0,0,0 ");
 }
 
+TEST(Ply, NormalsThatCannotBeReadAreComputed) {
+  const std::string text = c_header3 + "property float nx\nproperty float ny\nproperty double nz\n" + c_face1 +
+                           "0 0 0 0 nan 1\n1 0 0 -1.#IND 0 x\n0 1 0 0 0 1\n3 0 1 2\n";
+  const auto loaded = must(read_ply(text, "a.ply"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,1 ");
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{
+                              "a.ply:13: a normal is not three finite numbers; it is computed (2 times)"});
+  const auto part = must(read_ply(changed(text, "double nz", "double n"), "a.ply"));
+  EXPECT_EQ(normals_of(part), "0,0,0 0,0,0 0,0,0 ");
+  EXPECT_EQ(part.notes, std::vector<std::string>{
+                            "a.ply:3: vertices have only a part of nx, ny and nz; normals are computed"});
+}
+
 TEST(Ply, WithoutNormalsCornersHaveTheNormalZero) {
   const auto loaded = must(read_ply(c_plain, "a.ply"));
   EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 ");
@@ -330,8 +341,8 @@ TEST(Ply, NotesSayWhatIsLeftOut) {
   ASSERT_TRUE(loaded) << loaded.error().message;
   EXPECT_EQ(loaded->notes,
             (std::vector<std::string>{
-                "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out",
-                "a.ply: 1 points and lines left out", "a.ply: 1 faces without area left out"}));
+                "a.ply: 1 faces without area left out", "a.ply: 1 points and lines left out",
+                "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out"}));
 }
 
 TEST(Ply, MoreTrianglesThanTheLimitAreRefused) {

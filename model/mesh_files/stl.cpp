@@ -91,14 +91,15 @@ class TextReader {
       return lines_.error(fmt::format("more than {} triangles; reduce the mesh", c_max_triangles));
     }
     ++facets_;
-    if (Status ok = expect("normal"); !ok) return ok;
+    // Nothing reads the normal: skip its four words, or those of them that are there.
+    next_word();
+    for (int skipped = 0; skipped < 4 && !is("outer") && !word_.empty(); ++skipped) next_word();
+    if (!is("outer")) return wanted("'outer'");
     glm::vec3 numbers;
-    if (Status ok = read_numbers(numbers, true); !ok) return ok;
-    if (Status ok = expect("outer"); !ok) return ok;
     if (Status ok = expect("loop"); !ok) return ok;
     for (int corner = 0; corner < 3; ++corner) {
       if (Status ok = expect("vertex"); !ok) return ok;
-      if (Status ok = read_numbers(numbers, false); !ok) return ok;
+      if (Status ok = read_numbers(numbers); !ok) return ok;
       add_corner(loaded_.mesh, numbers);
     }
     next_word();
@@ -110,12 +111,12 @@ class TextReader {
     return expect("endfacet");
   }
 
-  Status read_numbers(glm::vec3& numbers, bool may_be_infinite) {
+  Status read_numbers(glm::vec3& numbers) {
     for (int axis = 0; axis < 3; ++axis) {
       next_word();
       if (word_.empty()) return wanted("a number");
       const NumberFault fault = read_number(word_, numbers[axis]);
-      if (fault == NumberFault::none || (fault == NumberFault::not_finite && may_be_infinite)) continue;
+      if (fault == NumberFault::none) continue;
       return lines_.error(fmt::format("facet {}: {}; correct the number", facets_, fault_text(fault, word_)));
     }
     return Ok{};

@@ -18,8 +18,8 @@ namespace halfway {
 /// Coordinates are floats (mesh_files/number.hpp).
 /// Binary: a coordinate that is not finite is refused with its facet and byte.
 ///
-/// Normals of facets are not used: text must have three numbers there, of which any may be NaN, as of facets
-/// without area. Colours of binary facets are left out with a note. The mesh gets one default material.
+/// Normals of facets are not used: any words may stand there, or none. Colours of binary facets are left out
+/// with a note. The mesh gets one default material.
 Result<LoadedMesh> read_stl(std::string_view bytes, std::string_view file);
 
 }  // namespace halfway

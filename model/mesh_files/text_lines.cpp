@@ -60,8 +60,12 @@ std::string_view TextLines::rest() {
   return text_.substr(first, last - first);
 }
 
+std::string TextLines::place() const {
+  return std::string(file_) + ":" + std::to_string(line_);
+}
+
 Error TextLines::error(std::string_view what) const {
-  return bad_input(std::string(file_) + ":" + std::to_string(line_) + ": " + std::string(what));
+  return bad_input(place() + ": " + std::string(what));
 }
 
 /// True for a backslash before a line end.

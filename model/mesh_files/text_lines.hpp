@@ -30,6 +30,8 @@ class TextLines {
   std::string_view rest();
   /// The number of the line, from 1; of joined lines the first.
   std::uint64_t line() const { return line_; }
+  /// `file:line`.
+  std::string place() const;
   /// An error at the line: `file:line: what`.
   Error error(std::string_view what) const;
 

@@ -7,20 +7,22 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "mesh_files/bytes.hpp"
+#include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
 #include "sim/os/file.hpp"
 
@@ -293,13 +295,14 @@ class GltfReader {
     read_nodes();
     if (loaded_.mesh.triangles.empty()) throw BadGltf{"the mesh has no faces; export it with faces"};
     if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
-    loaded_.notes.assign(notes_.begin(), notes_.end());
+    loaded_.notes = notes_.list();
     join_positions(loaded_.mesh);
     return std::move(loaded_);
   }
 
  private:
-  void note(std::string_view what) { notes_.insert(fmt::format("{}: {}", name_, what)); }
+  void note(std::string_view what) { notes_.add(name_, what); }
+  void note(const Item& item, std::string_view what) { notes_.add(name_ + ": " + item.place(), what); }
 
   void check_asset() const {
     const std::string version = root_.object("asset").at("version").text();
@@ -337,8 +340,11 @@ class GltfReader {
       if (is_read[next.node]) node.fail("is reached twice; export the file with a tree of nodes");
       is_read[next.node] = true;
       const glm::dmat4 to_file = next.to_file * transform_of(node);
-      if (node.has("skin")) note("bones are omitted: the mesh is in its bind pose");
-      if (node.has("mesh")) add_mesh(meshes_[node.at("mesh").index(meshes_.size())], node, to_file);
+      if (node.has("skin")) note(node, "bones are omitted: the mesh is in its bind pose");
+      // The transform of a node with a skin does not move its mesh.
+      if (node.has("mesh"))
+        add_mesh(meshes_[node.at("mesh").index(meshes_.size())], node,
+                 node.has("skin") ? glm::dmat4(1.0) : to_file);
       const std::vector<Item> children = node.list("children");
       for (std::size_t i = children.size(); i-- > 0;) {
         pending.push_back({children[i].index(nodes_.size()), to_file});
@@ -362,7 +368,7 @@ class GltfReader {
     return roots;
   }
 
-  static glm::dmat4 transform_of(const Item& node) {
+  glm::dmat4 transform_of(const Item& node) {
     if (node.has("matrix")) {
       if (node.has("translation") || node.has("rotation") || node.has("scale")) {
         node.fail("has both a matrix and translation, rotation or scale; remove one");
@@ -370,10 +376,13 @@ class GltfReader {
       const auto m = node.numbers<16>("matrix");
       glm::dmat4 matrix;
       for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
-      if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
+      // The row may be rounded, as floats of a file are.
+      constexpr double c_rounding = 1e-5;
+      if (glm::any(glm::greaterThan(glm::abs(glm::row(matrix, 3) - glm::dvec4(0, 0, 0, 1)),
+                                    glm::dvec4(c_rounding)))) {
         node.at("matrix").fail("its last row is not 0 0 0 1; export the file again");
       }
-      return matrix;
+      return glm::row(matrix, 3, glm::dvec4(0, 0, 0, 1));
     }
     glm::dmat4 matrix(1.0);
     if (node.has("translation")) {
@@ -384,10 +393,9 @@ class GltfReader {
       const auto r = node.numbers<4>("rotation");
       const glm::dquat rotation(r[3], r[0], r[1], r[2]);
       const double length = glm::length(rotation);
-      if (!(std::abs(length - 1.0) < 0.01)) {
-        node.at("rotation").fail(fmt::format("has the length {}, not 1; correct it", length));
-      }
-      matrix *= glm::mat4_cast(rotation / length);
+      if (!(std::abs(length - 1.0) < 0.01))
+        note(node, "its rotation does not have the length 1; only its direction is used");
+      if (length > 0.0) matrix *= glm::mat4_cast(rotation / length);
     }
     if (node.has("scale")) {
       const auto s = node.numbers<3>("scale");
@@ -404,11 +412,13 @@ class GltfReader {
       Mesh part = read_primitive(primitive);
       if (part.triangles.empty()) continue;
       if (to_file != glm::dmat4(1.0)) {
-        const double volume = glm::determinant(to_file);
-        if (!std::isfinite(volume) || volume == 0.0) {
-          node.fail("its transform has no inverse; correct its scale, or remove the node");
+        if (glm::determinant(glm::dmat3(to_file)) == 0.0) {
+          // A flat node has triangles, but the directions of its normals are lost.
+          part.normals.assign(part.normals.size(), glm::dvec3(0.0));
+          note(node, "its transform has a scale of zero: it is flat, or not drawn");
         }
         transform(part, to_file);
+        if (drop_zero_area(part) > 0) note(node, "triangles without area are left out");
         for (const glm::dvec3& p : part.positions) {
           constexpr double c_largest = std::numeric_limits<float>::max();
           for (int axis = 0; axis < 3; ++axis) {
@@ -428,17 +438,19 @@ class GltfReader {
     const std::uint64_t mode = primitive.unsigned_number("mode", 4);
     if (mode > 6) primitive.at("mode").fail(fmt::format("{} is not a mode of glTF; correct it", mode));
     const Item attributes = primitive.object("attributes");
-    if (!attributes.has("POSITION")) return part;  // as the specification requires
-    const auto positions = read_vectors(attributes.at("POSITION"));
-    const bool has_normals = attributes.has("NORMAL");
-    if (attributes.has("COLOR_0")) note("vertex colours are left out");
-    if (attributes.has("JOINTS_0")) note("bones are omitted: the mesh is in its bind pose");
-    if (primitive.has("targets")) note("morph targets are left out");
-    const std::vector<std::uint32_t> corners = read_corners(primitive, positions.size());
     if (mode < 4) {
       ++points_and_lines_;
       return part;
     }
+    if (!attributes.has("POSITION")) {
+      note(primitive, "without POSITION it is not drawn");
+      return part;
+    }
+    const auto positions = read_vectors(attributes.at("POSITION"), true);
+    const bool has_normals = attributes.has("NORMAL");
+    if (attributes.has("COLOR_0")) note(primitive, "vertex colours are left out");
+    if (primitive.has("targets")) note(primitive, "morph targets are left out");
+    const std::vector<std::uint32_t> corners = read_corners(primitive, positions.size());
 
     vertices_ += positions.size();
     if (vertices_ > c_max_vertices) {
@@ -447,7 +459,7 @@ class GltfReader {
     part.positions = positions;
     part.normals.emplace_back(0.0);
     if (has_normals) {
-      part.normals = read_vectors(attributes.at("NORMAL"));
+      part.normals = read_vectors(attributes.at("NORMAL"), false);
       if (part.normals.size() != positions.size()) {
         attributes.at("NORMAL").fail(fmt::format("has {} normals for {} positions; export the file again",
                                                  part.normals.size(), positions.size()));
@@ -618,8 +630,8 @@ class GltfReader {
     }
   }
 
-  /// Read vectors of three floats.
-  std::vector<glm::dvec3> read_vectors(const Item& index) {
+  /// Read vectors of three floats. Those that are not needed may have other values; they are zero.
+  std::vector<glm::dvec3> read_vectors(const Item& index, bool is_needed) {
     const Accessor source = accessor(index, "VEC3");
     if (source.component_type != c_float) {
       source.item.at("componentType")
@@ -630,13 +642,17 @@ class GltfReader {
     // Without a buffer view the values are zero.
     std::vector<glm::dvec3> vectors(source.count, glm::dvec3(0.0));
     const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto value = number_in<float>(span.bytes, i * span.stride + 4 * axis, ByteOrder::little);
-        if (!std::isfinite(value)) {
+      glm::vec3 vector;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        vector[static_cast<int>(axis)] =
+            number_in<float>(span.bytes, i * span.stride + 4 * axis, ByteOrder::little);
+      if (!std::isfinite(vector.x) || !std::isfinite(vector.y) || !std::isfinite(vector.z)) {
+        if (is_needed)
           source.item.fail(fmt::format("vector {} has a number that is not finite; correct it", place));
-        }
-        vectors[place][static_cast<int>(axis)] = static_cast<double>(value);
+        note(index, "a normal is not three finite numbers; it is computed");
+        vector = glm::vec3(0.0f);
       }
+      vectors[place] = vector;
     };
     if (source.item.has("bufferView")) {
       const Span span = span_of(source.item, source.count, c_bytes, true);
@@ -679,14 +695,26 @@ class GltfReader {
   /// The index of a primitive's material. A material gets its index when the first primitive uses it.
   std::uint32_t material_of(const Item& primitive) {
     std::optional<std::size_t> source;
-    if (primitive.has("material")) source = primitive.at("material").index(materials_.size());
+    try {
+      if (primitive.has("material")) source = primitive.at("material").index(materials_.size());
+    } catch (const BadGltf& bad) {
+      note(bad.what + "; it has the default material");
+    }
     const auto next = static_cast<std::uint32_t>(loaded_.mesh.materials.size());
     const auto [entry, is_new] = material_index_.try_emplace(source, next);
     if (is_new) {
-      loaded_.mesh.materials.push_back(source ? read_material(materials_[*source], "")
-                                              : read_material(Item(no_keys(), "material"), "default"));
+      loaded_.mesh.materials.push_back(source ? material_or_default(materials_[*source]) : no_material());
     }
     return entry->second;
+  }
+  Material no_material() { return read_material(Item(no_keys(), "material"), "default"); }
+  Material material_or_default(const Item& source) {
+    try {
+      return read_material(source, "");
+    } catch (const BadGltf& bad) {
+      note(bad.what + "; it is the default material");
+      return no_material();
+    }
   }
 
   Culling culling_of(const Item& primitive) const {
@@ -725,11 +753,12 @@ class GltfReader {
     }
     return material;
   }
-  static double factor(const Item& look, const char* key) {
+  double factor(const Item& look, const char* key) {
+    constexpr double c_rounding = 1e-5;
     const double value = look.number(key, 1.0);
-    if (value < 0.0 || value > 1.0)
-      look.at(key).fail(fmt::format("{} is not from 0 to 1; correct it", value));
-    return value;
+    if (value < -c_rounding || value > 1.0 + c_rounding)
+      note(look.at(key), fmt::format("{} is limited to 0 to 1", value));
+    return std::clamp(value, 0.0, 1.0);
   }
 
   Item root_;
@@ -741,7 +770,7 @@ class GltfReader {
   std::vector<std::optional<std::string>> buffer_bytes_;  ///< of buffers with a uri, once they are read
   std::map<std::optional<std::size_t>, std::uint32_t> material_index_;
   LoadedMesh loaded_;
-  std::set<std::string> notes_;
+  Notes notes_;
   std::uint64_t points_and_lines_ = 0, vertices_ = 0, triangles_ = 0;
 };
 

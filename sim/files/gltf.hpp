@@ -20,7 +20,7 @@ namespace halfway {
 /// below.
 /// Materials: the base colour is the colour; a roughness r gives the exponent 2 / r^4 - 2, at least 1, and
 /// the factor 1 - r on k_s; the highlight of a metal has its colour. Other values are those of the default
-/// material.
+/// material. A material that cannot be read is the default one, with a note.
 /// Left out with a note: points and lines, textures, colours of vertices, bones (the mesh is in its bind
 /// pose), morph targets. Extensions that change vertices are refused.
 Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path& path);

@@ -178,12 +178,17 @@ const std::vector<Spelling> c_spellings = {
      "1,1,0 2,1,0 1,2,0"},
     {"translation_of_two", with({{"/nodes/0/translation", {1, 2}}}),
      "! a.gltf: nodes[0].translation: has 2 numbers, not 3; correct it"},
-    {"scale_0", with({{"/nodes/0/scale", {1, 0, 1}}}),
-     "! a.gltf: nodes[0]: its transform has no inverse; correct its scale, or remove the node"},
+    {"scale_0", with({{"/nodes/0/scale", {0, 0, 0}}}), "! a.gltf: the mesh has no faces; export it with faces"},
+    {"flat", with({{"/nodes/0/scale", {1, 2, 0}}}), "0,0,0 1,0,0 0,2,0"},
+    {"matrix_rounded", with({{"/nodes/0/matrix", {1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99999994}}}),
+     c_triangle},
     {"translation_huge", with({{"/nodes/0/translation", {1e300, 0, 0}}}),
      "! a.gltf: nodes[0]: its transform moves a vertex beyond the range of float; correct it"},
-    {"rotation_0", with({{"/nodes/0/rotation", {0, 0, 0, 0}}}),
-     "! a.gltf: nodes[0].rotation: has the length 0, not 1; correct it"},
+    {"rotation_0", with({{"/nodes/0/rotation", {0, 0, 0, 0}}}), c_triangle},
+    {"rotation_of_length_2", with({{"/nodes/0/rotation", {0, 0, 2, 0}}}), "0,0,0 -1,0,0 0,-1,0"},
+    {"skinned_node_is_moved",
+     with({{"/nodes/0/skin", 0}, {"/nodes/0/translation", {9, 9, 0}}, {"/skins", json::parse(R"([{"joints":[0]}])")}}),
+     c_triangle},
     {"perspective", with({{"/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
      "! a.gltf: nodes[0].matrix: its last row is not 0 0 0 1; export the file again"},
     {"node_in_a_circle", with({{"/nodes/0/children", {0}}}),
@@ -207,10 +212,6 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: extensionsRequired[0]: 'KHR_draco_mesh_compression' cannot be read; export the file without "
      "it"},
     {"unlit", with({{"/extensionsRequired", {"KHR_materials_unlit"}}}), c_triangle},
-    {"roughness_2",
-     with({{"/meshes/0/primitives/0/material", 0},
-           {"/materials", json::parse(R"([{"pbrMetallicRoughness":{"roughnessFactor":2}}])")}}),
-     "! a.gltf: materials[0].pbrMetallicRoughness.roughnessFactor: 2 is not from 0 to 1; correct it"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, GltfSpelling, ::testing::ValuesIn(c_spellings), [](const auto& test) {
@@ -284,7 +285,7 @@ TEST(Gltf, NotesSayWhatIsLeftOut) {
   const auto loaded =
       read_gltf(with({{"/meshes/0/primitives/1", json::parse(R"({"attributes":{"POSITION":0},"mode":0})")},
                       {"/meshes/0/primitives/0/attributes/COLOR_0", 0},
-                      {"/meshes/0/primitives/0/attributes/JOINTS_0", 0},
+                      {"/nodes/0/skin", 0},
                       {"/meshes/0/primitives/0/targets", json::array()},
                       {"/meshes/0/primitives/0/material", 0},
                       {"/materials", json::parse(R"([{"name":"m","normalTexture":{"index":0},
@@ -293,11 +294,61 @@ TEST(Gltf, NotesSayWhatIsLeftOut) {
   ASSERT_TRUE(loaded) << loaded.error().message;
   ASSERT_EQ(loaded->notes.size(), 6u);
   EXPECT_EQ(loaded->notes[0], "a.gltf: 1 points and lines left out");
-  EXPECT_EQ(loaded->notes[1], "a.gltf: bones are omitted: the mesh is in its bind pose");
+  EXPECT_EQ(loaded->notes[1], "a.gltf: nodes[0]: bones are omitted: the mesh is in its bind pose");
   EXPECT_TRUE(loaded->notes[2].starts_with("a.gltf: material 'm': exponent 0.45")) << loaded->notes[2];
   EXPECT_EQ(loaded->notes[3], "a.gltf: material 'm': textures are left out");
-  EXPECT_EQ(loaded->notes[4], "a.gltf: morph targets are left out");
-  EXPECT_EQ(loaded->notes[5], "a.gltf: vertex colours are left out");
+  EXPECT_EQ(loaded->notes[4], "a.gltf: meshes[0].primitives[0]: morph targets are left out");
+  EXPECT_EQ(loaded->notes[5], "a.gltf: meshes[0].primitives[0]: vertex colours are left out");
+}
+
+using TextList = std::vector<std::string>;
+
+TEST(Gltf, ANodeOfScaleZeroLeavesTheOthers) {
+  const auto nodes = json::parse(R"([{"mesh":0},{"mesh":0,"scale":[0,0,0]}])");
+  const auto loaded = must(read_gltf(with({{"/nodes", nodes}, {"/scenes/0/nodes", {0, 1}}}), "a.gltf"));
+  EXPECT_EQ(triangles_of(loaded), c_triangle);
+  EXPECT_EQ(loaded.notes, (TextList{"a.gltf: nodes[1]: its transform has a scale of zero: it is flat, or not drawn",
+                                    "a.gltf: nodes[1]: triangles without area are left out"}));
+}
+
+/// The only material of a file with this one.
+LoadedMesh with_material(const json& material, const json& index = 0) {
+  return must(read_gltf(with({{"/meshes/0/primitives/0/material", index}, {"/materials", json::array({material})}}),
+                        "a.gltf"));
+}
+
+TEST(Gltf, AMaterialThatCannotBeReadIsTheDefault) {
+  const auto wrong = json::parse(R"({"name":"m","pbrMetallicRoughness":{"baseColorFactor":[1,0,-1,1]}})");
+  for (const auto& [loaded, note] :
+       {std::pair(with_material(wrong), "materials[0].pbrMetallicRoughness.baseColorFactor: is negative; correct "
+                                        "the colour; it is the default material"),
+        std::pair(with_material(json::object(), 7), "meshes[0].primitives[0].material: is 7, but the file has 1, "
+                                                    "counted from 0; correct the index; it has the default material")}) {
+    EXPECT_EQ(loaded.mesh.materials.at(0).name, "default");
+    EXPECT_EQ(loaded.notes, TextList{std::string("a.gltf: ") + note});
+  }
+}
+
+TEST(Gltf, FactorsAreLimited) {
+  const auto rounded = with_material(json::parse(R"({"pbrMetallicRoughness":{"roughnessFactor":1.0000001}})"));
+  EXPECT_EQ(rounded.mesh.materials.at(0).specular, 0.0);
+  EXPECT_EQ(rounded.notes, TextList{});
+  EXPECT_EQ(with_material(json::parse(R"({"pbrMetallicRoughness":{"roughnessFactor":2}})")).notes,
+            TextList{"a.gltf: materials[0].pbrMetallicRoughness.roughnessFactor: 2 is limited to 0 to 1"});
+}
+
+TEST(Gltf, ANormalThatIsNotFiniteIsComputed) {
+  const auto loaded = must(read_gltf(
+      with({{"/meshes/0/primitives/0/attributes/NORMAL", 2},
+            {"/accessors/2", json::parse(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":)" +
+                                         changed(c_sparse.dump(), "\"bufferView\":3", "\"bufferView\":4") + "}")},
+            {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":12})")},
+            {"/buffers/1", {{"byteLength", 12},
+                            {"uri", "data:;base64," + base64(std::string(11, '\xff') + '\x7f')}}}}),
+      "a.gltf"));
+  EXPECT_EQ(normals_of(loaded), "0,0,0 1,0,0 0,0,0 ");
+  EXPECT_EQ(loaded.notes, TextList{"a.gltf: meshes[0].primitives[0].attributes.NORMAL: a normal is not three "
+                                   "finite numbers; it is computed"});
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a reader of mesh files left out or changed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace halfway {
+
+/// One note for each kind of thing, with its first place and its count.
+class Notes {
+ public:
+  /// Count a thing. `place` is the file, with the line or object if it is known.
+  void add(std::string_view place, std::string_view what) {
+    if (notes_.size() >= c_most) what = "more is left out";
+    const auto found = notes_.find(what);
+    if (found == notes_.end())
+      notes_.emplace(what, Note{.first_place = std::string(place)});
+    else
+      ++found->second.count;
+  }
+  /// "place: what", and the count if it is not 1.
+  std::vector<std::string> list() const {
+    std::vector<std::string> list;
+    for (const auto& [what, note] : notes_) {
+      list.push_back(note.first_place + ": " + what);
+      if (note.count > 1) list.back() += " (" + std::to_string(note.count) + " times)";
+    }
+    return list;
+  }
+
+ private:
+  static constexpr std::size_t c_most = 100;  ///< a damaged file may have any number of kinds
+  struct Note {
+    std::string first_place;
+    std::uint64_t count = 1;
+  };
+  std::map<std::string, Note, std::less<>> notes_;
+};
+
+}  // namespace halfway
