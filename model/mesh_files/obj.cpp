@@ -23,7 +23,10 @@ namespace {
 constexpr std::uint32_t c_none = UINT32_MAX;
 
 constexpr std::string_view c_without_effect[] = {
-    "g", "o", "s", "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "vp"};
+    "s", "mg", "lod", "bevel", "c_interp", "d_interp", "vp"};
+/// Keywords before a name: it goes up to the end of the line, and a backslash at its end belongs to it.
+constexpr std::string_view c_names[] = {"g",      "o",      "usemtl",     "mtllib",
+                                        "usemap", "maplib", "shadow_obj", "trace_obj"};
 constexpr std::string_view c_curves[] = {"cstype", "deg",   "bmat", "step", "curv", "curv2", "surf",
                                          "parm",   "trim",  "hole", "scrv", "sp",   "end",   "con",
                                          "ctech",  "stech", "bsp",  "bzp",  "cdc",  "cdp",   "res"};
@@ -91,10 +94,11 @@ class ObjReader {
         ok = read_normal(lines);
       } else if (keyword == "vt") {
         ++texel_.all;
-      } else if (keyword == "usemtl") {
-        uses_material = true;
       } else if (keyword == "mtllib") {
         read_libraries(lines);
+      } else if (contains(c_names, keyword)) {
+        uses_material |= keyword == "usemtl";
+        lines.rest();
       }
       if (!ok) return ok;
     }
@@ -194,11 +198,14 @@ class ObjReader {
       } else if (keyword == "usemtl") {
         material_name_ = lines.rest();
         material_ = c_none;
-      } else if (contains(c_curves, keyword)) {
-        notes_.add(lines.place(), "curves and surfaces are left out");
       } else if (contains(c_textures, keyword)) {
         notes_.add(lines.place(), "textures are left out");
-      } else if (!keyword.empty() && keyword != "mtllib" && !contains(c_without_effect, keyword)) {
+        lines.rest();
+      } else if (contains(c_names, keyword)) {
+        lines.rest();
+      } else if (contains(c_curves, keyword)) {
+        notes_.add(lines.place(), "curves and surfaces are left out");
+      } else if (!keyword.empty() && !contains(c_without_effect, keyword)) {
         ok = lines.error(quoted(keyword) + " is not a keyword of OBJ; correct or remove the line");
       }
       if (!ok) return ok;

@@ -74,6 +74,14 @@ const std::vector<Spelling> c_obj_text = {
     {"zero_byte", c_three + std::string("f 1 2 3\n\0\n", 10),
      "! a.obj:5: '?' is not a keyword of OBJ; correct or remove the line"},
 
+    {"object_name_ends_in_backslash", "v 0 1 0\no D:\\parts\\\nv 0 0 0\nv 2 0 0\nv 2 1 0\nf -3 -2 -1\n",
+     "0,0,0 2,0,0 2,1,0"},
+    {"group_name_ends_in_backslash", "g a\\\nv 9 9 0\n" + c_three + "f 2 3 4\n", c_triangle},
+    {"other_names_end_in_backslash",
+     "mtllib a\\\nv 9 9 0\r\nusemtl a\\\r\nusemap a\\\nv 0 0 0\rtrace_obj a\\\rv 1 0 0\n#\\\nv 0 1 0\n"
+     "g a #\\\nf 2 3 4\n",
+     c_triangle},
+
     // keywords
     {"groups", "o a\ng b c\ns off\nmg 1 2\nlod 1\n" + c_three + "s 1\ng\nf 1 2 3\n", c_triangle},
     {"unknown_keyword", c_three + "vv 1 2 3\n",
@@ -236,6 +244,14 @@ TEST(Obj, NamesMayHaveBlanksAndNumberSigns) {
   EXPECT_EQ(loaded->mesh.materials[0].name, "red brick #1");
   EXPECT_EQ(loaded->mesh.materials[1].name, "b");
   EXPECT_TRUE(loaded->notes.empty());
+}
+
+TEST(Obj, ABackslashAtTheEndBelongsToAName) {
+  const auto loaded = must(read("mtllib C:\\m\\\n" + c_three + "usemtl a\\\nf 1 2 3\n",
+                                {{"C:\\m\\", "newmtl a\\\nmap_Kd C:\\\nKd 0 0 1\n# c:\\\nKs 1 \\\n0 0\n"}}));
+  EXPECT_EQ(loaded.mesh.materials.at(0).name, "a\\");
+  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0, 0, 1));
+  EXPECT_EQ(loaded.mesh.materials.at(0).specular_colour, glm::dvec3(1, 0, 0));
 }
 
 TEST(Obj, ALineMayNameSeveralLibraries) {
