@@ -114,20 +114,21 @@ class ObjReader {
 
   Status read_position(TextLines& lines) {
     if (Status ok = count_item(lines, position_); !ok) return ok;
-    std::array<float, 6> v{};
+    std::array<float, 4> v{};
     int count = 0;
     for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
       float value = 0.0f;
-      if (const NumberFault fault = read_number(word, value); fault != NumberFault::none) {
+      const NumberFault fault = read_number(word, value);
+      if (fault == NumberFault::not_a_number || (fault != NumberFault::none && count < 3)) {
         return lines.error(
             fmt::format("vertex {}: {}; correct the coordinate", position_.all, fault_text(fault, word)));
       }
-      if (count < 6) v[static_cast<std::size_t>(count)] = value;
+      if (count < 4) v[static_cast<std::size_t>(count)] = fault == NumberFault::none ? value : 0.0f;
       ++count;
     }
-    if (count != 3 && count != 4 && count != 6)
+    if (count < 3 || count == 5)
       return lines.error(
-          fmt::format("vertex {} has {} numbers; it must have 3, 4 or 6", position_.all, count));
+          fmt::format("vertex {} has {} numbers; it must have 3, 4, 6 or 7", position_.all, count));
     if (count == 4) {
       if (v[3] == 0.0f) {
         return lines.error(
@@ -140,7 +141,7 @@ class ObjReader {
         }
       }
     }
-    if (count == 6) notes_.add(lines.place(), "vertex colours are left out");
+    if (count >= 6) notes_.add(lines.place(), "vertex colours are left out");
     faces_.add_position({v[0], v[1], v[2]});
     return Ok{};
   }
@@ -225,7 +226,7 @@ class ObjReader {
   }
 
   /// Read vertex/texture/normal, of which all but the first may be missing.
-  Result<Corner> read_corner(const TextLines& lines, std::string_view word) const {
+  Result<Corner> read_corner(const TextLines& lines, std::string_view word) {
     std::array<std::uint32_t, 3> indices{};  // from 1; 0: none
     const Field* const fields[] = {&position_, &texel_, &normal_};
     std::string_view left = word;
@@ -239,6 +240,10 @@ class ObjReader {
       }
       if (part.empty()) continue;
       const Result<std::uint32_t> index = read_index(lines, *fields[i], part, word);
+      if (!index && i == 1) {  // Nothing reads texture coordinates.
+        notes_.add(lines.place(), "a corner names a texture coordinate that the file does not have");
+        continue;
+      }
       if (!index) return index.error();
       indices[i] = *index;
     }

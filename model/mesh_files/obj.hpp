@@ -24,7 +24,7 @@ using ReadLibrary = std::function<MaterialLibrary(std::string_view name)>;
 ///
 /// Every word of v, f, l and p is checked, and a keyword that OBJ does not have is refused: after a dropped
 /// line all indices would be wrong. A normal that cannot be read is computed; texture coordinates are not read. Numbers are floats (mesh_files/number.hpp). A vertex has 3
-/// numbers, or 4, of which the last divides the others, or 6, of which the last three are a colour. Indices
+/// numbers, or 4, of which the last divides the others, or 6 and more, with a colour. Indices
 /// may be negative, or name vertices of later lines. Faces are divided as in mesh_files/triangulate.hpp. A
 /// corner without a normal gets the normal 0. Positions are in the order in which the faces use them,
 /// triangles in the order of the file.

@@ -53,8 +53,11 @@ const std::vector<Spelling> c_obj_text = {
     {"weight_too_small", "v 1 0 0\nv 1e30 0 0 1e-30\n",
      "! a.obj:2: vertex 2 is too large; correct the coordinate"},
     {"colours", "v 0 0 0 .5 .25 1\nv 1 0 0 1 1 1\nv 0 1 0 0 0 0\nf 1 2 3\n", c_triangle},
-    {"two_coordinates", "v 0 0 0\nv 1 0\n", "! a.obj:2: vertex 2 has 2 numbers; it must have 3, 4 or 6"},
-    {"seven_numbers", "v 0 0 0 1 1 1 1\n", "! a.obj:1: vertex 1 has 7 numbers; it must have 3, 4 or 6"},
+    {"two_coordinates", "v 0 0 0\nv 1 0\n", "! a.obj:2: vertex 2 has 2 numbers; it must have 3, 4, 6 or 7"},
+    {"five_numbers", "v 0 0 0 1 1\n", "! a.obj:1: vertex 1 has 5 numbers; it must have 3, 4, 6 or 7"},
+    {"seven_numbers", "v 0 0 0 1 1 1 .5\nv 1 0 0 nan inf -1.#IND 9\nv 0 1 0 0 0 0 0\nf 1 2 3\n", c_triangle},
+    {"colour_of_words", "v 0 0 0 1 1 v\n", "! a.obj:1: vertex 1: 'v' is not a number; correct the coordinate"},
+    {"weight_nan", "v 0 0 0 nan\n", "! a.obj:1: vertex 1 has the weight zero; correct the coordinate"},
     {"texture_of_dots", "vt .5 .5\nvt .5\nvt .5 .5 0.\n" + c_three + "f 1/1 2/2 3/3\n", c_triangle},
 
     // lines
@@ -107,8 +110,8 @@ const std::vector<Spelling> c_obj_text = {
      "! a.obj:4: a face names vertex 99999999999999999999, but the file has 3; correct the index"},
     {"least_64_bits", c_three + "f 1 2 -9223372036854775808\n",
      "! a.obj:4: a face names vertex -9223372036854775808, but the file has 3 so far; correct the index"},
-    {"texture_beyond", c_three + "vt 0\nf 1/1 2/2 3/1\n",
-     "! a.obj:5: a face names texture coordinate 2, but the file has 1; correct the index"},
+    {"texture_beyond", c_three + "vt 0\nf 1/1 2/2 3/-2\n", c_triangle},
+    {"texture_missing", "vn 0 0 1\n" + c_three + "f 1/1/1 2/1/1 3/1/1\n", c_triangle},
     {"normal_beyond", c_three + "f 1//1 2//1 3//1\n",
      "! a.obj:4: a face names normal 1, but the file has 0; correct the index"},
     {"all_three", "vt 0\nvn 0 0 1\n" + c_three + "f 1/1/1 2/1/1 3/1/1\n", c_triangle},
@@ -162,6 +165,9 @@ TEST(Obj, NotesSayWhatIsLeftOut) {
                 "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
                 "a.obj:9: curves and surfaces are left out (3 times)", "a.obj:1: textures are left out",
                 "a.obj:2: vertex colours are left out"}));
+  EXPECT_EQ(must(read(c_three + "f 1/1 2/7 3/-1\n")).notes,
+            std::vector<std::string>{
+                "a.obj:4: a corner names a texture coordinate that the file does not have (3 times)"});
 }
 
 TEST(Obj, AnOutlineThatCrossesItselfIsAFan) {

@@ -80,6 +80,12 @@ std::size_t index_in(const std::string_view (&words)[N], std::string_view word) 
   return static_cast<std::size_t>(std::find(std::begin(words), std::end(words), word) - std::begin(words));
 }
 
+/// The word without a point and zeros at its end.
+std::string_view without_zeros(std::string_view word) {
+  const std::size_t point = std::min(word.find('.'), word.size());
+  return word.find_first_not_of('0', point + 1) == std::string_view::npos ? word.substr(0, point) : word;
+}
+
 struct Property {
   std::string_view name;
   const Type* type = nullptr;
@@ -177,7 +183,7 @@ class PlyReader {
 
   Status read_element_line() {
     Element element{.name = lines_.word(), .line = lines_.line()};
-    const std::string_view count = lines_.word();
+    const std::string_view count = integer_of(lines_.word());
     const auto [end, fault] = std::from_chars(count.data(), count.data() + count.size(), element.count);
     if (fault != std::errc() || end != count.data() + count.size()) {
       return lines_.error(quoted(count) + " is not a count of items; correct it");
@@ -200,6 +206,11 @@ class PlyReader {
     }
     elements_.push_back(std::move(element));
     return Ok{};
+  }
+  std::string_view integer_of(std::string_view word) {
+    const std::string_view integer = without_zeros(word);
+    if (integer != word) notes_.add(lines_.place(), "an integer is written with a point");
+    return integer;
   }
   bool has_element(std::string_view name) const {
     return std::any_of(elements_.begin(), elements_.end(),
@@ -357,6 +368,10 @@ class PlyReader {
   }
   Status check_end() {
     if (is_text_ ? !next_line() : at_ == bytes_.size()) return Ok{};
+    if (!is_text_ && bytes_.find_first_not_of("\r\n", at_) == std::string_view::npos) {
+      notes_.add(place(), "line ends after the last element are left out");
+      return Ok{};
+    }
     return error(is_text_ ? quoted(word_) +
                                 " follows the last element; correct the counts in the header, or remove it"
                           : fmt::format("{} bytes follow the last element; correct the counts in the header, "
@@ -390,8 +405,9 @@ class PlyReader {
       value = fault == NumberFault::none ? static_cast<double>(number) : c_unknown;
     } else {
       std::int64_t number = 0;
-      const auto [end, fault] = std::from_chars(word_.data(), word_.data() + word_.size(), number);
-      if (fault == std::errc::invalid_argument || end != word_.data() + word_.size()) {
+      const std::string_view word = integer_of(word_);
+      const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
+      if (fault == std::errc::invalid_argument || end != word.data() + word.size()) {
         return error(element, quoted(word_) + " is not an integer; correct it, or the type in the header");
       }
       if (fault != std::errc() || number < type.least || number > type.greatest) {

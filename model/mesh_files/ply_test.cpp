@@ -95,6 +95,7 @@ const std::vector<Spelling> c_ply_text = {
 
     // indices
     {"vertex_index", changed(c_plain, "vertex_indices", "vertex_index"), c_triangle},
+    {"integers_with_a_point", changed(face("3.0 0. 1.00 2"), "vertex 3", "vertex 3.0"), c_triangle},
     {"index_1.5", face("3 0 1.5 2"),
      "! a.ply:13: face 0: '1.5' is not an integer; correct it, or the type in the header"},
     {"index_negative", face("3 0 1 -1"),
@@ -278,7 +279,8 @@ const std::vector<Spelling> c_ply_binary = {
     {"wrong_byte_order", changed(binary_ply(true), "big", "little"),
      at_byte(binary_ply(false), 45,
              "face 0: its corner is vertex 16777216, but the file has 3, counted from 0; correct the index")},
-    {"trailing_byte", binary_ply(false) + "\n",
+    {"trailing_line_ends", binary_ply(false) + "\r\n\n", c_triangle},
+    {"trailing_byte", binary_ply(false) + std::string(1, '\0'),
      at_byte(binary_ply(false), 49,
              "1 bytes follow the last element; correct the counts in the header, or remove them")},
     {"truncated", binary_ply(false).substr(0, binary_ply(false).size() - 1),
@@ -343,6 +345,15 @@ TEST(Ply, NotesSayWhatIsLeftOut) {
             (std::vector<std::string>{
                 "a.ply: 1 faces without area left out", "a.ply: 1 points and lines left out",
                 "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out"}));
+}
+
+TEST(Ply, ToleratedSpellingsAreNoted) {
+  EXPECT_EQ(must(read_ply(face("3.0 0 1 2.0"), "a.ply")).notes,
+            std::vector<std::string>{"a.ply:13: an integer is written with a point (2 times)"});
+  const std::string text = binary_ply(false);
+  EXPECT_EQ(must(read_ply(text + "\n", "a.ply")).notes,
+            std::vector<std::string>{fmt::format("a.ply: byte {}: line ends after the last element are left out",
+                                                 text.size())});
 }
 
 TEST(Ply, MoreTrianglesThanTheLimitAreRefused) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "mesh_files/bytes.hpp"
+#include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
 #include "mesh_files/text_lines.hpp"
 
@@ -52,6 +53,7 @@ class TextReader {
     for (next_word(); !word_.empty(); next_word()) {
       if (Status ok = read_solid(); !ok) return ok.error();
     }
+    loaded_.notes = notes_.list();
     return finish(std::move(loaded_), file_);
   }
 
@@ -61,6 +63,13 @@ class TextReader {
     for (word_ = lines_.word(); word_.empty() && lines_.next();) word_ = lines_.word();
   }
   bool is(std::string_view keyword) const { return lower_case(word_.substr(0, 16)) == keyword; }
+  bool starts(std::string_view keyword) const { return lower_case(word_.substr(0, keyword.size())) == keyword; }
+  /// True at "endloop" or "end loop". A name may follow "endsolid" without a blank.
+  bool ends(std::string_view what) {
+    if (!is("end")) return starts("end") && lower_case(word_.substr(3, what.size())) == what;
+    next_word();
+    return starts(what);
+  }
   Error wanted(std::string_view what) const {
     if (word_.empty()) {
       return lines_.error(
@@ -76,12 +85,13 @@ class TextReader {
 
   /// Read a solid whose first word was read.
   Status read_solid() {
-    if (!is("solid")) return wanted("'solid'");
+    if (!starts("solid")) return wanted("'solid'");
     lines_.rest();  // its name
-    for (next_word(); is("facet"); next_word()) {
+    next_word();
+    while (is("facet")) {
       if (Status ok = read_facet(); !ok) return ok;
     }
-    if (!is("endsolid")) return wanted("'facet' or 'endsolid'");
+    if (!ends("solid")) return wanted("'facet' or 'endsolid'");
     lines_.rest();
     return Ok{};
   }
@@ -107,8 +117,17 @@ class TextReader {
       return lines_.error(
           fmt::format("facet {} has more than 3 vertices; divide it into triangles", facets_));
     }
-    if (!is("endloop")) return wanted("'endloop'");
-    return expect("endfacet");
+    if (!ends("loop")) return wanted("'endloop'");
+    next_word();
+    if (!ends("facet")) return wanted("'endfacet'");
+    // Go to the next keyword.
+    word_ = lines_.word();
+    while (!word_.empty() && !is("facet") && !starts("end")) {
+      notes_.add(lines_.place(), "words after endfacet are left out");
+      word_ = lines_.word();
+    }
+    if (word_.empty()) next_word();
+    return Ok{};
   }
 
   Status read_numbers(glm::vec3& numbers) {
@@ -127,6 +146,7 @@ class TextReader {
   std::string_view word_;
   std::uint64_t facets_ = 0;
   LoadedMesh loaded_;
+  Notes notes_;
 };
 
 // ---- Binary
@@ -158,6 +178,11 @@ Result<LoadedMesh> read_binary(std::string_view bytes, std::string_view file, st
     }
     has_colours |= number_in<std::uint16_t>(bytes, start + c_attribute_at, ByteOrder::little) != 0;
   }
+  const std::size_t end = c_header_bytes + c_facet_bytes * std::size_t{facets};
+  if (bytes.size() > end) {
+    loaded.notes.push_back(
+        fmt::format("{}: byte {}: {} bytes after the facets are left out", file, end, bytes.size() - end));
+  }
   if (has_colours) loaded.notes.push_back(fmt::format("{}: colours of facets are left out", file));
   return finish(std::move(loaded), file);
 }
@@ -179,6 +204,9 @@ Result<LoadedMesh> read_stl(std::string_view bytes, std::string_view file) {
   start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n\v\f"), start.size()));
   if (lower_case(start.substr(0, 5)) == "solid" && start.find('\0') == std::string_view::npos) {
     return TextReader(bytes, file).read();
+  }
+  if (facets > 0 && bytes.size() > c_header_bytes + c_facet_bytes * std::uint64_t{facets}) {
+    return read_binary(bytes, file, facets);
   }
   if (bytes.size() < c_header_bytes) {
     return bad_input(fmt::format(

@@ -12,9 +12,9 @@ namespace halfway {
 /// Read an STL file from its bytes. `file` is its name in messages.
 ///
 /// The file is binary if its size is 84 + 50 n bytes for the count n in its header; text of at most 4 GiB
-/// cannot fulfil this. Otherwise it must start with "solid".
-/// Text: every word is checked, and refusals start with "file:line: ". Keywords may be in either case, words
-/// on any line. There may be several solids, each with its endsolid. A facet has exactly three vertices.
+/// cannot fulfil this. Otherwise it is text if it starts with "solid", or binary if it has more bytes.
+/// Text: refusals start with "file:line: ". Keywords may be in either case, words on any line. There may be
+/// several solids, each with its endsolid. A facet has exactly three vertices.
 /// Coordinates are floats (mesh_files/number.hpp).
 /// Binary: a coordinate that is not finite is refused with its facet and byte.
 ///

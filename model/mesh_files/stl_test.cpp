@@ -49,6 +49,13 @@ const std::vector<Spelling> c_stl_text = {
      c_triangle},
     {"normal_of_words", solid(changed(c_facet, "normal 0 0 1", "normal up")), c_triangle},
     {"no_normal", solid(changed(c_facet, " normal 0 0 1", "")), c_triangle},
+    {"words_joined_and_divided",
+     changed(changed(changed(solid(c_facet), "endsolid ", "endsolid"), "endloop", "end loop"), "endfacet", "END Facet"),
+     c_triangle},
+    {"colours_after_facets", solid(changed(c_facet, "endfacet", "endfacet 31 0 color 1") + c_facet),
+     c_triangle + "; " + c_triangle},
+    {"end_of_another", solid(changed(c_facet, "endloop", "end facet")),
+     "! a.stl:7: 'facet' instead of 'endloop'; correct the line"},
     {"long_normal", solid(changed(c_facet, "normal 0 0 1", "normal 0 0 1 1")),
      "! a.stl:2: '1' instead of 'outer'; correct the line"},
     {"garbage_line", solid(changed(c_facet, "vertex 0 1 0", "nonsense\nvertex 0 1 0")),
@@ -103,6 +110,7 @@ const std::vector<Spelling> c_stl_binary = {
     {"count_too_large", binary_stl(2, {1}),
      "! a.stl: not an STL file, or damaged: its header (byte 80) requires 2 facets and so 184 bytes, it has "
      "134; export it again"},
+    {"bytes_after_facets", binary_stl(1, {1}) + "made by", c_triangle},
     {"largest_count", binary_stl(UINT32_MAX, {1}),
      "! a.stl: not an STL file, or damaged: its header (byte 80) requires 4294967295 facets and so "
      "214748364834 bytes, it has 134; export it again"},
@@ -130,6 +138,13 @@ TEST(Stl, PositionsAreJoined) {
 TEST(Stl, ColoursOfFacetsAreNoted) {
   const auto loaded = must(read_stl(binary_stl(1, {1}, "", 0x801f), "a.stl"));
   EXPECT_EQ(loaded.notes, std::vector<std::string>{"a.stl: colours of facets are left out"});
+}
+
+TEST(Stl, WhatFollowsFacetsIsNoted) {
+  EXPECT_EQ(must(read_stl(solid(changed(c_facet, "endfacet", "endfacet 1 2")), "a.stl")).notes,
+            std::vector<std::string>{"a.stl:8: words after endfacet are left out (2 times)"});
+  EXPECT_EQ(must(read_stl(binary_stl(1, {1}) + "ab", "a.stl")).notes,
+            std::vector<std::string>{"a.stl: byte 134: 2 bytes after the facets are left out"});
 }
 
 TEST(Stl, MoreTrianglesThanTheLimitAreRefused) {

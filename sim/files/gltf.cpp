@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/to_integer.hpp"
 #include "mesh_files/bytes.hpp"
 #include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
@@ -87,8 +88,12 @@ class Item {
     return items;
   }
   std::uint64_t unsigned_number() const {
-    if (!value_->is_number_unsigned()) fail("is not a whole number from 0; correct it");
-    return value_->get<std::uint64_t>();
+    if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
+    const double value = value_->is_number_float() ? value_->get<double>() : -1.0;  // 24.0 is a whole number
+    constexpr double c_most = 1e15;
+    if (!(value >= 0.0 && value <= c_most && value == std::floor(value)))
+      fail("is not a whole number from 0; correct it");
+    return to_integer<std::uint64_t>(value);
   }
   std::uint64_t unsigned_number(const char* key, std::uint64_t if_missing) const {
     return has(key) ? at(key).unsigned_number() : if_missing;

@@ -102,6 +102,7 @@ const std::vector<Spelling> c_spellings = {
      "again"},
     {"count_0", with({{"/accessors/1/count", 0}}),
      "! a.gltf: accessors[1].count: 0, not 1 to 30000000; correct the mesh"},
+    {"count_3.0", with({{"/accessors/1/count", 3.0}}), c_triangle},
     {"count_3.5", with({{"/accessors/1/count", 3.5}}),
      "! a.gltf: accessors[1].count: is not a whole number from 0; correct it"},
     {"indices_of_float", with({{"/accessors/1/componentType", 5126}}),
