@@ -39,8 +39,29 @@ std::string read_colour(TextLines& lines, glm::dvec3& colour) {
   return {};
 }
 
+/// Keys that change nothing at this value; the other values are noted.
+struct NeutralKey {
+  std::string_view key;
+  float value;
+};
+constexpr NeutralKey c_neutral[] = {{"d", 1.0f}, {"tr", 0.0f}, {"ke", 0.0f}, {"tf", 1.0f}, {"illum", 2.0f}};
+
+/// True if all numbers of the line have the key's neutral value.
+bool is_neutral(TextLines& lines, std::string_view key) {
+  // Refraction is of transparent surfaces.
+  if (key == "ni") return true;
+  const auto* const neutral = std::find_if(std::begin(c_neutral), std::end(c_neutral),
+                                           [key](const NeutralKey& known) { return known.key == key; });
+  if (neutral == std::end(c_neutral)) return false;
+  bool is_equal = true;
+  float value = 0.0f;
+  for (std::string_view word = lines.word(); !word.empty(); word = lines.word())
+    is_equal &= read_number(word, value) == NumberFault::none && value == neutral->value;
+  return is_equal;
+}
+
 /// Read a key of a material. Returns what is wrong, or nothing.
-std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read) {
+std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read, Notes& notes) {
   Material& material = read.material;
   const bool is_texture = key.starts_with("map_") || key == "bump" || key == "disp" || key == "decal" ||
                           key == "refl" || key == "norm";
@@ -60,8 +81,12 @@ std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read) 
     if (std::string fault = read_numbers(lines, exponent, count); !fault.empty()) return fault;
     read.file_exponent = static_cast<double>(exponent[0]);
     material.exponent = std::max(read.file_exponent, 1.0);
-  } else {
-    read.has_textures |= is_texture;
+  } else if (is_texture) {
+    read.has_textures = true;
+    lines.rest();
+  } else if (!key.empty()) {
+    const std::string place = lines.place();
+    if (!is_neutral(lines, key)) notes.add(place, fmt::format("{} is not used", quoted(key)));
     lines.rest();
   }
   return {};
@@ -96,7 +121,7 @@ void read_mtl(std::string_view text, std::string_view file, MtlMaterials& materi
     } else if (current == nullptr) {
       if (!word.empty()) notes.add(lines.place(), "a line before the first newmtl is left out");
       lines.rest();
-    } else if (const std::string fault = read_key(lines, key, *current); !fault.empty()) {
+    } else if (const std::string fault = read_key(lines, key, *current, notes); !fault.empty()) {
       notes.add(lines.place(), fmt::format("{}: {}; the line is left out", word, fault));
       lines.rest();
     }

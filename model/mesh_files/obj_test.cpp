@@ -223,7 +223,16 @@ TEST(Obj, MaterialsAreThoseThatFacesUse) {
   EXPECT_EQ(b.diffuse, 1.0);
   EXPECT_EQ(b.specular, 1.0);
   EXPECT_EQ(b.exponent, 30.0);
-  EXPECT_TRUE(loaded->notes.empty());
+  EXPECT_EQ(loaded->notes, std::vector<std::string>{"dir/m.mtl:7: 'd' is not used"});
+}
+
+TEST(Obj, KeysOfMaterialsThatAreNotUsedAreNoted) {
+  const auto loaded = must(read("mtllib m.mtl\n" + c_faces,
+                                {{"m.mtl", "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
+                                           "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nKe 0 1 0\n"}}));
+  EXPECT_EQ(loaded.notes,
+            (std::vector<std::string>{"dir/m.mtl:10: 'd' is not used", "dir/m.mtl:11: 'ka' is not used",
+                                      "dir/m.mtl:9: 'ke' is not used (2 times)", "dir/m.mtl:12: 'tr' is not used"}));
 }
 
 TEST(Obj, MaterialsAreNoted) {

@@ -72,6 +72,7 @@ enum class Use { x, y, z, nx, ny, nz, corners, none };
 /// The value of a word that is no finite number.
 constexpr double c_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::string_view c_numbers[] = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::string_view c_other_numbers[] = {"normal_x", "normal_y", "normal_z"};
 constexpr std::string_view c_colours[] = {"red",         "green",         "blue",
                                           "diffuse_red", "diffuse_green", "diffuse_blue"};
 
@@ -240,11 +241,15 @@ class PlyReader {
     }
 
     // Decide what it is used for.
-    const std::size_t number = index_in(c_numbers, property.name);
+    const std::size_t other_number = index_in(c_other_numbers, property.name);
+    const std::size_t number = other_number < std::size(c_other_numbers)
+                                   ? static_cast<std::size_t>(Use::nx) + other_number
+                                   : index_in(c_numbers, property.name);
     const bool is_corners = property.name == "vertex_indices" || property.name == "vertex_index";
     if (element.kind == Kind::vertex && number < std::size(c_numbers)) {
       if (property.length_type) return lines_.error(fmt::format("{} is a list; correct it", property.name));
       property.use = static_cast<Use>(number);
+      if (uses(element, property.use)) return lines_.error(fmt::format("a second property {}; remove it", c_numbers[number]));
     } else if (has_corners(element) && is_corners) {
       if (!property.length_type || property.type->is_real) {
         return lines_.error(fmt::format("{} is not a list of integers; correct it", property.name));
@@ -252,8 +257,10 @@ class PlyReader {
       if (uses(element, Use::corners)) return lines_.error("a second list of corners; remove it");
       property.use = Use::corners;
     }
-    has_colours_ |= element.kind == Kind::vertex &&
-                    index_in(c_colours, property.name) < std::size(c_colours) && element.count > 0;
+    const bool is_colour = element.kind == Kind::vertex && index_in(c_colours, property.name) < std::size(c_colours);
+    has_colours_ |= is_colour && element.count > 0;
+    if (element.kind != Kind::other && property.use == Use::none && !is_colour)
+      notes_.add(lines_.place(), fmt::format("property {} is not used", quoted(property.name)));
     element.properties.push_back(property);
     return Ok{};
   }

@@ -207,6 +207,9 @@ const std::vector<Spelling> c_ply_text = {
      "! a.ply:5: a second property 'x' of 'vertex'; rename or remove it"},
     {"missing_z", changed(c_plain, "property float z\n", ""),
      "! a.ply:3: vertices have no property z; export the file again"},
+    {"normals_twice",
+     changed(c_plain, "element face", "property float nx\nproperty float normal_x\nelement face"),
+     "! a.ply:8: a second property nx; remove it"},
     {"nameless", changed(c_plain, "float x", "float"), "! a.ply:4: a property without a name; give it one"},
     {"items_without_properties", changed(c_plain, "element vertex", "element nothing 50\nelement vertex"),
      "! a.ply:3: the 50 items of 'nothing' have no property; remove the element"},
@@ -318,10 +321,14 @@ TEST(Ply, NormalsThatCannotBeReadAreComputed) {
   EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,1 ");
   EXPECT_EQ(loaded.notes, std::vector<std::string>{
                               "a.ply:13: a normal is not three finite numbers; it is computed (2 times)"});
+  std::string names = text;
+  for (const std::string axis : {"x", "y", "z"}) names = changed(names, " n" + axis, " normal_" + axis);
+  EXPECT_EQ(normals_of(must(read_ply(names, "a.ply"))), "0,0,0 0,0,0 0,0,1 ");
   const auto part = must(read_ply(changed(text, "double nz", "double n"), "a.ply"));
   EXPECT_EQ(normals_of(part), "0,0,0 0,0,0 0,0,0 ");
-  EXPECT_EQ(part.notes, std::vector<std::string>{
-                            "a.ply:3: vertices have only a part of nx, ny and nz; normals are computed"});
+  EXPECT_EQ(part.notes, (std::vector<std::string>{
+                            "a.ply:9: property 'n' is not used",
+                            "a.ply:3: vertices have only a part of nx, ny and nz; normals are computed"}));
 }
 
 TEST(Ply, WithoutNormalsCornersHaveTheNormalZero) {

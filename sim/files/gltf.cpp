@@ -12,7 +12,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -35,10 +37,20 @@ using nlohmann::json;
 
 constexpr std::uintmax_t c_max_buffer_bytes = std::uintmax_t{4} << 30;
 
-/// Extensions that a file may require: they change only the look of a surface.
-constexpr std::string_view c_look_extensions = "KHR_materials_";
-constexpr std::string_view c_texture_extensions[] = {"KHR_texture_transform", "KHR_texture_basisu",
-                                                     "EXT_texture_webp", "KHR_lights_punctual"};
+/// Extensions that a file may require. Those of textures change only what is left out with the textures.
+constexpr std::string_view c_visibility = "KHR_node_visibility", c_unlit = "KHR_materials_unlit",
+                           c_glossiness = "KHR_materials_pbrSpecularGlossiness";
+constexpr std::string_view c_extensions[] = {c_visibility, c_unlit, c_glossiness, "KHR_texture_transform",
+                                             "KHR_texture_basisu", "EXT_texture_webp"};
+/// The ambient light of a scene, unless its file sets another one: k_a for a surface that emits its colour.
+constexpr double c_emitting = 1.0 / 0.2;
+/// In place of a material's index: its surfaces are not drawn.
+constexpr std::uint32_t c_nothing = UINT32_MAX;
+
+template <class Words>
+bool contains(const Words& words, std::string_view word) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
 
 /// Exception that stops reading. `read_gltf` returns its text after the file's name.
 struct BadGltf {
@@ -112,8 +124,8 @@ class Item {
     if (!std::isfinite(number)) fail("is not finite; correct it");
     return number;
   }
-  bool flag(const char* key) const {
-    if (!has(key)) return false;
+  bool flag(const char* key, bool if_missing) const {
+    if (!has(key)) return if_missing;
     const Item item = at(key);
     if (!item.value_->is_boolean()) item.fail("is not true or false; correct it");
     return item.value_->get<bool>();
@@ -307,19 +319,44 @@ class GltfReader {
 
  private:
   void note(std::string_view what) { notes_.add(name_, what); }
-  void note(const Item& item, std::string_view what) { notes_.add(name_ + ": " + item.place(), what); }
+  void note(const Item& item, std::string_view what) {
+    notes_.add(item.place().empty() ? name_ : name_ + ": " + item.place(), what);
+  }
 
-  void check_asset() const {
+  /// Note the keys and extensions of an object that are not used. Any object may have a name and extras.
+  void note_unused(const Item& item, std::initializer_list<std::string_view> used) {
+    for (const std::string& key : item.keys()) {
+      if (contains(used, key) || key == "name" || key == "extras" || key == "extensions") continue;
+      note(item, halfway::quoted(key) + " is not used");
+    }
+    if (!item.has("extensions")) return;
+    for (const std::string& key : item.object("extensions").keys())
+      if (!contains(c_extensions, key)) note(item, "extension " + halfway::quoted(key) + " is not used");
+  }
+  /// An object's extension, or one without keys.
+  static Item extension_of(const Item& item, std::string_view name) {
+    const Item none(no_keys(), item.place());
+    const Item all = item.has("extensions") ? item.object("extensions") : none;
+    return all.has(name.data()) ? all.object(name.data()) : none;
+  }
+  static bool has_extension(const Item& item, std::string_view name) {
+    return item.has("extensions") && item.object("extensions").has(name.data());
+  }
+
+  void check_asset() {
+    const Item asset = root_.object("asset");
+    if (!asset.text("minVersion", "2.0").starts_with("2.0"))
+      asset.at("minVersion").fail("is later than 2.0; export as glTF 2.0");
+    note_unused(root_, {"asset", "scene", "scenes", "nodes", "meshes", "skins", "accessors", "bufferViews",
+                        "buffers", "materials", "textures", "images", "samplers", "extensionsUsed",
+                        "extensionsRequired"});
     const std::string version = root_.object("asset").at("version").text();
     if (!version.starts_with("2.")) {
       root_.at("asset").fail(fmt::format("glTF {}; export as glTF 2.0", halfway::quoted(version)));
     }
     for (const Item& extension : root_.list("extensionsRequired")) {
       const std::string& name = extension.text();
-      const bool is_look = name.starts_with(c_look_extensions) ||
-                           std::find(std::begin(c_texture_extensions), std::end(c_texture_extensions),
-                                     name) != std::end(c_texture_extensions);
-      if (!is_look) extension.fail(halfway::quoted(name) + " cannot be read; export the file without it");
+      if (!contains(c_extensions, name)) extension.fail(halfway::quoted(name) + " cannot be read; export the file without it");
     }
   }
 
@@ -344,6 +381,11 @@ class GltfReader {
       const Item& node = nodes_[next.node];
       if (is_read[next.node]) node.fail("is reached twice; export the file with a tree of nodes");
       is_read[next.node] = true;
+      note_unused(node, {"mesh", "children", "skin", "weights", "matrix", "translation", "rotation", "scale", "camera"});
+      if (!extension_of(node, c_visibility).flag("visible", true)) {
+        note(node, "it is not visible: it is not drawn");
+        continue;
+      }
       const glm::dmat4 to_file = next.to_file * transform_of(node);
       if (node.has("skin")) note(node, "bones are omitted: the mesh is in its bind pose");
       // The transform of a node with a skin does not move its mesh.
@@ -470,8 +512,11 @@ class GltfReader {
                                                  part.normals.size(), positions.size()));
       }
     }
-    const std::uint32_t material = material_of(primitive);
-    const Culling culling = culling_of(primitive);
+    note_unused(primitive, {"attributes", "indices", "material", "mode", "targets"});
+    const std::optional<std::size_t> source = material_source(primitive);
+    const std::uint32_t material = material_of(source);
+    if (material == c_nothing) return Mesh{};
+    const Culling culling = culling_of(source);
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
       const std::array<std::uint32_t, 3> index = {corners[a], corners[b], corners[c]};
       // Triangles that use a vertex twice connect parts of a strip.
@@ -697,19 +742,25 @@ class GltfReader {
 
   // ---- Materials
 
-  /// The index of a primitive's material. A material gets its index when the first primitive uses it.
-  std::uint32_t material_of(const Item& primitive) {
-    std::optional<std::size_t> source;
+  std::optional<std::size_t> material_source(const Item& primitive) {
     try {
-      if (primitive.has("material")) source = primitive.at("material").index(materials_.size());
+      if (primitive.has("material")) return primitive.at("material").index(materials_.size());
     } catch (const BadGltf& bad) {
       note(bad.what + "; it has the default material");
     }
+    return std::nullopt;
+  }
+
+  /// The index of a material in the mesh. A material gets its index when the first primitive uses it.
+  std::uint32_t material_of(std::optional<std::size_t> source) {
     const auto next = static_cast<std::uint32_t>(loaded_.mesh.materials.size());
     const auto [entry, is_new] = material_index_.try_emplace(source, next);
-    if (is_new) {
-      loaded_.mesh.materials.push_back(source ? material_or_default(materials_[*source]) : no_material());
-    }
+    if (!is_new) return entry->second;
+    Material material = source ? material_or_default(materials_[*source]) : no_material();
+    if (alpha_ == 0.0)
+      entry->second = c_nothing;
+    else
+      loaded_.mesh.materials.push_back(std::move(material));
     return entry->second;
   }
   Material no_material() { return read_material(Item(no_keys(), "material"), "default"); }
@@ -718,38 +769,51 @@ class GltfReader {
       return read_material(source, "");
     } catch (const BadGltf& bad) {
       note(bad.what + "; it is the default material");
+      alpha_ = 1.0;
       return no_material();
     }
   }
 
-  Culling culling_of(const Item& primitive) const {
-    const bool both = primitive.has("material") &&
-                      materials_[primitive.at("material").index(materials_.size())].flag("doubleSided");
-    return both ? Culling::none : Culling::back;
+  Culling culling_of(std::optional<std::size_t> source) {
+    try {
+      return source && materials_[*source].flag("doubleSided", false) ? Culling::none : Culling::back;
+    } catch (const BadGltf& bad) {
+      note(bad.what);
+      return Culling::back;
+    }
   }
 
   Material read_material(const Item& source, std::string_view name) {
     Material material;
     material.name = source.text("name", name);
-    const Item look = source.has("pbrMetallicRoughness") ? source.object("pbrMetallicRoughness")
-                                                         : Item(no_keys(), source.place());
-    if (look.has("baseColorFactor")) {
-      const auto colour = look.numbers<4>("baseColorFactor");
-      for (int channel = 0; channel < 3; ++channel) {
-        material.colour[channel] = colour[static_cast<std::size_t>(channel)];
-        if (material.colour[channel] < 0.0)
-          look.at("baseColorFactor").fail("is negative; correct the colour");
-      }
+    const bool is_glossy = has_extension(source, c_glossiness);
+    const Item look = is_glossy                            ? extension_of(source, c_glossiness)
+                      : source.has("pbrMetallicRoughness") ? source.object("pbrMetallicRoughness")
+                                                           : Item(no_keys(), source.place());
+    const glm::dvec4 base = colour(look, is_glossy ? "diffuseFactor" : "baseColorFactor", glm::dvec4(1.0));
+    material.colour = glm::dvec3(base);
+    double roughness = 1.0;
+    if (is_glossy) {
+      roughness = std::max(1.0 - factor(look, "glossinessFactor"), 0.05);
+      material.specular_colour = glm::dvec3(colour(look, "specularFactor", glm::dvec4(1.0)));
+    } else {
+      const double metal = factor(look, "metallicFactor");
+      roughness = std::max(factor(look, "roughnessFactor"), 0.05);
+      material.specular_colour = glm::dvec3(1.0 - metal) + metal * material.colour;
     }
-    const double metal = factor(look, "metallicFactor");
-    const double roughness = std::max(factor(look, "roughnessFactor"), 0.05);
-    material.specular_colour = glm::dvec3(1.0 - metal) + metal * material.colour;
     const double exponent = 2.0 / std::pow(roughness, 4.0) - 2.0;
     material.specular *= 1.0 - std::min(roughness, 1.0);  // a rough surface has a weak highlight
     material.exponent = std::max(exponent, 1.0);
     if (exponent < 1.0 && material.specular > 0.0) {
       note(fmt::format("material {}: exponent {} raised to 1", halfway::quoted(material.name), exponent));
     }
+    read_emission(source, material);
+    read_alpha(source, base.w);
+    note_unused(source, {"pbrMetallicRoughness", "emissiveFactor", "alphaMode", "alphaCutoff", "doubleSided",
+                         "normalTexture", "occlusionTexture", "emissiveTexture"});
+    note_unused(look, {"baseColorFactor", "metallicFactor", "roughnessFactor", "baseColorTexture",
+                       "metallicRoughnessTexture", "diffuseFactor", "specularFactor", "glossinessFactor",
+                       "diffuseTexture", "specularGlossinessTexture"});
     const auto is_texture = [](const std::string& key) { return key.ends_with("Texture"); };
     const std::vector<std::string> keys = source.keys(), look_keys = look.keys();
     if (std::any_of(keys.begin(), keys.end(), is_texture) ||
@@ -757,6 +821,40 @@ class GltfReader {
       note(fmt::format("material {}: textures are left out", halfway::quoted(material.name)));
     }
     return material;
+  }
+  /// A colour of three or four numbers. Alpha is 1 if it is missing.
+  static glm::dvec4 colour(const Item& look, const char* key, glm::dvec4 value) {
+    const std::vector<Item> numbers = look.list(key);
+    if (!look.has(key)) return value;
+    if (numbers.size() != 3 && numbers.size() != 4)
+      look.at(key).fail(fmt::format("has {} numbers, not 3 or 4; correct it", numbers.size()));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      value[static_cast<int>(i)] = numbers[i].number();
+      if (value[static_cast<int>(i)] < 0.0) look.at(key).fail("is negative; correct the colour");
+    }
+    return value;
+  }
+
+  /// A surface that only emits, and one without lighting, is drawn as one that reflects ambient light alone.
+  void read_emission(const Item& source, Material& material) {
+    const glm::dvec3 emission(colour(source, "emissiveFactor", glm::dvec4(0.0)));
+    const bool is_unlit = has_extension(source, c_unlit);
+    const bool is_black = material.colour == glm::dvec3(0.0);
+    if (!is_unlit && emission == glm::dvec3(0.0)) return;
+    if (!is_unlit && !is_black)
+      return note(source, "'emissiveFactor' is not used, because the surface reflects light too");
+    if (is_unlit) material.specular = 0.0;
+    if (!is_unlit) material.colour = emission;
+    material.ambient = c_emitting;
+    material.diffuse = 0.0;
+  }
+
+  void read_alpha(const Item& source, double alpha) {
+    const std::string mode = source.text("alphaMode", "OPAQUE");
+    if (mode == "MASK") alpha = alpha < source.number("alphaCutoff", 0.5) ? 0.0 : 1.0;
+    alpha_ = mode == "OPAQUE" ? 1.0 : alpha;
+    if (alpha_ == 0.0) note(source, "it is transparent: its surfaces are not drawn");
+    if (alpha_ > 0.0 && alpha_ < 1.0) note(source, "transparency is left out");
   }
   double factor(const Item& look, const char* key) {
     constexpr double c_rounding = 1e-5;
@@ -776,6 +874,7 @@ class GltfReader {
   std::map<std::optional<std::size_t>, std::uint32_t> material_index_;
   LoadedMesh loaded_;
   Notes notes_;
+  double alpha_ = 1.0;  ///< of the last material
   std::uint64_t points_and_lines_ = 0, vertices_ = 0, triangles_ = 0;
 };
 

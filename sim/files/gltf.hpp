@@ -22,7 +22,7 @@ namespace halfway {
 /// the factor 1 - r on k_s; the highlight of a metal has its colour. Other values are those of the default
 /// material. A material that cannot be read is the default one, with a note.
 /// Left out with a note: points and lines, textures, colours of vertices, bones (the mesh is in its bind
-/// pose), morph targets. Extensions that change vertices are refused.
+/// pose), morph targets, all other keys and extensions. A required extension that is not drawn is refused.
 Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace halfway

@@ -213,6 +213,18 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: extensionsRequired[0]: 'KHR_draco_mesh_compression' cannot be read; export the file without "
      "it"},
     {"unlit", with({{"/extensionsRequired", {"KHR_materials_unlit"}}}), c_triangle},
+    {"transmission", with({{"/extensionsRequired", {"KHR_materials_transmission"}}}),
+     "! a.gltf: extensionsRequired[0]: 'KHR_materials_transmission' cannot be read; export the file without it"},
+    {"later_version", with({{"/asset/minVersion", "2.1"}}),
+     "! a.gltf: asset.minVersion: is later than 2.0; export as glTF 2.0"},
+    {"invisible",
+     with({{"/nodes/1", json::parse(R"({"children":[0],"extensions":{"KHR_node_visibility":{"visible":false}}})")},
+           {"/scenes/0/nodes", {1}}}),
+     "! a.gltf: the mesh has no faces; export it with faces"},
+    {"transparent",
+     with({{"/meshes/0/primitives/0/material", 0},
+           {"/materials", json::parse(R"([{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]}}])")}}),
+     "! a.gltf: the mesh has no faces; export it with faces"},
 };
 
 INSTANTIATE_TEST_SUITE_P(All, GltfSpelling, ::testing::ValuesIn(c_spellings), [](const auto& test) {
@@ -328,6 +340,46 @@ TEST(Gltf, AMaterialThatCannotBeReadIsTheDefault) {
     EXPECT_EQ(loaded.mesh.materials.at(0).name, "default");
     EXPECT_EQ(loaded.notes, TextList{std::string("a.gltf: ") + note});
   }
+}
+
+TEST(Gltf, ASurfaceThatOnlyEmitsIsDrawnWithAmbientLight) {
+  const auto loaded = with_material(json::parse(
+      R"({"emissiveFactor":[1,0.8,0.1],"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0}})"));
+  const Material& m = loaded.mesh.materials.at(0);
+  EXPECT_EQ(m.ambient * 0.2 * m.colour, glm::dvec3(1.0, 0.8, 0.1));
+  EXPECT_EQ(m.diffuse, 0.0);
+  EXPECT_EQ(loaded.notes, TextList{});
+  EXPECT_EQ(with_material(json::parse(R"({"emissiveFactor":[1,0,0]})")).notes,
+            TextList{"a.gltf: materials[0]: 'emissiveFactor' is not used, because the surface reflects light too"});
+  const auto unlit = with_material(json::parse(
+      R"({"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1]}})"));
+  EXPECT_EQ(unlit.mesh.materials.at(0).ambient * 0.2 * unlit.mesh.materials.at(0).colour, glm::dvec3(1, 0.5, 0));
+}
+
+TEST(Gltf, GlossinessIsRoughness) {
+  const auto loaded = with_material(json::parse(
+      R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,1],"specularFactor":[0,1,0],
+          "glossinessFactor":0.5}}})"));
+  const Material& m = loaded.mesh.materials.at(0);
+  EXPECT_EQ(m.colour, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(m.specular_colour, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(m.exponent, 30.0);
+}
+
+TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
+  const auto loaded = must(read_gltf(
+      with({{"/animations", json::array()},
+            {"/nodes/0/extensions", json::parse(R"({"EXT_mesh_gpu_instancing":{}})")},
+            {"/meshes/0/primitives/0/material", 0},
+            {"/materials", json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
+                "pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5],"roughnesFactor":0}}])")}}),
+      "a.gltf"));
+  EXPECT_EQ(loaded.notes,
+            (TextList{"a.gltf: 'animations' is not used",
+                      "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
+                      "a.gltf: nodes[0]: extension 'EXT_mesh_gpu_instancing' is not used",
+                      "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
+                      "a.gltf: materials[0]: transparency is left out"}));
 }
 
 TEST(Gltf, FactorsAreLimited) {
