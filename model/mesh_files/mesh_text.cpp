@@ -6,6 +6,7 @@
 #include "mesh_files/number.hpp"
 #include "mesh_files/ply.hpp"
 #include "mesh_files/stl.hpp"
+#include "mesh_files/text_lines.hpp"
 
 namespace halfway {
 namespace {
@@ -41,6 +42,8 @@ bool is_mesh_text_name(std::string_view path) {
 Result<LoadedMesh> read_mesh_text(std::string_view bytes, std::string_view file,
                                   const ReadLibrary& read_library) {
   const std::string ending = lower_ending(file);
+  if (const auto fault = utf16_fault(bytes); !fault.empty() && ending != ".stl")  // a binary STL has any bytes
+    return bad_input(std::string(file) + ":1: " + std::string(fault));
   if (ending == ".ply") return read_ply(bytes, file);
   if (ending == ".stl") return read_stl(bytes, file);
   if (ending == ".obj") return read_obj(bytes, file, read_library);

@@ -366,7 +366,13 @@ class PlyReader {
   /// Go to the next line that is not empty.
   bool next_line() {
     word_ = {};
-    while (word_.empty() && lines_.next()) word_ = lines_.word();
+    while (word_.empty() && lines_.next()) {
+      word_ = lines_.word();
+      if (!word_.starts_with(c_byte_order_mark)) continue;
+      notes_.add(lines_.place(), "a byte order mark in the file is left out");
+      word_.remove_prefix(c_byte_order_mark.size());
+      if (word_.empty()) word_ = lines_.word();
+    }
     return !word_.empty();
   }
   Status check_line_end(const Element& element) const {

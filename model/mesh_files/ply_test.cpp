@@ -64,6 +64,7 @@ const std::vector<Spelling> c_ply_text = {
     {"cr", with_line_end(c_plain, "\r"), c_triangle},
     {"empty_lines", changed(c_plain, "1 0 0\n", "\n1 0 0 \n\t\n") + "\n \n", c_triangle},
     {"tabs", changed(c_plain, "1 0 0\n", "\t1\t0  0 \n"), c_triangle},
+    {"byte_order_mark_after_the_header", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf"), c_triangle},
     {"byte_order_mark", "\xef\xbb\xbf" + c_plain, c_triangle},
 
     // numbers

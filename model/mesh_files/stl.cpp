@@ -199,12 +199,12 @@ Result<LoadedMesh> read_stl(std::string_view bytes, std::string_view file) {
   }
   // A binary header may start with "solid" too, but text contains no zero byte.
   std::string_view start = bytes.substr(0, c_header_bytes);
-  constexpr std::string_view c_byte_order_mark = "\xef\xbb\xbf";
   if (start.starts_with(c_byte_order_mark)) start.remove_prefix(c_byte_order_mark.size());
   start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n\v\f"), start.size()));
   if (lower_case(start.substr(0, 5)) == "solid" && start.find('\0') == std::string_view::npos) {
     return TextReader(bytes, file).read();
   }
+  if (const auto fault = utf16_fault(bytes); !fault.empty()) return bad_input(fmt::format("{}:1: {}", file, fault));
   if (facets > 0 && bytes.size() > c_header_bytes + c_facet_bytes * std::uint64_t{facets}) {
     return read_binary(bytes, file, facets);
   }

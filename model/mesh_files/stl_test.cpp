@@ -81,6 +81,7 @@ const std::vector<Spelling> c_stl_text = {
     {"zero_byte", solid(c_facet + std::string(1, '\0')),
      "! a.stl:9: '?endsolid' instead of 'facet' or 'endsolid'; correct the line"},
     {"empty", solid(""), "! a.stl: the mesh has no faces; export it with faces"},
+    {"utf_16", std::string("\xff\xfes\0o\0l\0i\0d\0", 12), "! a.stl:1: the text is UTF-16; save it as UTF-8"},
     {"other_text", "v 0 0 0\n",
      "! a.stl: not an STL file, or truncated: it neither starts with 'solid' nor has the 84 bytes of a "
      "binary header; export it again"},

@@ -15,7 +15,6 @@ bool is_blank(char c) {
 
 TextLines::TextLines(std::string_view text, std::string_view file, Syntax syntax)
     : text_(text), file_(file), syntax_(syntax) {
-  constexpr std::string_view c_byte_order_mark = "\xef\xbb\xbf";
   if (text_.starts_with(c_byte_order_mark)) at_ = c_byte_order_mark.size();
 }
 

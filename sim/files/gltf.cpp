@@ -27,6 +27,7 @@
 #include "mesh_files/bytes.hpp"
 #include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
+#include "mesh_files/text_lines.hpp"
 #include "sim/os/file.hpp"
 
 namespace halfway {
@@ -885,6 +886,16 @@ Error not_json(const json::parse_error& error, std::string_view text, const std:
                                1 + std::count(before.begin(), before.end(), '\n')));
 }
 
+/// The error of a number beyond the range of double. The exception has it in quotes.
+Error too_large(const json::out_of_range& error, std::string_view text, const std::string& name) {
+  const std::string_view what = error.what();
+  const std::size_t last = what.rfind('\''), first = what.substr(0, last).rfind('\'');
+  const std::string_view number = last < what.size() && first < last ? what.substr(first + 1, last - first - 1) : "";
+  const std::string_view before = text.substr(0, std::min(text.find(number), text.size()));
+  return bad_input(fmt::format("{}:{}: the number {} is too large; correct it", name,
+                               1 + std::count(before.begin(), before.end(), '\n'), halfway::quoted(number)));
+}
+
 }  // namespace
 
 Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path& path) {
@@ -893,6 +904,7 @@ Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path
   try {
     const Chunks chunks = chunks_of(bytes);
     text = chunks.json;
+    if (const auto fault = utf16_fault(text); !fault.empty()) return bad_input(fmt::format("{}:1: {}", name, fault));
     const json root = json::parse(text);
     if (!root.is_object()) return bad_input(name + ":1: not glTF 2.0: its JSON is not an object");
     return GltfReader(root, chunks.binary, path).read();
@@ -900,8 +912,10 @@ Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path
     return bad_input(fmt::format("{}: {}", name, bad.what));
   } catch (const json::parse_error& error) {
     return not_json(error, text, name);
-  } catch (const json::exception& exception) {
-    return bad_input(fmt::format("{}: its JSON cannot be read: {}", name, exception.what()));
+  } catch (const json::out_of_range& error) {
+    return too_large(error, text, name);
+  } catch (const json::exception&) {
+    return bad_input(name + ": its JSON cannot be read; export the file again");
   }
 }
 

@@ -203,6 +203,8 @@ const std::vector<Spelling> c_spellings = {
     // the file
     {"not_json", "{\n\"asset\": {\"version\": 2.0,,\n",
      "! a.gltf:2: not glTF 2.0: its JSON is damaged here; export the file again"},
+    {"number_too_large", "{\"a\":1,\n\"b\":1e999}", "! a.gltf:2: the number '1e999' is too large; correct it"},
+    {"utf_16", "\xfe\xff{}", "! a.gltf:1: the text is UTF-16; save it as UTF-8"},
     {"array", "[]", "! a.gltf:1: not glTF 2.0: its JSON is not an object"},
     {"deep",
      with({}).insert(1, R"("extras":)" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + ","),

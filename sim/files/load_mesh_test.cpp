@@ -238,6 +238,7 @@ TEST_F(LoadMesh, DamagedFilesAreErrorsOrMeshes) {
 TEST_F(LoadMesh, OtherFilesAreRefused) {
   expect_error("a.dae", c_obj, "a.dae: not a mesh file by its name");
   expect_error("a.obj", "", "a.obj: the file is empty");
+  expect_error("a.obj", "\xff\xfev", "a.obj:1: the text is UTF-16; save it as UTF-8");
   std::filesystem::create_directory(folder_ / "d.obj");
   EXPECT_NE(load_mesh(folder_ / "d.obj").error().message.find("a directory"), std::string::npos);
 }
