@@ -41,7 +41,8 @@ std::string FaceList::divide(std::span<const Corner> corners, const std::functio
       break;
     case PolygonKind::crossing:
       for (std::uint32_t i = 2; i < corners.size(); ++i) divided_.push_back({0, i - 1, i});
-      notes.add(place(), "the outline of a face crosses itself; it is drawn as a fan around its first corner");
+      notes.add(place(),
+                "the outline of a face crosses itself; it is drawn as a fan around its first corner");
       break;
     case PolygonKind::out_of_work:
       return "the concave faces up to here have too many corners; divide them into triangles";

@@ -29,7 +29,8 @@ class FaceList {
   /// Divide a face. Returns what is wrong with it, or nothing. A face of one or two corners is a point or a
   /// line. A face whose outline crosses itself is a fan around its first corner, with a note at this place.
   /// The corners must exist until `append`.
-  std::string divide(std::span<const Corner> corners, const std::function<std::string()>& place, Notes& notes);
+  std::string divide(std::span<const Corner> corners, const std::function<std::string()>& place,
+                     Notes& notes);
   /// True if the last face has triangles.
   bool is_divided() const { return !divided_.empty(); }
   /// Append the triangles of the last `divide` to the mesh. Vertices are in the order of their first use.

@@ -42,7 +42,8 @@ bool is_mesh_text_name(std::string_view path) {
 Result<LoadedMesh> read_mesh_text(std::string_view bytes, std::string_view file,
                                   const ReadLibrary& read_library) {
   const std::string ending = lower_ending(file);
-  if (const auto fault = utf16_fault(bytes); !fault.empty() && ending != ".stl")  // a binary STL has any bytes
+  if (const auto fault = utf16_fault(bytes);
+      !fault.empty() && ending != ".stl")  // a binary STL has any bytes
     return bad_input(std::string(file) + ":1: " + std::string(fault));
   if (ending == ".ply") return read_ply(bytes, file);
   if (ending == ".stl") return read_stl(bytes, file);

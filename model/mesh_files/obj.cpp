@@ -22,8 +22,7 @@ namespace {
 
 constexpr std::uint32_t c_none = UINT32_MAX;
 
-constexpr std::string_view c_without_effect[] = {
-    "s", "mg", "lod", "bevel", "c_interp", "d_interp", "vp"};
+constexpr std::string_view c_without_effect[] = {"s", "mg", "lod", "bevel", "c_interp", "d_interp", "vp"};
 /// Keywords before a name: it goes up to the end of the line, and a backslash at its end belongs to it.
 constexpr std::string_view c_names[] = {"g",      "o",      "usemtl",     "mtllib",
                                         "usemap", "maplib", "shadow_obj", "trace_obj"};
@@ -150,7 +149,8 @@ class ObjReader {
     if (Status ok = count_item(lines, normal_); !ok) return ok;
     glm::vec3 normal(0.0f);
     bool is_read = true;
-    for (int axis = 0; axis < 3; ++axis) is_read &= read_number(lines.word(), normal[axis]) == NumberFault::none;
+    for (int axis = 0; axis < 3; ++axis)
+      is_read &= read_number(lines.word(), normal[axis]) == NumberFault::none;
     if (!is_read) {
       notes_.add(lines.place(), "a normal is not three finite numbers; it is computed");
       normal = glm::vec3(0.0f);
@@ -173,8 +173,8 @@ class ObjReader {
 
   void read_library(const MaterialLibrary& library) {
     if (!library.text)
-      return notes_.add(file_, fmt::format("material library {} cannot be read; its materials are grey",
-                                           library.path));
+      return notes_.add(
+          file_, fmt::format("material library {} cannot be read; its materials are grey", library.path));
     ++libraries_;
     read_mtl(*library.text, library.path, defined_, notes_);
   }

@@ -23,11 +23,11 @@ using ReadLibrary = std::function<MaterialLibrary(std::string_view name)>;
 /// Read an OBJ file from its text. `file` is its name in messages; every refusal starts with "file:line: ".
 ///
 /// Every word of v, f, l and p is checked, and a keyword that OBJ does not have is refused: after a dropped
-/// line all indices would be wrong. A normal that cannot be read is computed; texture coordinates are not read. Numbers are floats (mesh_files/number.hpp). A vertex has 3
-/// numbers, or 4, of which the last divides the others, or 6 and more, with a colour. Indices
-/// may be negative, or name vertices of later lines. Faces are divided as in mesh_files/triangulate.hpp. A
-/// corner without a normal gets the normal 0. Positions are in the order in which the faces use them,
-/// triangles in the order of the file.
+/// line all indices would be wrong. A normal that cannot be read is computed; texture coordinates are not
+/// read. Numbers are floats (mesh_files/number.hpp). A vertex has 3 numbers, or 4, of which the last divides
+/// the others, or 6 and more, with a colour. Indices may be negative, or name vertices of later lines. Faces
+/// are divided as in mesh_files/triangulate.hpp. A corner without a normal gets the normal 0. Positions are
+/// in the order in which the faces use them, triangles in the order of the file.
 ///
 /// A name goes to the end of the line. If only the part before " #" is defined, the rest is a comment.
 /// Materials: Kd and Ks become the colours, with k_d = k_s = 1, or 0 for black; Ns the exponent. A material

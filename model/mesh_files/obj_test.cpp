@@ -56,7 +56,8 @@ const std::vector<Spelling> c_obj_text = {
     {"two_coordinates", "v 0 0 0\nv 1 0\n", "! a.obj:2: vertex 2 has 2 numbers; it must have 3, 4, 6 or 7"},
     {"five_numbers", "v 0 0 0 1 1\n", "! a.obj:1: vertex 1 has 5 numbers; it must have 3, 4, 6 or 7"},
     {"seven_numbers", "v 0 0 0 1 1 1 .5\nv 1 0 0 nan inf -1.#IND 9\nv 0 1 0 0 0 0 0\nf 1 2 3\n", c_triangle},
-    {"colour_of_words", "v 0 0 0 1 1 v\n", "! a.obj:1: vertex 1: 'v' is not a number; correct the coordinate"},
+    {"colour_of_words", "v 0 0 0 1 1 v\n",
+     "! a.obj:1: vertex 1: 'v' is not a number; correct the coordinate"},
     {"weight_nan", "v 0 0 0 nan\n", "! a.obj:1: vertex 1 has the weight zero; correct the coordinate"},
     {"texture_of_dots", "vt .5 .5\nvt .5\nvt .5 .5 0.\n" + c_three + "f 1/1 2/2 3/3\n", c_triangle},
 
@@ -160,11 +161,10 @@ TEST(Obj, NotesSayWhatIsLeftOut) {
       "usemap wood\nv 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nv 2 0 0\np 1\nl 1 2\nf 1 2\ncstype bezier\ncurv 0 1 1 "
       "2\nend\n"
       "f 1 2 4 2\nf 1 2 3\n"));
-  EXPECT_EQ(loaded.notes,
-            (std::vector<std::string>{
-                "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
-                "a.obj:9: curves and surfaces are left out (3 times)", "a.obj:1: textures are left out",
-                "a.obj:2: vertex colours are left out"}));
+  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
+                              "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
+                              "a.obj:9: curves and surfaces are left out (3 times)",
+                              "a.obj:1: textures are left out", "a.obj:2: vertex colours are left out"}));
   EXPECT_EQ(must(read(c_three + "f 1/1 2/7 3/-1\n")).notes,
             std::vector<std::string>{
                 "a.obj:4: a corner names a texture coordinate that the file does not have (3 times)"});
@@ -173,13 +173,14 @@ TEST(Obj, NotesSayWhatIsLeftOut) {
 TEST(Obj, AnOutlineThatCrossesItselfIsAFan) {
   const auto loaded = must(read(c_square + "v 2 0 0\nf 1 2 3 4\nf 1 2 4 3\nf 1 3 2 4\n"));
   EXPECT_EQ(loaded.mesh.triangles.size(), 6u);
-  EXPECT_EQ(loaded.notes, std::vector<std::string>{"a.obj:7: the outline of a face crosses itself; it is drawn "
-                                                   "as a fan around its first corner (2 times)"});
+  EXPECT_EQ(loaded.notes,
+            std::vector<std::string>{"a.obj:7: the outline of a face crosses itself; it is drawn "
+                                     "as a fan around its first corner (2 times)"});
 }
 
 TEST(Obj, ANormalThatCannotBeReadIsComputed) {
-  const auto loaded = must(read("vn 0 0 1\nvn -1.#IND 0 0\nvn 0 up 1\nvn 0 1\n" + c_three +
-                                "f 1//2 2//3 3//4\nf 1//1 2 3\n"));
+  const auto loaded = must(
+      read("vn 0 0 1\nvn -1.#IND 0 0\nvn 0 up 1\nvn 0 1\n" + c_three + "f 1//2 2//3 3//4\nf 1//1 2 3\n"));
   EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 0,0,1 0,0,0 0,0,0 ");
   EXPECT_EQ(loaded.notes, std::vector<std::string>{
                               "a.obj:2: a normal is not three finite numbers; it is computed (3 times)"});
@@ -227,12 +228,13 @@ TEST(Obj, MaterialsAreThoseThatFacesUse) {
 }
 
 TEST(Obj, KeysOfMaterialsThatAreNotUsedAreNoted) {
-  const auto loaded = must(read("mtllib m.mtl\n" + c_faces,
-                                {{"m.mtl", "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
-                                           "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nKe 0 1 0\n"}}));
-  EXPECT_EQ(loaded.notes,
-            (std::vector<std::string>{"dir/m.mtl:10: 'd' is not used", "dir/m.mtl:11: 'ka' is not used",
-                                      "dir/m.mtl:9: 'ke' is not used (2 times)", "dir/m.mtl:12: 'tr' is not used"}));
+  const auto loaded = must(
+      read("mtllib m.mtl\n" + c_faces, {{"m.mtl",
+                                         "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
+                                         "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nKe 0 1 0\n"}}));
+  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
+                              "dir/m.mtl:10: 'd' is not used", "dir/m.mtl:11: 'ka' is not used",
+                              "dir/m.mtl:9: 'ke' is not used (2 times)", "dir/m.mtl:12: 'tr' is not used"}));
 }
 
 TEST(Obj, MaterialsAreNoted) {
@@ -290,7 +292,8 @@ TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
 }
 
 TEST(Obj, AMaterialWithoutANameIsTheDefault) {
-  const auto loaded = must(read("mtllib m.mtl\n" + c_three + "usemtl\nf 1 2 3\n", {{"m.mtl", "newmtl\nKd 1 0 0\n"}}));
+  const auto loaded =
+      must(read("mtllib m.mtl\n" + c_three + "usemtl\nf 1 2 3\n", {{"m.mtl", "newmtl\nKd 1 0 0\n"}}));
   EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0.6f));
   EXPECT_EQ(loaded.notes,
             (std::vector<std::string>{"a.obj: faces without a material are grey",
@@ -310,17 +313,17 @@ TEST_P(MtlFaults, AreLeftOutWithANote) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, MtlFaults,
-    ::testing::Values(Spelling{"word", "newmtl a\nKd red\n", "2: Kd: 'red' is not a number; the line is left out"},
-                      Spelling{"nan", "newmtl a\nKd nan 0 0\n", "2: Kd: 'nan' is not finite; the line is left out"},
-                      Spelling{"spectral", "newmtl a\nKd spectral a.rfl 1\n",
-                               "2: Kd: 'spectral' is not a number; the line is left out"},
-                      Spelling{"two", "newmtl a\nKs 1 1\n",
-                               "2: Ks: 2 numbers instead of 3, or 1 for grey; the line is left out"},
-                      Spelling{"four", "newmtl a\nKd 1 1 1 1\n", "2: Kd: more than 3 numbers; the line is left out"},
-                      Spelling{"none", "newmtl a\n\nNs # 3\n", "3: Ns: no number; the line is left out"},
-                      Spelling{"negative", "newmtl a\nKd 1 -.5 1\n",
-                               "2: Kd: '-.5' is negative; the line is left out"},
-                      Spelling{"too_early", "Kd 1 1 1\n", "1: a line before the first newmtl is left out"}),
+    ::testing::Values(
+        Spelling{"word", "newmtl a\nKd red\n", "2: Kd: 'red' is not a number; the line is left out"},
+        Spelling{"nan", "newmtl a\nKd nan 0 0\n", "2: Kd: 'nan' is not finite; the line is left out"},
+        Spelling{"spectral", "newmtl a\nKd spectral a.rfl 1\n",
+                 "2: Kd: 'spectral' is not a number; the line is left out"},
+        Spelling{"two", "newmtl a\nKs 1 1\n",
+                 "2: Ks: 2 numbers instead of 3, or 1 for grey; the line is left out"},
+        Spelling{"four", "newmtl a\nKd 1 1 1 1\n", "2: Kd: more than 3 numbers; the line is left out"},
+        Spelling{"none", "newmtl a\n\nNs # 3\n", "3: Ns: no number; the line is left out"},
+        Spelling{"negative", "newmtl a\nKd 1 -.5 1\n", "2: Kd: '-.5' is negative; the line is left out"},
+        Spelling{"too_early", "Kd 1 1 1\n", "1: a line before the first newmtl is left out"}),
     name_of);
 
 }  // namespace

@@ -249,7 +249,8 @@ class PlyReader {
     if (element.kind == Kind::vertex && number < std::size(c_numbers)) {
       if (property.length_type) return lines_.error(fmt::format("{} is a list; correct it", property.name));
       property.use = static_cast<Use>(number);
-      if (uses(element, property.use)) return lines_.error(fmt::format("a second property {}; remove it", c_numbers[number]));
+      if (uses(element, property.use))
+        return lines_.error(fmt::format("a second property {}; remove it", c_numbers[number]));
     } else if (has_corners(element) && is_corners) {
       if (!property.length_type || property.type->is_real) {
         return lines_.error(fmt::format("{} is not a list of integers; correct it", property.name));
@@ -257,7 +258,8 @@ class PlyReader {
       if (uses(element, Use::corners)) return lines_.error("a second list of corners; remove it");
       property.use = Use::corners;
     }
-    const bool is_colour = element.kind == Kind::vertex && index_in(c_colours, property.name) < std::size(c_colours);
+    const bool is_colour =
+        element.kind == Kind::vertex && index_in(c_colours, property.name) < std::size(c_colours);
     has_colours_ |= is_colour && element.count > 0;
     if (element.kind != Kind::other && property.use == Use::none && !is_colour)
       notes_.add(lines_.place(), fmt::format("property {} is not used", quoted(property.name)));
@@ -358,9 +360,7 @@ class PlyReader {
                     item_, element.count, quoted(element.name)));
   }
   /// An error at the current line or byte.
-  Error error(std::string_view what) const {
-    return bad_input(fmt::format("{}: {}", place(), what));
-  }
+  Error error(std::string_view what) const { return bad_input(fmt::format("{}: {}", place(), what)); }
   std::string place() const { return is_text_ ? lines_.place() : fmt::format("{}: byte {}", file_, at_); }
 
   /// Go to the next line that is not empty.

@@ -16,9 +16,9 @@ namespace halfway {
 /// vertex_index; element tristrips with the same list, in which -1 starts a new strip. Vertices must come
 /// before what uses them, and a property may be given once. All types of PLY are read; numbers are rounded to
 /// the nearest float. Faces are divided as in mesh_files/triangulate.hpp.
-/// Other properties are skipped, other elements are left out with a note; in text they may be any words. Every
-/// item of text is one line of exactly its numbers. Data after the last element is refused, except for line ends.
-/// Left out with a note: faces of fewer than three corners, colours of vertices.
+/// Other properties are skipped, other elements are left out with a note; in text they may be any words.
+/// Every item of text is one line of exactly its numbers. Data after the last element is refused, except for
+/// line ends. Left out with a note: faces of fewer than three corners, colours of vertices.
 Result<LoadedMesh> read_ply(std::string_view bytes, std::string_view file);
 
 }  // namespace halfway

@@ -64,7 +64,8 @@ const std::vector<Spelling> c_ply_text = {
     {"cr", with_line_end(c_plain, "\r"), c_triangle},
     {"empty_lines", changed(c_plain, "1 0 0\n", "\n1 0 0 \n\t\n") + "\n \n", c_triangle},
     {"tabs", changed(c_plain, "1 0 0\n", "\t1\t0  0 \n"), c_triangle},
-    {"byte_order_mark_after_the_header", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf"), c_triangle},
+    {"byte_order_mark_after_the_header", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf"),
+     c_triangle},
     {"byte_order_mark", "\xef\xbb\xbf" + c_plain, c_triangle},
 
     // numbers
@@ -158,7 +159,8 @@ const std::vector<Spelling> c_ply_text = {
          "2 1 0 0 0\n3 0 1 0 1 -9\n255 3 0 1 2 6 0 0 1 0 .5 1\n0 1\n1 2\n",
      c_triangle},
     {"skipped_word",
-     changed(changed(c_plain, "end_header", "property char a\nend_header"), "3 0 1 2", "3 0 1 2 x"), c_triangle},
+     changed(changed(c_plain, "end_header", "property char a\nend_header"), "3 0 1 2", "3 0 1 2 x"),
+     c_triangle},
     {"length_of_a_skipped_list",
      changed(changed(c_plain, "end_header", "property list char char a\nend_header"), "3 0 1 2", "3 0 1 2 x"),
      "! a.ply:14: face 0: 'x' is not an integer; correct it, or the type in the header"},
@@ -316,8 +318,8 @@ TEST(Ply, NormalsOfVerticesAreThoseOfTheirCorners) {
 }
 
 TEST(Ply, NormalsThatCannotBeReadAreComputed) {
-  const std::string text = c_header3 + "property float nx\nproperty float ny\nproperty double nz\n" + c_face1 +
-                           "0 0 0 0 nan 1\n1 0 0 -1.#IND 0 x\n0 1 0 0 0 1\n3 0 1 2\n";
+  const std::string text = c_header3 + "property float nx\nproperty float ny\nproperty double nz\n" +
+                           c_face1 + "0 0 0 0 nan 1\n1 0 0 -1.#IND 0 x\n0 1 0 0 0 1\n3 0 1 2\n";
   const auto loaded = must(read_ply(text, "a.ply"));
   EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,1 ");
   EXPECT_EQ(loaded.notes, std::vector<std::string>{
@@ -349,10 +351,9 @@ TEST(Ply, NotesSayWhatIsLeftOut) {
                    "0 0 0 1 2 3\n1 0 0 1 2 3\n0 1 0 1 2 3\n2 0 0 1 2 3\n3 0 1 2\n2 0 1\n4 0 1 3 1\n5\n",
                "a.ply");
   ASSERT_TRUE(loaded) << loaded.error().message;
-  EXPECT_EQ(loaded->notes,
-            (std::vector<std::string>{
-                "a.ply: 1 faces without area left out", "a.ply: 1 points and lines left out",
-                "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out"}));
+  EXPECT_EQ(loaded->notes, (std::vector<std::string>{
+                               "a.ply: 1 faces without area left out", "a.ply: 1 points and lines left out",
+                               "a.ply: elements 'edge' are left out", "a.ply: vertex colours are left out"}));
 }
 
 TEST(Ply, ToleratedSpellingsAreNoted) {
@@ -360,8 +361,8 @@ TEST(Ply, ToleratedSpellingsAreNoted) {
             std::vector<std::string>{"a.ply:13: an integer is written with a point (2 times)"});
   const std::string text = binary_ply(false);
   EXPECT_EQ(must(read_ply(text + "\n", "a.ply")).notes,
-            std::vector<std::string>{fmt::format("a.ply: byte {}: line ends after the last element are left out",
-                                                 text.size())});
+            std::vector<std::string>{
+                fmt::format("a.ply: byte {}: line ends after the last element are left out", text.size())});
 }
 
 TEST(Ply, MoreTrianglesThanTheLimitAreRefused) {

@@ -63,7 +63,9 @@ class TextReader {
     for (word_ = lines_.word(); word_.empty() && lines_.next();) word_ = lines_.word();
   }
   bool is(std::string_view keyword) const { return lower_case(word_.substr(0, 16)) == keyword; }
-  bool starts(std::string_view keyword) const { return lower_case(word_.substr(0, keyword.size())) == keyword; }
+  bool starts(std::string_view keyword) const {
+    return lower_case(word_.substr(0, keyword.size())) == keyword;
+  }
   /// True at "endloop" or "end loop". A name may follow "endsolid" without a blank.
   bool ends(std::string_view what) {
     if (!is("end")) return starts("end") && lower_case(word_.substr(3, what.size())) == what;
@@ -204,7 +206,8 @@ Result<LoadedMesh> read_stl(std::string_view bytes, std::string_view file) {
   if (lower_case(start.substr(0, 5)) == "solid" && start.find('\0') == std::string_view::npos) {
     return TextReader(bytes, file).read();
   }
-  if (const auto fault = utf16_fault(bytes); !fault.empty()) return bad_input(fmt::format("{}:1: {}", file, fault));
+  if (const auto fault = utf16_fault(bytes); !fault.empty())
+    return bad_input(fmt::format("{}:1: {}", file, fault));
   if (facets > 0 && bytes.size() > c_header_bytes + c_facet_bytes * std::uint64_t{facets}) {
     return read_binary(bytes, file, facets);
   }

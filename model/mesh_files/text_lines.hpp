@@ -13,7 +13,8 @@ namespace halfway {
 inline constexpr std::string_view c_byte_order_mark = "\xef\xbb\xbf";
 /// What is wrong with text that starts with the mark of UTF-16; empty for other text.
 inline std::string_view utf16_fault(std::string_view text) {
-  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ? "the text is UTF-16; save it as UTF-8" : "";
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ? "the text is UTF-16; save it as UTF-8"
+                                                                      : "";
 }
 
 /// Lines end with LF, CR LF or CR. Words are separated by blanks. With `comments`, '#' at the start of a word

@@ -86,8 +86,7 @@ std::vector<EdgeUse> sorted_edge_uses(std::span<const SceneTriangle> triangles) 
       if (from != to) uses.push_back({std::min(from, to), std::max(from, to), t, from < to ? 1 : -1});
     }
   }
-  std::sort(uses.begin(), uses.end(),
-            [](const EdgeUse& a, const EdgeUse& b) { return a.edge() < b.edge(); });
+  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) { return a.edge() < b.edge(); });
   return uses;
 }
 

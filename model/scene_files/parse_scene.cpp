@@ -311,8 +311,7 @@ class SceneReader {
 
   static std::vector<std::string_view> all_mesh_keys() {
     return {"kind",     "file",      "slices", "stacks", "radius",       "divisions", "size",
-            "material", "translate", "rotate", "scale",  "crease_angle", "normals",
-            "cull"};
+            "material", "translate", "rotate", "scale",  "crease_angle", "normals",   "cull"};
   }
 
   // Returns false after an error, as check_triangles.

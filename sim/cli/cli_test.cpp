@@ -197,7 +197,8 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
       else
         EXPECT_THAT(outcome.output, Not(HasSubstr("nothing was compared")));
     }
-    const std::string left_out = "1 triangles of surfaces that are not closed show their back and are left out";
+    const std::string left_out =
+        "1 triangles of surfaces that are not closed show their back and are left out";
     EXPECT_EQ(drawn[0].output.find(left_out) != std::string::npos, !in_view) << drawn[0].output;
     EXPECT_EQ(with_size({"view", scene, "--frames", "1", "--no-compare"}).exit_code, 0);
     EXPECT_THAT(run({"why", scene, "--pixel", "3,3", "--size", "8x8"}),

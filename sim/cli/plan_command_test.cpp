@@ -70,7 +70,8 @@ TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
   // netlists.
   const std::string clocks = "\nclock, MHz on an iCE40 HX8K, as stored +[0-9]+[.][0-9] +[0-9]+[.][0-9]";
   const bool are_stored = synth::are_of_this_ghdl(must(synth::read_clocks(HALFWAY_SOURCE_DIR)));
-  EXPECT_THAT(few, are_stored ? testing::Matcher<std::string>(ContainsRegex(clocks)) : Not(ContainsRegex(clocks)));
+  EXPECT_THAT(few,
+              are_stored ? testing::Matcher<std::string>(ContainsRegex(clocks)) : Not(ContainsRegex(clocks)));
   // Splitting makes the error of planes smaller, and that of quadratics is smaller unsplit.
   const auto figures = [&](const std::string& name) {
     double planes = 0, quadratics = 0;

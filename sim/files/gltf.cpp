@@ -41,8 +41,8 @@ constexpr std::uintmax_t c_max_buffer_bytes = std::uintmax_t{4} << 30;
 /// Extensions that a file may require. Those of textures change only what is left out with the textures.
 constexpr std::string_view c_visibility = "KHR_node_visibility", c_unlit = "KHR_materials_unlit",
                            c_glossiness = "KHR_materials_pbrSpecularGlossiness";
-constexpr std::string_view c_extensions[] = {c_visibility, c_unlit, c_glossiness, "KHR_texture_transform",
-                                             "KHR_texture_basisu", "EXT_texture_webp"};
+constexpr std::string_view c_extensions[] = {
+    c_visibility, c_unlit, c_glossiness, "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"};
 /// The ambient light of a scene, unless its file sets another one: k_a for a surface that emits its colour.
 constexpr double c_emitting = 1.0 / 0.2;
 /// In place of a material's index: its surfaces are not drawn.
@@ -348,16 +348,17 @@ class GltfReader {
     const Item asset = root_.object("asset");
     if (!asset.text("minVersion", "2.0").starts_with("2.0"))
       asset.at("minVersion").fail("is later than 2.0; export as glTF 2.0");
-    note_unused(root_, {"asset", "scene", "scenes", "nodes", "meshes", "skins", "accessors", "bufferViews",
-                        "buffers", "materials", "textures", "images", "samplers", "extensionsUsed",
-                        "extensionsRequired"});
+    note_unused(
+        root_, {"asset", "scene", "scenes", "nodes", "meshes", "skins", "accessors", "bufferViews", "buffers",
+                "materials", "textures", "images", "samplers", "extensionsUsed", "extensionsRequired"});
     const std::string version = root_.object("asset").at("version").text();
     if (!version.starts_with("2.")) {
       root_.at("asset").fail(fmt::format("glTF {}; export as glTF 2.0", halfway::quoted(version)));
     }
     for (const Item& extension : root_.list("extensionsRequired")) {
       const std::string& name = extension.text();
-      if (!contains(c_extensions, name)) extension.fail(halfway::quoted(name) + " cannot be read; export the file without it");
+      if (!contains(c_extensions, name))
+        extension.fail(halfway::quoted(name) + " cannot be read; export the file without it");
     }
   }
 
@@ -382,7 +383,8 @@ class GltfReader {
       const Item& node = nodes_[next.node];
       if (is_read[next.node]) node.fail("is reached twice; export the file with a tree of nodes");
       is_read[next.node] = true;
-      note_unused(node, {"mesh", "children", "skin", "weights", "matrix", "translation", "rotation", "scale", "camera"});
+      note_unused(node, {"mesh", "children", "skin", "weights", "matrix", "translation", "rotation", "scale",
+                         "camera"});
       if (!extension_of(node, c_visibility).flag("visible", true)) {
         note(node, "it is not visible: it is not drawn");
         continue;
@@ -890,7 +892,8 @@ Error not_json(const json::parse_error& error, std::string_view text, const std:
 Error too_large(const json::out_of_range& error, std::string_view text, const std::string& name) {
   const std::string_view what = error.what();
   const std::size_t last = what.rfind('\''), first = what.substr(0, last).rfind('\'');
-  const std::string_view number = last < what.size() && first < last ? what.substr(first + 1, last - first - 1) : "";
+  const std::string_view number =
+      last < what.size() && first < last ? what.substr(first + 1, last - first - 1) : "";
   const std::string_view before = text.substr(0, std::min(text.find(number), text.size()));
   return bad_input(fmt::format("{}:{}: the number {} is too large; correct it", name,
                                1 + std::count(before.begin(), before.end(), '\n'), halfway::quoted(number)));
@@ -904,7 +907,8 @@ Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path
   try {
     const Chunks chunks = chunks_of(bytes);
     text = chunks.json;
-    if (const auto fault = utf16_fault(text); !fault.empty()) return bad_input(fmt::format("{}:1: {}", name, fault));
+    if (const auto fault = utf16_fault(text); !fault.empty())
+      return bad_input(fmt::format("{}:1: {}", name, fault));
     const json root = json::parse(text);
     if (!root.is_object()) return bad_input(name + ":1: not glTF 2.0: its JSON is not an object");
     return GltfReader(root, chunks.binary, path).read();

@@ -179,16 +179,19 @@ const std::vector<Spelling> c_spellings = {
      "1,1,0 2,1,0 1,2,0"},
     {"translation_of_two", with({{"/nodes/0/translation", {1, 2}}}),
      "! a.gltf: nodes[0].translation: has 2 numbers, not 3; correct it"},
-    {"scale_0", with({{"/nodes/0/scale", {0, 0, 0}}}), "! a.gltf: the mesh has no faces; export it with faces"},
+    {"scale_0", with({{"/nodes/0/scale", {0, 0, 0}}}),
+     "! a.gltf: the mesh has no faces; export it with faces"},
     {"flat", with({{"/nodes/0/scale", {1, 2, 0}}}), "0,0,0 1,0,0 0,2,0"},
-    {"matrix_rounded", with({{"/nodes/0/matrix", {1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99999994}}}),
-     c_triangle},
+    {"matrix_rounded",
+     with({{"/nodes/0/matrix", {1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99999994}}}), c_triangle},
     {"translation_huge", with({{"/nodes/0/translation", {1e300, 0, 0}}}),
      "! a.gltf: nodes[0]: its transform moves a vertex beyond the range of float; correct it"},
     {"rotation_0", with({{"/nodes/0/rotation", {0, 0, 0, 0}}}), c_triangle},
     {"rotation_of_length_2", with({{"/nodes/0/rotation", {0, 0, 2, 0}}}), "0,0,0 -1,0,0 0,-1,0"},
     {"skinned_node_is_moved",
-     with({{"/nodes/0/skin", 0}, {"/nodes/0/translation", {9, 9, 0}}, {"/skins", json::parse(R"([{"joints":[0]}])")}}),
+     with({{"/nodes/0/skin", 0},
+           {"/nodes/0/translation", {9, 9, 0}},
+           {"/skins", json::parse(R"([{"joints":[0]}])")}}),
      c_triangle},
     {"perspective", with({{"/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
      "! a.gltf: nodes[0].matrix: its last row is not 0 0 0 1; export the file again"},
@@ -203,7 +206,8 @@ const std::vector<Spelling> c_spellings = {
     // the file
     {"not_json", "{\n\"asset\": {\"version\": 2.0,,\n",
      "! a.gltf:2: not glTF 2.0: its JSON is damaged here; export the file again"},
-    {"number_too_large", "{\"a\":1,\n\"b\":1e999}", "! a.gltf:2: the number '1e999' is too large; correct it"},
+    {"number_too_large", "{\"a\":1,\n\"b\":1e999}",
+     "! a.gltf:2: the number '1e999' is too large; correct it"},
     {"utf_16", "\xfe\xff{}", "! a.gltf:1: the text is UTF-16; save it as UTF-8"},
     {"array", "[]", "! a.gltf:1: not glTF 2.0: its JSON is not an object"},
     {"deep",
@@ -216,16 +220,19 @@ const std::vector<Spelling> c_spellings = {
      "it"},
     {"unlit", with({{"/extensionsRequired", {"KHR_materials_unlit"}}}), c_triangle},
     {"transmission", with({{"/extensionsRequired", {"KHR_materials_transmission"}}}),
-     "! a.gltf: extensionsRequired[0]: 'KHR_materials_transmission' cannot be read; export the file without it"},
+     "! a.gltf: extensionsRequired[0]: 'KHR_materials_transmission' cannot be read; export the file without "
+     "it"},
     {"later_version", with({{"/asset/minVersion", "2.1"}}),
      "! a.gltf: asset.minVersion: is later than 2.0; export as glTF 2.0"},
     {"invisible",
-     with({{"/nodes/1", json::parse(R"({"children":[0],"extensions":{"KHR_node_visibility":{"visible":false}}})")},
+     with({{"/nodes/1",
+            json::parse(R"({"children":[0],"extensions":{"KHR_node_visibility":{"visible":false}}})")},
            {"/scenes/0/nodes", {1}}}),
      "! a.gltf: the mesh has no faces; export it with faces"},
     {"transparent",
      with({{"/meshes/0/primitives/0/material", 0},
-           {"/materials", json::parse(R"([{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]}}])")}}),
+           {"/materials",
+            json::parse(R"([{"alphaMode":"BLEND","pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0]}}])")}}),
      "! a.gltf: the mesh has no faces; export it with faces"},
 };
 
@@ -322,23 +329,26 @@ TEST(Gltf, ANodeOfScaleZeroLeavesTheOthers) {
   const auto nodes = json::parse(R"([{"mesh":0},{"mesh":0,"scale":[0,0,0]}])");
   const auto loaded = must(read_gltf(with({{"/nodes", nodes}, {"/scenes/0/nodes", {0, 1}}}), "a.gltf"));
   EXPECT_EQ(triangles_of(loaded), c_triangle);
-  EXPECT_EQ(loaded.notes, (TextList{"a.gltf: nodes[1]: its transform has a scale of zero: it is flat, or not drawn",
-                                    "a.gltf: nodes[1]: triangles without area are left out"}));
+  EXPECT_EQ(loaded.notes,
+            (TextList{"a.gltf: nodes[1]: its transform has a scale of zero: it is flat, or not drawn",
+                      "a.gltf: nodes[1]: triangles without area are left out"}));
 }
 
 /// The only material of a file with this one.
 LoadedMesh with_material(const json& material, const json& index = 0) {
-  return must(read_gltf(with({{"/meshes/0/primitives/0/material", index}, {"/materials", json::array({material})}}),
-                        "a.gltf"));
+  return must(read_gltf(
+      with({{"/meshes/0/primitives/0/material", index}, {"/materials", json::array({material})}}), "a.gltf"));
 }
 
 TEST(Gltf, AMaterialThatCannotBeReadIsTheDefault) {
   const auto wrong = json::parse(R"({"name":"m","pbrMetallicRoughness":{"baseColorFactor":[1,0,-1,1]}})");
   for (const auto& [loaded, note] :
-       {std::pair(with_material(wrong), "materials[0].pbrMetallicRoughness.baseColorFactor: is negative; correct "
-                                        "the colour; it is the default material"),
-        std::pair(with_material(json::object(), 7), "meshes[0].primitives[0].material: is 7, but the file has 1, "
-                                                    "counted from 0; correct the index; it has the default material")}) {
+       {std::pair(with_material(wrong),
+                  "materials[0].pbrMetallicRoughness.baseColorFactor: is negative; correct "
+                  "the colour; it is the default material"),
+        std::pair(with_material(json::object(), 7),
+                  "meshes[0].primitives[0].material: is 7, but the file has 1, "
+                  "counted from 0; correct the index; it has the default material")}) {
     EXPECT_EQ(loaded.mesh.materials.at(0).name, "default");
     EXPECT_EQ(loaded.notes, TextList{std::string("a.gltf: ") + note});
   }
@@ -351,11 +361,13 @@ TEST(Gltf, ASurfaceThatOnlyEmitsIsDrawnWithAmbientLight) {
   EXPECT_EQ(m.ambient * 0.2 * m.colour, glm::dvec3(1.0, 0.8, 0.1));
   EXPECT_EQ(m.diffuse, 0.0);
   EXPECT_EQ(loaded.notes, TextList{});
-  EXPECT_EQ(with_material(json::parse(R"({"emissiveFactor":[1,0,0]})")).notes,
-            TextList{"a.gltf: materials[0]: 'emissiveFactor' is not used, because the surface reflects light too"});
+  EXPECT_EQ(
+      with_material(json::parse(R"({"emissiveFactor":[1,0,0]})")).notes,
+      TextList{"a.gltf: materials[0]: 'emissiveFactor' is not used, because the surface reflects light too"});
   const auto unlit = with_material(json::parse(
       R"({"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1]}})"));
-  EXPECT_EQ(unlit.mesh.materials.at(0).ambient * 0.2 * unlit.mesh.materials.at(0).colour, glm::dvec3(1, 0.5, 0));
+  EXPECT_EQ(unlit.mesh.materials.at(0).ambient * 0.2 * unlit.mesh.materials.at(0).colour,
+            glm::dvec3(1, 0.5, 0));
 }
 
 TEST(Gltf, GlossinessIsRoughness) {
@@ -373,19 +385,20 @@ TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
       with({{"/animations", json::array()},
             {"/nodes/0/extensions", json::parse(R"({"EXT_mesh_gpu_instancing":{}})")},
             {"/meshes/0/primitives/0/material", 0},
-            {"/materials", json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
+            {"/materials",
+             json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
                 "pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5],"roughnesFactor":0}}])")}}),
       "a.gltf"));
-  EXPECT_EQ(loaded.notes,
-            (TextList{"a.gltf: 'animations' is not used",
-                      "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
-                      "a.gltf: nodes[0]: extension 'EXT_mesh_gpu_instancing' is not used",
-                      "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
-                      "a.gltf: materials[0]: transparency is left out"}));
+  EXPECT_EQ(loaded.notes, (TextList{"a.gltf: 'animations' is not used",
+                                    "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
+                                    "a.gltf: nodes[0]: extension 'EXT_mesh_gpu_instancing' is not used",
+                                    "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
+                                    "a.gltf: materials[0]: transparency is left out"}));
 }
 
 TEST(Gltf, FactorsAreLimited) {
-  const auto rounded = with_material(json::parse(R"({"pbrMetallicRoughness":{"roughnessFactor":1.0000001}})"));
+  const auto rounded =
+      with_material(json::parse(R"({"pbrMetallicRoughness":{"roughnessFactor":1.0000001}})"));
   EXPECT_EQ(rounded.mesh.materials.at(0).specular, 0.0);
   EXPECT_EQ(rounded.notes, TextList{});
   EXPECT_EQ(with_material(json::parse(R"({"pbrMetallicRoughness":{"roughnessFactor":2}})")).notes,
@@ -395,11 +408,12 @@ TEST(Gltf, FactorsAreLimited) {
 TEST(Gltf, ANormalThatIsNotFiniteIsComputed) {
   const auto loaded = must(read_gltf(
       with({{"/meshes/0/primitives/0/attributes/NORMAL", 2},
-            {"/accessors/2", json::parse(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":)" +
-                                         changed(c_sparse.dump(), "\"bufferView\":3", "\"bufferView\":4") + "}")},
+            {"/accessors/2",
+             json::parse(R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","sparse":)" +
+                         changed(c_sparse.dump(), "\"bufferView\":3", "\"bufferView\":4") + "}")},
             {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":12})")},
-            {"/buffers/1", {{"byteLength", 12},
-                            {"uri", "data:;base64," + base64(std::string(11, '\xff') + '\x7f')}}}}),
+            {"/buffers/1",
+             {{"byteLength", 12}, {"uri", "data:;base64," + base64(std::string(11, '\xff') + '\x7f')}}}}),
       "a.gltf"));
   EXPECT_EQ(normals_of(loaded), "0,0,0 1,0,0 0,0,0 ");
   EXPECT_EQ(loaded.notes, TextList{"a.gltf: meshes[0].primitives[0].attributes.NORMAL: a normal is not three "

@@ -440,10 +440,10 @@ TEST_F(LoadScene, OpenSurfacesAreDrawnFromBothSidesUnlessCulled) {
 
 // A square, and a second one that shares an edge and is wound the other way.
 TEST_F(LoadScene, AFaceOfTheOtherWindingIsDrawn) {
-  const Scene scene = must(load_scene(
-      write("second_face_clockwise.obj",
-            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 3 6 5\n"),
-      c_scenes));
+  const Scene scene =
+      must(load_scene(write("second_face_clockwise.obj",
+                            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nf 1 2 3 4\nf 2 3 6 5\n"),
+                      c_scenes));
   EXPECT_EQ(culling_of(scene), "nnnn");
   const std::vector<ScreenTriangle> drawn = Projector(scene, {80, 60}, {}).project_all();
   ASSERT_EQ(drawn.size(), 4u);

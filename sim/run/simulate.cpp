@@ -128,10 +128,10 @@ class Simulation {
                                     : "; turn the camera to the scene, and give each triangle's corners "
                                       "counter-clockwise as seen from outside"));
     if (n.projection.left_out != 0)
-      note(
-          fmt::format("{} triangles of surfaces that are not closed show their back and are left out, as cull = "
-                      "\"back\" or their glTF material wants; cull = \"none\" draws both sides",
-                      n.projection.left_out));
+      note(fmt::format(
+          "{} triangles of surfaces that are not closed show their back and are left out, as cull = "
+          "\"back\" or their glTF material wants; cull = \"none\" draws both sides",
+          n.projection.left_out));
     const bool near_fitted = scene_.camera.near <= 0.0;
     if (n.projection.behind_near != 0 && near_fitted)
       note(fmt::format(

@@ -128,7 +128,8 @@ TEST_F(SpaceTest, EveryKeyIsARowOfThePage) {
     if (!in_table) continue;
     // The names in the first cell.
     std::istringstream cell(line.substr(1, line.find('|', 1) - 1));
-    for (std::string word; std::getline(cell, word, '`') && std::getline(cell, word, '`');) documented.push_back(word);
+    for (std::string word; std::getline(cell, word, '`') && std::getline(cell, word, '`');)
+      documented.push_back(word);
   }
   for (const Knob& knob : knobs()) keys.emplace_back(knob.name);
   EXPECT_THAT(documented, testing::UnorderedElementsAreArray(keys));

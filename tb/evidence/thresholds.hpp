@@ -11,8 +11,8 @@
 //   rules = ["within 3 % or 3", "equal"]
 //   accumulator_24 = [24, 24]
 //
-// With `release`, a section's numbers depend on the tools of that release of an operating system, and are judged there
-// only.
+// With `release`, a section's numbers depend on the tools of that release of an operating system, and are
+// judged there only.
 //
 // Rules: `equal`, `at least`, `at most`, both also with a share of the number in %, `within P %` and
 // `within P % or N`.

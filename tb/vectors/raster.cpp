@@ -126,8 +126,8 @@ void write_counter(const Folder& folder) {
     bool valid = false, first = false, offered = false;
     std::vector<InitVector> triangles = walker_triangles<Preset>(random, mix);
     if constexpr (std::is_same_v<Preset, Exact>) {
-      // Nearly as many lower lines as can be counted. An even number: a fault that inverts a bit of each count
-      // inverts it an odd number of times.
+      // Nearly as many lower lines as can be counted. An even number: a fault that inverts a bit of each
+      // count inverts it an odd number of times.
       InitVector long_section = triangles.front();
       set_bits(long_section, Exact::init_header_at::upper_lines, 1);
       set_bits(long_section, Exact::init_header_at::lower_lines, ~1U);

@@ -48,8 +48,8 @@ halfway_scene* halfway_load_scene(const char* name, const char* scenes_folder, h
 /* New: the text of a scene file that names no mesh files. `name` is for messages. */
 halfway_scene* halfway_parse_scene(const char* toml, const char* name, halfway_error* error);
 
-/* Triangles in world space, counter-clockwise seen from outside. Surfaces that are not closed are drawn from both
- * sides. */
+/* Triangles in world space, counter-clockwise seen from outside. Surfaces that are not closed are drawn from
+ * both sides. */
 typedef struct halfway_mesh {
   const double* positions; /* 3 per vertex */
   const double* normals;   /* 3 per vertex; null: smooth normals are computed */
