@@ -112,7 +112,17 @@ std::string scene_hash(const Scene& scene) {
   }
   add_numbers(hash, scene.positions_world);
   add_numbers(hash, scene.normals_world);
-  add_numbers(hash, scene.triangles);
+  std::vector<std::uint32_t> triangles, cullings;
+  for (const SceneTriangle& t : scene.triangles) {
+    for (const auto* corners : {&t.position, &t.normal})
+      triangles.insert(triangles.end(), corners->begin(), corners->end());
+    triangles.push_back(t.material);
+    cullings.push_back(static_cast<std::uint32_t>(t.culling));
+  }
+  add_numbers(hash, triangles);
+  // Closed surfaces have the hash that they had before there were others.
+  if (std::ranges::any_of(scene.triangles, [](const SceneTriangle& t) { return t.culling != Culling::closed; }))
+    add_numbers(hash, cullings);
   return hash.hex();
 }
 

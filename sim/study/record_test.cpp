@@ -73,6 +73,7 @@ TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
   changes.emplace_back("corner", [](Scene& s) { s.triangles.back().position[2] ^= 1U; });
   changes.emplace_back("corner's normal", [](Scene& s) { s.triangles.back().normal[2] ^= 1U; });
   changes.emplace_back("material of a triangle", [](Scene& s) { s.triangles.back().material ^= 1U; });
+  changes.emplace_back("back of a triangle", [](Scene& s) { s.triangles.back().culling = Culling::none; });
   for (const LightKind kind : c_light_kinds)
     changes.emplace_back(to_string(kind), [kind](Scene& s) {
       switch (kind) {
