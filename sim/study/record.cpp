@@ -121,7 +121,8 @@ std::string scene_hash(const Scene& scene) {
   }
   add_numbers(hash, triangles);
   // Closed surfaces have the hash that they had before there were others.
-  if (std::ranges::any_of(scene.triangles, [](const SceneTriangle& t) { return t.culling != Culling::closed; }))
+  if (std::ranges::any_of(scene.triangles,
+                          [](const SceneTriangle& t) { return t.culling != Culling::closed; }))
     add_numbers(hash, cullings);
   return hash.hex();
 }
