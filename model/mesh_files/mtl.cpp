@@ -14,7 +14,8 @@ namespace halfway {
 
 namespace {
 
-/// Read one number or more, up to `most`, to the end of the line. Returns what is wrong, or nothing.
+/// Read one number or more, as many as there are values at most, to the end of the line. Returns what is
+/// wrong, or nothing.
 std::string read_numbers(TextLines& lines, std::span<float> values, std::size_t& count) {
   count = 0;
   for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {

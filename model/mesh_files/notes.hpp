@@ -2,9 +2,11 @@
 // What a reader of mesh files left out or changed.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <map>
 #include <string>
 #include <string_view>
@@ -17,8 +19,11 @@ class Notes {
  public:
   /// Count a thing. `place` is the file, with the line or object if it is known.
   void add(std::string_view place, std::string_view what) {
-    if (notes_.size() >= c_most) what = "more is left out";
-    const auto found = notes_.find(what);
+    auto found = notes_.find(what);
+    if (found == notes_.end() && notes_.size() >= c_most) {
+      what = "more is left out";
+      found = notes_.find(what);
+    }
     if (found == notes_.end())
       notes_.emplace(what, Note{.first_place = std::string(place)});
     else
@@ -42,5 +47,13 @@ class Notes {
   };
   std::map<std::string, Note, std::less<>> notes_;
 };
+
+/// The normal, or zero with a note if a number is not finite. `place` returns the place.
+template <class Place>
+glm::vec3 known_normal(const glm::vec3& normal, Notes& notes, Place&& place) {
+  if (std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z)) return normal;
+  notes.add(place(), "a normal is not three finite numbers; it is computed");
+  return glm::vec3(0.0f);
+}
 
 }  // namespace halfway

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <unordered_map>
 #include <vector>
 
@@ -30,11 +31,6 @@ constexpr std::string_view c_curves[] = {"cstype", "deg",   "bmat", "step", "cur
                                          "parm",   "trim",  "hole", "scrv", "sp",   "end",   "con",
                                          "ctech",  "stech", "bsp",  "bzp",  "cdc",  "cdp",   "res"};
 constexpr std::string_view c_textures[] = {"usemap", "maplib"};
-
-template <std::size_t N>
-bool contains(const std::string_view (&words)[N], std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
 
 /// A name up to a comment.
 std::string_view before_comment(std::string_view name) {
@@ -148,14 +144,10 @@ class ObjReader {
   Status read_normal(TextLines& lines) {
     if (Status ok = count_item(lines, normal_); !ok) return ok;
     glm::vec3 normal(0.0f);
-    bool is_read = true;
     for (int axis = 0; axis < 3; ++axis)
-      is_read &= read_number(lines.word(), normal[axis]) == NumberFault::none;
-    if (!is_read) {
-      notes_.add(lines.place(), "a normal is not three finite numbers; it is computed");
-      normal = glm::vec3(0.0f);
-    }
-    loaded_.mesh.normals.emplace_back(normal);
+      if (read_number(lines.word(), normal[axis]) != NumberFault::none)
+        normal[axis] = std::numeric_limits<float>::quiet_NaN();
+    loaded_.mesh.normals.emplace_back(known_normal(normal, notes_, [&] { return lines.place(); }));
     return Ok{};
   }
 

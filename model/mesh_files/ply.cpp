@@ -19,6 +19,7 @@
 #include "common/to_integer.hpp"
 #include "mesh_files/bytes.hpp"
 #include "mesh_files/face_list.hpp"
+#include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
 #include "mesh_files/text_lines.hpp"
 
@@ -451,7 +452,9 @@ class PlyReader {
     switch (element.kind) {
       case Kind::vertex:
         faces_.add_position({numbers[0], numbers[1], numbers[2]});
-        if (has_normals_) add_normal({numbers[3], numbers[4], numbers[5]});
+        if (has_normals_)
+          loaded_.mesh.normals.emplace_back(
+              known_normal({numbers[3], numbers[4], numbers[5]}, notes_, [&] { return place(); }));
         return Ok{};
       case Kind::face:
         return add_face(element, corners_);
@@ -461,12 +464,6 @@ class PlyReader {
         return Ok{};
     }
     return Ok{};
-  }
-
-  void add_normal(const glm::vec3& normal) {
-    const bool is_known = std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z);
-    if (!is_known) notes_.add(place(), "a normal is not three finite numbers; it is computed");
-    loaded_.mesh.normals.emplace_back(is_known ? normal : glm::vec3(0.0f));
   }
 
   Status add_face(const Element& element, std::span<const FaceList::Corner> corners) {

@@ -2,7 +2,9 @@
 // The words of a text file, line by line.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <string_view>
 
@@ -15,6 +17,11 @@ inline constexpr std::string_view c_byte_order_mark = "\xef\xbb\xbf";
 inline std::string_view utf16_fault(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ? "the text is UTF-16; save it as UTF-8"
                                                                       : "";
+}
+
+template <class Words>
+bool contains(const Words& words, std::string_view word) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
 /// Lines end with LF, CR LF or CR. Words are separated by blanks. With `comments`, '#' at the start of a word

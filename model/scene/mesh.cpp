@@ -90,14 +90,21 @@ std::vector<EdgeUse> sorted_edge_uses(std::span<const SceneTriangle> triangles) 
   return uses;
 }
 
-// Calls found(use, net) for each edge, with one of its uses and the sum of the directions of all.
+// Calls found(uses of the edge) for each edge.
 template <class Found>
-void for_each_edge(const std::vector<EdgeUse>& uses, Found&& found) {
+void for_each_edge(std::span<const SceneTriangle> triangles, Found&& found) {
+  const std::vector<EdgeUse> uses = sorted_edge_uses(triangles);
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-    int net = 0;
-    for (; end < uses.size() && uses[end].edge() == uses[begin].edge(); ++end) net += uses[end].way;
-    found(uses[begin], net);
+    while (end < uses.size() && uses[end].edge() == uses[begin].edge()) ++end;
+    found(std::span(uses).subspan(begin, end - begin));
   }
+}
+
+// 0 if the edge is used as often in one direction as in the other.
+int unmatched(std::span<const EdgeUse> uses) {
+  int sum = 0;
+  for (const EdgeUse& use : uses) sum += use.way;
+  return std::abs(sum);
 }
 
 // -1 for the triangles that are wound against the first one of their surface, 1 for the others.
@@ -117,17 +124,15 @@ std::vector<double> winding_signs(std::span<const SceneTriangle> triangles) {
     }
     return std::pair(triangle, flipped);
   };
-  const std::vector<EdgeUse> uses = sorted_edge_uses(triangles);
-  for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
-    while (end < uses.size() && uses[end].edge() == uses[begin].edge()) ++end;
-    if (end - begin != 2) continue;
-    const auto [a, a_flipped] = root_of(uses[begin].triangle);
-    const auto [b, b_flipped] = root_of(uses[begin + 1].triangle);
-    if (a == b) continue;
-    const bool is_conflict = uses[begin].way == uses[begin + 1].way;
+  for_each_edge(triangles, [&](std::span<const EdgeUse> uses) {
+    if (uses.size() != 2) return;
+    const auto [a, a_flipped] = root_of(uses[0].triangle);
+    const auto [b, b_flipped] = root_of(uses[1].triangle);
+    if (a == b) return;
+    const bool is_conflict = uses[0].way == uses[1].way;
     parent[std::max(a, b)] = std::min(a, b);
     against[std::max(a, b)] = (a_flipped != b_flipped) != is_conflict;
-  }
+  });
   std::vector<double> signs(triangles.size());
   for (std::uint32_t t = 0; t < signs.size(); ++t) signs[t] = root_of(t).second ? -1.0 : 1.0;
   return signs;
@@ -287,15 +292,15 @@ std::size_t fill_normals(Mesh& mesh, double crease_degrees, bool replace_all) {
 }
 
 std::vector<bool> shows_back(const Mesh& mesh) {
-  const std::vector<EdgeUse> uses = sorted_edge_uses(mesh.triangles);
   std::vector<std::uint32_t> parent(mesh.triangles.size());
   std::iota(parent.begin(), parent.end(), 0u);
-  for (std::size_t i = 1; i < uses.size(); ++i)
-    if (uses[i].edge() == uses[i - 1].edge()) join_groups(parent, uses[i - 1].triangle, uses[i].triangle);
-  std::vector<bool> is_open(parent.size());
-  for_each_edge(uses, [&](const EdgeUse& use, int net) {
-    if (net != 0) is_open[group_of(parent, use.triangle)] = true;
+  std::vector<std::uint32_t> at_open_edge;
+  for_each_edge(mesh.triangles, [&](std::span<const EdgeUse> uses) {
+    for (const EdgeUse& use : uses.subspan(1)) join_groups(parent, uses[0].triangle, use.triangle);
+    if (unmatched(uses) != 0) at_open_edge.push_back(uses[0].triangle);
   });
+  std::vector<bool> is_open(parent.size());
+  for (const std::uint32_t triangle : at_open_edge) is_open[group_of(parent, triangle)] = true;
 
   // Six times the volume of each surface, and the sum of its terms' sizes.
   struct Volume {
@@ -327,8 +332,8 @@ bool has_averted_normals(const Scene& scene, const SceneTriangle& triangle) {
 
 std::size_t open_edges(std::span<const SceneTriangle> triangles) {
   std::size_t open = 0;
-  for_each_edge(sorted_edge_uses(triangles),
-                [&](const EdgeUse&, int net) { open += static_cast<std::size_t>(std::abs(net)); });
+  for_each_edge(triangles,
+                [&](std::span<const EdgeUse> uses) { open += static_cast<std::size_t>(unmatched(uses)); });
   return open;
 }
 

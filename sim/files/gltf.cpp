@@ -43,15 +43,8 @@ constexpr std::string_view c_visibility = "KHR_node_visibility", c_unlit = "KHR_
                            c_glossiness = "KHR_materials_pbrSpecularGlossiness";
 constexpr std::string_view c_extensions[] = {
     c_visibility, c_unlit, c_glossiness, "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"};
-/// The ambient light of a scene, unless its file sets another one: k_a for a surface that emits its colour.
-constexpr double c_emitting = 1.0 / 0.2;
 /// In place of a material's index: its surfaces are not drawn.
 constexpr std::uint32_t c_nothing = UINT32_MAX;
-
-template <class Words>
-bool contains(const Words& words, std::string_view word) {
-  return std::find(std::begin(words), std::end(words), word) != std::end(words);
-}
 
 /// Exception that stops reading. `read_gltf` returns its text after the file's name.
 struct BadGltf {
@@ -320,8 +313,9 @@ class GltfReader {
 
  private:
   void note(std::string_view what) { notes_.add(name_, what); }
-  void note(const Item& item, std::string_view what) {
-    notes_.add(item.place().empty() ? name_ : name_ + ": " + item.place(), what);
+  void note(const Item& item, std::string_view what) { notes_.add(place_of(item), what); }
+  std::string place_of(const Item& item) const {
+    return item.place().empty() ? name_ : name_ + ": " + item.place();
   }
 
   /// Note the keys and extensions of an object that are not used. Any object may have a name and extras.
@@ -351,7 +345,7 @@ class GltfReader {
     note_unused(
         root_, {"asset", "scene", "scenes", "nodes", "meshes", "skins", "accessors", "bufferViews", "buffers",
                 "materials", "textures", "images", "samplers", "extensionsUsed", "extensionsRequired"});
-    const std::string version = root_.object("asset").at("version").text();
+    const std::string version = asset.at("version").text();
     if (!version.starts_with("2.")) {
       root_.at("asset").fail(fmt::format("glTF {}; export as glTF 2.0", halfway::quoted(version)));
     }
@@ -683,7 +677,7 @@ class GltfReader {
     }
   }
 
-  /// Read vectors of three floats. Those that are not needed may have other values; they are zero.
+  /// Read vectors of three floats. Those that are not needed are normals.
   std::vector<glm::dvec3> read_vectors(const Item& index, bool is_needed) {
     const Accessor source = accessor(index, "VEC3");
     if (source.component_type != c_float) {
@@ -699,13 +693,9 @@ class GltfReader {
       for (std::size_t axis = 0; axis < 3; ++axis)
         vector[static_cast<int>(axis)] =
             number_in<float>(span.bytes, i * span.stride + 4 * axis, ByteOrder::little);
-      if (!std::isfinite(vector.x) || !std::isfinite(vector.y) || !std::isfinite(vector.z)) {
-        if (is_needed)
-          source.item.fail(fmt::format("vector {} has a number that is not finite; correct it", place));
-        note(index, "a normal is not three finite numbers; it is computed");
-        vector = glm::vec3(0.0f);
-      }
-      vectors[place] = vector;
+      if (is_needed && !(std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z)))
+        source.item.fail(fmt::format("vector {} has a number that is not finite; correct it", place));
+      vectors[place] = known_normal(vector, notes_, [&] { return place_of(index); });
     };
     if (source.item.has("bufferView")) {
       const Span span = span_of(source.item, source.count, c_bytes, true);
@@ -759,21 +749,19 @@ class GltfReader {
     const auto next = static_cast<std::uint32_t>(loaded_.mesh.materials.size());
     const auto [entry, is_new] = material_index_.try_emplace(source, next);
     if (!is_new) return entry->second;
-    Material material = source ? material_or_default(materials_[*source]) : no_material();
-    if (alpha_ == 0.0)
-      entry->second = c_nothing;
+    if (auto material = source ? material_or_default(materials_[*source]) : default_material())
+      loaded_.mesh.materials.push_back(*std::move(material));
     else
-      loaded_.mesh.materials.push_back(std::move(material));
+      entry->second = c_nothing;
     return entry->second;
   }
-  Material no_material() { return read_material(Item(no_keys(), "material"), "default"); }
-  Material material_or_default(const Item& source) {
+  std::optional<Material> default_material() { return read_material(Item(no_keys(), "material"), "default"); }
+  std::optional<Material> material_or_default(const Item& source) {
     try {
       return read_material(source, "");
     } catch (const BadGltf& bad) {
       note(bad.what + "; it is the default material");
-      alpha_ = 1.0;
-      return no_material();
+      return default_material();
     }
   }
 
@@ -786,7 +774,8 @@ class GltfReader {
     }
   }
 
-  Material read_material(const Item& source, std::string_view name) {
+  /// Empty: its surfaces are not drawn.
+  std::optional<Material> read_material(const Item& source, std::string_view name) {
     Material material;
     material.name = source.text("name", name);
     const bool is_glossy = has_extension(source, c_glossiness);
@@ -811,7 +800,7 @@ class GltfReader {
       note(fmt::format("material {}: exponent {} raised to 1", halfway::quoted(material.name), exponent));
     }
     read_emission(source, material);
-    read_alpha(source, base.w);
+    const bool is_drawn = read_alpha(source, base.w) > 0.0;
     note_unused(source, {"pbrMetallicRoughness", "emissiveFactor", "alphaMode", "alphaCutoff", "doubleSided",
                          "normalTexture", "occlusionTexture", "emissiveTexture"});
     note_unused(look, {"baseColorFactor", "metallicFactor", "roughnessFactor", "baseColorTexture",
@@ -823,7 +812,7 @@ class GltfReader {
         std::any_of(look_keys.begin(), look_keys.end(), is_texture)) {
       note(fmt::format("material {}: textures are left out", halfway::quoted(material.name)));
     }
-    return material;
+    return is_drawn ? std::optional(material) : std::nullopt;
   }
   /// A colour of three or four numbers. Alpha is 1 if it is missing.
   static glm::dvec4 colour(const Item& look, const char* key, glm::dvec4 value) {
@@ -848,16 +837,17 @@ class GltfReader {
       return note(source, "'emissiveFactor' is not used, because the surface reflects light too");
     if (is_unlit) material.specular = 0.0;
     if (!is_unlit) material.colour = emission;
-    material.ambient = c_emitting;
+    material.ambient = 1.0 / Scene().ambient.x;  // a mesh file's scene has this ambient light
     material.diffuse = 0.0;
   }
 
-  void read_alpha(const Item& source, double alpha) {
+  double read_alpha(const Item& source, double alpha) {
     const std::string mode = source.text("alphaMode", "OPAQUE");
+    if (mode == "OPAQUE") alpha = 1.0;
     if (mode == "MASK") alpha = alpha < source.number("alphaCutoff", 0.5) ? 0.0 : 1.0;
-    alpha_ = mode == "OPAQUE" ? 1.0 : alpha;
-    if (alpha_ == 0.0) note(source, "it is transparent: its surfaces are not drawn");
-    if (alpha_ > 0.0 && alpha_ < 1.0) note(source, "transparency is left out");
+    if (alpha == 0.0) note(source, "it is transparent: its surfaces are not drawn");
+    if (alpha > 0.0 && alpha < 1.0) note(source, "transparency is left out");
+    return alpha;
   }
   double factor(const Item& look, const char* key) {
     constexpr double c_rounding = 1e-5;
@@ -877,7 +867,6 @@ class GltfReader {
   std::map<std::optional<std::size_t>, std::uint32_t> material_index_;
   LoadedMesh loaded_;
   Notes notes_;
-  double alpha_ = 1.0;  ///< of the last material
   std::uint64_t points_and_lines_ = 0, vertices_ = 0, triangles_ = 0;
 };
 
