@@ -69,7 +69,10 @@ compile_order() {
     sed -e 's/[#].*//' -e 's/ *$//' -e '/^$/d' -e "s|^|$(dirname "$list")/|" "$list"
   done
   find rtl tb -type f -name '*_pkg.vhd' | sort
-  find tb/rtl/stream tb/rtl/board rtl tb docs -type f -name '*.vhd' ! -name '*_tb.vhd'
+  for folders in 'tb/rtl/stream tb/rtl/board' 'rtl tb docs'; do
+    # shellcheck disable=SC2086 # the names are words on purpose
+    find $folders -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
+  done
   find rtl tb -type f -name '*_tb.vhd' | sort
 }
 

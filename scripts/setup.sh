@@ -154,8 +154,6 @@ apt() {
   cat "$log.part" >>"$log"
 }
 
-has_lists() { ls /var/lib/apt/lists/*_Packages* >/dev/null 2>&1; }
-
 install() {
   # shellcheck disable=SC2086 # the names are words on purpose
   set -- $1
@@ -195,13 +193,16 @@ set_up() {
     can_be_root || fail "$packages" "installing needs root, or sudo without a password"
     mkdir -p build
     : >"$log"
-    if ! has_lists; then
-      apt update || fail "$packages" "apt-get update failed, see $log"
-      # shellcheck disable=SC2086 # now the names of the release are known
-      packages=$(lacking $groups)
-    fi
     # shellcheck disable=SC2086
     strange=$(unknown $packages)
+    if [ -n "$strange" ]; then
+      # The package lists may be missing or old.
+      apt update || fail "$packages" "apt-get update failed, see $log"
+      # shellcheck disable=SC2086
+      packages=$(lacking $groups)
+      # shellcheck disable=SC2086
+      strange=$(unknown $packages)
+    fi
     if [ -n "$strange" ]; then
       say "$(. /etc/os-release 2>/dev/null && printf '%s' "${PRETTY_NAME-}"): these packages have no such name here, so nothing is installed:"
       printf '%s\n' "$strange" >&2

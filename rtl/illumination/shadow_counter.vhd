@@ -65,7 +65,7 @@ architecture rtl of shadow_counter is
 
   signal memory_counted : memory_t;
 
-  attribute ram_style            : string;
+  attribute ram_style                   : string;
   attribute ram_style of memory_counted : signal is "block";
 
   signal moved    : std_logic;

@@ -78,7 +78,7 @@ architecture rtl of object_stage is
 
   signal memory_entries : memory_t;
 
-  attribute ram_style            : string;
+  attribute ram_style                   : string;
   attribute ram_style of memory_entries : signal is "block";
 
   signal token             : std_logic_vector(g_bits - 1 downto 0);
