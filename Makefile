@@ -69,6 +69,8 @@ endif
 # as code.
 $(foreach name,$(variables),$(eval override $(name) := $$(value $(name))))
 export $(variables)
+# Of the back ends that are installed, Debian's ghdl starts mcode if it is not told otherwise. LLVM's programs are the fastest.
+export GHDL_BACKEND ?= llvm
 
 jobs := $${JOBS:-$$(nproc)}
 option = $${$(1):+$(2)="$$$(1)"}
