@@ -9,10 +9,10 @@
 -- Contract    Both streams are valid/ready; a fragment does not change while it waits. A vector is a triangle or a load
 --             (define, redefine, delete, new_frame). A load waits until the objects before it are in the pipeline, so
 --             that all reach the processors in order. With shadows, the host sends the triangles line by line, and each
---             line in the rounds of object_stage; without shadows it sends neither depth nor shadow: such a vector
---             is drawn like a triangle, and fault stays '0'. A load of a light that does not exist changes nothing, and
---             fault stays '0'. A command with an unknown bit stops the simulation. With one channel (g_channels = 1)
---             red, green and blue are equal.
+--             line in the rounds of object_stage. Without shadows it sends neither depth nor shadow: depth would be
+--             drawn like a triangle, shadow would draw nothing, and fault would stay '0'. A load of a light that does
+--             not exist changes nothing, and fault stays '0'. A command with an unknown bit stops the simulation. With
+--             one channel (g_channels = 1) red, green and blue are equal.
 --             fault stays '1' once a shadow counter has left its range. On a fault, discard all fragments.
 -- Formats     formats_pkg: depth, colour; processors_pkg gives the positions of the blocks of a vector
 -- Latency     4 clocks from a vector taken to its first object at the pipeline, if its first line covers a pixel, 1
