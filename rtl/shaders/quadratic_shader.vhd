@@ -145,7 +145,8 @@ begin
     & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
   assert c_parts <= 2
-    report "quadratic_shader: c_parts is " & integer'image(c_parts) & ", more than the 2 clocks that a vector stays in the init buffer"
+    report "quadratic_shader: c_parts is " & integer'image(c_parts)
+    & ", more than the 2 clocks that a vector stays in the init buffer"
     severity failure;
 
   -- Hold the next triangle.
