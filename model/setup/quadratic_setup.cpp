@@ -331,6 +331,8 @@ std::size_t append_published(const QuadraticStream& to, std::uint32_t triangle,
         if (to.degree == 2 || n < 3) return sample(n);
         return (sample(n == 5 ? 1 : 0) + sample(n == 3 ? 1 : 2)) / 2;
       };
+      // Solve for T1 to T5 of equation 4 of the quadratic paper, with vertex 1 at the origin and the
+      // denominators D and D^2. c2 and c3 are its C2 and C3, q2 and q3 are twice its C12 and C13, b is C23.
       const Real c2 = 4 * i(3) - 3 * i(0) - i(1), c3 = 4 * i(4) - 3 * i(0) - i(2);
       const Real q2 = 2 * (i(0) + i(1) - 2 * i(3)), q3 = 2 * (i(0) + i(2) - 2 * i(4));
       const Real b = 4 * (i(5) - i(3) - i(4) + i(0));
@@ -339,6 +341,9 @@ std::size_t append_published(const QuadraticStream& to, std::uint32_t triangle,
       const Real t4 = (-2 * q2 * x3 * y3 + b * (x2 * y3 + x3 * y2) - 2 * q3 * x2 * y2) / (d * d);
       const Real t5 = (q2 * y3 * y3 - b * y2 * y3 + q3 * y2 * y2) / (d * d);
       const auto word = [&](Real value) { return Int128{wrapped_word(value, c_fraction, c_bits)}; };
+      // value is equation 4 at the first pixel (u, v). dx is equation 5, dxx its change per pixel, dxe0 its
+      // change per line along the start edge of slope a. de0 is the change of equation 4 per line along this
+      // edge, de0e0 the change of de0 (section 5).
       init.put(ChannelAt::value, word(i(0) + t2 * u + t1 * v + t5 * u * u + t4 * u * v + t3 * v * v + 0.5L),
                low);
       init.put(ChannelAt::dx, word(2 * t5 * u + t4 * v + t5 + t2), low);

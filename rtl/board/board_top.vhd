@@ -93,6 +93,7 @@ architecture rtl of board_top is
 
   signal clk, late_clk, locked : std_logic;
   signal released              : std_logic_vector(1 to c_reset_clocks) := (others => '0'); -- the configuration sets it
+  signal lock_sample           : std_logic;
   signal button_up             : std_logic;
   signal reset                 : std_logic;
 
@@ -128,7 +129,7 @@ begin
   begin
     if rising_edge(clk) then
       released <= '1' & released(1 to c_reset_clocks - 1);
-      if locked = '0' or button_up = '0' then
+      if lock_sample = '0' or button_up = '0' then
         released <= (others => '0');
       end if;
     end if;
@@ -157,14 +158,16 @@ begin
       vga_green        => vga_green,
       vga_blue         => vga_blue);
 
-    -- Sample the host's pins and the button: the first of two registers against metastability.
+    -- Sample the host's pins, the button and the PLL's lock, which is asynchronous: the first of two registers against
+  -- metastability.
   samples : process (clk)
   begin
     if rising_edge(clk) then
-      select_n  <= spi_select_n;
-      clock     <= spi_clock;
-      data_in   <= spi_data_in;
-      button_up <= button_n;
+      select_n    <= spi_select_n;
+      clock       <= spi_clock;
+      data_in     <= spi_data_in;
+      button_up   <= button_n;
+      lock_sample <= locked;
     end if;
   end process;
 

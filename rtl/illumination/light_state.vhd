@@ -7,7 +7,8 @@
 --               delete            the light is no longer defined
 --               shadow            the volumes of the token's column: one more, or one less (shadow_counter)
 --               new_frame         no volumes around any column
---             The first four apply only if the token has the number of this light.
+--             The first four apply only if the token has the number of this light. Only new_frame clears the volumes: a
+--             light that is deleted and defined again within a frame keeps them.
 -- Contract    At a rising edge with take the token is taken; take must be '0' while ready is '0'. object and changes
 --             belong to the token that is offered. lit belongs to the last token taken, until the next one is taken; it
 --             has a meaning only for an object. It is '1' without g_config.shadows and in the ambient processor. After reset the light is not defined.

@@ -9,8 +9,10 @@
 -- Contract    Both streams are valid/ready; a fragment does not change while it waits. A vector is a triangle or a load
 --             (define, redefine, delete, new_frame). A load waits until the objects before it are in the pipeline, so
 --             that all reach the processors in order. With shadows, the host sends the triangles line by line, and each
---             line in the rounds of object_stage; without shadows it sends neither depth nor shadow. With one channel
---             (g_channels = 1) red, green and blue are equal.
+--             line in the rounds of object_stage. Without shadows it sends neither depth nor shadow: depth would be
+--             drawn like a triangle, shadow would draw nothing, and fault would stay '0'. A load of a light that does
+--             not exist changes nothing, and fault stays '0'. A command with an unknown bit stops the simulation. With
+--             one channel (g_channels = 1) red, green and blue are equal.
 --             fault stays '1' once a shadow counter has left its range. On a fault, discard all fragments.
 -- Formats     formats_pkg: depth, colour; processors_pkg gives the positions of the blocks of a vector
 -- Latency     4 clocks from a vector taken to its first object at the pipeline, if its first line covers a pixel, 1
@@ -70,6 +72,9 @@ architecture rtl of processors_shader is
     g_specular, g_normalize, g_shadows);
   constant c_formats : formats_t := formats(g_exact);
 
+  -- The command has the same position in a request and in a token.
+  constant c_command : slice_t := pixel_header(g_exact).command;
+
   subtype token_t is std_logic_vector(token_bits(c_config) - 1 downto 0);
 
   signal init         : std_logic_vector(init_data'range);
@@ -128,10 +133,21 @@ begin
       out_data  => init
       );
 
-    -- The command has the same position in a request and in a token.
   command      <= command_of(g_exact, init);
   load_command <= '1' when command = c_new_frame or command = c_define or command = c_redefine or command = c_delete
     else '0';
+
+  -- Report an unknown command: as a number it would be a triangle to draw. A synthesizer has no unknown bits.
+  check_command : process (clk)
+  begin
+    if rising_edge(clk) then
+      if is_x(field_of(init, c_command)) then
+        assert waiting = '0' or reset /= '0'
+          report "processors_shader: a vector's command is " & to_string(field_of(init, c_command))
+          severity failure;
+      end if;
+    end if;
+  end process;
 
   -- A load bypasses the rasterizer, which is empty at that time.
   draw_valid <= waiting and not load_command;

@@ -144,6 +144,10 @@ begin
     report "quadratic_shader: depth_sum has " & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction)
     & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
+  assert c_parts <= 2
+    report "quadratic_shader: c_parts is " & integer'image(c_parts)
+    & ", more than the 2 clocks that a vector stays in the init buffer"
+    severity failure;
 
   -- Hold the next triangle.
   init_buffer : entity work.stream_register

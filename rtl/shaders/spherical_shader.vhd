@@ -129,6 +129,10 @@ begin
     & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction) & " whole bits, depth " & integer'image(c_formats.depth.bits)
     severity failure;
 
+  assert c_depth <= 2
+    report "spherical_shader: c_depth is " & integer'image(c_depth) & ", more than the 2 clocks that a header stays"
+    severity failure;
+
   init_buffer : entity work.stream_register
     generic map (g_bits => init_data'length, g_eager => true)
     port map (

@@ -72,7 +72,7 @@ int run(const Folders& folders, const FiguresCommand& command) {
   int rows = 0;
   for (const figures::Entry& e : entries)
     for (const figures::Row& r : e.rows) {
-      const std::string criterion = r.claim.criterion.text();
+      const std::string criterion = r.claim.limit();
       fmt::print("{:<20} {}: published {}, measured {}: {}\n", e.figure.id, r.claim.what, r.claim.published,
                  r.measured.text,
                  r.holds() ? fmt::format("{} ({})", figures::to_string(r.verdict()), criterion)
@@ -81,9 +81,10 @@ int run(const Folders& folders, const FiguresCommand& command) {
       ++rows;
     }
   write_texts(folders, context.out, entries);
-  fmt::print("{}: {} figures, {} rows, {} agree, {} differ, {} hold by construction\n", context.out.string(),
-             entries.size(), rows, count[figures::Verdict::agrees], count[figures::Verdict::differs],
-             count[figures::Verdict::by_construction]);
+  fmt::print("{}: {} figures, {} rows, {} agree, {} differ, {} hold by construction, {} are ours\n",
+             context.out.string(), entries.size(), rows, count[figures::Verdict::agrees],
+             count[figures::Verdict::differs], count[figures::Verdict::by_construction],
+             count[figures::Verdict::ours]);
   const std::vector<std::string> wrong = figures::faults(entries);
   for (const std::string& line : wrong) say(line);
   if (!wrong.empty()) {

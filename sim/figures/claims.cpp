@@ -69,8 +69,8 @@ Claim claim_of(toml::node& node, const std::string& file) {
   claim.criterion = criterion_of(fields);
   claim.why_not = fields.take<std::string>("why_not").value_or("");
   claim.by_construction = fields.take<std::string>("by_construction").value_or("");
+  claim.ours = fields.take<std::string>("ours").value_or("");
   claim.slow = fields.take<bool>("slow").value_or(false);
-  claim.timed = fields.take<bool>("timed").value_or(false);
   fields.close();
   return claim;
 }

@@ -2,6 +2,7 @@
 #include "sim/figures/figure.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -29,7 +30,7 @@ Json json_of(const Row& row) {
           {"published", claim.published},
           {"measured", measured.text},
           {"value", measured.value},  // null if the value is not a number
-          {"criterion", claim.criterion.text()},
+          {"criterion", claim.limit()},
           {"verdict", to_string(row.verdict())},
           {"reason", row.reason()},
           {"slow", claim.slow}};
@@ -74,22 +75,39 @@ std::string Criterion::text() const {
   return "the same";
 }
 
+std::string Claim::limit() const {
+  return criterion.kind == Criterion::Kind::same && !ours.empty() ? "no limit" : criterion.text();
+}
+
 const char* to_string(Verdict verdict) {
-  return verdict == Verdict::agrees ? "agrees" : verdict == Verdict::differs ? "differs" : "by construction";
+  switch (verdict) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::by_construction:
+      return "by construction";
+    case Verdict::ours:
+      return "ours";
+    case Verdict::differs:
+      break;
+  }
+  return "differs";
 }
 
 bool Row::holds() const {
-  return claim.criterion.kind == Criterion::Kind::same ? measured.text == claim.published
-                                                       : claim.criterion.holds(measured.value);
+  if (claim.criterion.kind == Criterion::Kind::same)
+    return !claim.ours.empty() || measured.text == claim.published;
+  return claim.criterion.holds(measured.value);
 }
 
 Verdict Row::verdict() const {
   if (!holds()) return Verdict::differs;
+  if (!claim.ours.empty()) return Verdict::ours;
   return claim.by_construction.empty() ? Verdict::agrees : Verdict::by_construction;
 }
 
 const std::string& Row::reason() const {
-  return holds() ? claim.by_construction : claim.why_not;
+  if (!holds()) return claim.why_not;
+  return claim.ours.empty() ? claim.by_construction : claim.ours;
 }
 
 Entry drawn(const Figure& figure, const Context& context) {
@@ -131,12 +149,12 @@ std::vector<std::string> faults(std::span<const Entry> entries) {
       };
       if (claim.what.empty() || claim.published.empty() || measured.text.empty()) say(": a cell is empty");
       const std::string sides = fmt::format("published {}, measured {} ({})", claim.published, measured.text,
-                                            claim.criterion.text());
+                                            claim.limit());
       if (!row.holds() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
-      if (!claim.by_construction.empty() && !claim.why_not.empty())
-        say(" has a reason why not and one of construction");
-      // A processor's time may agree on one machine and differ on another.
-      else if (row.holds() && !claim.why_not.empty() && !claim.timed)
+      const std::array reasons{!claim.why_not.empty(), !claim.by_construction.empty(), !claim.ours.empty()};
+      if (std::ranges::count(reasons, true) > 1)
+        say(" has two of why_not, by_construction and ours");
+      else if (row.holds() && !claim.why_not.empty())
         say(" agrees, though a reason why not is given: " + sides);
     }
   }
@@ -178,12 +196,13 @@ std::string to_page(std::span<const Entry> entries, const std::filesystem::path&
   }
   const auto count = [&](Verdict verdict) { return counts[to_string(verdict)]; };
   const std::int64_t agreeing = count(Verdict::agrees), differing = count(Verdict::differs),
-                     constructed = count(Verdict::by_construction);
+                     constructed = count(Verdict::by_construction), ours = count(Verdict::ours);
   return must(filled_template(source / "sim/figures/figures.md.mustache",
-                              {{"rows_in_all", agreeing + differing + constructed},
+                              {{"rows_in_all", agreeing + differing + constructed + ours},
                                {"agreeing", agreeing},
                                {"differing", differing},
                                {"constructed", constructed},
+                               {"ours", ours},
                                {"papers", papers},
                                {"figures", figures}}));
 }

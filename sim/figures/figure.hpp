@@ -63,14 +63,18 @@ Measured constructed(double value, fmt::format_string<double, const More&...> te
   return {fmt::format(text, double(value), more...), value, true};
 }
 
-/// A number or a statement of the paper. claims.toml describes each field.
+/// A number or a statement of the paper, or a value of ours next to them. claims.toml describes each field.
 struct Claim {
   std::string what;
   std::string published;
   Criterion criterion{};
   std::string why_not{};
   std::string by_construction{};
-  bool slow = false, timed = false;
+  std::string ours{};
+  bool slow = false;
+
+  /// Text of the criterion; "no limit" for a value of ours without one.
+  std::string limit() const;
 };
 
 struct Picture {
@@ -112,8 +116,8 @@ std::vector<Figure> all_figures(const std::filesystem::path& source);
 std::vector<Figure> read_figures(const std::string& toml, const std::string& file,
                                  std::map<std::string, Draw> drawings);
 
-enum class Verdict { agrees, by_construction, differs };
-const char* to_string(Verdict verdict);  ///< "agrees", "by construction", "differs"
+enum class Verdict { agrees, by_construction, ours, differs };
+const char* to_string(Verdict verdict);  ///< "agrees", "by construction", "ours", "differs"
 
 /// A claim and its measured value.
 struct Row {
@@ -121,7 +125,7 @@ struct Row {
   Measured measured;
 
   bool holds() const;  ///< the measured value fulfils the criterion
-  /// A row that holds by construction does not count as agreeing.
+  /// A row that holds by construction, or that the paper does not state, does not count as agreeing.
   Verdict verdict() const;
   const std::string& reason() const;  ///< reason for the verdict; empty if the row agrees
 };
@@ -139,7 +143,7 @@ struct Entry {
 Entry drawn(const Figure& figure, const Context& context);
 
 /// Faults of the rows, one sentence each: an empty cell, a difference without a reason, a reason without a
-/// difference, two reasons.
+/// difference, reasons for two verdicts.
 std::vector<std::string> faults(std::span<const Entry> entries);
 
 /// figures.json: a list of figures. Each has id, paper, number, caption, shows, pictures (file, alt) and rows

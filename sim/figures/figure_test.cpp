@@ -67,8 +67,6 @@ TEST(Figures, AVerdictNeedsAReasonWhereItDiffersAndNoneWhereItAgrees) {
   EXPECT_EQ((Row{excused, other}.reason()), "rounded");
   EXPECT_EQ((Row{excused, same}.reason()), "");
   EXPECT_THAT(faults_of(excused, same), Contains(HasSubstr("agrees, though")));
-  excused.timed = true;  // measured on another machine
-  EXPECT_THAT(faults_of(excused, same), IsEmpty());
   const Claim words{"a", "06AF"};
   EXPECT_TRUE((Row{words, {"06AF"}}.holds()));
   EXPECT_FALSE((Row{words, {"06AE"}}.holds()));
@@ -86,7 +84,7 @@ TEST(Figures, ARowThatHoldsByConstructionDoesNotAgree) {
   EXPECT_THAT(faults_of(made, other), Contains(HasSubstr("differs, and no reason is known")));
   Claim both = made;
   both.why_not = "rounded";
-  EXPECT_THAT(faults_of(both, other), Contains(HasSubstr("and one of construction")));
+  EXPECT_THAT(faults_of(both, other), Contains(HasSubstr("has two of why_not, by_construction and ours")));
 
   const auto draw = [&](const Claim& claim, const Measured& value) {
     const Figure figure{"x-1",   "figure 1",
@@ -103,8 +101,29 @@ TEST(Figures, ARowThatHoldsByConstructionDoesNotAgree) {
   const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {made}, {}}, {}, {{made, same}}}};
   EXPECT_THAT(to_json(entries), HasSubstr("\"verdict\": \"by construction\""));
   const std::string page = to_page(entries, c_source_folder);
-  EXPECT_THAT(page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction."));
+  EXPECT_THAT(page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction, 0 are ours."));
   EXPECT_THAT(page, HasSubstr("| by construction (exactly): 60 = 6 · 10 |"));
+}
+
+TEST(Figures, ARowOfOursDoesNotAgreeAndKeepsItsLimit) {
+  Claim limited = c_plain;
+  limited.ours = "our method";
+  const Measured same{"60", 60}, other{"59", 59};
+  EXPECT_EQ((Row{limited, same}.verdict()), Verdict::ours);
+  EXPECT_EQ((Row{limited, same}.reason()), "our method");
+  EXPECT_THAT(faults_of(limited, same), IsEmpty());
+  EXPECT_THAT(faults_of(limited, other), Contains(HasSubstr("differs, and no reason is known")));
+  const Claim open{.what = "a", .published = "–", .ours = "a time"};
+  EXPECT_EQ((Row{open, other}.verdict()), Verdict::ours);
+  EXPECT_EQ(open.limit(), "no limit");
+  EXPECT_THAT(faults_of(open, other), IsEmpty());
+  Claim both = limited;
+  both.by_construction = "6 · 10";
+  EXPECT_THAT(faults_of(both, same), Contains(HasSubstr("has two of why_not, by_construction and ours")));
+  const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {open}, {}}, {}, {{open, other}}}};
+  const std::string page = to_page(entries, c_source_folder);
+  EXPECT_THAT(page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 0 hold by construction, 1 are ours."));
+  EXPECT_THAT(page, HasSubstr("| a | – | 59 | ours (no limit): a time |"));
 }
 
 TEST(Figures, AClaimsFileIsReadStrictly) {
@@ -121,7 +140,7 @@ TEST(Figures, AClaimsFileIsReadStrictly) {
   const Claim& claim = good->front().claims.front();
   EXPECT_EQ(claim.criterion.text(), "at most 2/255");
   EXPECT_EQ(claim.why_not, "so");
-  EXPECT_TRUE(claim.slow && !claim.timed);
+  EXPECT_TRUE(claim.slow);
   EXPECT_EQ(good->front().claims.back().criterion.text(), "the same");
   EXPECT_EQ(good->front().paper(), "x");
   const auto fault = [&](const std::string& claim_text) {

@@ -40,15 +40,15 @@ QuadraticCoefficients<Value> fit_six_points(Scalar x2, Scalar y2, Scalar x3, Sca
           i1};
 }
 
-/// The same by the formulas of section 3 of the quadratic paper. Each value is computed once, and the factor
-/// 4 of C23 is taken out. It divides by zero if y2 = 0.
+/// The same by the formulas of section 3 of the quadratic paper. Each value is computed once. It divides by
+/// zero if y2 = 0.
 template <class Scalar>
 QuadraticCoefficients<Scalar> fit_six_points_as_printed(Scalar x2, Scalar y2, Scalar x3, Scalar y3,
                                                         const std::array<Scalar, 6>& values) {
   const auto& [i1, i2, i3, i12, i13, i23] = values;
   const Scalar c2 = 4.0 * i12 - 3.0 * i1 - i2, c12 = i1 + i2 - 2.0 * i12;
   const Scalar c3 = 4.0 * i13 - 3.0 * i1 - i3, c13 = i1 + i3 - 2.0 * i13;
-  const Scalar c23 = 4.0 * (i1 - i12 - i13 + i23);
+  const Scalar c23 = 4.0 * i1 - 4.0 * i12 - 4.0 * i13 + 4.0 * i23;
   const Scalar area = x2 * y3 - y2 * x3;
   const Scalar a = 2.0 * x2 * x2 * y3 - 2.0 * x2 * y2 * x3, b = y2 * x3 * y3 - x2 * y3 * y3;
   const Scalar c = x2 * y2 * y3 - y2 * y2 * x3, d = 2.0 * y2 * x3 * x3 - 2.0 * x2 * x3 * y3;

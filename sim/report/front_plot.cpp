@@ -141,7 +141,7 @@ std::string page_front(const Table& front) {
       "`make gallery` measures [the table](results/gallery/front.csv) and draws the plot.*\n",
       plot.points.size(), front.text(any, "width"), front.text(any, "height"), front.text(any, "exponent"),
       fmt::join(joined, ";\n"),
-      hidden.empty() ? "" : fmt::format("\nEqual in both figures: {}.", fmt::join(hidden, "; ")));
+      hidden.empty() ? "" : fmt::format("\nEqual in cells and in rms error: {}.", fmt::join(hidden, "; ")));
 }
 
 std::size_t write_front(const Table& study, const std::filesystem::path& folder,
