@@ -159,7 +159,7 @@ begin
       vga_blue         => vga_blue);
 
     -- Sample the host's pins, the button and the PLL's lock, which is asynchronous: the first of two registers against
-  -- metastability.
+    -- metastability.
   samples : process (clk)
   begin
     if rising_edge(clk) then

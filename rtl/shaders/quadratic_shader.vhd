@@ -61,8 +61,9 @@ architecture rtl of quadratic_shader is
   constant c_header_bits : positive  := init_channel_low(g_exact, 0);
   constant c_colour      : positive  := c_formats.colour.bits;
 
-  -- Parts of the interpolators' skewed words (skew_pkg): clocks from a strobe to its word.
-  constant c_parts : positive := 2;
+  -- Parts of the interpolators' skewed words (skew_pkg): clocks from a strobe to its word, at most the 2 that a vector
+  -- stays in the init buffer.
+  constant c_parts : integer range 1 to 2 := 2;
 
   subtype colour_t is std_logic_vector(c_colour - 1 downto 0);
 
@@ -143,10 +144,6 @@ begin
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
     report "quadratic_shader: depth_sum has " & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction)
     & " whole bits, depth " & integer'image(c_formats.depth.bits)
-    severity failure;
-  assert c_parts <= 2
-    report "quadratic_shader: c_parts is " & integer'image(c_parts)
-    & ", more than the 2 clocks that a vector stays in the init buffer"
     severity failure;
 
   -- Hold the next triangle.

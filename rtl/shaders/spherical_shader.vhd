@@ -82,8 +82,9 @@ architecture rtl of spherical_shader is
   constant c_multiplied : positive := 4;
   constant c_summed     : positive := 5;
 
-  -- Parts of the depth's skewed words (skew_pkg). A pixel's depth is valid as many clocks after the span stage.
-  constant c_depth : positive := 2;
+  -- Parts of the depth's skewed words (skew_pkg). A pixel's depth is valid as many clocks after the span stage,
+  -- at most the 2 that the header of its vector stays.
+  constant c_depth : integer range 1 to 2 := 2;
 
   subtype position_t is std_logic_vector(fragment_triangle'length + fragment_y'length + fragment_x'length - 1 downto 0);
   subtype depth_t    is std_logic_vector(c_formats.depth.bits - 1 downto 0);
@@ -127,10 +128,6 @@ begin
   assert c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction = c_formats.depth.bits
     report "spherical_shader: depth_sum has "
     & integer'image(c_formats.depth_sum.bits - 1 - c_formats.depth_sum.fraction) & " whole bits, depth " & integer'image(c_formats.depth.bits)
-    severity failure;
-
-  assert c_depth <= 2
-    report "spherical_shader: c_depth is " & integer'image(c_depth) & ", more than the 2 clocks that a header stays"
     severity failure;
 
   init_buffer : entity work.stream_register

@@ -26,14 +26,10 @@ std::string plain(double value) {
 
 Json json_of(const Row& row) {
   const auto& [claim, measured] = row;
-  return {{"what", claim.what},
-          {"published", claim.published},
-          {"measured", measured.text},
-          {"value", measured.value},  // null if the value is not a number
-          {"criterion", claim.limit()},
-          {"verdict", to_string(row.verdict())},
-          {"reason", row.reason()},
-          {"slow", claim.slow}};
+  return {{"what", claim.what},         {"published", claim.published},
+          {"measured", measured.text},  {"value", measured.value},  // null if the value is not a number
+          {"criterion", claim.limit()}, {"verdict", to_string(row.verdict())},
+          {"reason", row.reason()},     {"slow", claim.slow}};
 }
 
 Json json_of(const Entry& entry) {
@@ -148,8 +144,8 @@ std::vector<std::string> faults(std::span<const Entry> entries) {
         found.push_back(fmt::format("{}: '{}'{}", id, what, fault));
       };
       if (claim.what.empty() || claim.published.empty() || measured.text.empty()) say(": a cell is empty");
-      const std::string sides = fmt::format("published {}, measured {} ({})", claim.published, measured.text,
-                                            claim.limit());
+      const std::string sides =
+          fmt::format("published {}, measured {} ({})", claim.published, measured.text, claim.limit());
       if (!row.holds() && claim.why_not.empty()) say(" differs, and no reason is known: " + sides);
       const std::array reasons{!claim.why_not.empty(), !claim.by_construction.empty(), !claim.ours.empty()};
       if (std::ranges::count(reasons, true) > 1)

@@ -101,7 +101,8 @@ TEST(Figures, ARowThatHoldsByConstructionDoesNotAgree) {
   const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {made}, {}}, {}, {{made, same}}}};
   EXPECT_THAT(to_json(entries), HasSubstr("\"verdict\": \"by construction\""));
   const std::string page = to_page(entries, c_source_folder);
-  EXPECT_THAT(page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction, 0 are ours."));
+  EXPECT_THAT(page,
+              HasSubstr("1 numbers and statements: 0 agree, 0 differ, 1 hold by construction, 0 are ours."));
   EXPECT_THAT(page, HasSubstr("| by construction (exactly): 60 = 6 · 10 |"));
 }
 
@@ -122,7 +123,8 @@ TEST(Figures, ARowOfOursDoesNotAgreeAndKeepsItsLimit) {
   EXPECT_THAT(faults_of(both, same), Contains(HasSubstr("has two of why_not, by_construction and ours")));
   const std::vector<Entry> entries{{{"spherical-1", "figure 1", "c", "s", {open}, {}}, {}, {{open, other}}}};
   const std::string page = to_page(entries, c_source_folder);
-  EXPECT_THAT(page, HasSubstr("1 numbers and statements: 0 agree, 0 differ, 0 hold by construction, 1 are ours."));
+  EXPECT_THAT(page,
+              HasSubstr("1 numbers and statements: 0 agree, 0 differ, 0 hold by construction, 1 are ours."));
   EXPECT_THAT(page, HasSubstr("| a | – | 59 | ours (no limit): a time |"));
 }
 

@@ -547,7 +547,8 @@ void draw_schemes(const Context& context, Drawing& out) {
       measured(errors.printed_15, "off the vectors' cosine by up to {:.2f}");
   // Rounding errors only. They depend on the compiler, so the page prints a bound.
   constexpr double c_rounding = 1e-13;
-  out.measured["equations 16 and 17"] = constructed(std::max(errors.from_16, c_rounding), "equal within {:.0e}");
+  out.measured["equations 16 and 17"] =
+      constructed(std::max(errors.from_16, c_rounding), "equal within {:.0e}");
 
   // Both vectors turn by the same angle in perpendicular planes.
   std::vector<std::vector<double>> rows;

@@ -45,13 +45,15 @@ TEST_F(FrontTest, PlotsThePictureThatMostDesignsDraw) {
   EXPECT_EQ(lower_left({{.x = 50, .y = 1, .aside = true}, {200, 2}}),
             (std::vector<std::pair<double, double>>{{200, 2}}));
   // The page lists the designs on the line, including those hidden under another mark.
-  EXPECT_THAT(page_front(front), AllOf(HasSubstr("each of 3 designs"),
-                                       HasSubstr("1/255 of white):\nq (100 cells, 8);\ns (200 cells, 2)."),
-                                       Not(HasSubstr("dear")), Not(HasSubstr("Equal in cells and in rms error"))));
+  EXPECT_THAT(page_front(front),
+              AllOf(HasSubstr("each of 3 designs"),
+                    HasSubstr("1/255 of white):\nq (100 cells, 8);\ns (200 cells, 2)."),
+                    Not(HasSubstr("dear")), Not(HasSubstr("Equal in cells and in rms error"))));
   std::string equal = c_front_study;
   equal += "twin,adaptive,exact,7,20,q,100,10,8,h\n";
   EXPECT_THAT(page_front(front_of(read(equal))),
-              AllOf(HasSubstr("q and twin (100 cells, 8)"), HasSubstr("Equal in cells and in rms error: q and twin.")));
+              AllOf(HasSubstr("q and twin (100 cells, 8)"),
+                    HasSubstr("Equal in cells and in rms error: q and twin.")));
   // If one count is missing, the axis shows clocks instead of cells.
   std::string uncounted = c_front_study;
   uncounted.replace(uncounted.find(",300,"), 5, ",,");

@@ -133,10 +133,9 @@ std::string sentences(const Table& picture, const std::vector<std::size_t>& rows
       times_as_long(best, quick, "overlapped_ns"));
   for (const std::size_t row : rows)
     if (is_phong(picture, row))
-      text += fmt::format(
-          "- {} takes {:.2g} times as long as {} overlapped, and {:.2g} times in sequence.\n",
-          picture.text(row, "design"), times_as_long(row, best, "overlapped_ns"),
-          picture.text(best, "design"), times_as_long(row, best, "sequential_ns"));
+      text += fmt::format("- {} takes {:.2g} times as long as {} overlapped, and {:.2g} times in sequence.\n",
+                          picture.text(row, "design"), times_as_long(row, best, "overlapped_ns"),
+                          picture.text(best, "design"), times_as_long(row, best, "sequential_ns"));
   return text;
 }
 
@@ -177,7 +176,8 @@ std::string readme_times(const Table& times) {
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one grey sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
       "host's set-up on one core, and the hardware at its clock on an iCE40. The transfer between them and "
-      "the depth test after the hardware are not counted. On the dashed line, no other design is both quicker "
+      "the depth test after the hardware are not counted. On the dashed line, no other design is both "
+      "quicker "
       "and more accurate. An arrow: at least this time, by the clock of the slowest placed part; the design "
       "does not fit the iCE40. phong, phong-mesa: Phong shading per pixel in software on one core, by the "
       "reference in double precision and by OpenGL on Mesa's llvmpipe. planes: Gouraud's shading in "
