@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <unordered_map>
@@ -109,29 +108,29 @@ class ObjReader {
 
   Status read_position(TextLines& lines) {
     if (Status ok = count_item(lines, position_); !ok) return ok;
-    std::array<float, 4> v{};
+    std::array<double, 4> v{};
     int count = 0;
     for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
-      float value = 0.0f;
+      double value = 0.0;
       const NumberFault fault = read_number(word, value);
       if (fault == NumberFault::not_a_number || (fault != NumberFault::none && count < 3)) {
         return lines.error(
             fmt::format("vertex {}: {}; correct the coordinate", position_.all, fault_text(fault, word)));
       }
-      if (count < 4) v[static_cast<std::size_t>(count)] = fault == NumberFault::none ? value : 0.0f;
+      if (count < 4) v[static_cast<std::size_t>(count)] = fault == NumberFault::none ? value : 0.0;
       ++count;
     }
     if (count < 3 || count == 5)
       return lines.error(
           fmt::format("vertex {} has {} numbers; it must have 3, 4, 6 or 7", position_.all, count));
     if (count == 4) {
-      if (v[3] == 0.0f) {
+      if (v[3] == 0.0) {
         return lines.error(
             fmt::format("vertex {} has the weight zero; correct the coordinate", position_.all));
       }
       for (std::size_t axis = 0; axis < 3; ++axis) {
         v[axis] /= v[3];
-        if (!std::isfinite(v[axis])) {
+        if (!is_in_float_range(v[axis])) {
           return lines.error(fmt::format("vertex {} is too large; correct the coordinate", position_.all));
         }
       }
@@ -143,10 +142,10 @@ class ObjReader {
 
   Status read_normal(TextLines& lines) {
     if (Status ok = count_item(lines, normal_); !ok) return ok;
-    glm::vec3 normal(0.0f);
+    glm::dvec3 normal(0.0);
     for (int axis = 0; axis < 3; ++axis)
       if (read_number(lines.word(), normal[axis]) != NumberFault::none)
-        normal[axis] = std::numeric_limits<float>::quiet_NaN();
+        normal[axis] = std::numeric_limits<double>::quiet_NaN();
     loaded_.mesh.normals.emplace_back(known_normal(normal, notes_, [&] { return lines.place(); }));
     return Ok{};
   }

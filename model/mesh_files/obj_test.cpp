@@ -242,7 +242,7 @@ TEST(Obj, MaterialsAreNoted) {
                                 {{"m.mtl", "newmtl a\nKs 1 1 1\nNs 0\nbump -bm 1 b.png\n"}}));
   ASSERT_EQ(loaded.mesh.materials.size(), 3u);
   EXPECT_EQ(loaded.mesh.materials[0].name, "default");
-  EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(0.6f));
+  EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(0.6));
   EXPECT_EQ(loaded.mesh.materials[2].name, "b");
   EXPECT_EQ(loaded.notes, (std::vector<std::string>{"a.obj: faces without a material are grey",
                                                     "a.obj: material 'a': exponent 0 raised to 1",
@@ -294,7 +294,7 @@ TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
 TEST(Obj, AMaterialWithoutANameIsTheDefault) {
   const auto loaded =
       must(read("mtllib m.mtl\n" + c_three + "usemtl\nf 1 2 3\n", {{"m.mtl", "newmtl\nKd 1 0 0\n"}}));
-  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0.6f));
+  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0.6));
   EXPECT_EQ(loaded.notes,
             (std::vector<std::string>{"a.obj: faces without a material are grey",
                                       "dir/m.mtl:1: newmtl has no name; its material is left out"}));

@@ -82,7 +82,7 @@ const std::vector<Spelling> c_ply_text = {
 
     // types
     {"doubles", changed(vertices("0 0 0\n0.1 0 0\n0 1 0\n"), "float x", "double x"),
-     fmt::format("0,0,0 {},0,0 0,1,0", static_cast<double>(0.1f))},
+     "0,0,0 0.1,0,0 0,1,0"},
     {"integers",
      changed(changed(changed(c_plain, "float x", "short x"), "float y", "uint8 y"), "float z", "int z"),
      c_triangle},
@@ -253,7 +253,7 @@ std::string all_types(bool big) {
     text += '\xff';
     text += bytes(static_cast<std::uint16_t>(-300 * i));
     text += '\x80';
-    text += bytes(0.5 * i) + bytes(std::uint32_t{0xffffffff}) + bytes(static_cast<std::uint16_t>(i));
+    text += bytes(0.1 * i) + bytes(std::uint32_t{0xffffffff}) + bytes(static_cast<std::uint16_t>(i));
     for (int k = 0; k < i; ++k) text += bytes(std::numeric_limits<double>::quiet_NaN());
     text += bytes(zs[i]);
   }
@@ -275,8 +275,8 @@ const std::vector<Spelling> c_ply_binary = {
      changed(binary_ply(false, "\r"), "end_header\r" + std::string(4, '\0'),
              "end_header\r" + little_endian(0x0a)),
      fmt::format("{},0,0 1,0,0 0,1,0", static_cast<double>(std::bit_cast<float>(0x0a)))},
-    {"all_types_little", all_types(false), "0,0,0 -300,0.5,-70000 -600,1,70000"},
-    {"all_types_big", all_types(true), "0,0,0 -300,0.5,-70000 -600,1,70000"},
+    {"all_types_little", all_types(false), "0,0,0 -300,0.1,-70000 -600,0.2,70000"},
+    {"all_types_big", all_types(true), "0,0,0 -300,0.1,-70000 -600,0.2,70000"},
     {"nan", binary_ply(false, "\n", c_nan),
      at_byte(binary_ply(false), 12, "vertex 1: x is not finite, or too large; correct it")},
     {"index_beyond", binary_ply(false, "\n", 1, 3),
