@@ -163,7 +163,7 @@ class Picture {
   void set_camera() const {
     const Camera& camera = scene_->camera;
     const ViewBasis basis = view_basis(camera);
-    const DepthRange range = depth_range(camera, bounding_sphere(*scene_));
+    const DepthRange range = depth_range(*scene_, static_cast<double>(size_.width) / size_.height);
     set("right", basis.right_world);
     set("up", basis.up_world);
     set("backward", basis.backward_world);
