@@ -260,7 +260,7 @@ class PlyReader {
     }
     const bool is_colour =
         element.kind == Kind::vertex && index_in(c_colours, property.name) < std::size(c_colours);
-    has_colours_ |= is_colour && element.count > 0;
+    has_colours_ |= is_colour;
     if (element.kind != Kind::other && property.use == Use::none && !is_colour)
       notes_.add(lines_.place(), fmt::format("property {} is not used", quoted(property.name)));
     element.properties.push_back(property);

@@ -55,6 +55,8 @@ const std::vector<Spelling> c_stl_text = {
      c_triangle},
     {"colours_after_facets", solid(changed(c_facet, "endfacet", "endfacet 31 0 color 1") + c_facet),
      c_triangle + "; " + c_triangle},
+    {"facets_on_one_line", solid(changed(c_facet, "endfacet\n", "endfacet ") + c_facet),
+     c_triangle + "; " + c_triangle},
     {"end_of_another", solid(changed(c_facet, "endloop", "end facet")),
      "! a.stl:7: 'facet' instead of 'endloop'; correct the line"},
     {"long_normal", solid(changed(c_facet, "normal 0 0 1", "normal 0 0 1 1")),
