@@ -61,6 +61,16 @@ std::string triangles(const std::string& text) {
   return triangles_of(read_gltf(text, "a.gltf"));
 }
 
+std::string floats(const std::vector<float>& values) {
+  std::string bytes;
+  for (const float x : values) bytes += little_endian(x);
+  return bytes;
+}
+/// A buffer.
+json bytes_of(const std::string& bytes) {
+  return {{"byteLength", bytes.size()}, {"uri", "data:;base64," + base64(bytes)}};
+}
+
 class GltfSpelling : public ::testing::TestWithParam<Spelling> {};
 
 TEST_P(GltfSpelling, IsReadExactlyOrRefusedWithItsPlace) {
@@ -201,6 +211,34 @@ const std::vector<Spelling> c_spellings = {
            {"/nodes/1", {{"mesh", 0}}},
            {"/skins", json::parse(R"([{"joints":[0]}])")}}),
      c_triangle + "; 9,9,0 10,9,0 9,10,0"},
+    {"instances",
+     with({{"/nodes/0/translation", {10, 0, 0}},
+           {"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION", 0},
+           {"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
+           {"/extensionsRequired", {"EXT_mesh_gpu_instancing"}},
+           {"/accessors/0/count", 3},
+           {"/accessors/2", json::parse(R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":
+             {"count":3,"indices":{"bufferView":4,"componentType":5121},"values":{"bufferView":5}}})")},
+           {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":3})")},
+           {"/bufferViews/5", json::parse(R"({"buffer":1,"byteLength":36,"byteOffset":4})")},
+           {"/buffers/1", bytes_of(std::string("\0\1\2\0", 4) + floats({1, 1, 1, 2, 2, 2, -1, 1, 1}))}}),
+     "10,0,0 11,0,0 10,1,0; 11,0,0 13,0,0 11,2,0; 10,1,0 10,2,0 9,1,0"},
+    {"instances_rotated",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION", 2},
+           {"/accessors/2", json::parse(R"({"bufferView":4,"componentType":5120,"count":2,"type":"VEC4"})")},
+           {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":8})")},
+           {"/buffers/1", bytes_of("\xc0@@@" + std::string("\0\0\0\x81", 4))}}),
+     "0,0,0 0,0,-1 -1,0,0; " + c_triangle},
+    {"instances_of_two_counts",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes", {{"TRANSLATION", 0}, {"SCALE", 2}}},
+           {"/accessors/2", json::parse(R"({"componentType":5126,"count":3,"type":"VEC3"})")}}),
+     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: has 4 and 3 instances; export the file "
+     "again"},
+    {"instances_too_many",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
+           {"/accessors/2", json::parse(R"({"componentType":5126,"count":1000001,"type":"VEC3"})")}}),
+     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.SCALE: more than 1000000 instances; "
+     "export fewer"},
     {"perspective", with({{"/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
      "! a.gltf: nodes[0].matrix: its last row is not 0 0 0 1; export the file again"},
     {"node_in_a_circle", with({{"/nodes/0/children", {0}}}),
@@ -419,7 +457,9 @@ TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
   const auto loaded = must(read_gltf(
       with({{"/animations", json::array()},
             {"/nodes/0/weights", {1}},
-            {"/nodes/0/extensions", json::parse(R"({"EXT_mesh_gpu_instancing":{}})")},
+            {"/nodes/0/extensions", json::parse(R"({"EXT_other":{},"KHR_lights_punctual":{"light":0}})")},
+            {"/extensions", json::parse(R"({"KHR_lights_punctual":{"lights":[{"type":"point"}]}})")},
+            {"/extensionsRequired", {"KHR_lights_punctual"}},
             {"/meshes/0/primitives/0/material", 0},
             {"/materials",
              json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
@@ -427,8 +467,9 @@ TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
       "a.gltf"));
   EXPECT_EQ(loaded.notes, (TextList{"a.gltf: 'animations' is not used",
                                     "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
-                                    "a.gltf: nodes[0]: extension 'EXT_mesh_gpu_instancing' is not used",
+                                    "a.gltf: nodes[0]: extension 'EXT_other' is not used",
                                     "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
+                                    "a.gltf: nodes[0]: its light is left out",
                                     "a.gltf: morph targets are left out",
                                     "a.gltf: materials[0]: transparency is left out"}));
 }
