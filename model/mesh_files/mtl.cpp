@@ -45,7 +45,7 @@ struct NeutralKey {
   std::string_view key;
   double value;
 };
-constexpr NeutralKey c_neutral[] = {{"d", 1.0}, {"tr", 0.0}, {"ke", 0.0}, {"tf", 1.0}, {"illum", 2.0}};
+constexpr NeutralKey c_neutral[] = {{"tf", 1.0}, {"illum", 2.0}};
 
 /// True if all numbers of the line have the key's neutral value.
 bool is_neutral(TextLines& lines, std::string_view key) {
@@ -76,11 +76,16 @@ std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read, 
     const bool is_black = colour == glm::dvec3(0.0);
     material.specular_colour = is_black ? glm::dvec3(1.0) : colour;
     material.specular = is_black ? 0.0 : 1.0;
-  } else if (key == "ns") {
-    std::array<double, 1> exponent{};
+  } else if (key == "ke") {
+    return read_colour(lines, read.emission);
+  } else if (key == "ns" || key == "d" || key == "tr") {
+    std::array<double, 1> number{};
     std::size_t count = 0;
-    if (std::string fault = read_numbers(lines, exponent, count); !fault.empty()) return fault;
-    read.file_exponent = exponent[0];
+    if (std::string fault = read_numbers(lines, number, count); !fault.empty()) return fault;
+    if (key == "d") read.d = number[0];
+    if (key == "tr") read.tr = number[0];
+    if (key != "ns") return {};
+    read.file_exponent = number[0];
     material.exponent = std::max(read.file_exponent, 1.0);
   } else if (is_texture) {
     read.has_textures = true;

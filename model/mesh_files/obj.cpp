@@ -21,6 +21,8 @@ namespace halfway {
 namespace {
 
 constexpr std::uint32_t c_none = UINT32_MAX;
+/// In place of a material's index: its faces are not drawn.
+constexpr std::uint32_t c_nothing = UINT32_MAX - 1;
 
 constexpr std::string_view c_without_effect[] = {"s", "mg", "lod", "bevel", "c_interp", "d_interp", "vp"};
 /// Keywords before a name: it goes up to the end of the line, and a backslash at its end belongs to it.
@@ -261,11 +263,12 @@ class ObjReader {
 
   Status read_face(TextLines& lines) {
     if (Status ok = read_corners(lines); !ok) return ok;
+    if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
+    if (material_ == c_nothing) return Ok{};
     if (line_of_first_face_ == 0 && corners_.size() > 2) line_of_first_face_ = lines.line();
     const std::string fault = faces_.divide(corners_, [&] { return lines.place(); }, notes_);
     if (!fault.empty()) return lines.error(fault);
     if (!faces_.is_divided()) return Ok{};
-    if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
     faces_.append(material_, loaded_.mesh);
     return Ok{};
   }
@@ -288,7 +291,18 @@ class ObjReader {
       return index->second;
     }
     const MtlMaterial& found = defined->second;
-    loaded_.mesh.materials.push_back(found.material);
+    if (found.opacity() <= 0.0) {
+      note(fmt::format("material '{}' is transparent: its faces are not drawn", name));
+      return index->second = c_nothing;
+    }
+    Material& material = loaded_.mesh.materials.emplace_back(found.material);
+    if (found.opacity() < 1.0) note(fmt::format("material '{}': transparency is left out", name));
+    if (found.emission != glm::dvec3(0.0)) {
+      if (material.colour == glm::dvec3(0.0))
+        make_emitter(material, found.emission);
+      else
+        note(fmt::format("material '{}': Ke is not used, because the surface reflects light too", name));
+    }
     if (found.file_exponent < 1.0 && found.material.specular > 0.0) {
       note(fmt::format("material '{}': exponent {} raised to 1", name, found.file_exponent));
     }

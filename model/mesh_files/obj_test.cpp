@@ -232,17 +232,39 @@ TEST(Obj, MaterialsAreThoseThatFacesUse) {
   EXPECT_EQ(b.diffuse, 1.0);
   EXPECT_EQ(b.specular, 1.0);
   EXPECT_EQ(b.exponent, 30.0);
-  EXPECT_EQ(loaded->notes, std::vector<std::string>{"dir/m.mtl:7: 'd' is not used"});
+  EXPECT_EQ(loaded->notes, std::vector<std::string>{"a.obj: material 'b': transparency is left out"});
 }
 
 TEST(Obj, KeysOfMaterialsThatAreNotUsedAreNoted) {
   const auto loaded = must(
       read("mtllib m.mtl\n" + c_faces, {{"m.mtl",
                                          "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
-                                         "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nKe 0 1 0\n"}}));
-  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
-                              "dir/m.mtl:10: 'd' is not used", "dir/m.mtl:11: 'ka' is not used",
-                              "dir/m.mtl:9: 'ke' is not used (2 times)", "dir/m.mtl:12: 'tr' is not used"}));
+                                         "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nillum 3\n"}}));
+  EXPECT_EQ(loaded.notes,
+            (std::vector<std::string>{
+                "dir/m.mtl:13: 'illum' is not used", "dir/m.mtl:11: 'ka' is not used",
+                "dir/m.mtl:10: d: '-halo' is not a number; the line is left out",
+                "a.obj: material 'b': Ke is not used, because the surface reflects light too",
+                "a.obj: material 'b': transparency is left out"}));
+}
+
+TEST(Obj, ABlackMaterialThatEmitsIsDrawnWithAmbientLight) {
+  const auto loaded = must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\nKd 0 0 0\nKe 1 .5 0\nnewmtl b\n"}}));
+  const Material& m = loaded.mesh.materials.at(0);
+  EXPECT_EQ(m.ambient * Scene().ambient * m.colour, glm::dvec3(1, 0.5, 0));
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+}
+
+TEST(Obj, TransparentFacesAreNotDrawn) {
+  for (const std::string key : {"d 0\nTr 0\n", "Tr 1\n"}) {
+    const auto loaded = must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\n" + key + "newmtl b\nd 1\nTr 1\n"}}));
+    EXPECT_EQ(triangles_of(loaded), "0,0,0 0,1,0 1,0,0");
+    EXPECT_EQ(loaded.mesh.materials.at(loaded.mesh.triangles[0].material).name, "b");
+    EXPECT_EQ(loaded.notes,
+              std::vector<std::string>{"a.obj: material 'a' is transparent: its faces are not drawn"});
+  }
+  EXPECT_EQ(triangles_of(read("mtllib m.mtl\nusemtl a\n" + c_three + "f 1 2 3\n", {{"m.mtl", "newmtl a\nd 0\n"}})),
+            "! a.obj: the mesh has no faces; export it with faces");
 }
 
 TEST(Obj, TexturesOfMaterialsAreNoted) {

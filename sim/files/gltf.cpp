@@ -903,9 +903,7 @@ class GltfReader {
     if (!is_unlit && !is_black)
       return note(source, "'emissiveFactor' is not used, because the surface reflects light too");
     if (is_unlit) material.specular = 0.0;
-    if (!is_unlit) material.colour = emission;
-    material.ambient = 1.0 / Scene().ambient.x;  // a mesh file's scene has this ambient light
-    material.diffuse = 0.0;
+    make_emitter(material, is_unlit ? material.colour : emission);
   }
 
   double read_alpha(const Item& source, double alpha) {
