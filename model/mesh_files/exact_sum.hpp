@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact signs of sums of products of floats.
+// Exact signs of sums of products.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 
 namespace halfway {
 
-/// The exact sum of doubles, each a product of two floats. The parts are in increasing order and their bits
-/// do not overlap, so the last part has the sign of the sum. Source: J. R. Shewchuk, Adaptive Precision
-/// Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997, GROW-EXPANSION.
+/// The exact sum of products of doubles. The parts are in increasing order and their bits do not overlap, so
+/// the last part has the sign of the sum. A product below 2^-968 is rounded. Source: J. R. Shewchuk, Adaptive
+/// Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997, GROW-EXPANSION.
 class ExactSum {
  public:
   void add(double term) {
@@ -26,19 +26,24 @@ class ExactSum {
     if (term != 0.0) parts_[kept++] = term;
     size_ = kept;
   }
+  void add_product(double a, double b) {
+    const double product = a * b;
+    add(std::fma(a, b, -product));
+    add(product);
+  }
   int sign() const { return size_ == 0 ? 0 : parts_[size_ - 1] > 0.0 ? 1 : -1; }
   /// The sum to about one unit in the last place.
   double value() const { return size_ == 0 ? 0.0 : parts_[size_ - 1]; }
 
  private:
-  /// A product of floats is a multiple of 2^-298 below 2^256. The parts of 2^26 products take at most 580
-  /// bits, and no two parts are adjacent.
-  static constexpr std::size_t c_most_parts = 580 / 2 + 1;
+  /// Terms are multiples of 2^-1074, and below 2^256 for coordinates in the range of float. The parts of 2^26
+  /// products take at most 1356 bits, and no two parts are adjacent.
+  static constexpr std::size_t c_most_parts = 1356 / 2 + 1;
   std::array<double, c_most_parts> parts_;
   std::size_t size_ = 0;
 };
 
-/// A point whose coordinates are floats.
+/// A point whose coordinates are in the range of float.
 struct PlanePoint {
   double x = 0.0, y = 0.0;
   bool operator==(const PlanePoint&) const = default;
@@ -53,14 +58,14 @@ inline int orientation(const PlanePoint& a, const PlanePoint& b, const PlanePoin
   const double bound = c_error * (std::abs(left) + std::abs(right));
   if (left - right > bound) return 1;
   if (right - left > bound) return -1;
-  // The products of floats are exact, without the terms that cancel.
+  // The terms that cancel are left out.
   ExactSum sum;
-  sum.add(a.x * b.y);
-  sum.add(-a.y * b.x);
-  sum.add(a.y * c.x);
-  sum.add(-a.x * c.y);
-  sum.add(b.x * c.y);
-  sum.add(-b.y * c.x);
+  sum.add_product(a.x, b.y);
+  sum.add_product(-a.y, b.x);
+  sum.add_product(a.y, c.x);
+  sum.add_product(-a.x, c.y);
+  sum.add_product(b.x, c.y);
+  sum.add_product(-b.y, c.x);
   return sum.sign();
 }
 

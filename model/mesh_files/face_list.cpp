@@ -11,7 +11,7 @@ constexpr std::uint32_t c_no_index = UINT32_MAX;
 
 }  // namespace
 
-void FaceList::add_position(const glm::vec3& position) {
+void FaceList::add_position(const glm::dvec3& position) {
   positions_.push_back(position);
   new_index_.push_back(c_no_index);
 }

@@ -23,7 +23,7 @@ class FaceList {
     std::uint32_t normal;    ///< index of the mesh's normal
   };
 
-  void add_position(const glm::vec3& position);
+  void add_position(const glm::dvec3& position);
   std::size_t positions() const { return positions_.size(); }
 
   /// Divide a face. Returns what is wrong with it, or nothing. A face of one or two corners is a point or a
@@ -45,10 +45,10 @@ class FaceList {
   void note_left_out(std::string_view file, Notes& notes) const;
 
  private:
-  std::vector<glm::vec3> positions_;
+  std::vector<glm::dvec3> positions_;
   std::vector<std::uint32_t> new_index_;  ///< of each vertex in the mesh, or c_no_index before its first use
   std::span<const Corner> corners_;
-  std::vector<glm::vec3> places_;
+  std::vector<glm::dvec3> places_;
   std::vector<Triangulator::Triangle> divided_;
   Triangulator triangulator_;
   std::uint64_t triangles_ = 0, points_and_lines_ = 0, without_area_ = 0;

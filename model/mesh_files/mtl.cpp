@@ -16,13 +16,13 @@ namespace {
 
 /// Read one number or more, as many as there are values at most, to the end of the line. Returns what is
 /// wrong, or nothing.
-std::string read_numbers(TextLines& lines, std::span<float> values, std::size_t& count) {
+std::string read_numbers(TextLines& lines, std::span<double> values, std::size_t& count) {
   count = 0;
   for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
-    float value = 0.0f;
+    double value = 0.0;
     if (const NumberFault fault = read_number(word, value); fault != NumberFault::none)
       return fault_text(fault, word);
-    if (value < 0.0f) return quoted(word) + " is negative";
+    if (value < 0.0) return quoted(word) + " is negative";
     if (count == values.size()) return fmt::format("more than {} numbers", values.size());
     values[count++] = value;
   }
@@ -31,7 +31,7 @@ std::string read_numbers(TextLines& lines, std::span<float> values, std::size_t&
 
 /// Read three numbers, or one for all three.
 std::string read_colour(TextLines& lines, glm::dvec3& colour) {
-  std::array<float, 3> values{};
+  std::array<double, 3> values{};
   std::size_t count = 0;
   if (std::string fault = read_numbers(lines, values, count); !fault.empty()) return fault;
   if (count == 2) return "2 numbers instead of 3, or 1 for grey";
@@ -43,9 +43,9 @@ std::string read_colour(TextLines& lines, glm::dvec3& colour) {
 /// Keys that change nothing at this value; the other values are noted.
 struct NeutralKey {
   std::string_view key;
-  float value;
+  double value;
 };
-constexpr NeutralKey c_neutral[] = {{"d", 1.0f}, {"tr", 0.0f}, {"ke", 0.0f}, {"tf", 1.0f}, {"illum", 2.0f}};
+constexpr NeutralKey c_neutral[] = {{"tf", 1.0}, {"illum", 2.0}};
 
 /// True if all numbers of the line have the key's neutral value.
 bool is_neutral(TextLines& lines, std::string_view key) {
@@ -55,7 +55,7 @@ bool is_neutral(TextLines& lines, std::string_view key) {
                                            [key](const NeutralKey& known) { return known.key == key; });
   if (neutral == std::end(c_neutral)) return false;
   bool is_equal = true;
-  float value = 0.0f;
+  double value = 0.0;
   for (std::string_view word = lines.word(); !word.empty(); word = lines.word())
     is_equal &= read_number(word, value) == NumberFault::none && value == neutral->value;
   return is_equal;
@@ -76,11 +76,16 @@ std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read, 
     const bool is_black = colour == glm::dvec3(0.0);
     material.specular_colour = is_black ? glm::dvec3(1.0) : colour;
     material.specular = is_black ? 0.0 : 1.0;
-  } else if (key == "ns") {
-    std::array<float, 1> exponent{};
+  } else if (key == "ke") {
+    return read_colour(lines, read.emission);
+  } else if (key == "ns" || key == "d" || key == "tr") {
+    std::array<double, 1> number{};
     std::size_t count = 0;
-    if (std::string fault = read_numbers(lines, exponent, count); !fault.empty()) return fault;
-    read.file_exponent = static_cast<double>(exponent[0]);
+    if (std::string fault = read_numbers(lines, number, count); !fault.empty()) return fault;
+    if (key == "d") read.d = number[0];
+    if (key == "tr") read.tr = number[0];
+    if (key != "ns") return {};
+    read.file_exponent = number[0];
     material.exponent = std::max(read.file_exponent, 1.0);
   } else if (is_texture) {
     read.has_textures = true;
@@ -96,10 +101,10 @@ std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read, 
 }  // namespace
 
 Material plain_material(std::string_view name) {
-  constexpr float c_grey = 0.6f;
+  constexpr double c_grey = 0.6;
   Material material;
   material.name = name;
-  material.colour = glm::dvec3(static_cast<double>(c_grey));
+  material.colour = glm::dvec3(c_grey);
   material.diffuse = 1.0;
   material.specular = 0.0;
   material.exponent = 1.0;

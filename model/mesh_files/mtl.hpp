@@ -2,6 +2,7 @@
 // Material libraries of OBJ files.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -14,7 +15,11 @@ namespace halfway {
 struct MtlMaterial {
   Material material;
   double file_exponent = 0.0;  ///< Ns; below 1 the material's exponent is 1
+  glm::dvec3 emission{0.0};    ///< Ke
+  std::optional<double> d, tr;  ///< opacity and transparency
   bool has_textures = false;
+  /// d, because some files have Tr = 1 too.
+  double opacity() const { return d.value_or(1.0 - tr.value_or(0.0)); }
 };
 using MtlMaterials = std::unordered_map<std::string, MtlMaterial>;
 

@@ -50,10 +50,10 @@ class Notes {
 
 /// The normal, or zero with a note if a number is not finite. `place` returns the place.
 template <class Place>
-glm::vec3 known_normal(const glm::vec3& normal, Notes& notes, Place&& place) {
+glm::dvec3 known_normal(const glm::dvec3& normal, Notes& notes, Place&& place) {
   if (std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z)) return normal;
   notes.add(place(), "a normal is not three finite numbers; it is computed");
-  return glm::vec3(0.0f);
+  return glm::dvec3(0.0);
 }
 
 }  // namespace halfway

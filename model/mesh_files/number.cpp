@@ -2,11 +2,9 @@
 #include "mesh_files/number.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <limits>
+#include <iterator>
 
 namespace halfway {
 
@@ -33,20 +31,20 @@ bool is_not_finite(std::string_view word) {
          text.starts_with("1.#");
 }
 
-/// Round decimal digits times a power of ten to float. strtof rounds correctly, but its decimal point depends
+/// Round decimal digits times a power of ten to double. strtod rounds correctly, but its decimal point depends
 /// on the locale, so the text has none.
-float rounded(std::string_view mantissa, std::int64_t exponent) {
+double rounded(std::string_view mantissa, std::int64_t exponent) {
   std::string text;
   for (const char c : mantissa) {
     if (is_digit(c)) text += c;
   }
   text += 'e' + std::to_string(exponent);
-  return std::strtof(text.c_str(), nullptr);
+  return std::strtod(text.c_str(), nullptr);
 }
 
 }  // namespace
 
-NumberFault read_number(std::string_view word, float& value) {
+NumberFault read_number(std::string_view word, double& value) {
   // Read the sign and the mantissa: the number is digits times 10^exponent.
   const std::string_view whole = word;
   const bool is_negative = word.starts_with('-');
@@ -89,23 +87,20 @@ NumberFault read_number(std::string_view word, float& value) {
   }
   exponent -= fraction_digits;
 
-  // Usually one operation gives the nearest double. Rounding this double to float is correct unless it is a
-  // tie between two floats or less than the smallest normal float.
+  // Usually one operation gives the nearest double.
   constexpr auto c_last_power = static_cast<std::int64_t>(std::size(c_powers_of_ten)) - 1;
-  bool is_done = false;
-  if (significant <= c_kept_digits && digits <= c_exact_integers && std::abs(exponent) <= c_last_power) {
+  if (significant == 0) {
+    value = 0.0;
+  } else if (significant <= c_kept_digits && digits <= c_exact_integers &&
+             std::abs(exponent) <= c_last_power) {
     const double power = c_powers_of_ten[static_cast<std::size_t>(std::abs(exponent))];
     const auto integer = static_cast<double>(digits);
-    const double nearest = exponent < 0 ? integer / power : integer * power;
-    constexpr std::uint64_t c_below_float = (std::uint64_t{1} << 29) - 1, c_tie = std::uint64_t{1} << 28;
-    value = static_cast<float>(nearest);
-    is_done = (nearest >= std::numeric_limits<float>::min() &&
-               (std::bit_cast<std::uint64_t>(nearest) & c_below_float) != c_tie) ||
-              digits == 0;
+    value = exponent < 0 ? integer / power : integer * power;
+  } else {
+    value = rounded(mantissa, exponent);
   }
-  if (!is_done) value = significant == 0 ? 0.0f : rounded(mantissa, exponent);
   if (is_negative) value = -value;
-  return std::isfinite(value) ? NumberFault::none : NumberFault::too_large;
+  return is_in_float_range(value) ? NumberFault::none : NumberFault::too_large;
 }
 
 std::string fault_text(NumberFault fault, std::string_view word) {

@@ -15,69 +15,53 @@
 namespace halfway {
 namespace {
 
-TEST(ReadNumber, GivesTheNearestFloat) {
-  const std::pair<const char*, float> spellings[] = {
-      {"1", 1.0f},
-      {"-1", -1.0f},
-      {".5", 0.5f},
-      {"5.", 5.0f},
-      {"0", 0.0f},
-      {"-0", -0.0f},
-      {"007.50", 7.5f},
-      {"1e3", 1000.0f},
-      {"1e+3", 1000.0f},
-      {"1.e-2", 0.01f},
-      {".5e1", 5.0f},
-      {"0e99999999999999999999", 0.0f},
-      {"1e-99999999999999999999", 0.0f},
+TEST(ReadNumber, GivesTheNearestDouble) {
+  const std::pair<const char*, double> spellings[] = {
+      {"1", 1.0},
+      {"-1", -1.0},
+      {".5", 0.5},
+      {"5.", 5.0},
+      {"0", 0.0},
+      {"-0", -0.0},
+      {"007.50", 7.5},
+      {"5334760.6", 5334760.6},
+      {"1e3", 1000.0},
+      {"1e+3", 1000.0},
+      {"1.e-2", 0.01},
+      {".5e1", 5.0},
+      {"0e99999999999999999999", 0.0},
+      {"1e-99999999999999999999", 0.0},
       // the largest float, and a number just below the tie above it
       {"3.4028234663852886e38", std::numeric_limits<float>::max()},
-      {"3.4028235677973365e38", std::numeric_limits<float>::max()},
-      // the smallest normal and subnormal floats, and the tie between the latter and zero
-      {"1.17549435082228751e-38", std::numeric_limits<float>::min()},
-      {"1.40129846432481707e-45", std::numeric_limits<float>::denorm_min()},
-      {"7."
-       "00649232162408535461864791644958065640130970938257885878534141944895541342930"
-       "300743319094181060791015625e-46",
-       0.0f},
-      {"7."
-       "00649232162408535461864791644958065640130970938257885878534141944895541342930"
-       "300743319094181060791015626e-46",
-       std::numeric_limits<float>::denorm_min()},
-      // ties between two floats
-      {"16777217", 16777216.0f},
-      {"16777219", 16777220.0f}};
+      {"-3.402823567797336e38", -3.402823567797336e38},
+      // the smallest normal and subnormal doubles, and a number below the tie between the latter and zero
+      {"2.2250738585072014e-308", std::numeric_limits<double>::min()},
+      {"2.4703282292062328e-324", std::numeric_limits<double>::denorm_min()},
+      {"2.4703282292062327e-324", 0.0},
+      // ties between two doubles
+      {"9007199254740993", 9007199254740992.0},
+      {"9007199254740995", 9007199254740996.0}};
   for (const auto& [word, wanted] : spellings) {
-    float value = NAN;
+    double value = NAN;
     EXPECT_EQ(read_number(word, value), NumberFault::none) << word;
-    EXPECT_EQ(std::bit_cast<std::uint32_t>(value), std::bit_cast<std::uint32_t>(wanted))
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(value), std::bit_cast<std::uint64_t>(wanted))
         << word << " gives " << value;
   }
 }
 
 TEST(ReadNumber, RoundsOnceNextToTies) {
-  // The middle between 1 + 2^-23 and 1 + 2^-22 goes up to even, the middle between 1 and 1 + 2^-23 down.
-  const std::string up = "1.00000017881393432617187", down = "1.00000005960464477539062";
+  // The middle between 1 + 2^-52 and 1 + 2^-51 goes up to even, the middle between 1 and 1 + 2^-52 down.
+  const std::string up = "1.0000000000000003330669073875469621270895004272460937",
+                    down = "1.0000000000000001110223024625156540423631668090820312";
   const std::string zeros(60, '0');
-  const std::pair<std::string, float> spellings[] = {
-      {down + "5", 0x1p0f},
-      {down + "5" + zeros + "1", 0x1.000002p0f},
-      {down + "4" + std::string(60, '9'), 0x1p0f},
-      {up + "5", 0x1.000004p0f},
-      {up + "5" + zeros + "1", 0x1.000004p0f},
-      {up + "4" + std::string(60, '9'), 0x1.000002p0f},
-      // The nearest double of each is the middle between two floats, and the float next to it whose last bit
-      // is 0 is not the nearest. The first four are below the middle, the others above it.
-      {"2857231255620718e-17", 0x1.d420f6p-6f},
-      {"1740885909384815e-20", 0x1.24127ap-16f},
-      {"2279717623377271e4", 0x1.3c5fd6p64f},
-      {"2573286979527152e16", 0x1.44cb62p104f},
-      {"2351119089871645e-17", 0x1.813516p-6f},
-      {"2077587942039827e-20", 0x1.5c8fbap-16f},
-      {"3148025925185464e4", 0x1.b4e05ap64f},
-      {"3279784921006089e16", 0x1.9df792p104f}};
+  const std::pair<std::string, double> spellings[] = {{down + "5", 0x1p0},
+                                                      {down + "5" + zeros + "1", 0x1.0000000000001p0},
+                                                      {down + "4" + std::string(60, '9'), 0x1p0},
+                                                      {up + "5", 0x1.0000000000002p0},
+                                                      {up + "5" + zeros + "1", 0x1.0000000000002p0},
+                                                      {up + "4" + std::string(60, '9'), 0x1.0000000000001p0}};
   for (const auto& [word, wanted] : spellings) {
-    float value = 0.0f;
+    double value = 0.0;
     EXPECT_EQ(read_number(word, value), NumberFault::none) << word;
     EXPECT_EQ(value, wanted) << word;
     EXPECT_EQ(read_number("-" + word, value), NumberFault::none) << word;
@@ -109,14 +93,14 @@ TEST(ReadNumber, RefusesEverythingElse) {
       {"3.4028235677973367e38", NumberFault::too_large},
       {"1e99999999999999999999", NumberFault::too_large}};
   for (const auto& [word, wanted] : spellings) {
-    float value = 0.0f;
+    double value = 0.0;
     EXPECT_EQ(read_number(word, value), wanted) << word;
   }
 }
 
 /// The library's conversion, which the core cannot use.
-float from_chars(std::string_view word) {
-  float value = 0.0f;
+double from_chars(std::string_view word) {
+  double value = 0.0;
   const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
   EXPECT_EQ(end, word.data() + word.size()) << word;
   EXPECT_EQ(fault, std::errc()) << word;
@@ -136,30 +120,29 @@ TEST(ReadNumber, EqualsTheLibraryForRandomWords) {
     }
     const int before = point > 0 && point < digits ? point : digits;
     if (random() % 2 == 0) word += "e" + std::to_string(static_cast<int>(random() % 74) - 36 - before);
-    float value = 0.0f;
+    double value = 0.0;
     ASSERT_EQ(read_number(word, value), NumberFault::none) << word;
     ASSERT_EQ(value, from_chars(word)) << word;
   }
 }
 
-TEST(ReadNumber, ReadsBackEveryFloatAndTheTiesNextToIt) {
+TEST(ReadNumber, ReadsBackEveryDoubleAndTheTiesNextToIt) {
   std::mt19937_64 random(2);
   for (int trial = 0; trial < 100'000; ++trial) {
-    const auto wanted = std::bit_cast<float>(static_cast<std::uint32_t>(random()));
-    if (!std::isfinite(wanted)) continue;
-    char text[400];
+    // Up to the range of float; the first trials are below it.
+    const std::uint64_t exponent = random() % (trial < 1000 ? 900 : 1150);
+    const auto wanted = std::bit_cast<double>(random() >> 12 | exponent << 52);
+    char text[1500];
     const auto shortest = std::to_chars(std::begin(text), std::end(text), wanted);
-    float value = 0.0f;
+    double value = 0.0;
     ASSERT_EQ(read_number({text, shortest.ptr}, value), NumberFault::none);
     ASSERT_EQ(value, wanted);
-    // All digits of the middle between this float and the next, which double represents exactly.
-    const float next = std::nextafter(wanted, std::numeric_limits<float>::infinity());
-    if (!std::isfinite(next)) continue;
-    const double middle = 0.5 * (static_cast<double>(wanted) + static_cast<double>(next));
-    const auto exact = std::to_chars(std::begin(text), std::end(text), middle, std::chars_format::fixed, 160);
+    // All digits of the middle between this double and the next.
+    const auto middle = 0.5L * (static_cast<long double>(wanted) + std::nextafter(wanted, 1e300));
+    const auto exact = std::to_chars(std::begin(text), std::end(text), middle, std::chars_format::fixed, 1100);
     ASSERT_EQ(exact.ec, std::errc());
     ASSERT_EQ(read_number({text, exact.ptr}, value), NumberFault::none);
-    ASSERT_EQ(value, static_cast<float>(middle)) << std::string_view(text, exact.ptr);
+    ASSERT_EQ(value, static_cast<double>(middle)) << std::string_view(text, exact.ptr);
   }
 }
 

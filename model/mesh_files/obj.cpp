@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <glm/vec3.hpp>
 #include <limits>
 #include <unordered_map>
@@ -22,6 +21,8 @@ namespace halfway {
 namespace {
 
 constexpr std::uint32_t c_none = UINT32_MAX;
+/// In place of a material's index: its faces are not drawn.
+constexpr std::uint32_t c_nothing = UINT32_MAX - 1;
 
 constexpr std::string_view c_without_effect[] = {"s", "mg", "lod", "bevel", "c_interp", "d_interp", "vp"};
 /// Keywords before a name: it goes up to the end of the line, and a backslash at its end belongs to it.
@@ -109,29 +110,29 @@ class ObjReader {
 
   Status read_position(TextLines& lines) {
     if (Status ok = count_item(lines, position_); !ok) return ok;
-    std::array<float, 4> v{};
+    std::array<double, 4> v{};
     int count = 0;
     for (std::string_view word = lines.word(); !word.empty(); word = lines.word()) {
-      float value = 0.0f;
+      double value = 0.0;
       const NumberFault fault = read_number(word, value);
       if (fault == NumberFault::not_a_number || (fault != NumberFault::none && count < 3)) {
         return lines.error(
             fmt::format("vertex {}: {}; correct the coordinate", position_.all, fault_text(fault, word)));
       }
-      if (count < 4) v[static_cast<std::size_t>(count)] = fault == NumberFault::none ? value : 0.0f;
+      if (count < 4) v[static_cast<std::size_t>(count)] = fault == NumberFault::none ? value : 0.0;
       ++count;
     }
     if (count < 3 || count == 5)
       return lines.error(
           fmt::format("vertex {} has {} numbers; it must have 3, 4, 6 or 7", position_.all, count));
     if (count == 4) {
-      if (v[3] == 0.0f) {
+      if (v[3] == 0.0) {
         return lines.error(
             fmt::format("vertex {} has the weight zero; correct the coordinate", position_.all));
       }
       for (std::size_t axis = 0; axis < 3; ++axis) {
         v[axis] /= v[3];
-        if (!std::isfinite(v[axis])) {
+        if (!is_in_float_range(v[axis])) {
           return lines.error(fmt::format("vertex {} is too large; correct the coordinate", position_.all));
         }
       }
@@ -143,10 +144,10 @@ class ObjReader {
 
   Status read_normal(TextLines& lines) {
     if (Status ok = count_item(lines, normal_); !ok) return ok;
-    glm::vec3 normal(0.0f);
+    glm::dvec3 normal(0.0);
     for (int axis = 0; axis < 3; ++axis)
       if (read_number(lines.word(), normal[axis]) != NumberFault::none)
-        normal[axis] = std::numeric_limits<float>::quiet_NaN();
+        normal[axis] = std::numeric_limits<double>::quiet_NaN();
     loaded_.mesh.normals.emplace_back(known_normal(normal, notes_, [&] { return lines.place(); }));
     return Ok{};
   }
@@ -262,11 +263,12 @@ class ObjReader {
 
   Status read_face(TextLines& lines) {
     if (Status ok = read_corners(lines); !ok) return ok;
+    if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
+    if (material_ == c_nothing) return Ok{};
     if (line_of_first_face_ == 0 && corners_.size() > 2) line_of_first_face_ = lines.line();
     const std::string fault = faces_.divide(corners_, [&] { return lines.place(); }, notes_);
     if (!fault.empty()) return lines.error(fault);
     if (!faces_.is_divided()) return Ok{};
-    if (material_ == c_none) material_ = has_materials_ ? find_material() : 0;
     faces_.append(material_, loaded_.mesh);
     return Ok{};
   }
@@ -289,7 +291,18 @@ class ObjReader {
       return index->second;
     }
     const MtlMaterial& found = defined->second;
-    loaded_.mesh.materials.push_back(found.material);
+    if (found.opacity() <= 0.0) {
+      note(fmt::format("material '{}' is transparent: its faces are not drawn", name));
+      return index->second = c_nothing;
+    }
+    Material& material = loaded_.mesh.materials.emplace_back(found.material);
+    if (found.opacity() < 1.0) note(fmt::format("material '{}': transparency is left out", name));
+    if (found.emission != glm::dvec3(0.0)) {
+      if (material.colour == glm::dvec3(0.0))
+        make_emitter(material, found.emission);
+      else
+        note(fmt::format("material '{}': Ke is not used, because the surface reflects light too", name));
+    }
     if (found.file_exponent < 1.0 && found.material.specular > 0.0) {
       note(fmt::format("material '{}': exponent {} raised to 1", name, found.file_exponent));
     }

@@ -64,6 +64,10 @@ const std::vector<Spelling> c_obj_text = {
     // lines
     {"crlf", "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n", c_triangle},
     {"cr", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", c_triangle},
+    {"cr_fault", "v 0 0 0\rv 1 0\r", "! a.obj:2: vertex 2 has 2 numbers; it must have 3, 4, 6 or 7"},
+    {"fault_after_a_continued_line", "v 0 0 \\\n0\nv 1 0\n",
+     "! a.obj:3: vertex 2 has 2 numbers; it must have 3, 4, 6 or 7"},
+    {"form_feeds", "v\f0 0\v0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", c_triangle},
     {"tabs", "v\t0\t0  0 \n \tv 1 0\t0\nv 0 1 0\n\tf\t1  2 3\t\n", c_triangle},
     {"byte_order_mark", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", c_triangle},
     {"comments", "# v 9 9 9\n#\n" + c_three + "f 1 2 3 # 4\n#f 1 2 2\n", c_triangle},
@@ -88,6 +92,10 @@ const std::vector<Spelling> c_obj_text = {
 
     // keywords
     {"groups", "o a\ng b c\ns off\nmg 1 2\nlod 1\n" + c_three + "s 1\ng\nf 1 2 3\n", c_triangle},
+    {"curves",
+     "cstype 1\ndeg\nbmat\nstep\ncurv\ncurv2\nsurf\nparm\ntrim\nhole\nscrv\nsp\nend\ncon\nctech\nstech\nbsp\nbzp\n"
+     "cdc\ncdp\nres\nc_interp\nd_interp\nvp\nbevel\n" + c_three + "f 1 2 3\n",
+     c_triangle},
     {"unknown_keyword", c_three + "vv 1 2 3\n",
      "! a.obj:4: 'vv' is not a keyword of OBJ; correct or remove the line"},
     {"no_faces", c_three, "! a.obj: the mesh has no faces; export it with faces"},
@@ -165,9 +173,9 @@ TEST(Obj, NotesSayWhatIsLeftOut) {
                               "a.obj: 1 faces without area left out", "a.obj: 3 points and lines left out",
                               "a.obj:9: curves and surfaces are left out (3 times)",
                               "a.obj:1: textures are left out", "a.obj:2: vertex colours are left out"}));
-  EXPECT_EQ(must(read(c_three + "f 1/1 2/7 3/-1\n")).notes,
+  EXPECT_EQ(must(read("vt 0\n" + c_three + "f 1/2 2/7 3/-2\n")).notes,
             std::vector<std::string>{
-                "a.obj:4: a corner names a texture coordinate that the file does not have (3 times)"});
+                "a.obj:5: a corner names a texture coordinate that the file does not have (3 times)"});
 }
 
 TEST(Obj, AnOutlineThatCrossesItselfIsAFan) {
@@ -224,17 +232,53 @@ TEST(Obj, MaterialsAreThoseThatFacesUse) {
   EXPECT_EQ(b.diffuse, 1.0);
   EXPECT_EQ(b.specular, 1.0);
   EXPECT_EQ(b.exponent, 30.0);
-  EXPECT_EQ(loaded->notes, std::vector<std::string>{"dir/m.mtl:7: 'd' is not used"});
+  EXPECT_EQ(loaded->notes, std::vector<std::string>{"a.obj: material 'b': transparency is left out"});
 }
 
 TEST(Obj, KeysOfMaterialsThatAreNotUsedAreNoted) {
   const auto loaded = must(
       read("mtllib m.mtl\n" + c_faces, {{"m.mtl",
                                          "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
-                                         "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nKe 0 1 0\n"}}));
-  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
-                              "dir/m.mtl:10: 'd' is not used", "dir/m.mtl:11: 'ka' is not used",
-                              "dir/m.mtl:9: 'ke' is not used (2 times)", "dir/m.mtl:12: 'tr' is not used"}));
+                                         "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nillum 3\n"}}));
+  EXPECT_EQ(loaded.notes,
+            (std::vector<std::string>{
+                "dir/m.mtl:13: 'illum' is not used", "dir/m.mtl:11: 'ka' is not used",
+                "dir/m.mtl:10: d: '-halo' is not a number; the line is left out",
+                "a.obj: material 'b': Ke is not used, because the surface reflects light too",
+                "a.obj: material 'b': transparency is left out"}));
+}
+
+TEST(Obj, ABlackMaterialThatEmitsIsDrawnWithAmbientLight) {
+  const auto loaded = must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\nKd 0 0 0\nKe 1 .5 0\nnewmtl b\n"}}));
+  const Material& m = loaded.mesh.materials.at(0);
+  EXPECT_EQ(m.ambient * Scene().ambient * m.colour, glm::dvec3(1, 0.5, 0));
+  EXPECT_EQ(loaded.notes, std::vector<std::string>{});
+}
+
+TEST(Obj, TransparentFacesAreNotDrawn) {
+  for (const std::string key : {"d 0\nTr 0\n", "Tr 1\n"}) {
+    const auto loaded = must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\n" + key + "newmtl b\nd 1\nTr 1\n"}}));
+    EXPECT_EQ(triangles_of(loaded), "0,0,0 0,1,0 1,0,0");
+    EXPECT_EQ(loaded.mesh.materials.at(loaded.mesh.triangles[0].material).name, "b");
+    EXPECT_EQ(loaded.notes,
+              std::vector<std::string>{"a.obj: material 'a' is transparent: its faces are not drawn"});
+  }
+  EXPECT_EQ(triangles_of(read("mtllib m.mtl\nusemtl a\n" + c_three + "f 1 2 3\n", {{"m.mtl", "newmtl a\nd 0\n"}})),
+            "! a.obj: the mesh has no faces; export it with faces");
+}
+
+TEST(Obj, TexturesOfMaterialsAreNoted) {
+  for (const std::string key : {"map_Kd", "bump", "disp", "decal", "refl", "norm"})
+    EXPECT_EQ(must(read("mtllib m.mtl\n" + c_three + "usemtl a\nf 1 2 3\n", {{"m.mtl", "newmtl a\n" + key + " x\n"}}))
+                  .notes,
+              std::vector<std::string>{"a.obj: material 'a': textures are left out"});
+}
+
+TEST(Obj, ASecondDefinitionKeepsTheOtherKeys) {
+  const auto loaded = must(
+      read("mtllib m.mtl \n" + c_faces, {{"m.mtl", "newmtl a \nKd 1 0 0\nNs 2\nnewmtl b\nnewmtl a\t\nNs 9\n"}}));
+  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(1, 0, 0));
+  EXPECT_EQ(loaded.mesh.materials.at(0).exponent, 9.0);
 }
 
 TEST(Obj, MaterialsAreNoted) {
@@ -242,7 +286,7 @@ TEST(Obj, MaterialsAreNoted) {
                                 {{"m.mtl", "newmtl a\nKs 1 1 1\nNs 0\nbump -bm 1 b.png\n"}}));
   ASSERT_EQ(loaded.mesh.materials.size(), 3u);
   EXPECT_EQ(loaded.mesh.materials[0].name, "default");
-  EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(0.6f));
+  EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(0.6));
   EXPECT_EQ(loaded.mesh.materials[2].name, "b");
   EXPECT_EQ(loaded.notes, (std::vector<std::string>{"a.obj: faces without a material are grey",
                                                     "a.obj: material 'a': exponent 0 raised to 1",
@@ -282,8 +326,9 @@ TEST(Obj, ALineMayNameSeveralLibraries) {
 }
 
 TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
-  for (const char* library : {"", "mtllib gone.mtl\n"}) {
-    const auto loaded = must(read(library + c_faces));
+  for (const std::string& text : {c_faces, "mtllib gone.mtl\n" + c_faces,
+                                  "mtllib m.mtl\n" + c_three + "f 1 2 3\nf 1 3 2\n"}) {
+    const auto loaded = must(read(text, {{"m.mtl", "newmtl a\n"}}));
     ASSERT_EQ(loaded.mesh.materials.size(), 1u);
     EXPECT_EQ(loaded.mesh.materials[0].name, "default");
     EXPECT_EQ(loaded.mesh.materials[0].colour, glm::dvec3(1.0));
@@ -294,7 +339,7 @@ TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
 TEST(Obj, AMaterialWithoutANameIsTheDefault) {
   const auto loaded =
       must(read("mtllib m.mtl\n" + c_three + "usemtl\nf 1 2 3\n", {{"m.mtl", "newmtl\nKd 1 0 0\n"}}));
-  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0.6f));
+  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0.6));
   EXPECT_EQ(loaded.notes,
             (std::vector<std::string>{"a.obj: faces without a material are grey",
                                       "dir/m.mtl:1: newmtl has no name; its material is left out"}));

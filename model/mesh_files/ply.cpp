@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -261,7 +260,7 @@ class PlyReader {
     }
     const bool is_colour =
         element.kind == Kind::vertex && index_in(c_colours, property.name) < std::size(c_colours);
-    has_colours_ |= is_colour && element.count > 0;
+    has_colours_ |= is_colour;
     if (element.kind != Kind::other && property.use == Use::none && !is_colour)
       notes_.add(lines_.place(), fmt::format("property {} is not used", quoted(property.name)));
     element.properties.push_back(property);
@@ -323,7 +322,7 @@ class PlyReader {
     for (item_ = 0; item_ < element.count; ++item_) {
       if (is_text_ && !next_line()) return truncated(element);
       corners_.clear();
-      std::array<float, 6> numbers{};
+      std::array<double, 6> numbers{};
       for (const Property& property : element.properties) {
         double length = 1.0;
         if (property.length_type) {
@@ -338,7 +337,7 @@ class PlyReader {
           if (property.use == Use::corners) {
             if (Status ok = add_corner(element, value); !ok) return ok;
           } else if (property.use != Use::none) {
-            numbers[static_cast<std::size_t>(property.use)] = static_cast<float>(value);
+            numbers[static_cast<std::size_t>(property.use)] = value;
           }
         }
       }
@@ -393,14 +392,13 @@ class PlyReader {
                                         bytes_.size() - at_));
   }
 
-  /// Read the next number of this type. A number that is needed is finite as a float.
+  /// Read the next number of this type. A number that is needed is in the range of float.
   Status read_value(const Element& element, const Property& property, const Type& type, bool is_needed,
                     double& value) {
     if (!is_text_) {
       if (bytes_.size() - at_ < type.size) return truncated(element);
       value = type.value_at(bytes_, at_, order_);
-      // Half a unit above the largest float, the nearest float is infinite.
-      if (type.is_real && !(std::abs(value) < 0x1.ffffffp127)) {
+      if (type.is_real && !is_in_float_range(value)) {
         if (is_needed)
           return error(element, fmt::format("{} is not finite, or too large; correct it", property.name));
         value = c_unknown;
@@ -412,11 +410,11 @@ class PlyReader {
       return error(element, fmt::format("{} is missing at the end of the line; add it", property.name));
     }
     if (type.is_real || !is_needed) {
-      float number = 0.0f;
+      double number = 0.0;
       const NumberFault fault = read_number(word_, number);
       if (fault != NumberFault::none && is_needed)
         return error(element, fault_text(fault, word_) + "; correct the number");
-      value = fault == NumberFault::none ? static_cast<double>(number) : c_unknown;
+      value = fault == NumberFault::none ? number : c_unknown;
     } else {
       std::int64_t number = 0;
       const std::string_view word = integer_of(word_);
@@ -448,7 +446,7 @@ class PlyReader {
     return Ok{};
   }
 
-  Status add_item(const Element& element, const std::array<float, 6>& numbers) {
+  Status add_item(const Element& element, const std::array<double, 6>& numbers) {
     switch (element.kind) {
       case Kind::vertex:
         faces_.add_position({numbers[0], numbers[1], numbers[2]});

@@ -66,6 +66,7 @@ const std::vector<Spelling> c_ply_text = {
     {"tabs", changed(c_plain, "1 0 0\n", "\t1\t0  0 \n"), c_triangle},
     {"byte_order_mark_after_the_header", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf"),
      c_triangle},
+    {"byte_order_mark_and_a_blank", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf "), c_triangle},
     {"byte_order_mark", "\xef\xbb\xbf" + c_plain, c_triangle},
 
     // numbers
@@ -82,7 +83,7 @@ const std::vector<Spelling> c_ply_text = {
 
     // types
     {"doubles", changed(vertices("0 0 0\n0.1 0 0\n0 1 0\n"), "float x", "double x"),
-     fmt::format("0,0,0 {},0,0 0,1,0", static_cast<double>(0.1f))},
+     "0,0,0 0.1,0,0 0,1,0"},
     {"integers",
      changed(changed(changed(c_plain, "float x", "short x"), "float y", "uint8 y"), "float z", "int z"),
      c_triangle},
@@ -253,7 +254,7 @@ std::string all_types(bool big) {
     text += '\xff';
     text += bytes(static_cast<std::uint16_t>(-300 * i));
     text += '\x80';
-    text += bytes(0.5 * i) + bytes(std::uint32_t{0xffffffff}) + bytes(static_cast<std::uint16_t>(i));
+    text += bytes(0.1 * i) + bytes(std::uint32_t{0xffffffff}) + bytes(static_cast<std::uint16_t>(i));
     for (int k = 0; k < i; ++k) text += bytes(std::numeric_limits<double>::quiet_NaN());
     text += bytes(zs[i]);
   }
@@ -275,8 +276,8 @@ const std::vector<Spelling> c_ply_binary = {
      changed(binary_ply(false, "\r"), "end_header\r" + std::string(4, '\0'),
              "end_header\r" + little_endian(0x0a)),
      fmt::format("{},0,0 1,0,0 0,1,0", static_cast<double>(std::bit_cast<float>(0x0a)))},
-    {"all_types_little", all_types(false), "0,0,0 -300,0.5,-70000 -600,1,70000"},
-    {"all_types_big", all_types(true), "0,0,0 -300,0.5,-70000 -600,1,70000"},
+    {"all_types_little", all_types(false), "0,0,0 -300,0.1,-70000 -600,0.2,70000"},
+    {"all_types_big", all_types(true), "0,0,0 -300,0.1,-70000 -600,0.2,70000"},
     {"nan", binary_ply(false, "\n", c_nan),
      at_byte(binary_ply(false), 12, "vertex 1: x is not finite, or too large; correct it")},
     {"index_beyond", binary_ply(false, "\n", 1, 3),
@@ -334,6 +335,18 @@ TEST(Ply, NormalsThatCannotBeReadAreComputed) {
                             "a.ply:3: vertices have only a part of nx, ny and nz; normals are computed"}));
 }
 
+TEST(Ply, BinaryNormalsBeyondTheRangeAreComputed) {
+  std::string text = changed(c_header3 + "property double nx\nproperty double ny\nproperty double nz\n" + c_face1,
+                             "ascii", "binary_little_endian");
+  for (int i = 0; i < 3; ++i) {
+    for (const float x : {i == 1 ? 1.f : 0.f, i == 2 ? 1.f : 0.f, 0.f}) text += little_endian(x);
+    for (const double n : {i == 0 ? 1e300 : 0.0, 0.0, 1.0}) text += little_endian(n);
+  }
+  text += '\3';
+  for (const std::int32_t corner : {0, 1, 2}) text += little_endian(corner);
+  EXPECT_EQ(normals_of(must(read_ply(text, "a.ply"))), "0,0,0 0,0,1 0,0,1 ");
+}
+
 TEST(Ply, WithoutNormalsCornersHaveTheNormalZero) {
   const auto loaded = must(read_ply(c_plain, "a.ply"));
   EXPECT_EQ(normals_of(loaded), "0,0,0 0,0,0 0,0,0 ");
@@ -359,6 +372,11 @@ TEST(Ply, NotesSayWhatIsLeftOut) {
 TEST(Ply, ToleratedSpellingsAreNoted) {
   EXPECT_EQ(must(read_ply(face("3.0 0 1 2.0"), "a.ply")).notes,
             std::vector<std::string>{"a.ply:13: an integer is written with a point (2 times)"});
+  EXPECT_EQ(must(read_ply(changed(changed(c_plain, "end_header", "element edge 0\nproperty int a\nend_header"), "\n0",
+                                  "\n\xef\xbb\xbf\x30"),
+                          "a.ply"))
+                .notes,
+            std::vector<std::string>{"a.ply:12: a byte order mark in the file is left out"});
   const std::string text = binary_ply(false);
   EXPECT_EQ(must(read_ply(text + "\n", "a.ply")).notes,
             std::vector<std::string>{

@@ -23,7 +23,7 @@ constexpr std::size_t c_count_at = 80, c_header_bytes = 84, c_facet_bytes = 50;
 /// Within a binary facet: three normal components come first, the attribute last.
 constexpr std::size_t c_corners_at = 12, c_corner_bytes = 12, c_attribute_at = 48;
 
-void add_corner(Mesh& mesh, const glm::vec3& position) {
+void add_corner(Mesh& mesh, const glm::dvec3& position) {
   const auto index = static_cast<std::uint32_t>(mesh.positions.size());
   if (index % 3 == 0) mesh.triangles.emplace_back();
   mesh.triangles.back().position[index % 3] = index;
@@ -107,7 +107,7 @@ class TextReader {
     next_word();
     for (int skipped = 0; skipped < 4 && !is("outer") && !word_.empty(); ++skipped) next_word();
     if (!is("outer")) return wanted("'outer'");
-    glm::vec3 numbers;
+    glm::dvec3 numbers;
     if (Status ok = expect("loop"); !ok) return ok;
     for (int corner = 0; corner < 3; ++corner) {
       if (Status ok = expect("vertex"); !ok) return ok;
@@ -132,7 +132,7 @@ class TextReader {
     return Ok{};
   }
 
-  Status read_numbers(glm::vec3& numbers) {
+  Status read_numbers(glm::dvec3& numbers) {
     for (int axis = 0; axis < 3; ++axis) {
       next_word();
       if (word_.empty()) return wanted("a number");

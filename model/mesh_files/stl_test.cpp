@@ -42,7 +42,7 @@ const std::vector<Spelling> c_stl_text = {
      "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet endsolid",
      c_triangle},
     {"numbers", solid(changed(c_two, "1 0 0", "+.5 -5. 1E-1") + "vertex 1e1 -0 0005\n" + c_end),
-     fmt::format("0,0,0 0.5,-5,{} 10,0,5", static_cast<double>(0.1f))},
+     "0,0,0 0.5,-5,0.1 10,0,5"},
     {"normal_of_nan", solid(changed(c_facet, "normal 0 0 1", "normal nan -NaN inf")), c_triangle},
 
     {"normal_ind", solid(changed(c_facet, "normal 0 0 1", "normal -1.#IND00e+000 -1.#IND00e+000 1.#QNAN")),
@@ -54,6 +54,8 @@ const std::vector<Spelling> c_stl_text = {
              "END Facet"),
      c_triangle},
     {"colours_after_facets", solid(changed(c_facet, "endfacet", "endfacet 31 0 color 1") + c_facet),
+     c_triangle + "; " + c_triangle},
+    {"facets_on_one_line", solid(changed(c_facet, "endfacet\n", "endfacet ") + c_facet),
      c_triangle + "; " + c_triangle},
     {"end_of_another", solid(changed(c_facet, "endloop", "end facet")),
      "! a.stl:7: 'facet' instead of 'endloop'; correct the line"},

@@ -9,8 +9,8 @@ namespace halfway {
 
 namespace {
 
-PlanePoint projected(const glm::vec3& corner, int axis) {
-  return {static_cast<double>(corner[(axis + 1) % 3]), static_cast<double>(corner[(axis + 2) % 3])};
+PlanePoint projected(const glm::dvec3& corner, int axis) {
+  return {corner[(axis + 1) % 3], corner[(axis + 2) % 3]};
 }
 
 /// For three points on one line: true if b is strictly between the others.
@@ -21,7 +21,7 @@ bool is_between(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
 
 }  // namespace
 
-PolygonKind Triangulator::divide(std::span<const glm::vec3> corners, std::vector<Triangle>& triangles) {
+PolygonKind Triangulator::divide(std::span<const glm::dvec3> corners, std::vector<Triangle>& triangles) {
   // Link the corners to a ring, without those at the same place as the one before.
   nodes_.clear();
   for (std::uint32_t corner = 0; corner < corners.size(); ++corner) {
@@ -57,7 +57,7 @@ PolygonKind Triangulator::divide(std::span<const glm::vec3> corners, std::vector
 }
 
 /// Project the ring so that its area is positive. False if the area is zero.
-bool Triangulator::project(std::span<const glm::vec3> corners) {
+bool Triangulator::project(std::span<const glm::dvec3> corners) {
   // Find the projection with the largest area.
   int largest = 0;
   std::array<ExactSum, 3> areas;
@@ -66,8 +66,8 @@ bool Triangulator::project(std::span<const glm::vec3> corners) {
     PlanePoint from = projected(corners[nodes_.back().corner], axis);
     for (const Node& node : nodes_) {
       const PlanePoint to = projected(corners[node.corner], axis);
-      area.add(from.x * to.y);
-      area.add(-from.y * to.x);
+      area.add_product(from.x, to.y);
+      area.add_product(-from.y, to.x);
       from = to;
     }
     if (std::abs(area.value()) > std::abs(areas[static_cast<std::size_t>(largest)].value())) largest = axis;
@@ -83,7 +83,7 @@ bool Triangulator::project(std::span<const glm::vec3> corners) {
   return sign != 0;
 }
 
-bool Triangulator::is_collinear(std::span<const glm::vec3> corners) const {
+bool Triangulator::is_collinear(std::span<const glm::dvec3> corners) const {
   for (int axis = 0; axis < 3; ++axis) {
     const PlanePoint a = projected(corners[nodes_[0].corner], axis);
     const PlanePoint b = projected(corners[nodes_[1].corner], axis);

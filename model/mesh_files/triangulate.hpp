@@ -31,7 +31,7 @@ class Triangulator {
   /// Append triangles of corner indices in the polygon's direction. Their projections have no negative area
   /// and do not overlap, and together they cover the inside of the outline. A triangle has zero area only if
   /// the outline touches itself along an edge, or is not planar.
-  PolygonKind divide(std::span<const glm::vec3> corners, std::vector<Triangle>& triangles);
+  PolygonKind divide(std::span<const glm::dvec3> corners, std::vector<Triangle>& triangles);
 
   /// Limit on the comparisons of a corner or a triangle with another, summed over all polygons. It bounds the
   /// time by about half a minute.
@@ -47,8 +47,8 @@ class Triangulator {
     std::size_t last_candidate;  ///< its last index in candidates_
   };
 
-  bool project(std::span<const glm::vec3> corners);
-  bool is_collinear(std::span<const glm::vec3> corners) const;
+  bool project(std::span<const glm::dvec3> corners);
+  bool is_collinear(std::span<const glm::dvec3> corners) const;
   bool is_convex() const;
   void set_turn(std::uint32_t node);
   void list_reflex();

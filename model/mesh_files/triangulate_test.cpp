@@ -99,13 +99,13 @@ struct Plane {
 };
 constexpr Plane c_xy{{1, 0, 0}, {0, 1, 0}, {0, 0, 0}};
 
-std::vector<glm::vec3> in_space(const Outline& outline, const Plane& plane) {
-  std::vector<glm::vec3> corners;
+std::vector<glm::dvec3> in_space(const Outline& outline, const Plane& plane) {
+  std::vector<glm::dvec3> corners;
   for (const Point& p : outline) {
-    glm::vec3 corner;
+    glm::dvec3 corner;
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
-      corner[axis] = static_cast<float>(p.x * plane.u[i] + p.y * plane.v[i] + plane.w[i]);
+      corner[axis] = static_cast<double>(p.x * plane.u[i] + p.y * plane.v[i] + plane.w[i]);
     }
     corners.push_back(corner);
   }
@@ -195,7 +195,7 @@ TEST(Triangulate, ASkewQuadIsDividedInItsLargestProjection) {
   Triangulator triangulator;
   Triangles triangles;
   // An edge along the axis of projection: two corners are at the same place there.
-  const std::vector<glm::vec3> corners{{0, 0, 0}, {4, 0, 0}, {4, 0, 1}, {0, 4, 0}};
+  const std::vector<glm::dvec3> corners{{0, 0, 0}, {4, 0, 0}, {4, 0, 1}, {0, 4, 0}};
   EXPECT_EQ(triangulator.divide(corners, triangles), PolygonKind::divided);
   EXPECT_EQ(triangles.size(), 2u);
   std::set<std::uint32_t> used;
@@ -414,35 +414,35 @@ TEST(Triangulate, DividesRandomOutlinesWithHoles) {
 
 // ---- Exact signs
 
-TEST(Orientation, IsExactForFloatsOfAnySize) {
-  std::mt19937 random(6);
-  int zeros = 0, narrow = 0;
+TEST(Orientation, IsExactForDoublesOfAnySize) {
+  std::mt19937_64 random(6);
+  int zeros = 0, narrow = 0, bits = 24;
   const auto any = [&](int range) {
-    return std::ldexp(static_cast<float>(static_cast<int>(random() % (1u << 24)) - (1 << 23)),
-                      static_cast<int>(random() % static_cast<unsigned>(range)) - range / 2 - 24);
+    const std::int64_t digits = static_cast<std::int64_t>(random() % (std::uint64_t{1} << bits));
+    return std::ldexp(static_cast<double>(digits - (std::int64_t{1} << (bits - 1))),
+                      static_cast<int>(random() % static_cast<unsigned>(range)) - range / 2 - bits);
   };
   for (int trial = 0; trial < 200'000; ++trial) {
     const int range = trial % 2 == 0 ? 250 : 8;
-    std::array<float, 6> v{};
-    for (float& x : v) x = any(range);
+    bits = trial % 3 == 0 ? 24 : 53;
+    std::array<double, 6> v{};
+    for (double& x : v) x = any(range);
     if (trial % 4 >= 2) {  // nearly on a line, or exactly
-      const auto t = static_cast<float>(static_cast<int>(random() % 9) - 4);
+      const auto t = static_cast<double>(static_cast<int>(random() % 9) - 4);
       for (std::size_t i = 0; i < 2; ++i) v[4 + i] = v[i] + t * (v[2 + i] - v[i]);
     }
     if (trial % 5 == 0) {
       // Two points on a line through the origin, and one so close to it that double cannot tell.
       for (std::size_t i = 0; i < 2; ++i) {
         v[i] = any(8);
-        v[2 + i] = 2.0f * v[i];
+        v[2 + i] = 2.0 * v[i];
         v[4 + i] = std::ldexp(any(8), -52);
       }
     }
-    const auto exact = [&](std::size_t i) { return mpq_class(static_cast<double>(v[i])); };
+    const auto exact = [&](std::size_t i) { return mpq_class(v[i]); };
     const mpq_class wanted =
         (exact(0) - exact(4)) * (exact(3) - exact(5)) - (exact(1) - exact(5)) * (exact(2) - exact(4));
-    const auto point = [&](std::size_t i) {
-      return PlanePoint{static_cast<double>(v[i]), static_cast<double>(v[i + 1])};
-    };
+    const auto point = [&](std::size_t i) { return PlanePoint{v[i], v[i + 1]}; };
     ASSERT_EQ(orientation(point(0), point(2), point(4)), sgn(wanted));
     zeros += sgn(wanted) == 0;
     narrow += trial % 4 >= 2 && sgn(wanted) != 0;

@@ -58,6 +58,7 @@ ProjectionCounts& ProjectionCounts::operator+=(const ProjectionCounts& other) {
   back_facing += other.back_facing;
   left_out += other.left_out;
   behind_near += other.behind_near;
+  cut_by_near += other.cut_by_near;
   outside += other.outside;
   degenerate += other.degenerate;
   unrepresentable += other.unrepresentable;
@@ -71,7 +72,7 @@ Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions opti
   const Camera& camera = scene.camera;
   eye_world_ = camera.eye_world;
   basis_ = view_basis(camera);
-  depth_range_ = depth_range(camera, bounding_sphere(scene));
+  depth_range_ = depth_range(scene, width / height);
   focal_pixels_ = 0.5 * height / std::tan(0.5 * glm::radians(camera.vertical_fov_degrees));
   usable_ = has_view(camera) && depth_range_.near > 0 && depth_range_.near < depth_range_.far &&
             depth_range_.far <= c_largest_coordinate && focal_pixels_ > 0 &&
@@ -211,6 +212,18 @@ std::vector<ScreenVertex> Projector::clip_and_snap(std::vector<ClipVertex>& poly
   return {};
 }
 
+// True if a part of the triangle would be in the frame without the near plane.
+bool Projector::is_cut_by_near(const std::vector<ClipVertex>& corners) const {
+  const double near = depth_range_.near, width = frame_.width, height = frame_.height;
+  const auto is_before = [near](const ClipVertex& v) { return v.w < near; };
+  if (std::none_of(corners.begin(), corners.end(), is_before)) return false;
+  const Plane planes[] = {{0, 0, -1, near}, {1, 0, 0, 0}, {-1, 0, width, 0}, {0, 1, 0, 0}, {0, -1, height, 0}};
+  std::vector<ClipVertex> part = corners, scratch;
+  for (const Plane& plane : planes)
+    if (!part.empty()) clip(part, scratch, plane);
+  return !part.empty();
+}
+
 // The side that the eye sees is that of the exact corners. A triangle that snapping reversed shows the other
 // side, and is not drawn.
 void Projector::turn_to_eye(ScreenTriangle& piece, bool faces_away) const {
@@ -243,6 +256,7 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     return;
   }
   const bool away = faces_away(polygon[0], polygon[1], polygon[2]);
+  counts.cut_by_near += (!away || source.culling == Culling::none) && is_cut_by_near(polygon);
   const std::vector<ScreenVertex> corner = clip_and_snap(polygon, depth_range_, counts);
   if (corner.empty()) return;
   // The snapped area alone decides the orientation of a triangle. If snapping reversed a triangle, its

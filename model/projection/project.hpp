@@ -49,6 +49,7 @@ struct ProjectionCounts {
   std::uint64_t back_facing = 0;  ///< seen from behind, and not drawn from there
   std::uint64_t left_out = 0;     ///< those of them that may be in view: Culling::back
   std::uint64_t behind_near = 0;  ///< entirely in front of the near plane
+  std::uint64_t cut_by_near = 0;  ///< a part between eye and near plane would be in the frame
   std::uint64_t outside = 0;      ///< beyond the far plane or outside the frame
   std::uint64_t degenerate = 0;   ///< zero area or reversed orientation after snapping
   /// Not finite; or too far away for an accurate cut (1e100 pixels, or 1e13 near distances if two corners are
@@ -128,6 +129,7 @@ class Projector {
   /// True if no plane clips the vertex.
   bool is_inside(const ClipVertex& v) const;
   ProjectedVertex project_vertex(const VertexKey& vertex) const;
+  bool is_cut_by_near(const std::vector<ClipVertex>& corners) const;
   bool is_outside_frame(std::span<const ScreenVertex> corners) const;
   /// Turns a piece of a triangle that is drawn from both sides to the eye.
   void turn_to_eye(ScreenTriangle& piece, bool faces_away) const;

@@ -116,6 +116,14 @@ TEST(Project, CountsTheReasonsIfNothingIsVisible) {
   EXPECT_EQ(counts_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}).visible, 1u);
   EXPECT_EQ(counts_of({{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}}).back_facing, 1u);
   EXPECT_EQ(counts_of({{{0, 0, 4.6}, {1, 0, 9}, {0, 1, 5}}}).behind_near, 1u);
+  // Cut in view; its back; behind the eye
+  const auto cut = [&](std::array<glm::dvec3, 3> corners) { return counts_of(corners).cut_by_near; };
+  EXPECT_EQ(cut({{{-1, -0.02, 4.8}, {1, -0.02, 4.8}, {0, 1, 0}}}), 1u);
+  EXPECT_EQ(cut({{{-1, -0.02, 4.8}, {0, 1, 0}, {1, -0.02, 4.8}}}), 0u);
+  EXPECT_EQ(cut({{{-1, -0.02, 5.2}, {1, -0.02, 5.2}, {0, 1, 6}}}), 0u);
+  // Wholly before the near plane: in the frame, and beside it
+  for (const glm::dvec3& at : {glm::dvec3(0, 0, 4.8), {1, 0, 4.8}, {-1, 0, 4.8}, {0, 1, 4.8}, {0, -1, 4.8}})
+    EXPECT_EQ(cut({at, at + glm::dvec3(0.02, 0, 0), at + glm::dvec3(0, 0.02, 0)}), at.x == 0 && at.y == 0) << at.x;
   EXPECT_EQ(counts_of({{{0, 0, -96}, {1, 0, -100}, {0, 1, -200}}}).outside, 1u);
   EXPECT_EQ(counts_of({{{90, 0, 0}, {91, 0, 0}, {90, 1, 0}}}).outside, 1u);
   EXPECT_EQ(counts_of({{{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1e9, 0}}}).outside, 1u);
@@ -302,7 +310,7 @@ TEST(MeshProjector, ProjectsAsItsProjector) {
         }
       }
       const auto all = [](const ProjectionCounts& n) {
-        return std::tuple(n.visible, n.back_facing, n.left_out, n.behind_near, n.outside, n.degenerate,
+        return std::tuple(n.visible, n.back_facing, n.left_out, n.behind_near, n.cut_by_near, n.outside, n.degenerate,
                           n.unrepresentable);
       };
       EXPECT_EQ(all(counts), all(expected_counts));

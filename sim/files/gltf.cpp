@@ -15,7 +15,6 @@
 #include <glm/vec4.hpp>
 #include <glm/vector_relational.hpp>
 #include <initializer_list>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -37,12 +36,14 @@ namespace {
 using nlohmann::json;
 
 constexpr std::uintmax_t c_max_buffer_bytes = std::uintmax_t{4} << 30;
+constexpr std::uint64_t c_max_instances = 1'000'000;
 
 /// Extensions that a file may require. Those of textures change only what is left out with the textures.
 constexpr std::string_view c_visibility = "KHR_node_visibility", c_unlit = "KHR_materials_unlit",
-                           c_glossiness = "KHR_materials_pbrSpecularGlossiness";
+                           c_glossiness = "KHR_materials_pbrSpecularGlossiness",
+                           c_instancing = "EXT_mesh_gpu_instancing", c_lights = "KHR_lights_punctual";
 constexpr std::string_view c_extensions[] = {
-    c_visibility, c_unlit, c_glossiness, "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"};
+    c_visibility, c_instancing, c_lights, c_unlit, c_glossiness, "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"};
 /// In place of a material's index: its surfaces are not drawn.
 constexpr std::uint32_t c_nothing = UINT32_MAX;
 
@@ -278,8 +279,8 @@ struct ComponentType {
   std::uint64_t code;
   std::size_t bytes;
 };
-constexpr std::uint64_t c_uint8 = 5121, c_uint16 = 5123, c_uint32 = 5125, c_float = 5126;
-constexpr ComponentType c_component_types[] = {{5120, 1},     {c_uint8, 1},  {5122, 2},
+constexpr std::uint64_t c_int8 = 5120, c_uint8 = 5121, c_int16 = 5122, c_uint16 = 5123, c_uint32 = 5125, c_float = 5126;
+constexpr ComponentType c_component_types[] = {{c_int8, 1},   {c_uint8, 1},  {c_int16, 2},
                                                {c_uint16, 2}, {c_uint32, 4}, {c_float, 4}};
 
 /// Items of a buffer at equal distances.
@@ -384,11 +385,12 @@ class GltfReader {
         continue;
       }
       const glm::dmat4 to_file = next.to_file * transform_of(node);
+      if (has_extension(node, c_lights)) note(node, "its light is left out");
       if (node.has("skin")) note(node, "bones are omitted: the mesh is in its bind pose");
       // The transform of a node with a skin does not move its mesh.
       if (node.has("mesh"))
         add_mesh(meshes_[node.at("mesh").index(meshes_.size())], node,
-                 node.has("skin") ? glm::dmat4(1.0) : to_file);
+                 node.has("skin") ? std::vector{glm::dmat4(1.0)} : places_of(node, to_file));
       const std::vector<Item> children = node.list("children");
       for (std::size_t i = children.size(); i-- > 0;) {
         pending.push_back({children[i].index(nodes_.size()), to_file});
@@ -435,11 +437,7 @@ class GltfReader {
     }
     if (node.has("rotation")) {
       const auto r = node.numbers<4>("rotation");
-      const glm::dquat rotation(r[3], r[0], r[1], r[2]);
-      const double length = glm::length(rotation);
-      if (!(std::abs(length - 1.0) < 0.01))
-        note(node, "its rotation does not have the length 1; only its direction is used");
-      if (length > 0.0) matrix *= glm::mat4_cast(rotation / length);
+      matrix *= rotation_of({r[0], r[1], r[2], r[3]}, node);
     }
     if (node.has("scale")) {
       const auto s = node.numbers<3>("scale");
@@ -448,32 +446,79 @@ class GltfReader {
     return matrix;
   }
 
+  glm::dmat4 rotation_of(const glm::dvec4& xyzw, const Item& node) {
+    const glm::dquat rotation(xyzw.w, xyzw.x, xyzw.y, xyzw.z);
+    const double length = glm::length(rotation);
+    if (!(std::abs(length - 1.0) < 0.01))
+      note(node, "its rotation does not have the length 1; only its direction is used");
+    return length > 0.0 ? glm::mat4_cast(rotation / length) : glm::dmat4(1.0);
+  }
+
+  /// The transform of each instance of a node's mesh.
+  std::vector<glm::dmat4> places_of(const Item& node, const glm::dmat4& to_file) {
+    if (!has_extension(node, c_instancing)) return {to_file};
+    const Item attributes = extension_of(node, c_instancing).object("attributes");
+    note_unused(attributes, {"TRANSLATION", "ROTATION", "SCALE"});
+    std::vector<glm::dmat4> places;
+    const auto move = [&](const auto& values, auto&& matrix_of) {
+      if (places.empty()) places.assign(values.size(), to_file);
+      if (values.size() != places.size())
+        attributes.fail(fmt::format("has {} and {} instances; export the file again", places.size(), values.size()));
+      for (std::size_t i = 0; i < values.size(); ++i) places[i] *= matrix_of(values[i]);
+    };
+    for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"}) {
+      if (!attributes.has(key)) continue;
+      const Item index = attributes.at(key);
+      if (accessors_[index.index(accessors_.size())].at("count").unsigned_number() > c_max_instances)
+        index.fail(fmt::format("more than {} instances; export fewer", c_max_instances));
+      if (key[0] == 'T')
+        move(read_vectors(index, true), [](const glm::dvec3& t) { return glm::translate(glm::dmat4(1.0), t); });
+      else if (key[0] == 'R')
+        move(read_rotations(index), [&](const glm::dvec4& r) { return rotation_of(r, node); });
+      else
+        move(read_vectors(index, true), [](const glm::dvec3& s) { return glm::scale(glm::dmat4(1.0), s); });
+    }
+    return places;
+  }
+
   // ---- Meshes
 
-  void add_mesh(const Item& mesh, const Item& node, const glm::dmat4& to_file) {
+  void add_mesh(const Item& mesh, const Item& node, const std::vector<glm::dmat4>& places) {
     if (mesh.has("weights") || node.has("weights")) note("morph targets are left out");
     for (const Item& primitive : mesh.objects("primitives")) {
-      Mesh part = read_primitive(primitive);
+      const Mesh part = read_primitive(primitive);
       if (part.triangles.empty()) continue;
-      if (to_file != glm::dmat4(1.0)) {
-        if (glm::determinant(glm::dmat3(to_file)) == 0.0) {
-          // A flat node has triangles, but the directions of its normals are lost.
-          part.normals.assign(part.normals.size(), glm::dvec3(0.0));
-          note(node, "its transform has a scale of zero: it is flat, or not drawn");
-        }
-        transform(part, to_file);
-        if (drop_zero_area(part) > 0) note(node, "triangles without area are left out");
-        for (const glm::dvec3& p : part.positions) {
-          constexpr double c_largest = std::numeric_limits<float>::max();
-          for (int axis = 0; axis < 3; ++axis) {
-            if (!(std::abs(p[axis]) <= c_largest)) {
-              node.fail("its transform moves a vertex beyond the range of float; correct it");
-            }
-          }
+      for (std::size_t i = 1; i < places.size(); ++i) count(primitive, part.positions.size(), part.triangles.size());
+      for (const glm::dmat4& to_file : places) add_part(part, node, to_file);
+    }
+  }
+
+  void count(const Item& primitive, std::size_t vertices, std::size_t triangles) {
+    vertices_ += vertices;
+    triangles_ += triangles;
+    if (vertices_ > c_max_vertices)
+      primitive.fail(fmt::format("more than {} vertices up to here; reduce the mesh", c_max_vertices));
+    if (triangles_ > c_max_triangles)
+      primitive.fail(fmt::format("more than {} triangles up to here; reduce the mesh", c_max_triangles));
+  }
+
+  void add_part(Mesh part, const Item& node, const glm::dmat4& to_file) {
+    if (to_file != glm::dmat4(1.0)) {
+      if (glm::determinant(glm::dmat3(to_file)) == 0.0) {
+        // A flat node has triangles, but the directions of its normals are lost.
+        part.normals.assign(part.normals.size(), glm::dvec3(0.0));
+        note(node, "its transform has a scale of zero: it is flat, or not drawn");
+      }
+      transform(part, to_file);
+      if (drop_zero_area(part) > 0) note(node, "triangles without area are left out");
+      for (const glm::dvec3& p : part.positions) {
+        for (int axis = 0; axis < 3; ++axis) {
+          if (!is_in_float_range(p[axis]))
+            node.fail("its transform moves a vertex beyond the range of float; correct it");
         }
       }
-      append(part);
     }
+    append(part);
   }
 
   /// Read the triangles of a primitive, in the space of its node.
@@ -496,10 +541,7 @@ class GltfReader {
     if (primitive.has("targets")) note(primitive, "morph targets are left out");
     const std::vector<std::uint32_t> corners = read_corners(primitive, positions.size());
 
-    vertices_ += positions.size();
-    if (vertices_ > c_max_vertices) {
-      primitive.fail(fmt::format("more than {} vertices up to here; reduce the mesh", c_max_vertices));
-    }
+    count(primitive, positions.size(), 0);
     part.positions = positions;
     part.normals.emplace_back(0.0);
     if (has_normals) {
@@ -518,9 +560,7 @@ class GltfReader {
       const std::array<std::uint32_t, 3> index = {corners[a], corners[b], corners[c]};
       // Triangles that use a vertex twice connect parts of a strip.
       if (mode != 4 && (index[0] == index[1] || index[1] == index[2] || index[2] == index[0])) return;
-      if (++triangles_ > c_max_triangles) {
-        primitive.fail(fmt::format("more than {} triangles up to here; reduce the mesh", c_max_triangles));
-      }
+      count(primitive, 0, 1);
       part.triangles.push_back(
           {index, has_normals ? index : std::array<std::uint32_t, 3>{}, material, culling});
     };
@@ -705,6 +745,33 @@ class GltfReader {
     return vectors;
   }
 
+  /// Read the rotations of instances: x, y, z and w as floats, or as integers that stand for -1 to 1.
+  std::vector<glm::dvec4> read_rotations(const Item& index) {
+    const Accessor source = accessor(index, "VEC4");
+    const std::uint64_t type = source.component_type;
+    if (type != c_float && type != c_int8 && type != c_int16)
+      source.item.at("componentType").fail(fmt::format("{} is not a type of rotations; export the file again", type));
+    const std::size_t size = source.component_bytes;
+    std::vector<glm::dvec4> rotations(source.count, glm::dvec4(0.0, 0.0, 0.0, 1.0));
+    const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t at = i * span.stride + k * size;
+        const double value = type == c_int8    ? number_in<std::int8_t>(span.bytes, at, ByteOrder::little) / 127.0
+                             : type == c_int16 ? number_in<std::int16_t>(span.bytes, at, ByteOrder::little) / 32767.0
+                                               : number_in<float>(span.bytes, at, ByteOrder::little);
+        if (!std::isfinite(value))
+          source.item.fail(fmt::format("rotation {} has a number that is not finite; correct it", place));
+        rotations[place][static_cast<int>(k)] = value;
+      }
+    };
+    if (source.item.has("bufferView")) {
+      const Span span = span_of(source.item, source.count, 4 * size, true);
+      for (std::size_t i = 0; i < source.count; ++i) set(i, span, i);
+    }
+    read_sparse(source, 4 * size, set);
+    return rotations;
+  }
+
   /// Read the indices of a primitive; without them the vertices are used in their order.
   std::vector<std::uint32_t> read_corners(const Item& primitive, std::size_t positions) {
     std::vector<std::uint32_t> corners;
@@ -836,9 +903,7 @@ class GltfReader {
     if (!is_unlit && !is_black)
       return note(source, "'emissiveFactor' is not used, because the surface reflects light too");
     if (is_unlit) material.specular = 0.0;
-    if (!is_unlit) material.colour = emission;
-    material.ambient = 1.0 / Scene().ambient.x;  // a mesh file's scene has this ambient light
-    material.diffuse = 0.0;
+    make_emitter(material, is_unlit ? material.colour : emission);
   }
 
   double read_alpha(const Item& source, double alpha) {

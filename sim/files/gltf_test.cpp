@@ -61,6 +61,16 @@ std::string triangles(const std::string& text) {
   return triangles_of(read_gltf(text, "a.gltf"));
 }
 
+std::string floats(const std::vector<float>& values) {
+  std::string bytes;
+  for (const float x : values) bytes += little_endian(x);
+  return bytes;
+}
+/// A buffer.
+json bytes_of(const std::string& bytes) {
+  return {{"byteLength", bytes.size()}, {"uri", "data:;base64," + base64(bytes)}};
+}
+
 class GltfSpelling : public ::testing::TestWithParam<Spelling> {};
 
 TEST_P(GltfSpelling, IsReadExactlyOrRefusedWithItsPlace) {
@@ -86,6 +96,9 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: meshes[0].primitives[0].mode: 7 is not a mode of glTF; correct it"},
     {"four_corners", with({{"/accessors/1/count", 4}}),
      "! a.gltf: meshes[0].primitives[0]: 4 corners are not whole triangles; export the file again"},
+
+    {"no_position", with({{"/meshes/0/primitives/0/attributes", json::object()}}),
+     "! a.gltf: the mesh has no faces; export it with faces"},
 
     // accessors
     {"bytes_as_indices", with({{"/accessors/1/bufferView", 2}, {"/accessors/1/componentType", 5121}}),
@@ -165,7 +178,7 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: buffers[0]: has no uri; export the file with its buffers"},
 
     // nodes
-    {"translation", with({{"/nodes/0/translation", {1, 2, 3}}}), "1,2,3 2,2,3 1,3,3"},
+    {"translation", with({{"/nodes/0/translation", {1, 2, 0.3}}}), "1,2,0.3 2,2,0.3 1,3,0.3"},
     {"scale_then_rotation_then_translation",
      with({{"/nodes/0/scale", {2, 3, 1}},
            {"/nodes/0/rotation", {0, 0, 1, 0}},
@@ -183,7 +196,10 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: the mesh has no faces; export it with faces"},
     {"flat", with({{"/nodes/0/scale", {1, 2, 0}}}), "0,0,0 1,0,0 0,2,0"},
     {"matrix_rounded",
-     with({{"/nodes/0/matrix", {1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99999994}}}), c_triangle},
+     with({{"/nodes/0/matrix", {1, 0, 0, 1e-8, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0.99999994}},
+           {"/nodes/1", {{"children", {0}}, {"translation", {1, 0, 0}}}},
+           {"/scenes/0/nodes", {1}}}),
+     "1,0,0 2,0,0 1,1,0"},
     {"translation_huge", with({{"/nodes/0/translation", {1e300, 0, 0}}}),
      "! a.gltf: nodes[0]: its transform moves a vertex beyond the range of float; correct it"},
     {"rotation_0", with({{"/nodes/0/rotation", {0, 0, 0, 0}}}), c_triangle},
@@ -191,8 +207,38 @@ const std::vector<Spelling> c_spellings = {
     {"skinned_node_is_moved",
      with({{"/nodes/0/skin", 0},
            {"/nodes/0/translation", {9, 9, 0}},
+           {"/nodes/0/children", {1}},
+           {"/nodes/1", {{"mesh", 0}}},
            {"/skins", json::parse(R"([{"joints":[0]}])")}}),
-     c_triangle},
+     c_triangle + "; 9,9,0 10,9,0 9,10,0"},
+    {"instances",
+     with({{"/nodes/0/translation", {10, 0, 0}},
+           {"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/TRANSLATION", 0},
+           {"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
+           {"/extensionsRequired", {"EXT_mesh_gpu_instancing"}},
+           {"/accessors/0/count", 3},
+           {"/accessors/2", json::parse(R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":
+             {"count":3,"indices":{"bufferView":4,"componentType":5121},"values":{"bufferView":5}}})")},
+           {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":3})")},
+           {"/bufferViews/5", json::parse(R"({"buffer":1,"byteLength":36,"byteOffset":4})")},
+           {"/buffers/1", bytes_of(std::string("\0\1\2\0", 4) + floats({1, 1, 1, 2, 2, 2, -1, 1, 1}))}}),
+     "10,0,0 11,0,0 10,1,0; 11,0,0 13,0,0 11,2,0; 10,1,0 10,2,0 9,1,0"},
+    {"instances_rotated",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION", 2},
+           {"/accessors/2", json::parse(R"({"bufferView":4,"componentType":5120,"count":2,"type":"VEC4"})")},
+           {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":8})")},
+           {"/buffers/1", bytes_of("\xc0@@@" + std::string("\0\0\0\x81", 4))}}),
+     "0,0,0 0,0,-1 -1,0,0; " + c_triangle},
+    {"instances_of_two_counts",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes", {{"TRANSLATION", 0}, {"SCALE", 2}}},
+           {"/accessors/2", json::parse(R"({"componentType":5126,"count":3,"type":"VEC3"})")}}),
+     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: has 4 and 3 instances; export the file "
+     "again"},
+    {"instances_too_many",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
+           {"/accessors/2", json::parse(R"({"componentType":5126,"count":1000001,"type":"VEC3"})")}}),
+     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.SCALE: more than 1000000 instances; "
+     "export fewer"},
     {"perspective", with({{"/nodes/0/matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}),
      "! a.gltf: nodes[0].matrix: its last row is not 0 0 0 1; export the file again"},
     {"node_in_a_circle", with({{"/nodes/0/children", {0}}}),
@@ -334,6 +380,14 @@ TEST(Gltf, ANodeOfScaleZeroLeavesTheOthers) {
                       "a.gltf: nodes[1]: triangles without area are left out"}));
 }
 
+TEST(Gltf, ATransformThatIsNotARotationIsNoted) {
+  const auto flat = must(read_gltf(
+      with({{"/nodes/0/scale", {1, 2, 0}}, {"/meshes/0/primitives/0/attributes/NORMAL", 0}}), "a.gltf"));
+  EXPECT_EQ(normals_of(flat), "0,0,0 0,0,0 0,0,0 ");
+  EXPECT_EQ(must(read_gltf(with({{"/nodes/0/rotation", {0, 0, 2, 0}}}), "a.gltf")).notes,
+            TextList{"a.gltf: nodes[0]: its rotation does not have the length 1; only its direction is used"});
+}
+
 /// The only material of a file with this one.
 LoadedMesh with_material(const json& material, const json& index = 0) {
   return must(read_gltf(
@@ -365,25 +419,47 @@ TEST(Gltf, ASurfaceThatOnlyEmitsIsDrawnWithAmbientLight) {
       with_material(json::parse(R"({"emissiveFactor":[1,0,0]})")).notes,
       TextList{"a.gltf: materials[0]: 'emissiveFactor' is not used, because the surface reflects light too"});
   const auto unlit = with_material(json::parse(
-      R"({"extensions":{"KHR_materials_unlit":{}},"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1]}})"));
+      R"({"extensions":{"KHR_materials_unlit":{}},
+          "pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1],"roughnessFactor":0.2}})"));
+  EXPECT_EQ(unlit.mesh.materials.at(0).specular, 0.0);
   EXPECT_EQ(unlit.mesh.materials.at(0).ambient * 0.2 * unlit.mesh.materials.at(0).colour,
             glm::dvec3(1, 0.5, 0));
+}
+
+TEST(Gltf, SurfacesOfAlphaZeroAreNotDrawn) {
+  // The second triangle has another material.
+  const auto notes_of = [](const std::string& alpha, std::size_t drawn) {
+    const auto loaded = must(read_gltf(
+        with({{"/meshes/0/primitives/1", json::parse(R"({"attributes":{"POSITION":0},"indices":1,"material":0})")},
+              {"/materials", json::array({json::parse("{" + alpha + "}")})}}),
+        "a.gltf"));
+    EXPECT_EQ(loaded.mesh.triangles.size(), drawn) << alpha;
+    return loaded.notes;
+  };
+  const std::string base = R"(,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)";
+  EXPECT_EQ(notes_of(R"("alphaMode":"OPAQUE")" + base + "0]}", 2), TextList{});
+  EXPECT_EQ(notes_of(R"("alphaMode":"MASK")" + base + "0.5]}", 2), TextList{});
+  for (const std::string& hidden : {R"("alphaMode":"MASK")" + base + "0.49]}", R"("alphaMode":"BLEND")" + base + "0]}"})
+    EXPECT_EQ(notes_of(hidden, 1), TextList{"a.gltf: materials[0]: it is transparent: its surfaces are not drawn"});
 }
 
 TEST(Gltf, GlossinessIsRoughness) {
   const auto loaded = with_material(json::parse(
       R"({"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,1],"specularFactor":[0,1,0],
-          "glossinessFactor":0.5}}})"));
+          "glossinessFactor":0.75}}})"));
   const Material& m = loaded.mesh.materials.at(0);
   EXPECT_EQ(m.colour, glm::dvec3(1, 0, 0));
   EXPECT_EQ(m.specular_colour, glm::dvec3(0, 1, 0));
-  EXPECT_EQ(m.exponent, 30.0);
+  EXPECT_EQ(m.exponent, 510.0);
 }
 
 TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
   const auto loaded = must(read_gltf(
       with({{"/animations", json::array()},
-            {"/nodes/0/extensions", json::parse(R"({"EXT_mesh_gpu_instancing":{}})")},
+            {"/nodes/0/weights", {1}},
+            {"/nodes/0/extensions", json::parse(R"({"EXT_other":{},"KHR_lights_punctual":{"light":0}})")},
+            {"/extensions", json::parse(R"({"KHR_lights_punctual":{"lights":[{"type":"point"}]}})")},
+            {"/extensionsRequired", {"KHR_lights_punctual"}},
             {"/meshes/0/primitives/0/material", 0},
             {"/materials",
              json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
@@ -391,8 +467,10 @@ TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
       "a.gltf"));
   EXPECT_EQ(loaded.notes, (TextList{"a.gltf: 'animations' is not used",
                                     "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
-                                    "a.gltf: nodes[0]: extension 'EXT_mesh_gpu_instancing' is not used",
+                                    "a.gltf: nodes[0]: extension 'EXT_other' is not used",
                                     "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
+                                    "a.gltf: nodes[0]: its light is left out",
+                                    "a.gltf: morph targets are left out",
                                     "a.gltf: materials[0]: transparency is left out"}));
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/files/load_mesh.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -13,10 +16,13 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/test/is_error.hpp"
 #include "mesh_files/test/spelling.hpp"
+#include "projection/project.hpp"
+#include "scene_files/parse_scene.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
@@ -188,6 +194,45 @@ TEST_F(LoadMesh, KeepsTheFilesNormalsAndReplacesZeroOnes) {
   const SceneTriangle& triangle = loaded->mesh.triangles.at(0);
   EXPECT_EQ(loaded->mesh.normals[triangle.normal[0]], glm::dvec3(0.0, 1.0, 0.0));
   EXPECT_EQ(loaded->mesh.normals[triangle.normal[2]], glm::dvec3(0.0, 0.0, 1.0));
+}
+
+// Four posts of the same width, as far from the origin as maps are.
+TEST_F(LoadMesh, PostsFarFromTheOriginHaveTheSameWidth) {
+  std::string obj, obj_faces, ply, ply_faces, stl = "solid\n";
+  for (int i = 0; i < 16; i += 4) {
+    const double left = 5334760.0 + 0.3 * i;
+    std::vector<std::string> corners;
+    for (const auto& [x, y] : std::vector<std::pair<double, int>>{
+             {left, 0}, {left + 0.6, 0}, {left + 0.6, 2}, {left, 2}})
+      corners.push_back(fmt::format("{:.1f} {} 0\n", x, y));
+    for (const std::string& corner : corners) obj += "v " + corner, ply += corner;
+    for (const std::size_t k : {1, 2})
+      stl += fmt::format("facet outer loop vertex {}vertex {}vertex {}endloop endfacet\n", corners[0], corners[k],
+                         corners[k + 1]);
+    obj_faces += fmt::format("f {} {} {} {}\n", i + 1, i + 2, i + 3, i + 4);
+    ply_faces += fmt::format("4 {} {} {} {}\n", i, i + 1, i + 2, i + 3);
+  }
+  const std::string header =
+      "ply\nformat ascii 1.0\n" + changed(changed(c_ply_header, "vertex 5", "vertex 16"), "face 5", "face 4");
+  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
+           {"posts.obj", obj + obj_faces},
+           {"posts.ply", header + ply + ply_faces},
+           {"posts.stl", stl + "endsolid\n"}}) {
+    Scene scene = must(scene_of_mesh(must(load(name, text)), name));
+    scene.camera = {.eye_world = {5334762.0, 1.0, 8.0}, .target_world = {5334762.0, 1.0, 0.0}};
+    const auto projected = Projector(scene, {640, 480}, {.subpixel_bits = 9}).project_all();
+    ASSERT_EQ(projected.size(), 8u) << name;
+    std::array<std::int32_t, 4> widths{};
+    for (std::size_t i = 0; i < projected.size(); ++i) {
+      const auto& [p, q, r] = projected[i].vertex;
+      const auto [low, high] = std::minmax({p.position_world.x, q.position_world.x, r.position_world.x});
+      EXPECT_NEAR(high - low, 0.6, 2e-9) << name;  // two roundings to double at this place
+      const auto [first, last] = std::minmax({p.x, q.x, r.x});
+      if (i % 2 == 0) widths[i / 2] = last - first;
+      EXPECT_NEAR(last - first, widths[0], 1) << name;
+    }
+    EXPECT_GT(widths[0], 10'000) << name;
+  }
 }
 
 /// A damaged file must cause no crash, no index out of range and no infinite or undefined number.

@@ -132,12 +132,12 @@ class Simulation {
           "{} triangles of surfaces that are not closed show their back and are left out, as cull = "
           "\"back\" or their glTF material wants; cull = \"none\" draws both sides",
           n.projection.left_out));
-    const bool near_fitted = scene_.camera.near <= 0.0;
-    if (n.projection.behind_near != 0 && near_fitted)
+    if (n.projection.cut_by_near != 0 && scene_.camera.near <= 0.0)
       note(fmt::format(
-          "{} triangles lie behind the eye or nearer than the near plane, which was fitted to {:.4g}; set "
-          "near in [camera] to see nearer ones",
-          n.projection.behind_near, depth_range(scene_.camera, bounding_sphere(scene_)).near));
+          "{} triangles in view are cut by the near plane, which was fitted to {:.4g}; set a smaller near in "
+          "[camera] to draw them whole",
+          n.projection.cut_by_near,
+          depth_range(scene_, static_cast<double>(s_.size.width) / s_.size.height).near));
     if (n.unresolved != 0 && s_.setup.quadratic.max_level > 0) {
       const bool by_pixel =
           s_.plan.preset == Preset::exact && s_.setup.quadratic.test == HighlightTest::conservative;
@@ -403,6 +403,7 @@ std::string to_json(const SceneSummary& s) {
        {{"back_facing", s.setup.projection.back_facing},
         {"left_out", s.setup.projection.left_out},
         {"behind_near", s.setup.projection.behind_near},
+        {"cut_by_near", s.setup.projection.cut_by_near},
         {"outside", s.setup.projection.outside},
         {"degenerate", s.setup.projection.degenerate},
         {"on_screen", s.setup.triangles},

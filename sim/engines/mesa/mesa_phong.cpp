@@ -38,15 +38,15 @@ namespace halfway {
 namespace {
 
 constexpr const char* c_vertex_shader = R"(#version 300 es
-uniform highp vec3 eye, right, up, backward;
+uniform highp vec3 right, up, backward;
 uniform highp vec4 projection;  // of x, y, z, and z's constant
-layout(location = 0) in highp vec3 at;
+layout(location = 0) in highp vec3 at;  // from the eye, because float has few digits
 layout(location = 1) in highp vec3 normal_at;
 out highp vec3 position, normal;
 void main() {
   position = at;
   normal = normal_at;
-  vec3 view = vec3(dot(at - eye, right), dot(at - eye, up), dot(at - eye, backward));
+  vec3 view = vec3(dot(at, right), dot(at, up), dot(at, backward));
   gl_Position = vec4(projection.x * view.x, projection.y * view.y, projection.z * view.z + projection.w, -view.z);
 }
 )";
@@ -54,14 +54,14 @@ void main() {
 // Same as radiance() of shading/shade.cpp with Blinn's highlights. LIGHTS is inserted before it.
 constexpr const char* c_fragment_shader = R"(
 precision highp float;
-uniform vec3 eye, ambient, diffuse, specular;
+uniform vec3 ambient, diffuse, specular;
 uniform float exponent;
-uniform vec4 light[LIGHTS];  // a direction, or with w = 1 a place
+uniform vec4 light[LIGHTS];  // a direction, or with w = 1 a place from the eye
 uniform vec3 intensity[LIGHTS];
 in vec3 position, normal;
 out vec4 colour;
 void main() {
-  vec3 n = normalize(normal), v = normalize(eye - position), sum = ambient;
+  vec3 n = normalize(normal), v = normalize(-position), sum = ambient;
   for (int i = 0; i < LIGHTS; ++i) {
     vec3 l = normalize(light[i].xyz - light[i].w * position);
     float n_dot_l = dot(n, l);
@@ -163,8 +163,7 @@ class Picture {
   void set_camera() const {
     const Camera& camera = scene_->camera;
     const ViewBasis basis = view_basis(camera);
-    const DepthRange range = depth_range(camera, bounding_sphere(*scene_));
-    set("eye", camera.eye_world);
+    const DepthRange range = depth_range(*scene_, static_cast<double>(size_.width) / size_.height);
     set("right", basis.right_world);
     set("up", basis.up_world);
     set("backward", basis.backward_world);
@@ -179,7 +178,7 @@ class Picture {
   void set_lights() const {
     int i = 0;
     for_each_light(*scene_, [&](const Light& light) {
-      const glm::vec3 from(light.point.xyz_world);
+      const glm::vec3 from(light.point.xyz_world - light.point.w * scene_->camera.eye_world);
       glUniform4f(glGetUniformLocation(program_, fmt::format("light[{}]", i).c_str()), from.x, from.y, from.z,
                   static_cast<float>(light.point.w));
       set(fmt::format("intensity[{}]", i++).c_str(), light.intensity);
@@ -194,7 +193,7 @@ class Picture {
       const auto [at, fresh] = known.try_emplace({triangle.position[i], triangle.normal[i], turned},
                                                  static_cast<std::uint32_t>(known.size()));
       if (fresh) {
-        vertices.emplace_back(scene_->positions_world[triangle.position[i]]);
+        vertices.emplace_back(scene_->positions_world[triangle.position[i]] - scene_->camera.eye_world);
         vertices.emplace_back((turned ? -1.0 : 1.0) * scene_->normals_world[triangle.normal[i]]);
       }
       indices[triangle.material].push_back(at->second);

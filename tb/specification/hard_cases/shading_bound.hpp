@@ -54,7 +54,7 @@ class ShadingBound {
     // A power of two that is at least half of the largest possible scale.
     ray_scale_ = 0.5L / std::max({1.0, height, height * frame.width / frame.height});
     const ViewBasis basis = view_basis(scene.camera);
-    const DepthRange range = depth_range(scene.camera, bounding_sphere(scene));
+    const DepthRange range = depth_range(scene, static_cast<double>(frame.width) / frame.height);
     double nearest = range.far;
     for (const SceneTriangle& t : scene.triangles)
       for (const std::uint32_t corner : t.position)
