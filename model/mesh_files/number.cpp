@@ -31,8 +31,8 @@ bool is_not_finite(std::string_view word) {
          text.starts_with("1.#");
 }
 
-/// Round decimal digits times a power of ten to double. strtod rounds correctly, but its decimal point depends
-/// on the locale, so the text has none.
+/// Round decimal digits times a power of ten to double. strtod rounds correctly, but its decimal point
+/// depends on the locale, so the text has none.
 double rounded(std::string_view mantissa, std::int64_t exponent) {
   std::string text;
   for (const char c : mantissa) {

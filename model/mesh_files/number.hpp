@@ -11,8 +11,8 @@ namespace halfway {
 enum class NumberFault { none, not_a_number, not_finite, too_large };
 
 /// Read a whole word as a decimal number: an optional sign, digits with at most one point before, between or
-/// after them, and an optional exponent. The value is the nearest double, ties to even; too small numbers give
-/// zero. A number beyond the range of float is too large. It does not depend on the locale.
+/// after them, and an optional exponent. The value is the nearest double, ties to even; too small numbers
+/// give zero. A number beyond the range of float is too large. It does not depend on the locale.
 NumberFault read_number(std::string_view word, double& value);
 
 /// True if the nearest float is finite: products of some coordinates are then in the range of double. Half a

@@ -139,7 +139,8 @@ TEST(ReadNumber, ReadsBackEveryDoubleAndTheTiesNextToIt) {
     ASSERT_EQ(value, wanted);
     // All digits of the middle between this double and the next.
     const auto middle = 0.5L * (static_cast<long double>(wanted) + std::nextafter(wanted, 1e300));
-    const auto exact = std::to_chars(std::begin(text), std::end(text), middle, std::chars_format::fixed, 1100);
+    const auto exact =
+        std::to_chars(std::begin(text), std::end(text), middle, std::chars_format::fixed, 1100);
     ASSERT_EQ(exact.ec, std::errc());
     ASSERT_EQ(read_number({text, exact.ptr}, value), NumberFault::none);
     ASSERT_EQ(value, static_cast<double>(middle)) << std::string_view(text, exact.ptr);

@@ -93,8 +93,10 @@ const std::vector<Spelling> c_obj_text = {
     // keywords
     {"groups", "o a\ng b c\ns off\nmg 1 2\nlod 1\n" + c_three + "s 1\ng\nf 1 2 3\n", c_triangle},
     {"curves",
-     "cstype 1\ndeg\nbmat\nstep\ncurv\ncurv2\nsurf\nparm\ntrim\nhole\nscrv\nsp\nend\ncon\nctech\nstech\nbsp\nbzp\n"
-     "cdc\ncdp\nres\nc_interp\nd_interp\nvp\nbevel\n" + c_three + "f 1 2 3\n",
+     "cstype "
+     "1\ndeg\nbmat\nstep\ncurv\ncurv2\nsurf\nparm\ntrim\nhole\nscrv\nsp\nend\ncon\nctech\nstech\nbsp\nbzp\n"
+     "cdc\ncdp\nres\nc_interp\nd_interp\nvp\nbevel\n" +
+         c_three + "f 1 2 3\n",
      c_triangle},
     {"unknown_keyword", c_three + "vv 1 2 3\n",
      "! a.obj:4: 'vv' is not a keyword of OBJ; correct or remove the line"},
@@ -236,20 +238,20 @@ TEST(Obj, MaterialsAreThoseThatFacesUse) {
 }
 
 TEST(Obj, KeysOfMaterialsThatAreNotUsedAreNoted) {
-  const auto loaded = must(
-      read("mtllib m.mtl\n" + c_faces, {{"m.mtl",
-                                         "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
-                                         "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nillum 3\n"}}));
-  EXPECT_EQ(loaded.notes,
-            (std::vector<std::string>{
-                "dir/m.mtl:13: 'illum' is not used", "dir/m.mtl:11: 'ka' is not used",
-                "dir/m.mtl:10: d: '-halo' is not a number; the line is left out",
-                "a.obj: material 'b': Ke is not used, because the surface reflects light too",
-                "a.obj: material 'b': transparency is left out"}));
+  const auto loaded =
+      must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl",
+                                              "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
+                                              "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nillum 3\n"}}));
+  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
+                              "dir/m.mtl:13: 'illum' is not used", "dir/m.mtl:11: 'ka' is not used",
+                              "dir/m.mtl:10: d: '-halo' is not a number; the line is left out",
+                              "a.obj: material 'b': Ke is not used, because the surface reflects light too",
+                              "a.obj: material 'b': transparency is left out"}));
 }
 
 TEST(Obj, ABlackMaterialThatEmitsIsDrawnWithAmbientLight) {
-  const auto loaded = must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\nKd 0 0 0\nKe 1 .5 0\nnewmtl b\n"}}));
+  const auto loaded =
+      must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\nKd 0 0 0\nKe 1 .5 0\nnewmtl b\n"}}));
   const Material& m = loaded.mesh.materials.at(0);
   EXPECT_EQ(m.ambient * Scene().ambient * m.colour, glm::dvec3(1, 0.5, 0));
   EXPECT_EQ(loaded.notes, std::vector<std::string>{});
@@ -257,26 +259,29 @@ TEST(Obj, ABlackMaterialThatEmitsIsDrawnWithAmbientLight) {
 
 TEST(Obj, TransparentFacesAreNotDrawn) {
   for (const std::string key : {"d 0\nTr 0\n", "Tr 1\n"}) {
-    const auto loaded = must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\n" + key + "newmtl b\nd 1\nTr 1\n"}}));
+    const auto loaded =
+        must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\n" + key + "newmtl b\nd 1\nTr 1\n"}}));
     EXPECT_EQ(triangles_of(loaded), "0,0,0 0,1,0 1,0,0");
     EXPECT_EQ(loaded.mesh.materials.at(loaded.mesh.triangles[0].material).name, "b");
     EXPECT_EQ(loaded.notes,
               std::vector<std::string>{"a.obj: material 'a' is transparent: its faces are not drawn"});
   }
-  EXPECT_EQ(triangles_of(read("mtllib m.mtl\nusemtl a\n" + c_three + "f 1 2 3\n", {{"m.mtl", "newmtl a\nd 0\n"}})),
-            "! a.obj: the mesh has no faces; export it with faces");
+  EXPECT_EQ(
+      triangles_of(read("mtllib m.mtl\nusemtl a\n" + c_three + "f 1 2 3\n", {{"m.mtl", "newmtl a\nd 0\n"}})),
+      "! a.obj: the mesh has no faces; export it with faces");
 }
 
 TEST(Obj, TexturesOfMaterialsAreNoted) {
   for (const std::string key : {"map_Kd", "bump", "disp", "decal", "refl", "norm"})
-    EXPECT_EQ(must(read("mtllib m.mtl\n" + c_three + "usemtl a\nf 1 2 3\n", {{"m.mtl", "newmtl a\n" + key + " x\n"}}))
+    EXPECT_EQ(must(read("mtllib m.mtl\n" + c_three + "usemtl a\nf 1 2 3\n",
+                        {{"m.mtl", "newmtl a\n" + key + " x\n"}}))
                   .notes,
               std::vector<std::string>{"a.obj: material 'a': textures are left out"});
 }
 
 TEST(Obj, ASecondDefinitionKeepsTheOtherKeys) {
-  const auto loaded = must(
-      read("mtllib m.mtl \n" + c_faces, {{"m.mtl", "newmtl a \nKd 1 0 0\nNs 2\nnewmtl b\nnewmtl a\t\nNs 9\n"}}));
+  const auto loaded = must(read("mtllib m.mtl \n" + c_faces,
+                                {{"m.mtl", "newmtl a \nKd 1 0 0\nNs 2\nnewmtl b\nnewmtl a\t\nNs 9\n"}}));
   EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(1, 0, 0));
   EXPECT_EQ(loaded.mesh.materials.at(0).exponent, 9.0);
 }
@@ -326,8 +331,8 @@ TEST(Obj, ALineMayNameSeveralLibraries) {
 }
 
 TEST(Obj, WithoutALibraryThereIsOneDefaultMaterial) {
-  for (const std::string& text : {c_faces, "mtllib gone.mtl\n" + c_faces,
-                                  "mtllib m.mtl\n" + c_three + "f 1 2 3\nf 1 3 2\n"}) {
+  for (const std::string& text :
+       {c_faces, "mtllib gone.mtl\n" + c_faces, "mtllib m.mtl\n" + c_three + "f 1 2 3\nf 1 3 2\n"}) {
     const auto loaded = must(read(text, {{"m.mtl", "newmtl a\n"}}));
     ASSERT_EQ(loaded.mesh.materials.size(), 1u);
     EXPECT_EQ(loaded.mesh.materials[0].name, "default");

@@ -66,7 +66,8 @@ const std::vector<Spelling> c_ply_text = {
     {"tabs", changed(c_plain, "1 0 0\n", "\t1\t0  0 \n"), c_triangle},
     {"byte_order_mark_after_the_header", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf"),
      c_triangle},
-    {"byte_order_mark_and_a_blank", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf "), c_triangle},
+    {"byte_order_mark_and_a_blank", changed(c_plain, "end_header\n", "end_header\n\xef\xbb\xbf "),
+     c_triangle},
     {"byte_order_mark", "\xef\xbb\xbf" + c_plain, c_triangle},
 
     // numbers
@@ -82,8 +83,7 @@ const std::vector<Spelling> c_ply_text = {
      "! a.ply:11: vertex 1: '7' follows its last number; remove it"},
 
     // types
-    {"doubles", changed(vertices("0 0 0\n0.1 0 0\n0 1 0\n"), "float x", "double x"),
-     "0,0,0 0.1,0,0 0,1,0"},
+    {"doubles", changed(vertices("0 0 0\n0.1 0 0\n0 1 0\n"), "float x", "double x"), "0,0,0 0.1,0,0 0,1,0"},
     {"integers",
      changed(changed(changed(c_plain, "float x", "short x"), "float y", "uint8 y"), "float z", "int z"),
      c_triangle},
@@ -336,8 +336,9 @@ TEST(Ply, NormalsThatCannotBeReadAreComputed) {
 }
 
 TEST(Ply, BinaryNormalsBeyondTheRangeAreComputed) {
-  std::string text = changed(c_header3 + "property double nx\nproperty double ny\nproperty double nz\n" + c_face1,
-                             "ascii", "binary_little_endian");
+  std::string text =
+      changed(c_header3 + "property double nx\nproperty double ny\nproperty double nz\n" + c_face1, "ascii",
+              "binary_little_endian");
   for (int i = 0; i < 3; ++i) {
     for (const float x : {i == 1 ? 1.f : 0.f, i == 2 ? 1.f : 0.f, 0.f}) text += little_endian(x);
     for (const double n : {i == 0 ? 1e300 : 0.0, 0.0, 1.0}) text += little_endian(n);
@@ -372,11 +373,12 @@ TEST(Ply, NotesSayWhatIsLeftOut) {
 TEST(Ply, ToleratedSpellingsAreNoted) {
   EXPECT_EQ(must(read_ply(face("3.0 0 1 2.0"), "a.ply")).notes,
             std::vector<std::string>{"a.ply:13: an integer is written with a point (2 times)"});
-  EXPECT_EQ(must(read_ply(changed(changed(c_plain, "end_header", "element edge 0\nproperty int a\nend_header"), "\n0",
-                                  "\n\xef\xbb\xbf\x30"),
-                          "a.ply"))
-                .notes,
-            std::vector<std::string>{"a.ply:12: a byte order mark in the file is left out"});
+  EXPECT_EQ(
+      must(read_ply(changed(changed(c_plain, "end_header", "element edge 0\nproperty int a\nend_header"),
+                            "\n0", "\n\xef\xbb\xbf\x30"),
+                    "a.ply"))
+          .notes,
+      std::vector<std::string>{"a.ply:12: a byte order mark in the file is left out"});
   const std::string text = binary_ply(false);
   EXPECT_EQ(must(read_ply(text + "\n", "a.ply")).notes,
             std::vector<std::string>{

@@ -217,7 +217,8 @@ bool Projector::is_cut_by_near(const std::vector<ClipVertex>& corners) const {
   const double near = depth_range_.near, width = frame_.width, height = frame_.height;
   const auto is_before = [near](const ClipVertex& v) { return v.w < near; };
   if (std::none_of(corners.begin(), corners.end(), is_before)) return false;
-  const Plane planes[] = {{0, 0, -1, near}, {1, 0, 0, 0}, {-1, 0, width, 0}, {0, 1, 0, 0}, {0, -1, height, 0}};
+  const Plane planes[] = {
+      {0, 0, -1, near}, {1, 0, 0, 0}, {-1, 0, width, 0}, {0, 1, 0, 0}, {0, -1, height, 0}};
   std::vector<ClipVertex> part = corners, scratch;
   for (const Plane& plane : planes)
     if (!part.empty()) clip(part, scratch, plane);

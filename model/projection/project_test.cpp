@@ -123,7 +123,8 @@ TEST(Project, CountsTheReasonsIfNothingIsVisible) {
   EXPECT_EQ(cut({{{-1, -0.02, 5.2}, {1, -0.02, 5.2}, {0, 1, 6}}}), 0u);
   // Wholly before the near plane: in the frame, and beside it
   for (const glm::dvec3& at : {glm::dvec3(0, 0, 4.8), {1, 0, 4.8}, {-1, 0, 4.8}, {0, 1, 4.8}, {0, -1, 4.8}})
-    EXPECT_EQ(cut({at, at + glm::dvec3(0.02, 0, 0), at + glm::dvec3(0, 0.02, 0)}), at.x == 0 && at.y == 0) << at.x;
+    EXPECT_EQ(cut({at, at + glm::dvec3(0.02, 0, 0), at + glm::dvec3(0, 0.02, 0)}), at.x == 0 && at.y == 0)
+        << at.x;
   EXPECT_EQ(counts_of({{{0, 0, -96}, {1, 0, -100}, {0, 1, -200}}}).outside, 1u);
   EXPECT_EQ(counts_of({{{90, 0, 0}, {91, 0, 0}, {90, 1, 0}}}).outside, 1u);
   EXPECT_EQ(counts_of({{{1e9, 0, 0}, {2e9, 0, 0}, {1e9, 1e9, 0}}}).outside, 1u);
@@ -310,8 +311,8 @@ TEST(MeshProjector, ProjectsAsItsProjector) {
         }
       }
       const auto all = [](const ProjectionCounts& n) {
-        return std::tuple(n.visible, n.back_facing, n.left_out, n.behind_near, n.cut_by_near, n.outside, n.degenerate,
-                          n.unrepresentable);
+        return std::tuple(n.visible, n.back_facing, n.left_out, n.behind_near, n.cut_by_near, n.outside,
+                          n.degenerate, n.unrepresentable);
       };
       EXPECT_EQ(all(counts), all(expected_counts));
       EXPECT_GT(counts.back_facing, 0U);

@@ -20,8 +20,8 @@ constexpr double c_least_part_of_far = 1e-5;
 // Margin that keeps vertices on the sphere inside the range despite the rounding of a projection.
 constexpr double c_depth_slack = 1e-3;
 
-// The least depth of the surfaces that are drawn in a frame of this aspect, whatever the near plane is. Infinite
-// if there are none.
+// The least depth of the surfaces that are drawn in a frame of this aspect, whatever the near plane is.
+// Infinite if there are none.
 double nearest_depth(const Scene& scene, double aspect) {
   const Camera& camera = scene.camera;
   const ViewBasis basis = view_basis(camera);

@@ -40,8 +40,9 @@ ViewBasis view_basis(const Camera& camera);
 /// A sphere around every vertex that a triangle uses. Its centre is the centre of their bounding box.
 BoundingSphere bounding_sphere(const Scene& scene);
 
-/// The camera's own near and far where they are given (> 0), whatever is in view. Otherwise they are fitted to the sphere: near is
-/// the sphere's nearest point but at least a thousandth of far; far is slightly beyond its farthest point.
+/// The camera's own near and far where they are given (> 0), whatever is in view. Otherwise they are fitted
+/// to the sphere: near is the sphere's nearest point but at least a thousandth of far; far is slightly beyond
+/// its farthest point.
 DepthRange depth_range(const Camera& camera, const BoundingSphere& sphere);
 
 /// The range of a frame with this aspect (width / height). As above, but where a thousandth of far would cut

@@ -98,7 +98,8 @@ TEST(DepthRange, IsFittedToTheNearestSurfaceInView) {
   // From the side, the nearest point depends on the width of the frame.
   scene.camera.up_world = {1.0, 0.0, 0.0};
   EXPECT_NEAR(depth_range(scene, 2.0).near, 0.5 * nearest, 0.002 * nearest);
-  // It keeps 1e-5 of far, obeys the camera, and ignores what is behind the eye or shows a back that is not drawn.
+  // It keeps 1e-5 of far, obeys the camera, and ignores what is behind the eye or shows a back that is not
+  // drawn.
   EXPECT_EQ(depth_range(ground_scene(0.01), 1.0).near, 1e-5 * far);
   scene.camera.near = 5.0;
   EXPECT_EQ(depth_range(scene, 1.0).near, 5.0);

@@ -43,7 +43,8 @@ constexpr std::string_view c_visibility = "KHR_node_visibility", c_unlit = "KHR_
                            c_glossiness = "KHR_materials_pbrSpecularGlossiness",
                            c_instancing = "EXT_mesh_gpu_instancing", c_lights = "KHR_lights_punctual";
 constexpr std::string_view c_extensions[] = {
-    c_visibility, c_instancing, c_lights, c_unlit, c_glossiness, "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp"};
+    c_visibility,         c_instancing,      c_lights, c_unlit, c_glossiness, "KHR_texture_transform",
+    "KHR_texture_basisu", "EXT_texture_webp"};
 /// In place of a material's index: its surfaces are not drawn.
 constexpr std::uint32_t c_nothing = UINT32_MAX;
 
@@ -279,7 +280,8 @@ struct ComponentType {
   std::uint64_t code;
   std::size_t bytes;
 };
-constexpr std::uint64_t c_int8 = 5120, c_uint8 = 5121, c_int16 = 5122, c_uint16 = 5123, c_uint32 = 5125, c_float = 5126;
+constexpr std::uint64_t c_int8 = 5120, c_uint8 = 5121, c_int16 = 5122, c_uint16 = 5123, c_uint32 = 5125,
+                        c_float = 5126;
 constexpr ComponentType c_component_types[] = {{c_int8, 1},   {c_uint8, 1},  {c_int16, 2},
                                                {c_uint16, 2}, {c_uint32, 4}, {c_float, 4}};
 
@@ -463,7 +465,8 @@ class GltfReader {
     const auto move = [&](const auto& values, auto&& matrix_of) {
       if (places.empty()) places.assign(values.size(), to_file);
       if (values.size() != places.size())
-        attributes.fail(fmt::format("has {} and {} instances; export the file again", places.size(), values.size()));
+        attributes.fail(
+            fmt::format("has {} and {} instances; export the file again", places.size(), values.size()));
       for (std::size_t i = 0; i < values.size(); ++i) places[i] *= matrix_of(values[i]);
     };
     for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"}) {
@@ -472,7 +475,8 @@ class GltfReader {
       if (accessors_[index.index(accessors_.size())].at("count").unsigned_number() > c_max_instances)
         index.fail(fmt::format("more than {} instances; export fewer", c_max_instances));
       if (key[0] == 'T')
-        move(read_vectors(index, true), [](const glm::dvec3& t) { return glm::translate(glm::dmat4(1.0), t); });
+        move(read_vectors(index, true),
+             [](const glm::dvec3& t) { return glm::translate(glm::dmat4(1.0), t); });
       else if (key[0] == 'R')
         move(read_rotations(index), [&](const glm::dvec4& r) { return rotation_of(r, node); });
       else
@@ -488,7 +492,8 @@ class GltfReader {
     for (const Item& primitive : mesh.objects("primitives")) {
       const Mesh part = read_primitive(primitive);
       if (part.triangles.empty()) continue;
-      for (std::size_t i = 1; i < places.size(); ++i) count(primitive, part.positions.size(), part.triangles.size());
+      for (std::size_t i = 1; i < places.size(); ++i)
+        count(primitive, part.positions.size(), part.triangles.size());
       for (const glm::dmat4& to_file : places) add_part(part, node, to_file);
     }
   }
@@ -750,15 +755,17 @@ class GltfReader {
     const Accessor source = accessor(index, "VEC4");
     const std::uint64_t type = source.component_type;
     if (type != c_float && type != c_int8 && type != c_int16)
-      source.item.at("componentType").fail(fmt::format("{} is not a type of rotations; export the file again", type));
+      source.item.at("componentType")
+          .fail(fmt::format("{} is not a type of rotations; export the file again", type));
     const std::size_t size = source.component_bytes;
     std::vector<glm::dvec4> rotations(source.count, glm::dvec4(0.0, 0.0, 0.0, 1.0));
     const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t at = i * span.stride + k * size;
-        const double value = type == c_int8    ? number_in<std::int8_t>(span.bytes, at, ByteOrder::little) / 127.0
-                             : type == c_int16 ? number_in<std::int16_t>(span.bytes, at, ByteOrder::little) / 32767.0
-                                               : number_in<float>(span.bytes, at, ByteOrder::little);
+        const double value =
+            type == c_int8    ? number_in<std::int8_t>(span.bytes, at, ByteOrder::little) / 127.0
+            : type == c_int16 ? number_in<std::int16_t>(span.bytes, at, ByteOrder::little) / 32767.0
+                              : number_in<float>(span.bytes, at, ByteOrder::little);
         if (!std::isfinite(value))
           source.item.fail(fmt::format("rotation {} has a number that is not finite; correct it", place));
         rotations[place][static_cast<int>(k)] = value;

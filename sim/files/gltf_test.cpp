@@ -217,7 +217,8 @@ const std::vector<Spelling> c_spellings = {
            {"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
            {"/extensionsRequired", {"EXT_mesh_gpu_instancing"}},
            {"/accessors/0/count", 3},
-           {"/accessors/2", json::parse(R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":
+           {"/accessors/2",
+            json::parse(R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":
              {"count":3,"indices":{"bufferView":4,"componentType":5121},"values":{"bufferView":5}}})")},
            {"/bufferViews/4", json::parse(R"({"buffer":1,"byteLength":3})")},
            {"/bufferViews/5", json::parse(R"({"buffer":1,"byteLength":36,"byteOffset":4})")},
@@ -232,7 +233,8 @@ const std::vector<Spelling> c_spellings = {
     {"instances_of_two_counts",
      with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes", {{"TRANSLATION", 0}, {"SCALE", 2}}},
            {"/accessors/2", json::parse(R"({"componentType":5126,"count":3,"type":"VEC3"})")}}),
-     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: has 4 and 3 instances; export the file "
+     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: has 4 and 3 instances; export the "
+     "file "
      "again"},
     {"instances_too_many",
      with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
@@ -384,8 +386,9 @@ TEST(Gltf, ATransformThatIsNotARotationIsNoted) {
   const auto flat = must(read_gltf(
       with({{"/nodes/0/scale", {1, 2, 0}}, {"/meshes/0/primitives/0/attributes/NORMAL", 0}}), "a.gltf"));
   EXPECT_EQ(normals_of(flat), "0,0,0 0,0,0 0,0,0 ");
-  EXPECT_EQ(must(read_gltf(with({{"/nodes/0/rotation", {0, 0, 2, 0}}}), "a.gltf")).notes,
-            TextList{"a.gltf: nodes[0]: its rotation does not have the length 1; only its direction is used"});
+  EXPECT_EQ(
+      must(read_gltf(with({{"/nodes/0/rotation", {0, 0, 2, 0}}}), "a.gltf")).notes,
+      TextList{"a.gltf: nodes[0]: its rotation does not have the length 1; only its direction is used"});
 }
 
 /// The only material of a file with this one.
@@ -429,18 +432,21 @@ TEST(Gltf, ASurfaceThatOnlyEmitsIsDrawnWithAmbientLight) {
 TEST(Gltf, SurfacesOfAlphaZeroAreNotDrawn) {
   // The second triangle has another material.
   const auto notes_of = [](const std::string& alpha, std::size_t drawn) {
-    const auto loaded = must(read_gltf(
-        with({{"/meshes/0/primitives/1", json::parse(R"({"attributes":{"POSITION":0},"indices":1,"material":0})")},
-              {"/materials", json::array({json::parse("{" + alpha + "}")})}}),
-        "a.gltf"));
+    const auto loaded =
+        must(read_gltf(with({{"/meshes/0/primitives/1",
+                              json::parse(R"({"attributes":{"POSITION":0},"indices":1,"material":0})")},
+                             {"/materials", json::array({json::parse("{" + alpha + "}")})}}),
+                       "a.gltf"));
     EXPECT_EQ(loaded.mesh.triangles.size(), drawn) << alpha;
     return loaded.notes;
   };
   const std::string base = R"(,"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,)";
   EXPECT_EQ(notes_of(R"("alphaMode":"OPAQUE")" + base + "0]}", 2), TextList{});
   EXPECT_EQ(notes_of(R"("alphaMode":"MASK")" + base + "0.5]}", 2), TextList{});
-  for (const std::string& hidden : {R"("alphaMode":"MASK")" + base + "0.49]}", R"("alphaMode":"BLEND")" + base + "0]}"})
-    EXPECT_EQ(notes_of(hidden, 1), TextList{"a.gltf: materials[0]: it is transparent: its surfaces are not drawn"});
+  for (const std::string& hidden :
+       {R"("alphaMode":"MASK")" + base + "0.49]}", R"("alphaMode":"BLEND")" + base + "0]}"})
+    EXPECT_EQ(notes_of(hidden, 1),
+              TextList{"a.gltf: materials[0]: it is transparent: its surfaces are not drawn"});
 }
 
 TEST(Gltf, GlossinessIsRoughness) {
@@ -465,13 +471,13 @@ TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
              json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
                 "pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5],"roughnesFactor":0}}])")}}),
       "a.gltf"));
-  EXPECT_EQ(loaded.notes, (TextList{"a.gltf: 'animations' is not used",
-                                    "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
-                                    "a.gltf: nodes[0]: extension 'EXT_other' is not used",
-                                    "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
-                                    "a.gltf: nodes[0]: its light is left out",
-                                    "a.gltf: morph targets are left out",
-                                    "a.gltf: materials[0]: transparency is left out"}));
+  EXPECT_EQ(loaded.notes,
+            (TextList{"a.gltf: 'animations' is not used",
+                      "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
+                      "a.gltf: nodes[0]: extension 'EXT_other' is not used",
+                      "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
+                      "a.gltf: nodes[0]: its light is left out", "a.gltf: morph targets are left out",
+                      "a.gltf: materials[0]: transparency is left out"}));
 }
 
 TEST(Gltf, FactorsAreLimited) {

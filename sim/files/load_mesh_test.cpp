@@ -202,22 +202,22 @@ TEST_F(LoadMesh, PostsFarFromTheOriginHaveTheSameWidth) {
   for (int i = 0; i < 16; i += 4) {
     const double left = 5334760.0 + 0.3 * i;
     std::vector<std::string> corners;
-    for (const auto& [x, y] : std::vector<std::pair<double, int>>{
-             {left, 0}, {left + 0.6, 0}, {left + 0.6, 2}, {left, 2}})
+    for (const auto& [x, y] :
+         std::vector<std::pair<double, int>>{{left, 0}, {left + 0.6, 0}, {left + 0.6, 2}, {left, 2}})
       corners.push_back(fmt::format("{:.1f} {} 0\n", x, y));
     for (const std::string& corner : corners) obj += "v " + corner, ply += corner;
     for (const std::size_t k : {1, 2})
-      stl += fmt::format("facet outer loop vertex {}vertex {}vertex {}endloop endfacet\n", corners[0], corners[k],
-                         corners[k + 1]);
+      stl += fmt::format("facet outer loop vertex {}vertex {}vertex {}endloop endfacet\n", corners[0],
+                         corners[k], corners[k + 1]);
     obj_faces += fmt::format("f {} {} {} {}\n", i + 1, i + 2, i + 3, i + 4);
     ply_faces += fmt::format("4 {} {} {} {}\n", i, i + 1, i + 2, i + 3);
   }
   const std::string header =
       "ply\nformat ascii 1.0\n" + changed(changed(c_ply_header, "vertex 5", "vertex 16"), "face 5", "face 4");
-  for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
-           {"posts.obj", obj + obj_faces},
-           {"posts.ply", header + ply + ply_faces},
-           {"posts.stl", stl + "endsolid\n"}}) {
+  for (const auto& [name, text] :
+       std::vector<std::pair<std::string, std::string>>{{"posts.obj", obj + obj_faces},
+                                                        {"posts.ply", header + ply + ply_faces},
+                                                        {"posts.stl", stl + "endsolid\n"}}) {
     Scene scene = must(scene_of_mesh(must(load(name, text)), name));
     scene.camera = {.eye_world = {5334762.0, 1.0, 8.0}, .target_world = {5334762.0, 1.0, 0.0}};
     const auto projected = Projector(scene, {640, 480}, {.subpixel_bits = 9}).project_all();
