@@ -17,8 +17,17 @@ inline constexpr double c_stl_crease_degrees = 60.0;
 /// A triangle uses three vertices at most.
 inline constexpr std::size_t c_max_vertices = 3 * std::size_t{c_max_triangles};
 
+/// The lights of a file. Their greatest intensity is 1.
+struct FileLights {
+  std::vector<DirectionalLight> directional;
+  std::vector<PositionalLight> positional;
+  std::vector<SpotLight> spots;
+  bool empty() const { return directional.empty() && positional.empty() && spots.empty(); }
+};
+
 struct LoadedMesh {
   Mesh mesh;  ///< equal positions are merged; normals are zero if the file has none
+  FileLights lights;
   double default_crease_degrees = c_smooth_crease_degrees;
   std::vector<std::string> notes;  ///< "file: what was left out or changed"
 };

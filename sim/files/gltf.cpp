@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -27,6 +29,7 @@
 #include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
 #include "mesh_files/text_lines.hpp"
+#include "scene_files/add_mesh.hpp"
 #include "sim/os/file.hpp"
 
 namespace halfway {
@@ -307,6 +310,7 @@ class GltfReader {
     buffer_bytes_.resize(buffers_.size());
     loaded_.mesh.normals.emplace_back(0.0);
     read_nodes();
+    scale_lights();
     if (loaded_.mesh.triangles.empty()) throw BadGltf{"the mesh has no faces; export it with faces"};
     if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
     loaded_.notes = notes_.list();
@@ -387,7 +391,7 @@ class GltfReader {
         continue;
       }
       const glm::dmat4 to_file = next.to_file * transform_of(node);
-      if (has_extension(node, c_lights)) note(node, "its light is left out");
+      if (has_extension(node, c_lights)) read_light(node, to_file);
       if (node.has("skin")) note(node, "bones are omitted: the mesh is in its bind pose");
       // The transform of a node with a skin does not move its mesh.
       if (node.has("mesh"))
@@ -483,6 +487,63 @@ class GltfReader {
         move(read_vectors(index, true), [](const glm::dvec3& s) { return glm::scale(glm::dmat4(1.0), s); });
     }
     return places;
+  }
+
+  // ---- Lights
+
+  void read_light(const Item& node, const glm::dmat4& to_file) {
+    try {
+      const std::vector<Item> lights = extension_of(root_, c_lights).objects("lights");
+      add_light(lights[extension_of(node, c_lights).at("light").index(lights.size())], to_file);
+    } catch (const BadGltf& bad) {
+      note(bad.what + "; the light is left out");
+    }
+  }
+
+  /// Add a light at the origin of its node, which shines along the node's negative z axis.
+  void add_light(const Item& light, const glm::dmat4& to_file) {
+    const auto is_small = [](const glm::dvec3& v) {
+      const glm::dvec3 size = glm::abs(v);
+      return size.x <= c_max_number && size.y <= c_max_number && size.z <= c_max_number;
+    };
+    const double scale = light.number("intensity", 1.0);
+    const glm::dvec3 intensity = scale * glm::dvec3(colour(light, "color", glm::dvec4(1.0)));
+    if (scale < 0.0 || !is_small(intensity)) light.fail(fmt::format("its intensity is not 0 to {:g}", c_max_number));
+    const glm::dvec3 position(to_file[3]), z(to_file[2]);
+    const std::string& type = light.at("type").text();
+    if (!is_small(position) || !is_small(z) || (type != "point" && z == glm::dvec3(0.0)))
+      light.fail(fmt::format("its node has no direction, or is beyond {:g}", c_max_number));
+    if (type == "directional") {
+      loaded_.lights.directional.push_back({glm::normalize(z), intensity});
+    } else if (type == "point") {
+      loaded_.lights.positional.push_back({position, intensity});
+    } else if (type == "spot") {
+      const Item cone = light.has("spot") ? light.object("spot") : Item(no_keys(), light.place());
+      constexpr double c_right_angle = 1.5707964;  // as a float
+      const double inner = cone.number("innerConeAngle", 0.0), outer = cone.number("outerConeAngle", 0.785398163397);
+      if (!(inner >= 0.0 && inner <= outer && outer > 0.0 && outer <= c_right_angle))
+        light.fail("its angles do not increase from 0 to 90 degrees");
+      note_unused(cone, {"innerConeAngle", "outerConeAngle"});
+      loaded_.lights.spots.push_back({position, -glm::normalize(z), std::cos(inner),
+                                      std::max(std::cos(outer), 0.0), intensity});
+    } else {
+      light.fail(halfway::quoted(type) + " is not a type of light");
+    }
+    note_unused(light, {"type", "color", "intensity", "spot"});
+    if (type != "directional") note(light, "its intensity is the same at all distances");
+  }
+
+  /// Scale the intensities, so that the greatest is 1. Their units depend on the type and on the distance.
+  void scale_lights() {
+    FileLights& lights = loaded_.lights;
+    double greatest = 0.0;
+    const auto each = [&](auto&& use) {
+      for (DirectionalLight& light : lights.directional) use(light.intensity);
+      for (PositionalLight& light : lights.positional) use(light.intensity);
+      for (SpotLight& light : lights.spots) use(light.intensity);
+    };
+    each([&](const glm::dvec3& i) { greatest = std::max({greatest, i.x, i.y, i.z}); });
+    if (greatest > 0.0) each([&](glm::dvec3& i) { i /= greatest; });
   }
 
   // ---- Meshes

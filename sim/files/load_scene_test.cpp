@@ -392,6 +392,21 @@ TEST_F(LoadScene, AMeshFileGetsCameraLightAndMaterial) {
   EXPECT_EQ(scene.notes[0], (folder_ / "tetra.obj").string() + ": 1 triangles without area left out");
 }
 
+TEST_F(LoadScene, AMeshFileHasItsOwnLights) {
+  const std::string file = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],
+    "extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional","color":[0,1,0]}]}},
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":
+      "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,"byteLength":36}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}]})";
+  const Scene scene = must(load_scene(write("lit.gltf", file), c_scenes));
+  ASSERT_EQ(scene.directional.size(), 1u);
+  EXPECT_EQ(scene.directional[0].to_light_world, glm::dvec3(0.0, 0.0, 1.0));
+  EXPECT_EQ(scene.directional[0].intensity, glm::dvec3(0.0, 1.0, 0.0));
+  const Scene own = must(load_scene(write("own.toml", "[[mesh]]\nfile = \"lit.gltf\"\n"), c_scenes));
+  EXPECT_TRUE(own.directional.empty());
+  EXPECT_EQ(own.notes.at(0), (folder_ / "lit.gltf").string() + ": its lights are left out; the scene has its own");
+}
+
 TEST_F(LoadScene, MeshFilesAreRelativeToTheScene) {
   std::filesystem::create_directory(folder_ / "sub");
   write("sub/t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
