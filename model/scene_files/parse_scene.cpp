@@ -326,7 +326,8 @@ class SceneReader {
       error_.set(file.mesh.error());
     else
       loaded = std::move(*file.mesh);
-    if (!loaded.lights.empty()) scene_.notes.push_back(path + ": its lights are left out; the scene has its own");
+    if (!loaded.lights.empty())
+      scene_.notes.push_back(path + ": its lights are left out; the scene has its own");
     return !error_;
   }
 
@@ -451,8 +452,9 @@ Result<Scene> scene_of_mesh(LoadedMesh loaded, std::string_view file) {
   scene.spots = std::move(loaded.lights.spots);
   if (!has_lights) {
     const ViewBasis view = view_basis(scene.camera);
-    scene.directional.push_back({glm::normalize(-0.6 * view.right_world + 0.7 * view.up_world + view.backward_world),
-                                 glm::dvec3(1.0)});
+    scene.directional.push_back(
+        {glm::normalize(-0.6 * view.right_world + 0.7 * view.up_world + view.backward_world),
+         glm::dvec3(1.0)});
   }
   return scene;
 }

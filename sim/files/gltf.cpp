@@ -508,7 +508,8 @@ class GltfReader {
     };
     const double scale = light.number("intensity", 1.0);
     const glm::dvec3 intensity = scale * glm::dvec3(colour(light, "color", glm::dvec4(1.0)));
-    if (scale < 0.0 || !is_small(intensity)) light.fail(fmt::format("its intensity is not 0 to {:g}", c_max_number));
+    if (scale < 0.0 || !is_small(intensity))
+      light.fail(fmt::format("its intensity is not 0 to {:g}", c_max_number));
     const glm::dvec3 position(to_file[3]), z(to_file[2]);
     const std::string& type = light.at("type").text();
     if (!is_small(position) || !is_small(z) || (type != "point" && z == glm::dvec3(0.0)))
@@ -520,12 +521,13 @@ class GltfReader {
     } else if (type == "spot") {
       const Item cone = light.has("spot") ? light.object("spot") : Item(no_keys(), light.place());
       constexpr double c_right_angle = 1.5707964;  // as a float
-      const double inner = cone.number("innerConeAngle", 0.0), outer = cone.number("outerConeAngle", 0.785398163397);
+      const double inner = cone.number("innerConeAngle", 0.0),
+                   outer = cone.number("outerConeAngle", 0.785398163397);
       if (!(inner >= 0.0 && inner <= outer && outer > 0.0 && outer <= c_right_angle))
         light.fail("its angles do not increase from 0 to 90 degrees");
       note_unused(cone, {"innerConeAngle", "outerConeAngle"});
-      loaded_.lights.spots.push_back({position, -glm::normalize(z), std::cos(inner),
-                                      std::max(std::cos(outer), 0.0), intensity});
+      loaded_.lights.spots.push_back(
+          {position, -glm::normalize(z), std::cos(inner), std::max(std::cos(outer), 0.0), intensity});
     } else {
       light.fail(halfway::quoted(type) + " is not a type of light");
     }

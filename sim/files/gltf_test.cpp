@@ -471,36 +471,39 @@ TEST(Gltf, KeysAndExtensionsThatAreNotUsedAreNoted) {
              json::parse(R"([{"name":"m","extras":1,"alphaMode":"BLEND","extensions":{"KHR_materials_ior":{}},
                 "pbrMetallicRoughness":{"baseColorFactor":[1,1,1,0.5],"roughnesFactor":0}}])")}}),
       "a.gltf"));
-  EXPECT_EQ(loaded.notes,
-            (TextList{"a.gltf: 'animations' is not used",
-                      "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
-                      "a.gltf: nodes[0]: extension 'EXT_other' is not used",
-                      "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
-                      "a.gltf: extensions.KHR_lights_punctual.lights[0]: its intensity is the same at all distances",
-                      "a.gltf: morph targets are left out",
-                      "a.gltf: materials[0]: transparency is left out"}));
+  EXPECT_EQ(
+      loaded.notes,
+      (TextList{
+          "a.gltf: 'animations' is not used",
+          "a.gltf: materials[0].pbrMetallicRoughness: 'roughnesFactor' is not used",
+          "a.gltf: nodes[0]: extension 'EXT_other' is not used",
+          "a.gltf: materials[0]: extension 'KHR_materials_ior' is not used",
+          "a.gltf: extensions.KHR_lights_punctual.lights[0]: its intensity is the same at all distances",
+          "a.gltf: morph targets are left out", "a.gltf: materials[0]: transparency is left out"}));
 }
 
 TEST(Gltf, LightsHaveThePlacesOfTheirNodes) {
   const auto loaded = must(read_gltf(
-      with({{"/extensions/KHR_lights_punctual/lights", json::parse(R"([
+      with(
+          {{"/extensions/KHR_lights_punctual/lights", json::parse(R"([
                {"type":"directional","intensity":2}, {"type":"point","color":[1,0.5,0],"intensity":4},
                {"type":"spot","spot":{"innerConeAngle":0.5,"outerConeAngle":1}}, {"type":"spot"},
                {"type":"area"}, {"type":"point","intensity":-1},
                {"type":"spot","spot":{"innerConeAngle":1,"outerConeAngle":0.5}}])")},
-            {"/scenes/0/nodes", {0, 1}},
-            {"/nodes/0/rotation", {0, 0.7071067811865476, 0, 0.7071067811865476}},  // -z to -x
-            {"/nodes/0/translation", {1, 2, 3}},
-            {"/nodes/0/children", {2, 3, 4, 5, 6, 7, 8, 9}},
-            {"/nodes/1", json::parse(R"({"scale":[0,0,0],"extensions":{"KHR_lights_punctual":{"light":0}}})")},
-            {"/nodes/2", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":0}}})")},
-            {"/nodes/3", json::parse(R"({"translation":[0,0,1],"extensions":{"KHR_lights_punctual":{"light":1}}})")},
-            {"/nodes/4", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":2}}})")},
-            {"/nodes/5", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":3}}})")},
-            {"/nodes/6", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":4}}})")},
-            {"/nodes/7", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":5}}})")},
-            {"/nodes/8", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":6}}})")},
-            {"/nodes/9", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":7}}})")}}),
+           {"/scenes/0/nodes", {0, 1}},
+           {"/nodes/0/rotation", {0, 0.7071067811865476, 0, 0.7071067811865476}},  // -z to -x
+           {"/nodes/0/translation", {1, 2, 3}},
+           {"/nodes/0/children", {2, 3, 4, 5, 6, 7, 8, 9}},
+           {"/nodes/1", json::parse(R"({"scale":[0,0,0],"extensions":{"KHR_lights_punctual":{"light":0}}})")},
+           {"/nodes/2", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":0}}})")},
+           {"/nodes/3",
+            json::parse(R"({"translation":[0,0,1],"extensions":{"KHR_lights_punctual":{"light":1}}})")},
+           {"/nodes/4", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":2}}})")},
+           {"/nodes/5", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":3}}})")},
+           {"/nodes/6", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":4}}})")},
+           {"/nodes/7", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":5}}})")},
+           {"/nodes/8", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":6}}})")},
+           {"/nodes/9", json::parse(R"({"extensions":{"KHR_lights_punctual":{"light":7}}})")}}),
       "a.gltf"));
   const auto is_near = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a - b) < 1e-12; };
   const FileLights& lights = loaded.lights;
@@ -518,15 +521,18 @@ TEST(Gltf, LightsHaveThePlacesOfTheirNodes) {
   EXPECT_EQ(lights.spots[0].cos_outer, std::cos(1.0));
   EXPECT_EQ(lights.spots[1].cos_inner, 1.0);
   EXPECT_NEAR(lights.spots[1].cos_outer, std::sqrt(0.5), 1e-12);
-  const std::string list = "a.gltf: extensions.KHR_lights_punctual.lights";
-  EXPECT_EQ(loaded.notes,
-            (TextList{list + "[1]: its intensity is the same at all distances (3 times)",
-                      "a.gltf: " + list.substr(8) + "[4]: 'area' is not a type of light; the light is left out",
-                      "a.gltf: " + list.substr(8) + "[5]: its intensity is not 0 to 1e+15; the light is left out",
-                      "a.gltf: " + list.substr(8) + "[6]: its angles do not increase from 0 to 90 degrees; the light is left out",
-                      "a.gltf: nodes[9].extensions.KHR_lights_punctual.light: is 7, but the file has 7, counted from 0; "
-                      "correct the index; the light is left out",
-                      "a.gltf: " + list.substr(8) + "[0]: its node has no direction, or is beyond 1e+15; the light is left out"}));
+  const std::string light = "a.gltf: extensions.KHR_lights_punctual.lights",
+                    left_out = "; the light is left out";
+  EXPECT_EQ(
+      loaded.notes,
+      (TextList{light + "[0]: its node has no direction, or is beyond 1e+15" + left_out,
+                light + "[4]: 'area' is not a type of light" + left_out,
+                light + "[5]: its intensity is not 0 to 1e+15" + left_out,
+                light + "[6]: its angles do not increase from 0 to 90 degrees" + left_out,
+                light + "[1]: its intensity is the same at all distances (3 times)",
+                "a.gltf: nodes[9].extensions.KHR_lights_punctual.light: is 7, but the file has 7, counted "
+                "from 0; correct the index" +
+                    left_out}));
 }
 
 TEST(Gltf, FactorsAreLimited) {

@@ -393,7 +393,8 @@ TEST_F(LoadScene, AMeshFileGetsCameraLightAndMaterial) {
 }
 
 TEST_F(LoadScene, AMeshFileHasItsOwnLights) {
-  const std::string file = R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],
+  const std::string file =
+      R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0,"extensions":{"KHR_lights_punctual":{"light":0}}}],
     "extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional","color":[0,1,0]}]}},
     "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":
       "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],"bufferViews":[{"buffer":0,"byteLength":36}],
@@ -404,7 +405,8 @@ TEST_F(LoadScene, AMeshFileHasItsOwnLights) {
   EXPECT_EQ(scene.directional[0].intensity, glm::dvec3(0.0, 1.0, 0.0));
   const Scene own = must(load_scene(write("own.toml", "[[mesh]]\nfile = \"lit.gltf\"\n"), c_scenes));
   EXPECT_TRUE(own.directional.empty());
-  EXPECT_EQ(own.notes.at(0), (folder_ / "lit.gltf").string() + ": its lights are left out; the scene has its own");
+  EXPECT_EQ(own.notes.at(0),
+            (folder_ / "lit.gltf").string() + ": its lights are left out; the scene has its own");
 }
 
 TEST_F(LoadScene, MeshFilesAreRelativeToTheScene) {
