@@ -38,7 +38,8 @@ TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
             HasSubstr("--shader quadratic --preset published\n"),
             HasSubstr("\n// Generics: g_exact=false g_channels=1 g_degree=2\n"),
             HasSubstr("\n// Ports, in this order:\n//   input       1  clk\n//   input       1  reset\n//   "
-                      "input       1  init_valid\n//   input     497  init_data\n"),
+                      "input       1  init_valid\n"),
+            HasSubstr("\n//   input     497  init_data\n"), HasSubstr("\n//   output      1  init_ready\n"),
             HasSubstr("\n//   output     12  fragment_y\n"), HasSubstr("\nmodule quadratic_shader\n")));
 }
 

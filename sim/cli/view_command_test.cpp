@@ -174,7 +174,7 @@ TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
     ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
     const Outcome decoded =
         run_as({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-i", at(video).string(), "-f", "rawvideo",
-                "-pix_fmt", "rgb24", "-vsync", "passthrough", at("decoded").string()});
+                "-pix_fmt", "rgb24", "-fps_mode", "passthrough", at("decoded").string()});
     ASSERT_EQ(decoded.exit_code, 0) << decoded.output;
     std::string frames;
     for (int n = 0; n < 3; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);

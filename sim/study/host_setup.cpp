@@ -121,7 +121,8 @@ void in_processes(const std::filesystem::path& names, const std::function<void(c
     if (child == 0) {
       const Status done = caught([&] { each(line.data()); });
       if (!done) fmt::print(stderr, "{}\n", done.error().message);
-      std::fflush(nullptr);
+      // Not every stream: that would move the offset of the names, which the processes share.
+      std::fflush(stdout);
       std::_Exit(done ? 0 : 1);
     }
     int status = 0;
