@@ -52,9 +52,10 @@ class Registers {
   int worth(std::string_view name) const {
     if (name.find(types_.mark) != std::string_view::npos) return 0;
     const std::string_view last = name.substr(name.rfind('.') + 1);
-    const std::size_t digits = last.find_first_not_of("0123456789", 1);
-    if (last.starts_with('n') && digits != 1 && (last.substr(digits) == "_q" || last.substr(digits) == "_o"))
-      return 1;
+    const std::size_t end = std::min(last.find_first_not_of("0123456789", 1), last.size());
+    const std::string_view ending = last.substr(end);
+    // GHDL 6 writes n7, earlier versions n7_o, or n7_q for a register.
+    if (last.starts_with('n') && end > 1 && (ending.empty() || ending == "_q" || ending == "_o")) return 1;
     return name.starts_with("dut.") ? 3 : 2;
   }
 

@@ -51,7 +51,8 @@ constexpr const char* c_wrapped = R"({"modules": {"wrapped": {"cells": {
   "dut.x_SB_LUT4_I0": {"type": "SB_LUT4", "connections": {"I0": [3], "O": [4]}},
   "dut.second_SB_DFF_Q": {"type": "SB_DFF", "connections": {"C": [1], "D": [4], "Q": [5]}}},
   "netnames": {"dut.n7_q": {"hide_name": 0, "bits": [9, 3]}, "dut.unit.first": {"hide_name": 0, "bits": [9, 3]},
-  "dut.second_SB_LUT4_O": {"hide_name": 0, "bits": [5]}, "dut.second": {"hide_name": 0, "bits": [5]}}}}})";
+  "dut.second_SB_LUT4_O": {"hide_name": 0, "bits": [5]}, "dut.second": {"hide_name": 0, "bits": [5]},
+  "dut.n8": {"hide_name": 0, "bits": [5]}}}}})";
 constexpr const char* c_report = R"({"critical_paths": [
   {"from": "<async>", "to": "posedge clk", "path": []},
   {"from": "posedge clk", "to": "posedge clk", "path": [
