@@ -233,12 +233,14 @@ class ObjReader {
       }
       if (part.empty()) continue;
       const Result<std::uint32_t> index = read_index(lines, *fields[i], part, word);
-      if (!index && i == 1) {  // Nothing reads texture coordinates.
-        notes_.add(lines.place(), "a corner names a texture coordinate that the file does not have");
-        continue;
+      if (index) {
+        indices[i] = *index;
+      } else if (i == 0) {
+        return index.error();
+      } else {  // Nothing reads texture coordinates, and a normal can be computed.
+        notes_.add(lines.place(),
+                   fmt::format("a corner names a {} that the file does not have", fields[i]->what));
       }
-      if (!index) return index.error();
-      indices[i] = *index;
     }
     return Corner{indices[0] - 1, indices[2]};
   }

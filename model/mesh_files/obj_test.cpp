@@ -123,8 +123,7 @@ const std::vector<Spelling> c_obj_text = {
      "! a.obj:4: a face names vertex -9223372036854775808, but the file has 3 so far; correct the index"},
     {"texture_beyond", c_three + "vt 0\nf 1/1 2/2 3/-2\n", c_triangle},
     {"texture_missing", "vn 0 0 1\n" + c_three + "f 1/1/1 2/1/1 3/1/1\n", c_triangle},
-    {"normal_beyond", c_three + "f 1//1 2//1 3//1\n",
-     "! a.obj:4: a face names normal 1, but the file has 0; correct the index"},
+    {"normal_beyond", c_three + "f 1//1 2//1 3//1\n", c_triangle},
     {"all_three", "vt 0\nvn 0 0 1\n" + c_three + "f 1/1/1 2/1/1 3/1/1\n", c_triangle},
     {"empty_parts", "vt 0\n" + c_three + "f 1/ 2// 3/1/\n", c_triangle},
     {"four_parts", "vt 0\nvn 0 0 1\n" + c_three + "f 1/1/1/1 2 3\n",
@@ -178,6 +177,9 @@ TEST(Obj, NotesSayWhatIsLeftOut) {
   EXPECT_EQ(must(read("vt 0\n" + c_three + "f 1/2 2/7 3/-2\n")).notes,
             std::vector<std::string>{
                 "a.obj:5: a corner names a texture coordinate that the file does not have (3 times)"});
+  EXPECT_EQ(
+      must(read("vn 0 0 1\n" + c_three + "f 1//1 2//2 3//-2\n")).notes,
+      std::vector<std::string>{"a.obj:5: a corner names a normal that the file does not have (2 times)"});
 }
 
 TEST(Obj, AnOutlineThatCrossesItselfIsAFan) {
