@@ -20,9 +20,10 @@ using ::testing::HasSubstr;
 using FiguresCommand = CommandTest;
 
 TEST_F(FiguresCommand, WritesThePageAndItsDataOfWhatIsAskedFor) {
-  EXPECT_THAT(run({"figures", "spherical-table", "--out", "drawn"}),
-              Ends(0, AllOf(HasSubstr("a for n = 20: published 2.7582, measured 2.7582: agrees (± 0.00005)"),
-                            HasSubstr("drawn: 1 figures, 8 rows, 8 agree, 0 differ"))));
+  EXPECT_THAT(
+      run({"figures", "spherical-table", "--out", "drawn"}),
+      Ends(0, AllOf(HasSubstr("2.7582, 4.3143, 6.0791, 13.5535: agrees (the same)"),
+                    HasSubstr("drawn: 1 figures, 2 rows, 1 agree, 0 differ, 1 hold by construction"))));
   for (const char* name : {"README.md", "figures.json"}) {
     const auto text = must(read_file(folder_.path() / "drawn" / name));
     EXPECT_THAT(text, HasSubstr("2.7582"));
@@ -47,11 +48,11 @@ TEST_F(FiguresCommand, FindsAClaimThatIsNotMeasured) {
   must(make_folders(source / "sim/figures"));
   for (const char* name : {"claims.toml", "figures.md.mustache"})
     fs::copy(real / "sim/figures" / name, source / "sim/figures" / name);
-  replace_in(source / "sim/figures/claims.toml", "value = 2.7582", "value = 2.7583");
-  EXPECT_THAT(run({"--source", source.string(), "figures", "spherical-table", "--page", "there"}),
-              Ends(1, AllOf(HasSubstr("'a for n = 20' differs, and no reason is known: published 2.7582, "
-                                      "measured 2.7582 (± 0.00005)"),
-                            HasSubstr("claims.toml does not match"))));
+  replace_in(source / "sim/figures/claims.toml", "1.9845, 2.7582, 4.3143", "1.9845, 2.7584, 4.3143");
+  EXPECT_THAT(
+      run({"--source", source.string(), "figures", "spherical-table", "--page", "there"}),
+      Ends(1, AllOf(HasSubstr("differs, and no reason is known: published 1.0000, 1.4502, 1.9845, 2.7584"),
+                    HasSubstr("claims.toml does not match"))));
   EXPECT_FALSE(fs::exists(folder_.path() / "there"));
 }
 
