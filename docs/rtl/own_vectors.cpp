@@ -33,12 +33,10 @@ Scene my_scene() {
   scene.directional = {
       {.to_light_world = glm::normalize(glm::dvec3(0.3, 0.4, 1.0)), .intensity = glm::dvec3(0.9)}};
   scene.materials = {{.colour = glm::dvec3(0.8), .diffuse = 0.7, .specular = 0.3, .exponent = 10.0}};
-  // Single precision, as in mesh files.
-  scene.positions_world = {
-      {-0.9f, -0.8f, 0.0f}, {1.0f, -0.6f, 0.0f}, {0.8f, 0.9f, 0.0f}, {-0.7f, 0.7f, 0.0f}};
-  for (const glm::vec3 normal : {glm::vec3(-0.3f, -0.3f, 0.9f), glm::vec3(0.3f, -0.3f, 0.9f),
-                                 glm::vec3(0.3f, 0.3f, 0.9f), glm::vec3(-0.3f, 0.3f, 0.9f)})
-    scene.normals_world.push_back(glm::normalize(glm::dvec3(normal)));
+  scene.positions_world = {{-0.9, -0.8, 0.0}, {1.0, -0.6, 0.0}, {0.8, 0.9, 0.0}, {-0.7, 0.7, 0.0}};
+  for (const glm::dvec3 normal : {glm::dvec3(-0.3, -0.3, 0.9), glm::dvec3(0.3, -0.3, 0.9),
+                                  glm::dvec3(0.3, 0.3, 0.9), glm::dvec3(-0.3, 0.3, 0.9)})
+    scene.normals_world.push_back(glm::normalize(normal));
   // Counter-clockwise seen from outside: positions, normals, material.
   scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0}, {{0, 2, 3}, {0, 2, 3}, 0}};
   return scene;
