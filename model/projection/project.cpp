@@ -29,6 +29,8 @@ constexpr double c_shortest_normal = 1e-8;
 
 // In pixels: enlargement of a triangle by rounding to whole pixels and by an edge's rounded slope.
 constexpr std::int32_t c_reach_margin = 2;
+// Margin that keeps the nearest surface behind the near plane despite the rounding of a projection.
+constexpr double c_before_nearest = 0.999;
 
 // The sign of the volume spanned by eye and triangle distinguishes front from back without a division.
 template <class Vertex>
@@ -72,7 +74,7 @@ Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions opti
   const Camera& camera = scene.camera;
   eye_world_ = camera.eye_world;
   basis_ = view_basis(camera);
-  depth_range_ = depth_range(scene, width / height);
+  depth_range_ = depth_range(camera, bounding_sphere(scene));
   focal_pixels_ = 0.5 * height / std::tan(0.5 * glm::radians(camera.vertical_fov_degrees));
   usable_ = has_view(camera) && depth_range_.near > 0 && depth_range_.near < depth_range_.far &&
             depth_range_.far <= c_largest_coordinate && focal_pixels_ > 0 &&
@@ -90,6 +92,25 @@ Projector::Projector(const Scene& scene, FrameSize frame, ProjectionOptions opti
     return to_integer<std::int32_t>(pixels) * (1 << options_.subpixel_bits);
   };
   snapped_range_ = {units(left), units(right) - last, units(top), units(bottom) - last};
+  fit_near();
+}
+
+// Moves a fitted near plane before the surfaces in view that it would cut.
+void Projector::fit_near() {
+  const auto [near, far] = depth_range_;
+  if (!usable_ || scene_->camera.near > 0.0 || near > c_near_part_of_far * far) return;
+  double nearest = 2.0 * near;  // a surface behind it does not move the plane
+  for (const SceneTriangle& triangle : scene_->triangles) {
+    std::array<ClipVertex, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = transform(scene_->positions_world[triangle.position[i]], glm::dvec3(0.0));
+    const bool is_drawn =
+        triangle.culling == Culling::none || !faces_away(corners[0], corners[1], corners[2]);
+    if (is_drawn &&
+        std::all_of(corners.begin(), corners.end(), [&](const ClipVertex& v) { return is_representable(v); }))
+      nearest = nearest_in_frame(corners, nearest);
+  }
+  depth_range_.near = std::min(near, std::max(c_before_nearest * nearest, c_least_near_part * far));
 }
 
 Projector::ClipVertex Projector::transform(glm::dvec3 position_world, glm::dvec3 normal_world) const {
@@ -212,17 +233,18 @@ std::vector<ScreenVertex> Projector::clip_and_snap(std::vector<ClipVertex>& poly
   return {};
 }
 
-// True if a part of the triangle would be in the frame without the near plane.
-bool Projector::is_cut_by_near(const std::vector<ClipVertex>& corners) const {
-  const double near = depth_range_.near, width = frame_.width, height = frame_.height;
-  const auto is_before = [near](const ClipVertex& v) { return v.w < near; };
-  if (std::none_of(corners.begin(), corners.end(), is_before)) return false;
-  const Plane planes[] = {
-      {0, 0, -1, near}, {1, 0, 0, 0}, {-1, 0, width, 0}, {0, 1, 0, 0}, {0, -1, height, 0}};
-  std::vector<ClipVertex> part = corners, scratch;
-  for (const Plane& plane : planes)
-    if (!part.empty()) clip(part, scratch, plane);
-  return !part.empty();
+// The depth of the triangle's nearest point in the frame, whatever the near plane is; `limit` if it is not
+// less.
+double Projector::nearest_in_frame(std::span<const ClipVertex> corners, double limit) const {
+  if (std::all_of(corners.begin(), corners.end(), [limit](const ClipVertex& v) { return v.w >= limit; }))
+    return limit;
+  const double width = frame_.width, height = frame_.height;
+  const Plane sides[] = {{1, 0, 0, 0}, {-1, 0, width, 0}, {0, 1, 0, 0}, {0, -1, height, 0}};
+  std::vector<ClipVertex> part(corners.begin(), corners.end()), scratch;
+  for (const Plane& side : sides)
+    if (!part.empty()) clip(part, scratch, side);
+  for (const ClipVertex& v : part) limit = std::min(limit, v.w);
+  return limit;
 }
 
 // The side that the eye sees is that of the exact corners. A triangle that snapping reversed shows the other
@@ -257,7 +279,8 @@ void Projector::project(std::uint32_t triangle, std::vector<ScreenTriangle>& out
     return;
   }
   const bool away = faces_away(polygon[0], polygon[1], polygon[2]);
-  counts.cut_by_near += (!away || source.culling == Culling::none) && is_cut_by_near(polygon);
+  counts.cut_by_near += (!away || source.culling == Culling::none) &&
+                        nearest_in_frame(polygon, depth_range_.near) < depth_range_.near;
   const std::vector<ScreenVertex> corner = clip_and_snap(polygon, depth_range_, counts);
   if (corner.empty()) return;
   // The snapped area alone decides the orientation of a triangle. If snapping reversed a triangle, its

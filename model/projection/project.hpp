@@ -28,6 +28,10 @@ inline constexpr int c_guard_end = 6143;
 
 inline constexpr int c_max_subpixel_bits = 9;
 
+/// A fitted near plane is at least this part of far. The step of a 24-bit depth at far, relative to far, is
+/// then up to 0.6 %; with c_near_part_of_far it is 0.006 %.
+inline constexpr double c_least_near_part = 1e-5;
+
 struct ProjectionOptions {
   /// Fraction bits of a screen coordinate, 0 to 9. With 0, (x, y) names the pixel that contains the vertex,
   /// as in the papers. With more, the centre of pixel (0, 0) is at (1/2, 1/2) pixel.
@@ -105,6 +109,8 @@ class Projector {
 
   const ProjectionOptions& options() const { return options_; }
   FrameSize frame() const { return frame_; }
+  /// That of the camera and the scene's bounding sphere. But where a fitted near plane would cut surfaces in
+  /// view, near is just before the nearest of them, and at least `c_least_near_part` of far.
   const DepthRange& range() const { return depth_range_; }
 
  private:
@@ -129,7 +135,8 @@ class Projector {
   /// True if no plane clips the vertex.
   bool is_inside(const ClipVertex& v) const;
   ProjectedVertex project_vertex(const VertexKey& vertex) const;
-  bool is_cut_by_near(const std::vector<ClipVertex>& corners) const;
+  double nearest_in_frame(std::span<const ClipVertex> corners, double limit) const;
+  void fit_near();
   bool is_outside_frame(std::span<const ScreenVertex> corners) const;
   /// Turns a piece of a triangle that is drawn from both sides to the eye.
   void turn_to_eye(ScreenTriangle& piece, bool faces_away) const;

@@ -105,6 +105,41 @@ TEST(Project, WithoutSubpixelsAVertexIsThePixelItFallsIn) {
   EXPECT_EQ(triangles[0].vertex[2].x, 63);
 }
 
+/// A square of 18000 below an eye 1.7 above it, which looks to the horizon.
+Scene ground_scene(double eye_height = 1.7) {
+  Scene scene;
+  scene.camera = {.eye_world = {0.0, eye_height, 0.0}, .target_world = {0.0, eye_height, -5.0}};
+  scene.positions_world = {{-9e3, 0, -9e3}, {9e3, 0, -9e3}, {9e3, 0, 9e3}, {-9e3, 0, 9e3}};
+  scene.triangles = {{{3, 2, 1}, {}, 0}, {{3, 1, 0}, {}, 0}};
+  return scene;
+}
+
+TEST(Project, TheNearPlaneIsFittedToTheNearestSurfaceInView) {
+  const auto range_of = [](const Scene& scene, std::uint32_t aspect = 1) {
+    return Projector(scene, {100 * aspect, 100}, {}).range();
+  };
+  Scene scene = ground_scene();
+  const double far = range_of(scene).far, nearest = 1.7 / std::tan(glm::radians(20.0));
+  EXPECT_LT(range_of(scene).near, 0.9995 * nearest);
+  EXPECT_GT(range_of(scene).near, 0.998 * nearest);
+  // From the side, the nearest point depends on the width of the frame.
+  scene.camera.up_world = {1.0, 0.0, 0.0};
+  EXPECT_NEAR(range_of(scene, 2).near, 0.5 * nearest, 0.002 * nearest);
+  // It keeps 1e-5 of far, obeys the camera, and ignores what is behind the eye or shows a back that is not
+  // drawn.
+  EXPECT_EQ(range_of(ground_scene(0.01)).near, c_least_near_part * far);
+  scene.camera.near = 5.0;
+  EXPECT_EQ(range_of(scene).near, 5.0);
+  const Scene below = ground_scene(-1.7);
+  EXPECT_EQ(range_of(below).near, c_near_part_of_far * far);
+  Scene two_sided = below;
+  for (SceneTriangle& triangle : two_sided.triangles) triangle.culling = Culling::none;
+  EXPECT_NEAR(range_of(two_sided).near, nearest, 0.002 * nearest);
+  Scene up = ground_scene();
+  up.camera.target_world = {0.0, 1001.7, -1000.0};
+  EXPECT_EQ(range_of(up).near, c_near_part_of_far * range_of(up).far);
+}
+
 TEST(Project, CountsTheReasonsIfNothingIsVisible) {
   const auto counts_of = [](std::array<glm::dvec3, 3> corners) {
     const Scene scene = one_triangle(corners);

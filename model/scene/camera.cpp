@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <limits>
-#include <utility>
-#include <vector>
 
 namespace halfway {
 
@@ -15,46 +13,8 @@ namespace {
 
 // Least sine of the angle between up and the viewing axis. Below it, rounding would determine the roll.
 constexpr double c_min_up_sine = 1e-6;
-constexpr double c_near_part_of_far = 1e-3;
-constexpr double c_least_part_of_far = 1e-5;
 // Margin that keeps vertices on the sphere inside the range despite the rounding of a projection.
 constexpr double c_depth_slack = 1e-3;
-
-// The least depth of the surfaces that are drawn in a frame of this aspect, whatever the near plane is.
-// Infinite if there are none.
-double nearest_depth(const Scene& scene, double aspect) {
-  const Camera& camera = scene.camera;
-  const ViewBasis basis = view_basis(camera);
-  const double high = std::tan(0.5 * glm::radians(camera.vertical_fov_degrees)), wide = high * aspect;
-  // Planes through the eye, for (right, up, depth). All inside products are >= 0, so depths are too.
-  const glm::dvec3 sides[] = {{1.0, 0.0, wide}, {-1.0, 0.0, wide}, {0.0, 1.0, high}, {0.0, -1.0, high}};
-  double nearest = std::numeric_limits<double>::infinity();
-  std::vector<glm::dvec3> polygon, clipped;
-  for (const SceneTriangle& triangle : scene.triangles) {
-    polygon.clear();
-    for (const std::uint32_t index : triangle.position) {
-      const glm::dvec3 from_eye = scene.positions_world[index] - camera.eye_world;
-      polygon.emplace_back(glm::dot(from_eye, basis.right_world), glm::dot(from_eye, basis.up_world),
-                           -glm::dot(from_eye, basis.backward_world));
-    }
-    if (std::min({polygon[0].z, polygon[1].z, polygon[2].z}) >= nearest) continue;
-    const bool faces_away = glm::dot(polygon[0], glm::cross(polygon[1], polygon[2])) <= 0.0;
-    if (faces_away && triangle.culling != Culling::none) continue;
-    for (const glm::dvec3& side : sides) {
-      clipped.clear();
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec3 &here = polygon[i], &next = polygon[(i + 1) % polygon.size()];
-        const double at_here = glm::dot(side, here), at_next = glm::dot(side, next);
-        if (at_here >= 0.0) clipped.push_back(here);
-        if ((at_here >= 0.0) != (at_next >= 0.0))
-          clipped.push_back(here + at_here / (at_here - at_next) * (next - here));
-      }
-      std::swap(polygon, clipped);
-    }
-    for (const glm::dvec3& corner : polygon) nearest = std::min(nearest, corner.z);
-  }
-  return nearest;
-}
 
 }  // namespace
 
@@ -117,15 +77,6 @@ DepthRange depth_range(const Camera& camera, const BoundingSphere& sphere) {
     if (!inside && front < far) near = std::max(near, front);
   }
   return {near, far};
-}
-
-DepthRange depth_range(const Scene& scene, double aspect) {
-  DepthRange range = depth_range(scene.camera, bounding_sphere(scene));
-  if (scene.camera.near > 0.0 || range.near > c_near_part_of_far * range.far || !has_view(scene.camera))
-    return range;
-  const double nearest = nearest_depth(scene, aspect) * (1.0 - c_depth_slack);
-  if (nearest < range.near) range.near = std::max(nearest, c_least_part_of_far * range.far);
-  return range;
 }
 
 Camera fit_camera(const BoundingSphere& sphere, const glm::dvec3& to_eye_world, const glm::dvec3& up_world,

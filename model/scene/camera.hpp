@@ -12,6 +12,8 @@ namespace halfway {
 inline constexpr double c_fit_aspect = 4.0 / 3.0;
 /// Margin around a fitted scene, relative to its size.
 inline constexpr double c_fit_margin = 0.05;
+/// A near plane that is fitted to a sphere is at least this part of far.
+inline constexpr double c_near_part_of_far = 1e-3;
 
 /// Orthonormal and right-handed: x right, y up, z from the scene back to the eye.
 struct ViewBasis {
@@ -41,14 +43,9 @@ ViewBasis view_basis(const Camera& camera);
 BoundingSphere bounding_sphere(const Scene& scene);
 
 /// The camera's own near and far where they are given (> 0), whatever is in view. Otherwise they are fitted
-/// to the sphere: near is the sphere's nearest point but at least a thousandth of far; far is slightly beyond
-/// its farthest point.
+/// to the sphere: near is the sphere's nearest point but at least `c_near_part_of_far` of far; far is slightly
+/// beyond its farthest point.
 DepthRange depth_range(const Camera& camera, const BoundingSphere& sphere);
-
-/// The range of a frame with this aspect (width / height). As above, but where a thousandth of far would cut
-/// surfaces in view, near is just before the nearest of them, and at least 1e-5 of far. The step of a 24-bit
-/// depth at far, relative to far, is then up to 0.6 %; with a thousandth it is 0.006 %.
-DepthRange depth_range(const Scene& scene, double aspect);
 
 /// A camera on the ray from the sphere's centre along `to_eye_world`. It shows the whole sphere in a frame of
 /// `c_fit_aspect`, with `c_fit_margin` around it. `to_eye_world` must not be zero or parallel to `up_world`.

@@ -10,6 +10,7 @@
 #include <future>
 #include <nlohmann/json.hpp>
 
+#include "projection/project.hpp"
 #include "reference/renderer.hpp"
 #include "scene/lights.hpp"
 #include "setup/spherical_setup.hpp"
@@ -136,8 +137,7 @@ class Simulation {
       note(fmt::format(
           "{} triangles in view are cut by the near plane, which was fitted to {:.4g}; set a smaller near in "
           "[camera] to draw them whole",
-          n.projection.cut_by_near,
-          depth_range(scene_, static_cast<double>(s_.size.width) / s_.size.height).near));
+          n.projection.cut_by_near, Projector(scene_, s_.size, {}).range().near));
     if (n.unresolved != 0 && s_.setup.quadratic.max_level > 0) {
       const bool by_pixel =
           s_.plan.preset == Preset::exact && s_.setup.quadratic.test == HighlightTest::conservative;

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "frame/frame.hpp"
+#include "projection/project.hpp"
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
 #include "scene/mesh.hpp"
@@ -163,7 +164,7 @@ class Picture {
   void set_camera() const {
     const Camera& camera = scene_->camera;
     const ViewBasis basis = view_basis(camera);
-    const DepthRange range = depth_range(*scene_, static_cast<double>(size_.width) / size_.height);
+    const DepthRange range = Projector(*scene_, size_, {}).range();
     set("right", basis.right_world);
     set("up", basis.up_world);
     set("backward", basis.backward_world);

@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 #include <vector>
 
+#include "projection/project.hpp"
 #include "projection/screen_triangle.hpp"
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
@@ -54,7 +55,7 @@ class ShadingBound {
     // A power of two that is at least half of the largest possible scale.
     ray_scale_ = 0.5L / std::max({1.0, height, height * frame.width / frame.height});
     const ViewBasis basis = view_basis(scene.camera);
-    const DepthRange range = depth_range(scene, static_cast<double>(frame.width) / frame.height);
+    const DepthRange range = Projector(scene, frame, {}).range();
     double nearest = range.far;
     for (const SceneTriangle& t : scene.triangles)
       for (const std::uint32_t corner : t.position)
