@@ -2,7 +2,6 @@
 // What a reader of mesh files left out or changed.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +10,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "scene/check_numbers.hpp"
 
 namespace halfway {
 
@@ -51,7 +52,7 @@ class Notes {
 /// The normal, or zero with a note if a number is not finite. `place` returns the place.
 template <class Place>
 glm::dvec3 known_normal(const glm::dvec3& normal, Notes& notes, Place&& place) {
-  if (std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z)) return normal;
+  if (is_finite(normal)) return normal;
   notes.add(place(), "a normal is not three finite numbers; it is computed");
   return glm::dvec3(0.0);
 }

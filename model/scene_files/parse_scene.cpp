@@ -441,21 +441,20 @@ Result<Scene> scene_of_mesh(LoadedMesh loaded, std::string_view file) {
   Scene scene;
   scene.name = file_stem(file);
   scene.notes = std::move(loaded.notes);
-  const bool has_lights = !loaded.lights.empty();
   if (Status ok = add_mesh(scene, loaded.mesh, name, 0, {.crease_degrees = loaded.default_crease_degrees});
       !ok)
     return ok.error();
   scene.camera = CameraFit{}.camera(scene);
   if (Status ok = check_view(scene, name); !ok) return ok.error();
-  scene.directional = std::move(loaded.lights.directional);
-  scene.positional = std::move(loaded.lights.positional);
-  scene.spots = std::move(loaded.lights.spots);
-  if (!has_lights) {
+  if (loaded.lights.empty()) {
     const ViewBasis view = view_basis(scene.camera);
-    scene.directional.push_back(
+    loaded.lights.directional.push_back(
         {glm::normalize(-0.6 * view.right_world + 0.7 * view.up_world + view.backward_world),
          glm::dvec3(1.0)});
   }
+  scene.directional = std::move(loaded.lights.directional);
+  scene.positional = std::move(loaded.lights.positional);
+  scene.spots = std::move(loaded.lights.spots);
   return scene;
 }
 

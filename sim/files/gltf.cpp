@@ -307,6 +307,7 @@ class GltfReader {
     views_ = root_.objects("bufferViews");
     buffers_ = root_.objects("buffers");
     materials_ = root_.objects("materials");
+    lights_ = lights_of_file();
     buffer_bytes_.resize(buffers_.size());
     loaded_.mesh.normals.emplace_back(0.0);
     read_nodes();
@@ -465,7 +466,7 @@ class GltfReader {
     if (!has_extension(node, c_instancing)) return {to_file};
     const Item attributes = extension_of(node, c_instancing).object("attributes");
     note_unused(attributes, {"TRANSLATION", "ROTATION", "SCALE"});
-    std::vector<glm::dmat4> places;
+    std::vector<glm::dmat4> places;  // empty until the first of the three
     const auto move = [&](const auto& values, auto&& matrix_of) {
       if (places.empty()) places.assign(values.size(), to_file);
       if (values.size() != places.size())
@@ -486,15 +487,24 @@ class GltfReader {
       else
         move(read_vectors(index, true), [](const glm::dvec3& s) { return glm::scale(glm::dmat4(1.0), s); });
     }
-    return places;
+    return places.empty() ? std::vector{to_file} : places;
   }
 
   // ---- Lights
 
+  /// The descriptions of the file's lights; none if they cannot be read.
+  std::vector<Item> lights_of_file() {
+    try {
+      return extension_of(root_, c_lights).objects("lights");
+    } catch (const BadGltf& bad) {
+      note(bad.what + "; the lights are left out");
+      return {};
+    }
+  }
+
   void read_light(const Item& node, const glm::dmat4& to_file) {
     try {
-      const std::vector<Item> lights = extension_of(root_, c_lights).objects("lights");
-      add_light(lights[extension_of(node, c_lights).at("light").index(lights.size())], to_file);
+      add_light(lights_[extension_of(node, c_lights).at("light").index(lights_.size())], to_file);
     } catch (const BadGltf& bad) {
       note(bad.what + "; the light is left out");
     }
@@ -555,8 +565,8 @@ class GltfReader {
     for (const Item& primitive : mesh.objects("primitives")) {
       const Mesh part = read_primitive(primitive);
       if (part.triangles.empty()) continue;
-      for (std::size_t i = 1; i < places.size(); ++i)
-        count(primitive, part.positions.size(), part.triangles.size());
+      const std::size_t copies = places.size() - 1;
+      count(primitive, copies * part.positions.size(), copies * part.triangles.size());
       for (const glm::dmat4& to_file : places) add_part(part, node, to_file);
     }
   }
@@ -760,9 +770,14 @@ class GltfReader {
         .fail(fmt::format("{} is not an unsigned integer; export the file again", component_type));
   }
 
-  /// Read the file's values over those that the accessor has: `set(i, bytes, at)`.
+  /// Call `set(i, bytes, at)` for the items of an accessor's buffer view, then for those that replace some of
+  /// them.
   template <class Set>
-  void read_sparse(const Accessor& accessor, std::size_t item_bytes, const Set& set) {
+  void read_items(const Accessor& accessor, std::size_t item_bytes, bool may_have_stride, const Set& set) {
+    if (accessor.item.has("bufferView")) {
+      const Span span = span_of(accessor.item, accessor.count, item_bytes, may_have_stride);
+      for (std::size_t i = 0; i < accessor.count; ++i) set(i, span, i);
+    }
     if (!accessor.item.has("sparse")) return;
     const Item sparse = accessor.item.object("sparse");
     const std::uint64_t count = sparse.at("count").unsigned_number();
@@ -801,15 +816,14 @@ class GltfReader {
       for (std::size_t axis = 0; axis < 3; ++axis)
         vector[static_cast<int>(axis)] =
             number_in<float>(span.bytes, i * span.stride + 4 * axis, ByteOrder::little);
-      if (is_needed && !(std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z)))
+      if (!is_needed)
+        vectors[place] = known_normal(vector, notes_, [&] { return place_of(index); });
+      else if (is_finite(vector))
+        vectors[place] = vector;
+      else
         source.item.fail(fmt::format("vector {} has a number that is not finite; correct it", place));
-      vectors[place] = known_normal(vector, notes_, [&] { return place_of(index); });
     };
-    if (source.item.has("bufferView")) {
-      const Span span = span_of(source.item, source.count, c_bytes, true);
-      for (std::size_t i = 0; i < source.count; ++i) set(i, span, i);
-    }
-    read_sparse(source, c_bytes, set);
+    read_items(source, c_bytes, true, set);
     return vectors;
   }
 
@@ -834,11 +848,7 @@ class GltfReader {
         rotations[place][static_cast<int>(k)] = value;
       }
     };
-    if (source.item.has("bufferView")) {
-      const Span span = span_of(source.item, source.count, 4 * size, true);
-      for (std::size_t i = 0; i < source.count; ++i) set(i, span, i);
-    }
-    read_sparse(source, 4 * size, set);
+    read_items(source, 4 * size, true, set);
     return rotations;
   }
 
@@ -856,11 +866,7 @@ class GltfReader {
     const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
       corners[place] = integer_at(span, i, source.component_type);
     };
-    if (source.item.has("bufferView")) {
-      const Span span = span_of(source.item, source.count, source.component_bytes, false);
-      for (std::size_t i = 0; i < source.count; ++i) set(i, span, i);
-    }
-    read_sparse(source, source.component_bytes, set);
+    read_items(source, source.component_bytes, false, set);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (corners[i] < positions) continue;
       primitive.at("indices").fail(
@@ -996,7 +1002,7 @@ class GltfReader {
   std::optional<std::string_view> binary_;
   std::filesystem::path folder_;
   std::string name_;
-  std::vector<Item> meshes_, nodes_, accessors_, views_, buffers_, materials_;
+  std::vector<Item> meshes_, nodes_, accessors_, views_, buffers_, materials_, lights_;
   std::vector<json> all_roots_;
   std::vector<std::optional<std::string>> buffer_bytes_;  ///< of buffers with a uri, once they are read
   std::map<std::optional<std::size_t>, std::uint32_t> material_index_;

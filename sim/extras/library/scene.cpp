@@ -37,10 +37,6 @@ MeshFile refuse_mesh_file(std::string_view name) {
           .mesh = LoadedMesh{}};
 }
 
-bool is_finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Copy the arrays of a mesh. Normals of length 0 are computed later.
 Result<LoadedMesh> mesh_of_arrays(const halfway_mesh& arrays) {
   if (!arrays.positions) return bad_input("mesh: positions is null");
