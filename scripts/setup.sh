@@ -93,8 +93,9 @@ lacking() {
 
 # Of the packages given, what apt does not know, a line each: what it has to provide, and the lowest version.
 unknown() {
+  known=$(apt-cache show --no-all-versions "$@" 2>/dev/null | sed -n 's/^Package: //p')
   for name in "$@"; do
-    [ -z "$(apt-cache show --no-all-versions "$name" 2>/dev/null)" ] || continue
+    if printf '%s\n' "$known" | grep -qxF -e "$name"; then continue; fi
     rows | awk -F '\t' -v name="$name" '$2 == name { printf "  %s: provides %s, at least version %s: %s\n", name, $3, $4, $6 }'
   done
 }
