@@ -28,6 +28,12 @@ class Fields {
     if (!value) fail(fmt::format("'{}' is missing", key));
     return *value;
   }
+  std::optional<Fields> table(const char* key) {
+    if (!table_.contains(key)) return std::nullopt;
+    Fields fields(*table_.get(key), file_);
+    table_.erase(key);
+    return fields;
+  }
   toml::array list(const char* key) {
     toml::array* const array = table_.contains(key) ? table_.get(key)->as_array() : nullptr;
     if (array == nullptr) fail(fmt::format("wants a list '{}'", key));
@@ -63,6 +69,20 @@ Criterion criterion_of(Fields& fields) {
   return criterion;
 }
 
+// A number, or a text where the texts must be equal.
+Measured fault_of(Fields& fields, const Criterion& criterion) {
+  Measured fault;
+  if (criterion.kind == Criterion::Kind::same)
+    fault.text = fields.text("measured");
+  else if (const auto value = fields.take<double>("measured"))
+    fault.value = *value;
+  else
+    fields.fail("'measured' is missing");
+  if (fields.text("as").empty()) fields.fail("'as' is empty");
+  fields.close();
+  return fault;
+}
+
 Claim claim_of(toml::node& node, const std::string& file) {
   Fields fields(node, file);
   Claim claim{.what = fields.text("what"), .published = fields.text("published")};
@@ -70,6 +90,7 @@ Claim claim_of(toml::node& node, const std::string& file) {
   claim.why_not = fields.take<std::string>("why_not").value_or("");
   claim.by_construction = fields.take<std::string>("by_construction").value_or("");
   claim.ours = fields.take<std::string>("ours").value_or("");
+  if (auto fault = fields.table("fails_for")) claim.fails_for = fault_of(*fault, claim.criterion);
   claim.slow = fields.take<bool>("slow").value_or(false);
   fields.close();
   return claim;

@@ -89,10 +89,13 @@ const char* to_string(Verdict verdict) {
   return "differs";
 }
 
+bool Claim::holds(const Measured& found) const {
+  if (criterion.kind == Criterion::Kind::same) return !ours.empty() || found.text == published;
+  return criterion.holds(found.value);
+}
+
 bool Row::holds() const {
-  if (claim.criterion.kind == Criterion::Kind::same)
-    return !claim.ours.empty() || measured.text == claim.published;
-  return claim.criterion.holds(measured.value);
+  return claim.holds(measured);
 }
 
 Verdict Row::verdict() const {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -71,8 +72,10 @@ struct Claim {
   std::string why_not{};
   std::string by_construction{};
   std::string ours{};
+  std::optional<Measured> fails_for{};  ///< what a plausible fault would measure
   bool slow = false;
 
+  bool holds(const Measured& found) const;
   /// Text of the criterion; "no limit" for a value of ours without one.
   std::string limit() const;
 };

@@ -136,14 +136,15 @@ TEST(Figures, AClaimsFileIsReadStrictly) {
         [&] { return read_figures(head + "claims = [\n" + claim + "]\n", "c.toml", {{"x-1", {}}}); });
   };
   const std::string names = "{ what = \"a\", published = \"b\"";
-  const auto good =
-      read(names + ", at_most = 2, unit = \"/255\", slow = true, why_not = \"so\" },\n" + names + "},\n");
+  const auto good = read(names + ", at_most = 2, unit = \"/255\", slow = true, why_not = \"so\" },\n" +
+                         names + ", fails_for = { measured = \"c\", as = \"a slip\" } },\n");
   ASSERT_TRUE(good) << good.error().message;
   const Claim& claim = good->front().claims.front();
   EXPECT_EQ(claim.criterion.text(), "at most 2/255");
   EXPECT_EQ(claim.why_not, "so");
   EXPECT_TRUE(claim.slow);
   EXPECT_EQ(good->front().claims.back().criterion.text(), "the same");
+  EXPECT_EQ(good->front().claims.back().fails_for->text, "c");
   EXPECT_EQ(good->front().paper(), "x");
   const auto fault = [&](const std::string& claim_text) {
     const auto bad = read(claim_text);
@@ -154,20 +155,30 @@ TEST(Figures, AClaimsFileIsReadStrictly) {
   EXPECT_EQ(fault(names + ", slow = \"yes\" }"), "c.toml:7: 'slow' has another type");
   EXPECT_EQ(fault(names + ", value = 1, at_least = 1 }"),
             "c.toml:7: takes one of value, at_most and at_least");
+  EXPECT_EQ(fault(names + ", at_most = 1, fails_for = { measured = \"c\", as = \"a slip\" } }"),
+            "c.toml:7: 'measured' has another type");
+  EXPECT_EQ(fault(names + ", fails_for = { measured = \"c\" } }"), "c.toml:7: 'as' is missing");
   EXPECT_THAT(fault(names), testing::StartsWith("c.toml:7: "));
   const std::string text = head + "claims = []\n";
   EXPECT_THROW(read_figures(text, "c.toml", {}), Failure);
   EXPECT_THROW(read_figures(text, "c.toml", {{"x-1", {}}, {"x-2", {}}}), Failure);
 }
 
-// All figures and claims that the papers print and the project reproduces.
+// All figures and claims that the papers print and the project reproduces. The value of a plausible fault
+// turns each row that agrees into one that differs.
 TEST(Figures, HaveAllFiguresAndClaims) {
   std::set<std::string> ids;
   for (const Figure& f : all_figures(c_source_folder)) {
     EXPECT_TRUE(ids.insert(f.id).second) << f.id;
     EXPECT_FALSE(f.claims.empty()) << f.id;
     std::set<std::string> names;
-    for (const Claim& c : f.claims) EXPECT_TRUE(names.insert(c.what).second) << f.id << ": " << c.what;
+    for (const Claim& c : f.claims) {
+      SCOPED_TRACE(f.id + ": " + c.what);
+      EXPECT_TRUE(names.insert(c.what).second);
+      const bool agrees = c.why_not.empty() && c.by_construction.empty() && c.ours.empty();
+      ASSERT_EQ(c.fails_for.has_value(), agrees);
+      if (agrees) EXPECT_EQ((Row{c, *c.fails_for}.verdict()), Verdict::differs);
+    }
   }
   for (const char* id : {"spherical-05", "spherical-09", "spherical-10", "spherical-table-1", "spherical-11",
                          "spherical-14", "spherical-15", "spherical-16", "spherical-17", "quadratic-07",
