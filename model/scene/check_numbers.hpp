@@ -10,6 +10,9 @@
 
 namespace halfway {
 
+/// Larger numbers would overflow double in squares and products.
+inline constexpr double c_max_number = 1e15;
+
 inline bool is_finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }

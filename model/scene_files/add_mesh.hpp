@@ -8,13 +8,11 @@
 #include <string>
 
 #include "common/result.hpp"
+#include "scene/check_numbers.hpp"
 #include "scene/mesh.hpp"
 #include "scene/scene.hpp"
 
 namespace halfway {
-
-/// Larger numbers would overflow double in squares and products.
-inline constexpr double c_max_number = 1e15;
 
 struct AddOptions {
   double crease_degrees;

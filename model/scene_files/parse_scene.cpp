@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "common/to_integer.hpp"
-#include "mesh_files/mesh_text.hpp"
+#include "mesh_files/mesh_file.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"

@@ -6,8 +6,7 @@
 #include <fstream>
 #include <string_view>
 
-#include "mesh_files/mesh_text.hpp"
-#include "sim/files/gltf.hpp"
+#include "mesh_files/mesh_file.hpp"
 #include "sim/os/file.hpp"
 
 namespace halfway {
@@ -31,12 +30,22 @@ MaterialLibrary read_library(const std::filesystem::path& folder, std::string_vi
   return library;
 }
 
-}  // namespace
-
-bool is_mesh_file_name(const std::filesystem::path& path) {
-  const std::string ending = lower_ending(path.string());
-  return is_mesh_text_name(path.string()) || ending == ".gltf" || ending == ".glb";
+/// Read a buffer of a glTF file in this folder.
+BufferFile read_buffer(const std::filesystem::path& folder, std::string_view name) {
+  const std::filesystem::path path = folder / name;
+  // Skip pipes and devices, which may never end.
+  std::error_code fault;
+  if (!std::filesystem::is_regular_file(path, fault))
+    return {.refusal = "is not a file; export the file with its buffers", .bytes = {}};
+  if (std::filesystem::file_size(path, fault) > c_max_file_bytes || fault)
+    return {.refusal = fmt::format("is larger than {} GiB; reduce the mesh", c_max_file_bytes >> 30),
+            .bytes = {}};
+  Result<std::string> bytes = read_file(path);
+  if (!bytes) return {.refusal = "cannot be read; check its permissions", .bytes = {}};
+  return {.refusal = {}, .bytes = std::move(*bytes)};
 }
+
+}  // namespace
 
 Status check_readable(const std::filesystem::path& path) {
   const std::string name = path.string();
@@ -59,15 +68,13 @@ Status check_readable(const std::filesystem::path& path) {
 
 Result<LoadedMesh> load_mesh(const std::filesystem::path& path) {
   const std::string name = path.string();
-  if (!is_mesh_file_name(path)) {
-    return bad_input(name + ": not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read");
-  }
   if (Status ok = check_readable(path); !ok) return ok.error();
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
-  if (!is_mesh_text_name(name)) return read_gltf(*bytes, path);
-  return read_mesh_text(
-      *bytes, name, [&path](std::string_view library) { return read_library(path.parent_path(), library); });
+  const std::filesystem::path folder = path.parent_path();
+  return read_mesh(*bytes, name,
+                   {.library = [&](std::string_view library) { return read_library(folder, library); },
+                    .buffer = [&](std::string_view buffer) { return read_buffer(folder, buffer); }});
 }
 
 }  // namespace halfway

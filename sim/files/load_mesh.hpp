@@ -9,10 +9,7 @@
 
 namespace halfway {
 
-/// True if the ending is that of a mesh file (.obj .ply .stl .gltf .glb in either case).
-bool is_mesh_file_name(const std::filesystem::path& path);
-
-/// Read a mesh file by its ending: read_obj with its material libraries, read_ply, read_stl, read_gltf.
+/// Read a mesh file by its ending, with the material libraries and buffers that it names.
 Result<LoadedMesh> load_mesh(const std::filesystem::path& path);
 
 /// Checks for messages with a line number: the file exists, is a regular file and is not empty.

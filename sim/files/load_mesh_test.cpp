@@ -186,6 +186,14 @@ TEST_F(LoadMesh, PipesAndDevicesAreNeitherLibrariesNorBuffers) {
   }
 }
 
+TEST_F(LoadMesh, BuffersAreReadFromTheFolder) {
+  std::filesystem::create_directory(folder_ / "sub");
+  std::ofstream(folder_ / "sub" / "a b.bin", std::ios::binary) << c_buffer;
+  EXPECT_EQ(must(load("m.gltf", gltf_json(R"(,"uri":"sub/a%20b.bin")"))).mesh.triangles.size(), 6u);
+  expect_error("m.gltf", gltf_json(R"(,"uri":"gone.bin")"),
+               "m.gltf: buffers[0].uri: 'gone.bin' is not a file; export the file with its buffers");
+}
+
 TEST_F(LoadMesh, KeepsTheFilesNormalsAndReplacesZeroOnes) {
   Result<LoadedMesh> loaded =
       load("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 0\nvn 0 0 0\nf 1//1 2//1 3//2\n");

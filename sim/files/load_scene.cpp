@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "mesh_files/mesh_text.hpp"
+#include "mesh_files/mesh_file.hpp"
 #include "sim/files/load_mesh.hpp"
 #include "sim/os/file.hpp"
 
@@ -25,7 +25,7 @@ MeshFile read_mesh_of_scene(const std::filesystem::path& folder, std::string_vie
   const std::filesystem::path path = folder / name;
   MeshFile file{.path = path.string(), .refusal = {}, .mesh = LoadedMesh{}};
   // Report these as errors of the scene file, because it contains the wrong path.
-  if (!is_mesh_file_name(path))
+  if (!is_mesh_file_name(path.string()))
     file.refusal = "is not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read";
   else if (Status ok = check_readable(path); !ok)
     file.refusal = "cannot be used: " + ok.error().message;
@@ -79,7 +79,7 @@ Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::p
     return bad_input(fmt::format("{}: a scene cannot be called '{}'; rename the file", name_or_path, name));
   try {
     if (lower_ending(path.string()) == ".toml") return load_scene_file(path, options);
-    if (is_mesh_file_name(path)) {
+    if (is_mesh_file_name(path.string())) {
       if (options.tessellation != 1.0)
         return bad_input(path.string() + ": a mesh file has the triangles it has: no other tessellation");
       return load_mesh_as_scene(path);

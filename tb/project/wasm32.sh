@@ -19,7 +19,7 @@ command -v $compiler >/dev/null || fail "$compiler: not found; install it with: 
 # Use only these two libraries of /usr/include, because its other headers are those of another system.
 rm -rf "$scratch"
 mkdir -p "$scratch/include"
-ln -s /usr/include/glm /usr/include/fmt /usr/include/toml++ "$scratch/include"
+ln -s /usr/include/glm /usr/include/fmt /usr/include/nlohmann /usr/include/toml++ "$scratch/include"
 
 check() { # FILE: its errors on stdout
   $compiler --target=wasm32-wasi -std=c++20 -fno-exceptions -fsyntax-only -I "$checkout/model" -I "$headers" -I "$checkout" \

@@ -29,7 +29,7 @@ const std::vector<std::string> c_header_folders = {"model", "sim/driver", "sim/e
                                                    "sim/engines/verilator"};
 // Headers of libraries: linked into a folder of their own, because the other headers of /usr/include are
 // those of another system.
-const std::vector<std::string> c_libraries = {"fmt", "glm", "toml++"};
+const std::vector<std::string> c_libraries = {"fmt", "glm", "nlohmann", "toml++"};
 
 // WebAssembly has no fused multiply-add, so set-up and golden model compute as the program's do. Vectors are
 // not used: clang++ 14 with -O2 -msimd128 compiles the golden model of the quadratic shader wrongly.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh_files/test/spelling.hpp"
 #include "sim/extras/live/test/base64.hpp"
 #include "sim/extras/live_core/golden_engine_test.hpp"
 #include "sim/extras/live_core/live_frame.hpp"
@@ -148,6 +149,23 @@ TEST_F(CoreModule, MakesTheVectorsOfTheProgram) {
                     base64(with_alpha(*live_.picture(Picture::golden))))
             << "the golden pictures differ";
       }
+  }
+}
+
+TEST_F(CoreModule, ReadsGltfAsTheProgramDoes) {
+  const std::string triangle = must(read_file(c_source_folder / "tb/inputs/random/seeds/gltf/triangle.gltf"));
+  ASSERT_NO_FATAL_FAILURE(load("triangle.gltf", triangle));
+  GoldenEngine engine(plan(Shader::quadratic, Preset::exact));
+  ASSERT_TRUE(live_.draw(settings(), engine));
+  ASSERT_EQ(draw(), 1) << text();
+  EXPECT_TRUE(evaluate("words()") == base64(engine.words)) << "the vectors differ";
+  for (const std::string& damaged :
+       {std::string("glTF"), std::string("{\n1e999}"), triangle.substr(1), changed(triangle, "VEC3", "VEC2"),
+        changed(triangle, "\"count\": 3", "\"count\": 4000000000")}) {
+    const Status refused = live_.load("bad.gltf", damaged);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(evaluate("scene('bad.gltf', " + quoted(damaged) + ")"), 2);
+    EXPECT_EQ(text(), refused.error().message);
   }
 }
 

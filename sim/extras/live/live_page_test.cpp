@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,9 +18,11 @@
 #include "setup/setup.hpp"
 #include "sim/cli/command_test.hpp"
 #include "sim/driver/frame_driver.hpp"
+#include "sim/extras/live/test/base64.hpp"
 #include "sim/extras/live_core/way_lines.hpp"
 #include "sim/files/headless_browser.hpp"
 #include "sim/files/load_scene.hpp"
+#include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/run/why.hpp"
 
@@ -126,17 +129,18 @@ class LiveInBrowser : public CommandTest {
                     "e.dispatchEvent(new Event('input')); e.dispatchEvent(new Event('change')); }})()",
                     id, value));
   }
-  /// Drop a file with this text on the page.
-  void drop(const std::string& name, const std::string& text) {
+  /// Drop a file with these bytes on the page.
+  void drop(const std::string& name, const std::string& bytes) {
     evaluate(
-        fmt::format("(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], '{}')); "
+        fmt::format("(() => {{ const data = new DataTransfer(); const text = atob('{}'); "
+                    "data.items.add(new File([Uint8Array.from(text, (c) => c.charCodeAt(0))], '{}')); "
                     "dispatchEvent(new DragEvent('drop', {{dataTransfer: data, cancelable: true}})); }})()",
-                    Json(text).dump(), name));
+                    base64(bytes), name));
   }
 
-  /// Drop a file with this text on the page, which draws it.
-  void draw_dropped(const std::string& name, const std::string& text) {
-    drop(name, text);
+  /// Drop a file with these bytes on the page, which draws it.
+  void draw_dropped(const std::string& name, const std::string& bytes) {
+    drop(name, bytes);
     ASSERT_TRUE(browser_->becomes_true(fmt::format("state.scene === '{}'", name)));
     ASSERT_TRUE(is_drawn());
     EXPECT_EQ(evaluate("last.state.scene"), name);
@@ -304,14 +308,23 @@ TEST_F(LiveInBrowser, TheLineSeparatesTwoPictures) {
   EXPECT_NE(picture("right").rgb, difference.rgb);
 }
 
-TEST_F(LiveInBrowser, DrawsADroppedSceneAndRefusesABadMesh) {
+TEST_F(LiveInBrowser, DrawsDroppedFilesAndRefusesBadOnes) {
   ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
   choose("tessellation", "-1");
   ASSERT_TRUE(is_drawn());
   ASSERT_NO_FATAL_FAILURE(draw_dropped("copper.toml", c_coloured_scene));
-  drop("bad.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n");
-  ASSERT_TRUE(browser_->becomes_true("!document.getElementById('refusal').hidden"));
-  EXPECT_THAT(text_of("#refusal"), HasSubstr("bad.obj:2: "));
+  const std::string glb = must(read_file(c_source / "tb/inputs/random/seeds/glb/triangle.glb"));
+  ASSERT_NO_FATAL_FAILURE(draw_dropped("triangle.glb", glb));
+  EXPECT_EQ(figure("triangles"), 2);
+  for (const auto& [name, bytes, place] :
+       {std::tuple("bad.obj", std::string("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"), "bad.obj:2: "),
+        std::tuple("bad.glb", glb.substr(0, glb.size() - 1), "bad.glb: byte 8: ")}) {
+    drop(name, bytes);
+    ASSERT_TRUE(browser_->becomes_true("!document.getElementById('refusal').hidden"));
+    EXPECT_THAT(text_of("#refusal"), HasSubstr(place));
+    choose("scene", "copper.toml");
+    ASSERT_TRUE(is_drawn());
+  }
   // The page goes on.
   choose("scene", "spheres.toml");
   ASSERT_TRUE(is_drawn());

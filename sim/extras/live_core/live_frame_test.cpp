@@ -211,7 +211,14 @@ TEST(LiveFrame, RefusesBadTextAndDrawsTheNextScene) {
   EXPECT_THAT(refusal("bad.toml", "\na = \n"), StartsWith("bad.toml:2: bad TOML: "));
   EXPECT_EQ(refusal("file.toml", "[[mesh]]\nfile = \"x.obj\"\n"),
             "file.toml:2: file of mesh names another file, which cannot be read here; open the mesh itself");
-  EXPECT_THAT(refusal("scene.gltf", "{}"), StartsWith("scene.gltf: not a scene by its name"));
+  EXPECT_THAT(refusal("scene.dae", "{}"), StartsWith("scene.dae: not a scene by its name"));
+  EXPECT_THAT(refusal("bad.glb", "glTF"), StartsWith("bad.glb: byte 0: "));
+  EXPECT_EQ(refusal("file.gltf", R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],
+      "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"buffers":[{"byteLength":36,"uri":"x.bin"}],
+      "bufferViews":[{"buffer":0,"byteLength":36}],
+      "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}]})"),
+            "file.gltf: buffers[0].uri: 'x.bin' is another file, which cannot be read here; export a .glb, "
+            "which has its buffers");
   EXPECT_EQ(refusal("empty.obj", ""), "empty.obj: the file is empty");
   EXPECT_THAT(refusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 2.0), HasSubstr("tessellation"));
 

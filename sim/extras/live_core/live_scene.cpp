@@ -15,7 +15,7 @@
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
-#include "mesh_files/mesh_text.hpp"
+#include "mesh_files/mesh_file.hpp"
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
 #include "scene_files/parse_scene.hpp"
@@ -37,6 +37,13 @@ MeshFile refuse_mesh_file(std::string_view name) {
   return {.path = std::string(name),
           .refusal = "names another file, which cannot be read here; open the mesh itself",
           .mesh = LoadedMesh{}};
+}
+MaterialLibrary refuse_library(std::string_view name) {
+  return {.path = std::string(name), .text = std::nullopt};
+}
+BufferFile refuse_buffer(std::string_view) {
+  return {.refusal = "is another file, which cannot be read here; export a .glb, which has its buffers",
+          .bytes = {}};
 }
 
 }  // namespace
@@ -60,14 +67,13 @@ Status check(const Settings& s) {
 Result<Scene> read_scene(std::string_view file, std::string_view text, double tessellation) {
   if (lower_ending(file) == ".toml")
     return parse_scene(text, file, refuse_mesh_file, {.tessellation = tessellation});
-  if (!is_mesh_text_name(file))
-    return bad_input(std::string(file) + ": not a scene by its name; .toml, .obj, .ply and .stl are");
+  if (!is_mesh_file_name(file))
+    return bad_input(std::string(file) +
+                     ": not a scene by its name; .toml, .obj, .ply, .stl, .gltf and .glb are");
   if (tessellation != 1.0)
     return bad_input(std::string(file) + ": a mesh file has the triangles it has: no other tessellation");
   if (text.empty()) return bad_input(std::string(file) + ": the file is empty");
-  Result<LoadedMesh> mesh = read_mesh_text(text, file, [](std::string_view name) {
-    return MaterialLibrary{.path = std::string(name), .text = std::nullopt};
-  });
+  Result<LoadedMesh> mesh = read_mesh(text, file, {.library = refuse_library, .buffer = refuse_buffer});
   if (!mesh) return mesh.error();
   return scene_of_mesh(std::move(*mesh), file);
 }

@@ -28,8 +28,9 @@ struct Settings {
 /// Refuse values outside their range.
 Status check(const Settings& settings);
 
-/// Read a scene file (.toml) or a single mesh (.obj, .ply, .stl), by the ending of the file's name. A scene
-/// cannot name mesh files, and an OBJ's material libraries are not read: there are no other files.
+/// Read a scene file (.toml) or a single mesh (.obj, .ply, .stl, .gltf, .glb), by the ending of the file's
+/// name. There are no other files: a scene cannot name mesh files, an OBJ's material libraries are not read,
+/// and a glTF file that names the file of a buffer is refused.
 Result<Scene> read_scene(std::string_view file, std::string_view text, double tessellation);
 
 /// A scene that is changed in place, so that a large mesh is not copied for each frame.

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/files/gltf.hpp"
+#include "mesh_files/gltf.hpp"
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "mesh_files/test/spelling.hpp"
-#include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -57,6 +55,13 @@ std::string with(const std::vector<std::pair<const char*, json>>& changes, json 
   return file.dump();
 }
 
+/// Read a file next to which there is one other.
+Result<LoadedMesh> read_gltf(std::string_view text, std::string_view file) {
+  return halfway::read_gltf(text, file, [](std::string_view name) {
+    return name == "sub/a b.bin" ? BufferFile{.refusal = {}, .bytes = buffer()}
+                                 : BufferFile{.refusal = "is not here", .bytes = {}};
+  });
+}
 std::string triangles(const std::string& text) {
   return triangles_of(read_gltf(text, "a.gltf"));
 }
@@ -115,6 +120,8 @@ const std::vector<Spelling> c_spellings = {
      "again"},
     {"count_0", with({{"/accessors/1/count", 0}}),
      "! a.gltf: accessors[1].count: 0, not 1 to 30000000; correct the mesh"},
+    {"count_huge", with({{"/accessors/0/count", 1'000'000'000'000'000}}),
+     "! a.gltf: accessors[0].count: 1000000000000000, not 1 to 30000000; correct the mesh"},
     {"count_3.0", with({{"/accessors/1/count", 3.0}}), c_triangle},
     {"count_3.5", with({{"/accessors/1/count", 3.5}}),
      "! a.gltf: accessors[1].count: is not a whole number from 0; correct it"},
@@ -136,6 +143,10 @@ const std::vector<Spelling> c_spellings = {
      "0,0,0 0,0,0 0,1,1"},
     {"stride_too_small", with({{"/bufferViews/0/byteStride", 8}}),
      "! a.gltf: bufferViews[0].byteStride: is 8 for items of 12 bytes; correct it"},
+    {"stride_of_text", with({{"/bufferViews/0/byteStride", "12"}}),
+     "! a.gltf: bufferViews[0].byteStride: is not a whole number from 0; correct it"},
+    {"no_views", with({{"/bufferViews", nullptr}}),
+     "! a.gltf: accessors[0].bufferView: is 0, but the file has 0, counted from 0; correct the index"},
     {"sparse", with({{"/accessors/0/sparse", c_sparse}}), "0,0,0 1,0,0 5,6,7"},
     {"sparse_of_zeros", with({{"/accessors/0/sparse", c_sparse}, {"/accessors/0/bufferView", nullptr}}),
      "0,0,0 0,0,0 5,6,7"},
@@ -172,8 +183,8 @@ const std::vector<Spelling> c_spellings = {
      "file"},
     {"percent", with({{"/buffers/0/uri", "a%2"}}),
      "! a.gltf: buffers[0].uri: % is not followed by two hexadecimal digits; correct it"},
-    {"gone", with({{"/buffers/0/uri", "gone.bin"}}),
-     "! a.gltf: buffers[0].uri: 'gone.bin' is not a file; export the file with its buffers"},
+    {"gone", with({{"/buffers/0/uri", "gone.bin"}}), "! a.gltf: buffers[0].uri: 'gone.bin' is not here"},
+    {"in_a_file", with({{"/buffers/0/uri", "sub/a%20b.bin"}}), c_triangle},
     {"no_uri", with({{"/buffers/0/uri", nullptr}}),
      "! a.gltf: buffers[0]: has no uri; export the file with its buffers"},
 
@@ -190,6 +201,8 @@ const std::vector<Spelling> c_spellings = {
     {"children", with({{"/nodes", json::parse(R"([{"children":[1],"translation":[1,0,0]},
                                                   {"mesh":0,"translation":[0,1,0]}])")}}),
      "1,1,0 2,1,0 1,2,0"},
+    {"no_nodes", with({{"/nodes", nullptr}}),
+     "! a.gltf: scenes[0].nodes[0]: is 0, but the file has 0, counted from 0; correct the index"},
     {"translation_of_two", with({{"/nodes/0/translation", {1, 2}}}),
      "! a.gltf: nodes[0].translation: has 2 numbers, not 3; correct it"},
     {"scale_0", with({{"/nodes/0/scale", {0, 0, 0}}}),
@@ -239,6 +252,11 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: has 4 and 3 instances; export the "
      "file "
      "again"},
+    {"instances_fewer_than_scales",
+     with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes", {{"TRANSLATION", 2}, {"SCALE", 0}}},
+           {"/accessors/2", json::parse(R"({"componentType":5126,"count":3,"type":"VEC3"})")}}),
+     "! a.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.attributes: has 3 and 4 instances; export the "
+     "file again"},
     {"instances_too_many",
      with({{"/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/SCALE", 2},
            {"/accessors/2", json::parse(R"({"componentType":5126,"count":1000001,"type":"VEC3"})")}}),
@@ -265,6 +283,9 @@ const std::vector<Spelling> c_spellings = {
      with({}).insert(1, R"("extras":)" + std::string(1'000'000, '[') + std::string(1'000'000, ']') + ","),
      c_triangle},
     {"version_1", with({{"/asset/version", "1.0"}}), "! a.gltf: asset: glTF '1.0'; export as glTF 2.0"},
+    {"version_1_with_other_faults",
+     with({{"/asset/version", "1.0"}, {"/extensions/KHR_lights_punctual/lights", 5}, {"/nodes", 5}}),
+     "! a.gltf: asset: glTF '1.0'; export as glTF 2.0"},
     {"no_asset", with({{"/asset", nullptr}}), "! a.gltf: no asset; export the file again"},
     {"draco", with({{"/extensionsRequired", {"KHR_draco_mesh_compression"}}}),
      "! a.gltf: extensionsRequired[0]: 'KHR_draco_mesh_compression' cannot be read; export the file without "
@@ -346,14 +367,6 @@ TEST(Gltf, WithoutNormalsOrMaterialThereAreDefaults) {
   EXPECT_TRUE(loaded.notes.empty());
 }
 
-TEST(Gltf, BuffersAreReadFromTheFolder) {
-  auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  std::filesystem::create_directory(folder.path() / "sub");
-  std::ofstream(folder.path() / "sub" / "a b.bin", std::ios::binary) << buffer();
-  EXPECT_EQ(triangles_of(read_gltf(with({{"/buffers/0/uri", "sub/a%20b.bin"}}), folder.path() / "a.gltf")),
-            c_triangle);
-}
-
 TEST(Gltf, NotesSayWhatIsLeftOut) {
   const auto loaded =
       read_gltf(with({{"/meshes/0/primitives/1", json::parse(R"({"attributes":{"POSITION":0},"mode":0})")},
@@ -401,7 +414,8 @@ LoadedMesh with_material(const json& material, const json& index = 0) {
 }
 
 TEST(Gltf, AMaterialThatCannotBeReadIsTheDefault) {
-  const auto wrong = json::parse(R"({"name":"m","pbrMetallicRoughness":{"baseColorFactor":[1,0,-1,1]}})");
+  const auto wrong =
+      json::parse(R"({"name":"m","pbrMetallicRoughness":{"baseColorFactor":[1,0,-1,1],"metallicFactor":2}})");
   for (const auto& [loaded, note] :
        {std::pair(with_material(wrong),
                   "materials[0].pbrMetallicRoughness.baseColorFactor: is negative; correct "
@@ -536,6 +550,22 @@ TEST(Gltf, LightsHaveThePlacesOfTheirNodes) {
                 "a.gltf: nodes[9].extensions.KHR_lights_punctual.light: is 7, but the file has 7, counted "
                 "from 0; correct the index" +
                     left_out}));
+}
+
+TEST(Gltf, ALightThatCannotBeReadIsLeftOut) {
+  const std::string place = "extensions.KHR_lights_punctual.lights[0].";
+  for (const auto& [light, fault] : {std::pair(R"({"type":"spot","spot":{"innerConeAngle":"0"}})",
+                                               "spot.innerConeAngle: is not a number; correct it"),
+                                     std::pair(R"({"type":"point","color":[1,1,1,1,1]})",
+                                               "color: has 5 numbers, not 3 or 4; correct it")}) {
+    const auto loaded =
+        must(read_gltf(with({{"/extensions/KHR_lights_punctual/lights", json::array({json::parse(light)})},
+                             {"/nodes/0/extensions/KHR_lights_punctual/light", 0}}),
+                       "a.gltf"));
+    EXPECT_EQ(triangles_of(loaded), c_triangle);
+    EXPECT_TRUE(loaded.lights.empty());
+    EXPECT_EQ(loaded.notes, TextList{"a.gltf: " + place + fault + "; the light is left out"});
+  }
 }
 
 TEST(Gltf, FactorsAreLimited) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of mesh files, and meshes from the text or bytes of a file.
+// Names of mesh files, and meshes from the bytes of a file.
 #pragma once
 
-#include <array>
 #include <string>
 #include <string_view>
 
 #include "common/result.hpp"
+#include "mesh_files/gltf.hpp"
 #include "mesh_files/loaded_mesh.hpp"
 #include "mesh_files/obj.hpp"
 
@@ -19,12 +19,16 @@ std::string lower_ending(std::string_view path);
 /// The file's name without its ending.
 std::string file_stem(std::string_view path);
 
-/// The endings that read_mesh_text accepts.
-inline constexpr std::array<std::string_view, 3> c_mesh_text_endings = {".obj", ".ply", ".stl"};
-bool is_mesh_text_name(std::string_view path);
+/// True if the ending is that of a mesh file (.obj .ply .stl .gltf .glb in either case).
+bool is_mesh_file_name(std::string_view path);
 
-/// Read a mesh by the ending of its file's name: read_obj, read_ply, read_stl.
-Result<LoadedMesh> read_mesh_text(std::string_view bytes, std::string_view file,
-                                  const ReadLibrary& read_library);
+/// How the other files that a mesh file names are read.
+struct OtherFiles {
+  ReadLibrary library;
+  ReadBuffer buffer;
+};
+
+/// Read a mesh by the ending of its file's name: read_obj, read_ply, read_stl, read_gltf.
+Result<LoadedMesh> read_mesh(std::string_view bytes, std::string_view file, const OtherFiles& others);
 
 }  // namespace halfway

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/files/gltf.hpp"
+#include "mesh_files/gltf.hpp"
 
 #include <fmt/format.h>
 
@@ -18,19 +18,21 @@
 #include <glm/vector_relational.hpp>
 #include <initializer_list>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+// The standard library for a browser has no file system.
+#define JSON_HAS_FILESYSTEM 0
+#include <nlohmann/json.hpp>
 
 #include "common/to_integer.hpp"
 #include "mesh_files/bytes.hpp"
 #include "mesh_files/notes.hpp"
 #include "mesh_files/number.hpp"
 #include "mesh_files/text_lines.hpp"
-#include "scene_files/add_mesh.hpp"
-#include "sim/os/file.hpp"
+#include "scene/check_numbers.hpp"
 
 namespace halfway {
 
@@ -38,7 +40,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uintmax_t c_max_buffer_bytes = std::uintmax_t{4} << 30;
 constexpr std::uint64_t c_max_instances = 1'000'000;
 
 /// Extensions that a file may require. Those of textures change only what is left out with the textures.
@@ -49,12 +50,7 @@ constexpr std::string_view c_extensions[] = {
     c_visibility,         c_instancing,      c_lights, c_unlit, c_glossiness, "KHR_texture_transform",
     "KHR_texture_basisu", "EXT_texture_webp"};
 /// In place of a material's index: its surfaces are not drawn.
-constexpr std::uint32_t c_nothing = UINT32_MAX;
-
-/// Exception that stops reading. `read_gltf` returns its text after the file's name.
-struct BadGltf {
-  std::string what;
-};
+constexpr std::uint32_t c_not_drawn = UINT32_MAX;
 
 /// An object without keys, for one that a file leaves out.
 const json& no_keys() {
@@ -62,39 +58,55 @@ const json& no_keys() {
   return c_none;
 }
 
-/// A value of the file and its place for messages: "meshes[0].primitives[1]".
+/// A value of the file and its place for messages: "meshes[0].primitives[1]". The first failure of a file is
+/// kept, without the file's name. A value that cannot be read is 0, empty or an object without keys: before
+/// it is an index, a length or a divisor, the failure must be checked.
 class Item {
  public:
-  Item(const json& value, std::string place) : value_(&value), place_(std::move(place)) {}
+  Item(const json& value, std::string place, std::string& failure)
+      : value_(&value), place_(std::move(place)), failure_(&failure) {}
 
-  [[noreturn]] void fail(std::string_view what) const { throw BadGltf{fmt::format("{}: {}", place_, what)}; }
+  void fail(std::string_view what) const {
+    if (!has_failed()) *failure_ = fmt::format("{}{}{}", place_, place_.empty() ? "" : ": ", what);
+  }
+  /// True after the first failure of the file.
+  bool has_failed() const { return !failure_->empty(); }
   const std::string& place() const { return place_; }
+  /// An object without keys at the same place.
+  Item without_keys() const { return {no_keys(), place_, *failure_}; }
 
   bool has(const char* key) const { return value_->contains(key); }
   /// The object's value under a key.
   Item at(const char* key) const {
-    if (!has(key))
-      throw BadGltf{fmt::format("{}no {}; export the file again", place_.empty() ? "" : place_ + ": ", key)};
-    return {(*value_)[key], place_.empty() ? key : fmt::format("{}.{}", place_, key)};
+    if (has(key))
+      return {(*value_)[key], place_.empty() ? key : fmt::format("{}.{}", place_, key), *failure_};
+    fail(fmt::format("no {}; export the file again", key));
+    return without_keys();
   }
   Item object(const char* key) const {
     Item item = at(key);
-    if (!item.value_->is_object()) item.fail("is not an object; export the file again");
-    return item;
+    if (item.value_->is_object()) return item;
+    item.fail("is not an object; export the file again");
+    return item.without_keys();
   }
   /// The objects or numbers of an array; empty if there is none under the key.
   std::vector<Item> list(const char* key) const {
     std::vector<Item> items;
     if (!has(key)) return items;
     const Item array = at(key);
-    if (!array.value_->is_array()) array.fail("is not an array; export the file again");
+    if (!array.value_->is_array()) {
+      array.fail("is not an array; export the file again");
+      return items;
+    }
     for (std::size_t i = 0; i < array.value_->size(); ++i) items.push_back(array[i]);
     return items;
   }
   std::vector<Item> objects(const char* key) const {
     std::vector<Item> items = list(key);
     for (const Item& item : items) {
-      if (!item.value_->is_object()) item.fail("is not an object; export the file again");
+      if (item.value_->is_object()) continue;
+      item.fail("is not an object; export the file again");
+      return {};
     }
     return items;
   }
@@ -102,9 +114,10 @@ class Item {
     if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
     const double value = value_->is_number_float() ? value_->get<double>() : -1.0;  // 24.0 is a whole number
     constexpr double c_most = 1e15;
-    if (!(value >= 0.0 && value <= c_most && value == std::floor(value)))
-      fail("is not a whole number from 0; correct it");
-    return to_integer<std::uint64_t>(value);
+    if (value >= 0.0 && value <= c_most && value == std::floor(value))
+      return to_integer<std::uint64_t>(value);
+    fail("is not a whole number from 0; correct it");
+    return 0;
   }
   std::uint64_t unsigned_number(const char* key, std::uint64_t if_missing) const {
     return has(key) ? at(key).unsigned_number() : if_missing;
@@ -112,38 +125,45 @@ class Item {
   /// An index into a list of this length.
   std::size_t index(std::size_t length) const {
     const std::uint64_t index = unsigned_number();
-    if (index >= length) {
-      fail(fmt::format("is {}, but the file has {}, counted from 0; correct the index", index, length));
-    }
-    return index;
+    if (index < length) return index;
+    fail(fmt::format("is {}, but the file has {}, counted from 0; correct the index", index, length));
+    return 0;
+  }
+  /// The item of this index. After a failure, an object without keys.
+  Item in(const std::vector<Item>& items) const {
+    const std::size_t i = index(items.size());
+    return has_failed() ? without_keys() : items[i];
   }
   double number() const {
     if (!value_->is_number()) fail("is not a number; correct it");
-    const auto number = value_->get<double>();
-    if (!std::isfinite(number)) fail("is not finite; correct it");
-    return number;
+    const double number = value_->is_number() ? value_->get<double>() : 0.0;
+    if (std::isfinite(number)) return number;
+    fail("is not finite; correct it");
+    return 0.0;
   }
   bool flag(const char* key, bool if_missing) const {
     if (!has(key)) return if_missing;
     const Item item = at(key);
-    if (!item.value_->is_boolean()) item.fail("is not true or false; correct it");
-    return item.value_->get<bool>();
+    if (item.value_->is_boolean()) return item.value_->get<bool>();
+    item.fail("is not true or false; correct it");
+    return false;
   }
   double number(const char* key, double if_missing) const { return has(key) ? at(key).number() : if_missing; }
   template <std::size_t N>
   std::array<double, N> numbers(const char* key) const {
     const std::vector<Item> items = list(key);
+    std::array<double, N> values{};
     if (items.size() != N) at(key).fail(fmt::format("has {} numbers, not {}; correct it", items.size(), N));
-    std::array<double, N> values;
-    for (std::size_t i = 0; i < N; ++i) values[i] = items[i].number();
+    for (std::size_t i = 0; i < std::min(items.size(), N); ++i) values[i] = items[i].number();
     return values;
   }
-  const std::string& text() const {
-    if (!value_->is_string()) fail("is not a string; correct it");
-    return value_->get_ref<const std::string&>();
+  std::string_view text() const {
+    if (value_->is_string()) return value_->get_ref<const std::string&>();
+    fail("is not a string; correct it");
+    return {};
   }
-  std::string text(const char* key, std::string_view if_missing) const {
-    return has(key) ? at(key).text() : std::string(if_missing);
+  std::string_view text(const char* key, std::string_view if_missing) const {
+    return has(key) ? at(key).text() : if_missing;
   }
   /// The keys of an object.
   std::vector<std::string> keys() const {
@@ -153,10 +173,11 @@ class Item {
   }
 
  private:
-  Item operator[](std::size_t i) const { return {(*value_)[i], fmt::format("{}[{}]", place_, i)}; }
+  Item operator[](std::size_t i) const { return {(*value_)[i], fmt::format("{}[{}]", place_, i), *failure_}; }
 
   const json* value_;
   std::string place_;
+  std::string* failure_;
 };
 
 // ---- Container and buffers
@@ -167,35 +188,32 @@ struct Chunks {
 };
 
 /// Divide a .glb into its chunks. A .gltf is JSON as a whole.
-Chunks chunks_of(std::string_view bytes) {
+Result<Chunks> chunks_of(std::string_view bytes, std::string_view file) {
   constexpr std::uint32_t c_json = 0x4e4f534a, c_binary = 0x004e4942;
   constexpr std::size_t c_header = 12, c_chunk_header = 8;
-  if (!bytes.starts_with("glTF")) return {.json = bytes, .binary = {}};
+  if (!bytes.starts_with("glTF")) return Chunks{.json = bytes, .binary = {}};
   const auto word = [bytes](std::size_t at) {
     return number_in<std::uint32_t>(bytes, at, ByteOrder::little);
   };
-  if (bytes.size() < c_header + c_chunk_header) {
-    throw BadGltf{"byte 0: the file ends in its header; it is truncated, export it again"};
-  }
-  if (word(4) != 2) throw BadGltf{fmt::format("byte 4: GLB version {}; export as version 2", word(4))};
-  if (word(8) != bytes.size()) {
-    throw BadGltf{fmt::format("byte 8: its header requires {} bytes, it has {}; export it again", word(8),
-                              bytes.size())};
-  }
+  const auto error = [file](std::size_t at, std::string_view what) {
+    return bad_input(fmt::format("{}: byte {}: {}", file, at, what));
+  };
+  if (bytes.size() < c_header + c_chunk_header)
+    return error(0, "the file ends in its header; it is truncated, export it again");
+  if (word(4) != 2) return error(4, fmt::format("GLB version {}; export as version 2", word(4)));
+  if (word(8) != bytes.size())
+    return error(
+        8, fmt::format("its header requires {} bytes, it has {}; export it again", word(8), bytes.size()));
   Chunks chunks;
   std::size_t at = c_header;
   for (int chunk = 0; at < bytes.size(); ++chunk) {
     const std::size_t left = bytes.size() - at;
-    if (left < c_chunk_header || word(at) > left - c_chunk_header) {
-      throw BadGltf{
-          fmt::format("byte {}: chunk {} is longer than the file; export the file again", at, chunk)};
-    }
+    if (left < c_chunk_header || word(at) > left - c_chunk_header)
+      return error(at, fmt::format("chunk {} is longer than the file; export the file again", chunk));
     const std::uint32_t type = word(at + 4);
     const std::string_view data = bytes.substr(at + c_chunk_header, word(at));
-    if ((chunk == 0) != (type == c_json)) {
-      throw BadGltf{
-          fmt::format("byte {}: the first chunk, and no other, must be JSON; export the file again", at)};
-    }
+    if ((chunk == 0) != (type == c_json))
+      return error(at, "the first chunk, and no other, must be JSON; export the file again");
     if (chunk == 0) chunks.json = data;
     if (chunk == 1 && type == c_binary) chunks.binary = data;
     at += c_chunk_header + data.size();
@@ -219,7 +237,10 @@ std::string decode_base64(const Item& uri, std::string_view text) {
   int count = 0;
   for (const char c : text) {
     const int value = value_of(c);
-    if (value < 0) uri.fail(fmt::format("{} is not base64; export the file again", halfway::quoted({&c, 1})));
+    if (value < 0) {
+      uri.fail(fmt::format("{} is not base64; export the file again", halfway::quoted({&c, 1})));
+      return {};
+    }
     bits = bits << 6 | static_cast<std::uint32_t>(value);
     count += 6;
     if (count >= 8) {
@@ -245,7 +266,10 @@ std::string decode_percent(const Item& uri, std::string_view text) {
     }
     const int high = i + 2 < text.size() ? value_of(text[i + 1]) : -1;
     const int low = i + 2 < text.size() ? value_of(text[i + 2]) : -1;
-    if (high < 0 || low < 0) uri.fail("% is not followed by two hexadecimal digits; correct it");
+    if (high < 0 || low < 0) {
+      uri.fail("% is not followed by two hexadecimal digits; correct it");
+      return {};
+    }
     name += static_cast<char>(16 * high + low);
     i += 2;
   }
@@ -253,28 +277,17 @@ std::string decode_percent(const Item& uri, std::string_view text) {
 }
 
 /// Read a buffer's file. It must be in the folder of the glTF file or below.
-std::string read_buffer_file(const Item& uri, const std::filesystem::path& folder) {
+std::string read_buffer_file(const Item& uri, const ReadBuffer& read_buffer) {
   const std::string name = decode_percent(uri, uri.text());
-  const std::filesystem::path path(name);
-  const bool is_up = std::find(path.begin(), path.end(), "..") != path.end();
-  if (name.find(':') != std::string::npos) {
+  if (name.find(':') != std::string::npos)
     uri.fail(halfway::quoted(name) + " is an address; store the buffer in a file next to this one");
-  }
-  if (path.is_absolute() || is_up || name.find('\0') != std::string::npos) {
+  const bool is_up = ("/" + name + "/").find("/../") != std::string::npos;
+  if (name.starts_with('/') || is_up || name.find('\0') != std::string::npos)
     uri.fail(halfway::quoted(name) + " is outside of the file's folder; move the buffer next to this file");
-  }
-  // Skip pipes and devices, which may never end.
-  std::error_code fault;
-  if (!std::filesystem::is_regular_file(folder / path, fault)) {
-    uri.fail(halfway::quoted(name) + " is not a file; export the file with its buffers");
-  }
-  if (std::filesystem::file_size(folder / path, fault) > c_max_buffer_bytes || fault) {
-    uri.fail(fmt::format("{} is larger than {} GiB; reduce the mesh", halfway::quoted(name),
-                         c_max_buffer_bytes >> 30));
-  }
-  Result<std::string> bytes = read_file(folder / path);
-  if (!bytes) uri.fail(halfway::quoted(name) + " cannot be read; check its permissions");
-  return std::move(*bytes);
+  if (uri.has_failed()) return {};
+  BufferFile file = read_buffer(name);
+  if (!file.refusal.empty()) uri.fail(halfway::quoted(name) + " " + file.refusal);
+  return std::move(file.bytes);
 }
 
 // ---- Accessors
@@ -291,15 +304,16 @@ constexpr ComponentType c_component_types[] = {{c_int8, 1},   {c_uint8, 1},  {c_
 /// Items of a buffer at equal distances.
 struct Span {
   std::string_view bytes;
-  std::size_t stride = 0;
+  std::uint64_t stride = 0;
 };
 
 class GltfReader {
  public:
-  GltfReader(const json& root, std::optional<std::string_view> binary, const std::filesystem::path& path)
-      : root_(root, ""), binary_(binary), folder_(path.parent_path()), name_(path.string()) {}
+  GltfReader(const json& root, std::optional<std::string_view> binary, std::string_view file,
+             const ReadBuffer& read_buffer)
+      : root_(root, "", failure_), binary_(binary), file_(file), read_buffer_(read_buffer) {}
 
-  LoadedMesh read() {
+  Result<LoadedMesh> read() {
     check_asset();
     meshes_ = root_.objects("meshes");
     nodes_ = root_.objects("nodes");
@@ -312,7 +326,8 @@ class GltfReader {
     loaded_.mesh.normals.emplace_back(0.0);
     read_nodes();
     scale_lights();
-    if (loaded_.mesh.triangles.empty()) throw BadGltf{"the mesh has no faces; export it with faces"};
+    if (loaded_.mesh.triangles.empty()) root_.fail("the mesh has no faces; export it with faces");
+    if (has_failed()) return bad_input(file_ + ": " + failure_);
     if (points_and_lines_ > 0) note(fmt::format("{} points and lines left out", points_and_lines_));
     loaded_.notes = notes_.list();
     join_positions(loaded_.mesh);
@@ -320,10 +335,25 @@ class GltfReader {
   }
 
  private:
-  void note(std::string_view what) { notes_.add(name_, what); }
-  void note(const Item& item, std::string_view what) { notes_.add(place_of(item), what); }
+  bool has_failed() const { return root_.has_failed(); }
+  /// Call `read`. Its failure does not fail the file: it is noted with its consequence. True if there is
+  /// none.
+  template <class Read>
+  bool attempt(const Read& read, std::string_view consequence) {
+    std::string earlier = std::exchange(failure_, {});
+    read();
+    const std::string failure = std::exchange(failure_, std::move(earlier));
+    if (!failure.empty()) note(failure + std::string(consequence));
+    return failure.empty();
+  }
+
+  void note(std::string_view what) { note(root_, what); }
+  /// After a failure nothing is noted.
+  void note(const Item& item, std::string_view what) {
+    if (!has_failed()) notes_.add(place_of(item), what);
+  }
   std::string place_of(const Item& item) const {
-    return item.place().empty() ? name_ : name_ + ": " + item.place();
+    return item.place().empty() ? file_ : file_ + ": " + item.place();
   }
 
   /// Note the keys and extensions of an object that are not used. Any object may have a name and extras.
@@ -338,9 +368,8 @@ class GltfReader {
   }
   /// An object's extension, or one without keys.
   static Item extension_of(const Item& item, std::string_view name) {
-    const Item none(no_keys(), item.place());
-    const Item all = item.has("extensions") ? item.object("extensions") : none;
-    return all.has(name.data()) ? all.object(name.data()) : none;
+    const Item all = item.has("extensions") ? item.object("extensions") : item.without_keys();
+    return all.has(name.data()) ? all.object(name.data()) : item.without_keys();
   }
   static bool has_extension(const Item& item, std::string_view name) {
     return item.has("extensions") && item.object("extensions").has(name.data());
@@ -353,12 +382,12 @@ class GltfReader {
     note_unused(
         root_, {"asset", "scene", "scenes", "nodes", "meshes", "skins", "accessors", "bufferViews", "buffers",
                 "materials", "textures", "images", "samplers", "extensionsUsed", "extensionsRequired"});
-    const std::string version = asset.at("version").text();
+    const std::string_view version = asset.at("version").text();
     if (!version.starts_with("2.")) {
       root_.at("asset").fail(fmt::format("glTF {}; export as glTF 2.0", halfway::quoted(version)));
     }
     for (const Item& extension : root_.list("extensionsRequired")) {
-      const std::string& name = extension.text();
+      const std::string_view name = extension.text();
       if (!contains(c_extensions, name))
         extension.fail(halfway::quoted(name) + " cannot be read; export the file without it");
     }
@@ -379,11 +408,11 @@ class GltfReader {
     }
     // The nodes are a tree: none is reached twice.
     std::vector<bool> is_read(nodes_.size());
-    while (!pending.empty()) {
+    while (!pending.empty() && !has_failed()) {
       const Pending next = pending.back();
       pending.pop_back();
       const Item& node = nodes_[next.node];
-      if (is_read[next.node]) node.fail("is reached twice; export the file with a tree of nodes");
+      if (is_read[next.node]) return node.fail("is reached twice; export the file with a tree of nodes");
       is_read[next.node] = true;
       note_unused(node, {"mesh", "children", "skin", "weights", "matrix", "translation", "rotation", "scale",
                          "camera"});
@@ -395,9 +424,10 @@ class GltfReader {
       if (has_extension(node, c_lights)) read_light(node, to_file);
       if (node.has("skin")) note(node, "bones are omitted: the mesh is in its bind pose");
       // The transform of a node with a skin does not move its mesh.
-      if (node.has("mesh"))
-        add_mesh(meshes_[node.at("mesh").index(meshes_.size())], node,
-                 node.has("skin") ? std::vector{glm::dmat4(1.0)} : places_of(node, to_file));
+      if (node.has("mesh")) {
+        const auto places = node.has("skin") ? std::vector{glm::dmat4(1.0)} : places_of(node, to_file);
+        add_mesh(node.at("mesh").in(meshes_), node, places);
+      }
       const std::vector<Item> children = node.list("children");
       for (std::size_t i = children.size(); i-- > 0;) {
         pending.push_back({children[i].index(nodes_.size()), to_file});
@@ -407,7 +437,7 @@ class GltfReader {
 
   std::vector<Item> root_nodes() {
     const std::vector<Item> scenes = root_.objects("scenes");
-    if (root_.has("scene")) return scenes[root_.at("scene").index(scenes.size())].list("nodes");
+    if (root_.has("scene")) return root_.at("scene").in(scenes).list("nodes");
     if (!scenes.empty()) return scenes[0].list("nodes");
     std::vector<bool> is_child(nodes_.size());
     for (const Item& node : nodes_) {
@@ -417,7 +447,7 @@ class GltfReader {
       if (!is_child[i]) all_roots_.emplace_back(i);
     }
     std::vector<Item> roots;
-    for (const json& index : all_roots_) roots.emplace_back(index, "nodes");
+    for (const json& index : all_roots_) roots.emplace_back(index, "nodes", failure_);
     return roots;
   }
 
@@ -472,12 +502,12 @@ class GltfReader {
       if (values.size() != places.size())
         attributes.fail(
             fmt::format("has {} and {} instances; export the file again", places.size(), values.size()));
-      for (std::size_t i = 0; i < values.size(); ++i) places[i] *= matrix_of(values[i]);
+      for (std::size_t i = 0; i < values.size() && !has_failed(); ++i) places[i] *= matrix_of(values[i]);
     };
     for (const char* key : {"TRANSLATION", "ROTATION", "SCALE"}) {
       if (!attributes.has(key)) continue;
       const Item index = attributes.at(key);
-      if (accessors_[index.index(accessors_.size())].at("count").unsigned_number() > c_max_instances)
+      if (index.in(accessors_).at("count").unsigned_number() > c_max_instances)
         index.fail(fmt::format("more than {} instances; export fewer", c_max_instances));
       if (key[0] == 'T')
         move(read_vectors(index, true),
@@ -494,20 +524,14 @@ class GltfReader {
 
   /// The descriptions of the file's lights; none if they cannot be read.
   std::vector<Item> lights_of_file() {
-    try {
-      return extension_of(root_, c_lights).objects("lights");
-    } catch (const BadGltf& bad) {
-      note(bad.what + "; the lights are left out");
-      return {};
-    }
+    std::vector<Item> lights;
+    attempt([&] { lights = extension_of(root_, c_lights).objects("lights"); }, "; the lights are left out");
+    return lights;
   }
 
   void read_light(const Item& node, const glm::dmat4& to_file) {
-    try {
-      add_light(lights_[extension_of(node, c_lights).at("light").index(lights_.size())], to_file);
-    } catch (const BadGltf& bad) {
-      note(bad.what + "; the light is left out");
-    }
+    attempt([&] { add_light(extension_of(node, c_lights).at("light").in(lights_), to_file); },
+            "; the light is left out");
   }
 
   /// Add a light at the origin of its node, which shines along the node's negative z axis.
@@ -521,20 +545,22 @@ class GltfReader {
     if (scale < 0.0 || !is_small(intensity))
       light.fail(fmt::format("its intensity is not 0 to {:g}", c_max_number));
     const glm::dvec3 position(to_file[3]), z(to_file[2]);
-    const std::string& type = light.at("type").text();
+    const std::string_view type = light.at("type").text();
     if (!is_small(position) || !is_small(z) || (type != "point" && z == glm::dvec3(0.0)))
       light.fail(fmt::format("its node has no direction, or is beyond {:g}", c_max_number));
+    if (has_failed()) return;
     if (type == "directional") {
       loaded_.lights.directional.push_back({glm::normalize(z), intensity});
     } else if (type == "point") {
       loaded_.lights.positional.push_back({position, intensity});
     } else if (type == "spot") {
-      const Item cone = light.has("spot") ? light.object("spot") : Item(no_keys(), light.place());
+      const Item cone = light.has("spot") ? light.object("spot") : light.without_keys();
       constexpr double c_right_angle = 1.5707964;  // as a float
       const double inner = cone.number("innerConeAngle", 0.0),
                    outer = cone.number("outerConeAngle", 0.785398163397);
       if (!(inner >= 0.0 && inner <= outer && outer > 0.0 && outer <= c_right_angle))
         light.fail("its angles do not increase from 0 to 90 degrees");
+      if (has_failed()) return;
       note_unused(cone, {"innerConeAngle", "outerConeAngle"});
       loaded_.lights.spots.push_back(
           {position, -glm::normalize(z), std::cos(inner), std::max(std::cos(outer), 0.0), intensity});
@@ -564,14 +590,15 @@ class GltfReader {
     if (mesh.has("weights") || node.has("weights")) note("morph targets are left out");
     for (const Item& primitive : mesh.objects("primitives")) {
       const Mesh part = read_primitive(primitive);
+      if (has_failed()) return;
       if (part.triangles.empty()) continue;
-      const std::size_t copies = places.size() - 1;
+      const std::uint64_t copies = places.size() - 1;
       count(primitive, copies * part.positions.size(), copies * part.triangles.size());
-      for (const glm::dmat4& to_file : places) add_part(part, node, to_file);
+      for (std::size_t i = 0; i < places.size() && !has_failed(); ++i) add_part(part, node, places[i]);
     }
   }
 
-  void count(const Item& primitive, std::size_t vertices, std::size_t triangles) {
+  void count(const Item& primitive, std::uint64_t vertices, std::uint64_t triangles) {
     vertices_ += vertices;
     triangles_ += triangles;
     if (vertices_ > c_max_vertices)
@@ -629,12 +656,14 @@ class GltfReader {
                                                  part.normals.size(), positions.size()));
       }
     }
+    if (has_failed()) return Mesh{};
     note_unused(primitive, {"attributes", "indices", "material", "mode", "targets"});
     const std::optional<std::size_t> source = material_source(primitive);
     const std::uint32_t material = material_of(source);
-    if (material == c_nothing) return Mesh{};
+    if (material == c_not_drawn) return Mesh{};
     const Culling culling = culling_of(source);
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+      if (has_failed()) return;
       const std::array<std::uint32_t, 3> index = {corners[a], corners[b], corners[c]};
       // Triangles that use a vertex twice connect parts of a strip.
       if (mode != 4 && (index[0] == index[1] || index[1] == index[2] || index[2] == index[0])) return;
@@ -680,26 +709,25 @@ class GltfReader {
   // ---- Accessors
 
   std::string_view buffer(const Item& index) {
-    const std::size_t i = index.index(buffers_.size());
-    const Item& buffer = buffers_[i];
+    const Item buffer = index.in(buffers_);
     const std::uint64_t length = buffer.at("byteLength").unsigned_number();
-    if (!buffer.has("uri")) {
-      if (i != 0 || !binary_) buffer.fail("has no uri; export the file with its buffers");
-      return checked(buffer, *binary_, length);
-    }
-    if (!buffer_bytes_[i]) {
-      const Item uri = buffer.at("uri");
-      const std::string& text = uri.text();
-      if (text.starts_with("data:")) {
-        constexpr std::string_view c_mark = ";base64,";
-        const std::size_t mark = text.find(c_mark);
-        if (mark == std::string::npos) uri.fail("its data are not base64; export the file again");
-        buffer_bytes_[i] = decode_base64(uri, std::string_view(text).substr(mark + c_mark.size()));
-      } else {
-        buffer_bytes_[i] = read_buffer_file(uri, folder_);
-      }
-    }
-    return checked(buffer, *buffer_bytes_[i], length);
+    if (has_failed()) return {};
+    const std::size_t i = index.index(buffers_.size());
+    if (!buffer.has("uri") && i == 0 && binary_) return checked(buffer, *binary_, length);
+    if (!buffer.has("uri"))
+      buffer.fail("has no uri; export the file with its buffers");
+    else if (!buffer_bytes_[i])
+      buffer_bytes_[i] = bytes_of(buffer.at("uri"));
+    return has_failed() ? std::string_view() : checked(buffer, *buffer_bytes_[i], length);
+  }
+  std::string bytes_of(const Item& uri) const {
+    const std::string_view text = uri.text();
+    if (!text.starts_with("data:")) return read_buffer_file(uri, read_buffer_);
+    constexpr std::string_view c_mark = ";base64,";
+    const std::size_t mark = text.find(c_mark);
+    if (mark != std::string_view::npos) return decode_base64(uri, text.substr(mark + c_mark.size()));
+    uri.fail("its data are not base64; export the file again");
+    return {};
   }
   static std::string_view checked(const Item& buffer, std::string_view bytes, std::uint64_t length) {
     if (length > bytes.size()) {
@@ -709,29 +737,28 @@ class GltfReader {
     return bytes.substr(0, length);
   }
 
-  /// The bytes of `count` items of `size` bytes. `item` has bufferView and byteOffset.
+  /// The bytes of `count` items of `size` bytes; none after a failure. `item` has bufferView and byteOffset.
   Span span_of(const Item& item, std::uint64_t count, std::size_t size, bool may_have_stride) {
-    const Item& view = views_[item.at("bufferView").index(views_.size())];
+    const Item view = item.at("bufferView").in(views_);
     std::string_view bytes = buffer(view.at("buffer"));
     const std::uint64_t view_offset = view.unsigned_number("byteOffset", 0);
     const std::uint64_t view_length = view.at("byteLength").unsigned_number();
     if (view_offset > bytes.size() || view_length > bytes.size() - view_offset) {
       view.fail(fmt::format("ends after its buffer of {} bytes; export the file again", bytes.size()));
     }
-    bytes = bytes.substr(view_offset, view_length);
     const std::uint64_t stride = view.unsigned_number("byteStride", size);
     if (view.has("byteStride") && (!may_have_stride || stride < size || stride > 252)) {
       view.at("byteStride").fail(fmt::format("is {} for items of {} bytes; correct it", stride, size));
     }
     const std::uint64_t offset = item.unsigned_number("byteOffset", 0);
+    if (has_failed()) return {};
+    bytes = bytes.substr(view_offset, view_length);
     const bool fits = offset <= bytes.size() && bytes.size() - offset >= size &&
                       (count - 1) <= (bytes.size() - offset - size) / stride;
-    if (!fits) {
-      item.fail(
-          fmt::format("{} items of {} bytes end after the buffer view of {} bytes; export the file again",
-                      count, size, bytes.size()));
-    }
-    return {.bytes = bytes.substr(offset), .stride = stride};
+    if (fits) return {.bytes = bytes.substr(offset), .stride = stride};
+    item.fail(fmt::format("{} items of {} bytes end after the buffer view of {} bytes; export the file again",
+                          count, size, bytes.size()));
+    return {};
   }
 
   struct Accessor {
@@ -740,8 +767,9 @@ class GltfReader {
     std::uint64_t component_type;
     std::size_t component_bytes;
   };
+  /// After a failure it has no items.
   Accessor accessor(const Item& index, std::string_view type) {
-    const Item& item = accessors_[index.index(accessors_.size())];
+    const Item item = index.in(accessors_);
     const std::uint64_t count = item.at("count").unsigned_number();
     if (count == 0 || count > c_max_vertices) {
       item.at("count").fail(fmt::format("{}, not 1 to {}; correct the mesh", count, c_max_vertices));
@@ -752,9 +780,10 @@ class GltfReader {
     }
     const std::uint64_t code = item.at("componentType").unsigned_number();
     for (const ComponentType& known : c_component_types) {
-      if (known.code == code) return {item, count, code, known.bytes};
+      if (known.code == code && !has_failed()) return {item, count, code, known.bytes};
     }
     item.at("componentType").fail(fmt::format("{} is not a type of glTF; export the file again", code));
+    return {item.without_keys(), 0, 0, 0};
   }
 
   /// An unsigned integer of a Span.
@@ -776,7 +805,7 @@ class GltfReader {
   void read_items(const Accessor& accessor, std::size_t item_bytes, bool may_have_stride, const Set& set) {
     if (accessor.item.has("bufferView")) {
       const Span span = span_of(accessor.item, accessor.count, item_bytes, may_have_stride);
-      for (std::size_t i = 0; i < accessor.count; ++i) set(i, span, i);
+      for (std::size_t i = 0; i < accessor.count && !has_failed(); ++i) set(i, span, i);
     }
     if (!accessor.item.has("sparse")) return;
     const Item sparse = accessor.item.object("sparse");
@@ -790,17 +819,18 @@ class GltfReader {
     const std::size_t index_bytes = type == c_uint8 ? 1 : type == c_uint16 ? 2 : 4;
     const Span places = span_of(indices, count, index_bytes, false);
     const Span values = span_of(sparse.object("values"), count, item_bytes, false);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count && !has_failed(); ++i) {
       const std::uint32_t place = integer_at(places, i, type);
-      if (place >= accessor.count) {
+      if (place < accessor.count)
+        set(place, values, i);
+      else
         indices.fail(fmt::format("index {} is {}, but the accessor has {} items; correct it", i, place,
                                  accessor.count));
-      }
-      set(place, values, i);
     }
   }
 
-  /// Read vectors of three floats. Those that are not needed are normals.
+  /// Read vectors of three floats. Those that are not needed are normals. After a failure the values of these
+  /// three functions are of no use.
   std::vector<glm::dvec3> read_vectors(const Item& index, bool is_needed) {
     const Accessor source = accessor(index, "VEC3");
     if (source.component_type != c_float) {
@@ -808,6 +838,7 @@ class GltfReader {
           .fail(fmt::format("{} is not float (5126), as {} requires; export the file without quantization",
                             source.component_type, index.place()));
     }
+    if (has_failed()) return {};
     constexpr std::size_t c_bytes = 12;
     // Without a buffer view the values are zero.
     std::vector<glm::dvec3> vectors(source.count, glm::dvec3(0.0));
@@ -834,6 +865,7 @@ class GltfReader {
     if (type != c_float && type != c_int8 && type != c_int16)
       source.item.at("componentType")
           .fail(fmt::format("{} is not a type of rotations; export the file again", type));
+    if (has_failed()) return {};
     const std::size_t size = source.component_bytes;
     std::vector<glm::dvec4> rotations(source.count, glm::dvec4(0.0, 0.0, 0.0, 1.0));
     const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
@@ -862,12 +894,13 @@ class GltfReader {
     }
     const Accessor source = accessor(primitive.at("indices"), "SCALAR");
     check_integer(source.item, source.component_type);
+    if (has_failed()) return {};
     corners.resize(source.count);
     const auto set = [&](std::size_t place, const Span& span, std::size_t i) {
       corners[place] = integer_at(span, i, source.component_type);
     };
     read_items(source, source.component_bytes, false, set);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t i = 0; i < corners.size() && !has_failed(); ++i) {
       if (corners[i] < positions) continue;
       primitive.at("indices").fail(
           fmt::format("index {} names vertex {}, but the primitive has {}, counted from 0; correct the index",
@@ -879,11 +912,9 @@ class GltfReader {
   // ---- Materials
 
   std::optional<std::size_t> material_source(const Item& primitive) {
-    try {
-      if (primitive.has("material")) return primitive.at("material").index(materials_.size());
-    } catch (const BadGltf& bad) {
-      note(bad.what + "; it has the default material");
-    }
+    std::size_t source = 0;
+    const auto read = [&] { source = primitive.at("material").index(materials_.size()); };
+    if (primitive.has("material") && attempt(read, "; it has the default material")) return source;
     return std::nullopt;
   }
 
@@ -895,26 +926,22 @@ class GltfReader {
     if (auto material = source ? material_or_default(materials_[*source]) : default_material())
       loaded_.mesh.materials.push_back(*std::move(material));
     else
-      entry->second = c_nothing;
+      entry->second = c_not_drawn;
     return entry->second;
   }
-  std::optional<Material> default_material() { return read_material(Item(no_keys(), "material"), "default"); }
+  std::optional<Material> default_material() {
+    return read_material(Item(no_keys(), "material", failure_), "default");
+  }
   std::optional<Material> material_or_default(const Item& source) {
-    try {
-      return read_material(source, "");
-    } catch (const BadGltf& bad) {
-      note(bad.what + "; it is the default material");
-      return default_material();
-    }
+    std::optional<Material> material;
+    const auto read = [&] { material = read_material(source, ""); };
+    return attempt(read, "; it is the default material") ? material : default_material();
   }
 
   Culling culling_of(std::optional<std::size_t> source) {
-    try {
-      return source && materials_[*source].flag("doubleSided", false) ? Culling::none : Culling::back;
-    } catch (const BadGltf& bad) {
-      note(bad.what);
-      return Culling::back;
-    }
+    bool is_double_sided = false;
+    attempt([&] { is_double_sided = source && materials_[*source].flag("doubleSided", false); }, "");
+    return is_double_sided ? Culling::none : Culling::back;
   }
 
   /// Empty: its surfaces are not drawn.
@@ -924,7 +951,7 @@ class GltfReader {
     const bool is_glossy = has_extension(source, c_glossiness);
     const Item look = is_glossy                            ? extension_of(source, c_glossiness)
                       : source.has("pbrMetallicRoughness") ? source.object("pbrMetallicRoughness")
-                                                           : Item(no_keys(), source.place());
+                                                           : source.without_keys();
     const glm::dvec4 base = colour(look, is_glossy ? "diffuseFactor" : "baseColorFactor", glm::dvec4(1.0));
     material.colour = glm::dvec3(base);
     double roughness = 1.0;
@@ -961,8 +988,10 @@ class GltfReader {
   static glm::dvec4 colour(const Item& look, const char* key, glm::dvec4 value) {
     const std::vector<Item> numbers = look.list(key);
     if (!look.has(key)) return value;
-    if (numbers.size() != 3 && numbers.size() != 4)
+    if (numbers.size() != 3 && numbers.size() != 4) {
       look.at(key).fail(fmt::format("has {} numbers, not 3 or 4; correct it", numbers.size()));
+      return value;
+    }
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       value[static_cast<int>(i)] = numbers[i].number();
       if (value[static_cast<int>(i)] < 0.0) look.at(key).fail("is negative; correct the colour");
@@ -983,7 +1012,7 @@ class GltfReader {
   }
 
   double read_alpha(const Item& source, double alpha) {
-    const std::string mode = source.text("alphaMode", "OPAQUE");
+    const std::string_view mode = source.text("alphaMode", "OPAQUE");
     if (mode == "OPAQUE") alpha = 1.0;
     if (mode == "MASK") alpha = alpha < source.number("alphaCutoff", 0.5) ? 0.0 : 1.0;
     if (alpha == 0.0) note(source, "it is transparent: its surfaces are not drawn");
@@ -998,10 +1027,11 @@ class GltfReader {
     return std::clamp(value, 0.0, 1.0);
   }
 
+  std::string failure_;  ///< the first one, without the file's name; empty if there is none
   Item root_;
   std::optional<std::string_view> binary_;
-  std::filesystem::path folder_;
-  std::string name_;
+  std::string file_;
+  const ReadBuffer& read_buffer_;
   std::vector<Item> meshes_, nodes_, accessors_, views_, buffers_, materials_, lights_;
   std::vector<json> all_roots_;
   std::vector<std::optional<std::string>> buffer_bytes_;  ///< of buffers with a uri, once they are read
@@ -1011,46 +1041,54 @@ class GltfReader {
   std::uint64_t points_and_lines_ = 0, vertices_ = 0, triangles_ = 0;
 };
 
-/// The error of text that is not JSON, with its line.
-Error not_json(const json::parse_error& error, std::string_view text, const std::string& name) {
-  const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
-  return bad_input(fmt::format("{}:{}: not glTF 2.0: its JSON is damaged here; export the file again", name,
-                               1 + std::count(before.begin(), before.end(), '\n')));
-}
+/// Finds the first fault of text that is not JSON.
+struct JsonFault final : nlohmann::json_sax<json> {
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool start_object(std::size_t) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool end_object() override { return true; }
+  bool start_array(std::size_t) override { return true; }
+  bool end_array() override { return true; }
+  bool parse_error(std::size_t byte, const std::string& last_word, const json::exception& error) override {
+    constexpr int c_number_overflow = 406;
+    place = byte;
+    if (error.id == c_number_overflow) number = last_word;
+    return false;
+  }
 
-/// The error of a number beyond the range of double. The exception has it in quotes.
-Error too_large(const json::out_of_range& error, std::string_view text, const std::string& name) {
-  const std::string_view what = error.what();
-  const std::size_t last = what.rfind('\''), first = what.substr(0, last).rfind('\'');
-  const std::string_view number =
-      last < what.size() && first < last ? what.substr(first + 1, last - first - 1) : "";
-  const std::string_view before = text.substr(0, std::min(text.find(number), text.size()));
-  return bad_input(fmt::format("{}:{}: the number {} is too large; correct it", name,
-                               1 + std::count(before.begin(), before.end(), '\n'), halfway::quoted(number)));
+  std::size_t place = 0;  ///< the bytes up to it
+  std::string number;     ///< beyond the range of double; empty if the fault is another
+};
+
+/// The error of text that is not JSON, with its line.
+Error json_error(std::string_view text, std::string_view file) {
+  JsonFault fault;
+  json::sax_parse(text, &fault);
+  const std::string_view before = text.substr(0, std::min(fault.place, text.size()));
+  return bad_input(fmt::format(
+      "{}:{}: {}", file, 1 + std::count(before.begin(), before.end(), '\n'),
+      fault.number.empty()
+          ? "not glTF 2.0: its JSON is damaged here; export the file again"
+          : fmt::format("the number {} is too large; correct it", halfway::quoted(fault.number))));
 }
 
 }  // namespace
 
-Result<LoadedMesh> read_gltf(std::string_view bytes, const std::filesystem::path& path) {
-  const std::string name = path.string();
-  std::string_view text;
-  try {
-    const Chunks chunks = chunks_of(bytes);
-    text = chunks.json;
-    if (const auto fault = utf16_fault(text); !fault.empty())
-      return bad_input(fmt::format("{}:1: {}", name, fault));
-    const json root = json::parse(text);
-    if (!root.is_object()) return bad_input(name + ":1: not glTF 2.0: its JSON is not an object");
-    return GltfReader(root, chunks.binary, path).read();
-  } catch (const BadGltf& bad) {
-    return bad_input(fmt::format("{}: {}", name, bad.what));
-  } catch (const json::parse_error& error) {
-    return not_json(error, text, name);
-  } catch (const json::out_of_range& error) {
-    return too_large(error, text, name);
-  } catch (const json::exception&) {
-    return bad_input(name + ": its JSON cannot be read; export the file again");
-  }
+Result<LoadedMesh> read_gltf(std::string_view bytes, std::string_view file, const ReadBuffer& read_buffer) {
+  const Result<Chunks> chunks = chunks_of(bytes, file);
+  if (!chunks) return chunks.error();
+  if (const auto fault = utf16_fault(chunks->json); !fault.empty())
+    return bad_input(fmt::format("{}:1: {}", file, fault));
+  const json root = json::parse(chunks->json, nullptr, false);
+  if (root.is_discarded()) return json_error(chunks->json, file);
+  if (!root.is_object()) return bad_input(fmt::format("{}:1: not glTF 2.0: its JSON is not an object", file));
+  return GltfReader(root, chunks->binary, file, read_buffer).read();
 }
 
 }  // namespace halfway

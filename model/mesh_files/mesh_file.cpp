@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesh_files/mesh_text.hpp"
-
-#include <algorithm>
+#include "mesh_files/mesh_file.hpp"
 
 #include "mesh_files/number.hpp"
 #include "mesh_files/ply.hpp"
@@ -10,6 +8,8 @@
 
 namespace halfway {
 namespace {
+
+constexpr std::string_view c_endings[] = {".obj", ".ply", ".stl", ".gltf", ".glb"};
 
 /// The place of the dot before the ending; npos if the name has no ending.
 std::size_t dot_of(std::string_view name) {
@@ -34,21 +34,21 @@ std::string file_stem(std::string_view path) {
   return std::string(name.substr(0, dot_of(name)));
 }
 
-bool is_mesh_text_name(std::string_view path) {
-  return std::find(c_mesh_text_endings.begin(), c_mesh_text_endings.end(), lower_ending(path)) !=
-         c_mesh_text_endings.end();
+bool is_mesh_file_name(std::string_view path) {
+  return contains(c_endings, lower_ending(path));
 }
 
-Result<LoadedMesh> read_mesh_text(std::string_view bytes, std::string_view file,
-                                  const ReadLibrary& read_library) {
+Result<LoadedMesh> read_mesh(std::string_view bytes, std::string_view file, const OtherFiles& others) {
   const std::string ending = lower_ending(file);
   if (const auto fault = utf16_fault(bytes);
       !fault.empty() && ending != ".stl")  // a binary STL has any bytes
     return bad_input(std::string(file) + ":1: " + std::string(fault));
   if (ending == ".ply") return read_ply(bytes, file);
   if (ending == ".stl") return read_stl(bytes, file);
-  if (ending == ".obj") return read_obj(bytes, file, read_library);
-  return bad_input(std::string(file) + ": not a mesh by its name; .obj, .ply and .stl can be read here");
+  if (ending == ".obj") return read_obj(bytes, file, others.library);
+  if (ending == ".gltf" || ending == ".glb") return read_gltf(bytes, file, others.buffer);
+  return bad_input(std::string(file) +
+                   ": not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read");
 }
 
 }  // namespace halfway
