@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "sim/files/trace.hpp"
+#include "sim/os/must.hpp"
 #include "sim/os/threads.hpp"
 
 namespace halfway {
@@ -21,40 +22,31 @@ constexpr std::uint64_t c_share = 8, c_least_part = 2048;
 constexpr std::uint64_t c_between_places = 256;  // clocks
 constexpr std::size_t c_block = 4096;            // vectors or fragments at a time
 
-Status split(const std::filesystem::path& init_file, const std::string& key_name,
-             std::span<const std::uint64_t> first_vectors,
-             const std::vector<std::filesystem::path>& part_files) {
-  auto reader = InitFileReader::open(init_file, key_name);
-  if (!reader) return reader.error();
+void split(const std::filesystem::path& init_file, const std::string& key_name,
+           std::span<const std::uint64_t> first_vectors,
+           const std::vector<std::filesystem::path>& part_files) {
+  auto reader = must(InitFileReader::open(init_file, key_name));
   std::uint64_t at = 0;
   for (std::size_t part = 0; part < part_files.size(); ++part) {
     const std::uint64_t end =
         part + 1 < first_vectors.size() ? first_vectors[part + 1] : std::numeric_limits<std::uint64_t>::max();
-    auto writer = InitFileWriter::open(part_files[part], key_name, reader->bits());
-    if (!writer) return writer.error();
+    auto writer = must(InitFileWriter::open(part_files[part], key_name, reader.bits()));
     while (at < end) {
       std::vector<std::uint32_t> words;
-      const auto count = reader->read(words, std::min<std::uint64_t>(c_block, end - at));
-      if (!count) return count.error();
-      if (*count == 0) break;
-      writer->write(words);
-      at += *count;
+      const std::size_t count = must(reader.read(words, std::min<std::uint64_t>(c_block, end - at)));
+      if (count == 0) break;
+      writer.write(words);
+      at += count;
     }
-    if (Status status = writer->commit(); !status) return status;
+    must(writer.commit());
   }
-  return Ok{};
 }
 
-Status pass_on(const std::filesystem::path& trace_file, const std::string& key_name,
-               const Engine::OnDrawn& on_drawn) {
-  auto reader = TraceReader::open(trace_file, key_name);
-  if (!reader) return reader.error();
-  for (std::vector<Fragment> fragments;; fragments.clear()) {
-    const auto count = reader->read(fragments, c_block);
-    if (!count) return count.error();
-    if (*count == 0) return Ok{};
+void pass_on(const std::filesystem::path& trace_file, const std::string& key_name,
+             const Engine::OnDrawn& on_drawn) {
+  auto reader = must(TraceReader::open(trace_file, key_name));
+  for (std::vector<Fragment> fragments; must(reader.read(fragments, c_block)) != 0; fragments.clear())
     on_drawn(fragments);
-  }
 }
 
 }  // namespace
@@ -89,19 +81,19 @@ Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& 
                                    const std::filesystem::path& init_file,
                                    std::span<const std::uint64_t> first_vectors,
                                    const GhdlRunOptions& options, unsigned threads,
-                                   const Engine::OnDrawn& on_drawn) {
+                                   const Engine::OnDrawn& on_drawn) try {
   const std::size_t parts = first_vectors.size();
   std::vector<std::filesystem::path> inits, traces;
   for (std::size_t part = 0; part < parts; ++part) {
     inits.push_back(fmt::format("{}-{}", init_file.string(), part));
     traces.push_back(inits.back().string() + ".trace");
   }
-  if (Status status = split(init_file, key.name(), first_vectors, inits); !status) return status.error();
+  split(init_file, key.name(), first_vectors, inits);
 
   std::mutex mutex;
   std::vector<std::uintmax_t> bytes(parts, 0);
   std::uint64_t cycles = 0;
-  Status all = for_each_on_threads(threads, parts, [&](std::size_t part) -> Status {
+  must(for_each_on_threads(threads, parts, [&](std::size_t part) -> Status {
     GhdlRunOptions of_part = options;
     if (options.on_progress)
       of_part.on_progress = [&, part](std::uintmax_t written) {
@@ -117,54 +109,49 @@ Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& 
     const std::scoped_lock lock(mutex);
     cycles += run->cycles;
     return Ok{};
-  });
-  if (!all) return all.error();
-  for (const std::filesystem::path& trace : traces)
-    if (Status status = pass_on(trace, key.name(), on_drawn); !status) return status.error();
+  }));
+  for (const std::filesystem::path& trace : traces) pass_on(trace, key.name(), on_drawn);
   return cycles;
+} catch (const Failure& failure) {
+  return failure.error;
 }
 
 Result<GhdlEngine> GhdlEngine::open(const HardwareKey& key, const SimulatorFolders& folders, unsigned threads,
                                     const GhdlRunOptions& options) {
-  auto runner = GhdlRunner::open(key, folders);
-  if (!runner) return runner.error();
-  return GhdlEngine(key, *runner, folders.cache, threads, options);
+  return caught(
+      [&] { return GhdlEngine(key, must(GhdlRunner::open(key, folders)), folders.cache, threads, options); });
 }
 
 Result<std::shared_ptr<Engine>> GhdlEngine::another() const {
   return shared_engine(Result<GhdlEngine>(GhdlEngine(key_, runner_, cache_, threads_, options_)));
 }
 
-Status GhdlEngine::begin() {
-  if (init_) return Ok{};
-  auto folder = TemporaryFolder::make(cache_);
-  if (!folder) return folder.error();
-  folder_.emplace(std::move(*folder));
-  auto writer = InitFileWriter::open(init_file(), key_.name(), make_golden_model(key_)->init_bits());
-  if (!writer) return writer.error();
-  init_.emplace(std::move(*writer));
+void GhdlEngine::begin() {
+  if (init_) return;
+  folder_.emplace(must(TemporaryFolder::make(cache_)));
+  init_.emplace(must(InitFileWriter::open(init_file(), key_.name(), make_golden_model(key_)->init_bits())));
   cuts_ = Cuts(key_);
-  return Ok{};
 }
 
 Status GhdlEngine::draw(std::span<const std::uint32_t> init_words, std::uint64_t, const OnDrawn&) {
-  if (Status status = begin(); !status) return status;
-  init_->write(init_words);
-  cuts_.add(init_words);
-  return Ok{};
+  return caught([&] {
+    begin();
+    init_->write(init_words);
+    cuts_.add(init_words);
+  });
 }
 
 Status GhdlEngine::drain(std::uint64_t most, const OnDrawn& on_drawn) {
-  if (Status status = begin(); !status) return status;
-  if (Status status = init_->commit(); !status) return status;
-  init_.reset();
-  const std::vector<std::uint64_t> first_vectors = cuts_.parts();
-  parts_ = first_vectors.size();
-  options_.max_fragments = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, 0x7fffffff));
-  const auto cycles = run_in_parts(runner_, key_, init_file(), first_vectors, options_, threads_, on_drawn);
-  if (!cycles) return cycles.error();
-  cycles_ = cycles_.value_or(0) + *cycles;
-  return Ok{};
+  return caught([&] {
+    begin();
+    must(init_->commit());
+    init_.reset();
+    const std::vector<std::uint64_t> first_vectors = cuts_.parts();
+    parts_ = first_vectors.size();
+    options_.max_fragments = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, 0x7fffffff));
+    cycles_ = cycles_.value_or(0) +
+              must(run_in_parts(runner_, key_, init_file(), first_vectors, options_, threads_, on_drawn));
+  });
 }
 
 }  // namespace halfway

@@ -71,7 +71,7 @@ class GhdlEngine final : public Engine {
              unsigned threads, const GhdlRunOptions& options)
       : key_(key), runner_(runner), cache_(cache), threads_(threads), options_(options), cuts_(key) {}
   std::filesystem::path init_file() const { return folder_->path() / "init"; }
-  Status begin();
+  void begin();
 
   HardwareKey key_;
   GhdlRunner runner_;

@@ -16,13 +16,14 @@
 #include <vector>
 
 #include "plan/plan.hpp"
-#include "setup/setup.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/files/trace.hpp"
 #include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/program.hpp"
 #include "sim/os/threads.hpp"
 
 namespace halfway {
@@ -52,11 +53,9 @@ struct Record {
   std::vector<Case> cases;
 };
 
-Result<Record> read_record(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
+Record read_record(const std::filesystem::path& path) {
   Record record;
-  std::istringstream lines(*text);
+  std::istringstream lines(must(read_file(path)));
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
@@ -68,129 +67,102 @@ Result<Record> read_record(const std::filesystem::path& path) {
     std::istringstream fields(line);
     fields >> one.recorded.init >> one.recorded.golden >> one.recorded.fragments >> one.scene >> std::ws;
     if (!fields)
-      return bad_input(
+      throw Failure{bad_input(
           fmt::format("{}:{}: a broken row; it must read: <init hash> <golden hash> <fragments> <scene> "
-                      "<options>, with - - 0 "
-                      "for a new case",
-                      path.string(), number));
+                      "<options>, with - - 0 for a new case",
+                      path.string(), number))};
     std::getline(fields, one.options);
     record.cases.push_back(std::move(one));
   }
   return record;
 }
 
-Status write_record(const std::filesystem::path& path, const Record& record) {
+void write_record(const std::filesystem::path& path, const Record& record) {
   std::string text = record.comments;
   for (const Case& one : record.cases) text += fmt::format("{} {}\n", one.recorded.text(), one.text());
-  return write_file(path, text);
+  must(write_file(path, text));
 }
 
-Result<cli::DrawSettings> parse(const std::string& options) {
+cli::DrawSettings parse(const std::string& options) {
   cli::DrawOptions draw;
   CLI::App app;
   draw.add_to(app);
-  try {
-    app.parse(options);
-  } catch (const CLI::ParseError& error) {
-    return bad_input(error.what());
-  }
+  app.parse(options);
   return checked(draw);
 }
 
-Result<std::string> hash_of(const std::filesystem::path& path) {
-  const auto text = read_file(path);
-  if (!text) return text.error();
-  return ContentHash().add(*text).hex();
+std::string hash_of(const std::filesystem::path& path) {
+  return ContentHash().add(must(read_file(path))).hex();
 }
 
 /// Runs setup and golden model of one case. Writes init.txt and golden.trace to `folder`.
-Result<Streams> draw(const Scene& scene, const cli::DrawSettings& settings, unsigned threads,
-                     const std::filesystem::path& folder) {
-  const auto plan = plan_scene(scene, settings.plan);
-  if (!plan) return plan.error();
-  FrameDriver driver(scene, settings.size, plan->key, {},
+Streams draw(const Scene& scene, const cli::DrawSettings& settings, unsigned threads,
+             const std::filesystem::path& folder) {
+  const HardwareKey key = must(plan_scene(scene, settings.plan)).key;
+  FrameDriver driver(scene, settings.size, key, {},
                      {.setup = settings.setup, .workers = on_threads(threads)});
   const std::filesystem::path init_path = folder / "init.txt", golden_path = folder / "golden.trace";
-  auto init = InitFileWriter::open(init_path, plan->key.name(), driver.init_bits());
-  if (!init) return init.error();
-  auto golden = TraceWriter::open(golden_path, plan->key.name());
-  if (!golden) return golden.error();
-
-  const Status drawn = driver.draw([&](const Batch& batch) -> Status {
-    init->write(batch.init_words);
-    golden->write(batch.golden);
+  auto init = must(InitFileWriter::open(init_path, key.name(), driver.init_bits()));
+  auto golden = must(TraceWriter::open(golden_path, key.name()));
+  must(driver.draw([&](const Batch& batch) -> Status {
+    init.write(batch.init_words);
+    golden.write(batch.golden);
     return Ok{};
-  });
-  if (!drawn) return drawn.error();
-  if (Status status = init->commit(); !status) return status.error();
-  if (Status status = golden->commit(); !status) return status.error();
-  auto init_hash = hash_of(init_path);
-  if (!init_hash) return init_hash.error();
-  auto golden_hash = hash_of(golden_path);
-  if (!golden_hash) return golden_hash.error();
-  return Streams{*init_hash, *golden_hash, driver.fragments()};
+  }));
+  must(init.commit());
+  must(golden.commit());
+  return {hash_of(init_path), hash_of(golden_path), driver.fragments()};
 }
 
 /// The case's streams. Fails if they depend on the number of threads.
-Result<Streams> draw(const Case& one, const std::filesystem::path& source,
-                     const std::filesystem::path& folder) {
-  const auto settings = parse(one.options);
-  if (!settings) return settings.error();
+Streams draw(const Case& one, const std::filesystem::path& source, const std::filesystem::path& folder) {
+  const cli::DrawSettings settings = parse(one.options);
   // A scene name with a file ending is a file of this folder.
   const bool own = std::filesystem::path(one.scene).has_extension();
-  const auto scene = load_scene(own ? (source / "tb/project/streams" / one.scene).string() : one.scene,
-                                source / "sim/scenes");
-  if (!scene) return scene.error();
+  const Scene scene = must(load_scene(own ? (source / "tb/project/streams" / one.scene).string() : one.scene,
+                                      source / "sim/scenes"));
   std::optional<Streams> first;
   for (const unsigned threads : c_thread_counts) {
-    auto streams = draw(*scene, *settings, threads, folder);
-    if (!streams) return streams.error();
-    if (first && *first != *streams)
-      return Error{ExitCode::differs, fmt::format("{} threads draw {}, {} thread draws {}", threads,
-                                                  streams->text(), c_thread_counts[0], first->text())};
-    first = *streams;
+    const Streams streams = draw(scene, settings, threads, folder);
+    if (first && *first != streams)
+      throw Failure{Error{ExitCode::differs, fmt::format("{} threads draw {}, {} thread draws {}", threads,
+                                                         streams.text(), c_thread_counts[0], first->text())}};
+    first = streams;
   }
   return *first;
 }
 
 /// Fails unless every built-in scene is recorded with every shader and preset.
-Status check_cover(const Record& record, const std::filesystem::path& source) {
+void check_cover(const Record& record, const std::filesystem::path& source) {
   std::set<std::string> recorded;
   for (const Case& one : record.cases) {
-    const auto settings = parse(one.options);
-    if (!settings) return settings.error();
-    recorded.insert(fmt::format("{} --shader {} --preset {}", one.scene, to_string(settings->plan.shader),
-                                to_string(settings->plan.preset)));
+    const PlanRequest plan = parse(one.options).plan;
+    recorded.insert(
+        fmt::format("{} --shader {} --preset {}", one.scene, to_string(plan.shader), to_string(plan.preset)));
   }
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(source / "sim/scenes", error)) {
-    if (entry.path().extension() != ".toml") continue;
+  for (const std::string& scene : cli::builtin_scenes({source}))
     for (const Shader shader : c_shaders)
       for (const Preset preset : {Preset::exact, Preset::published}) {
-        const std::string wanted = fmt::format("{} --shader {} --preset {}", entry.path().stem().string(),
-                                               to_string(shader), to_string(preset));
+        const std::string wanted =
+            fmt::format("{} --shader {} --preset {}", scene, to_string(shader), to_string(preset));
         if (!recorded.contains(wanted))
-          return Error{ExitCode::differs,
-                       fmt::format("streams.txt: no row for {}; add: - - 0 {} --size 61x47", wanted, wanted)};
+          throw Failure{
+              Error{ExitCode::differs,
+                    fmt::format("streams.txt: no row for {0}; add: - - 0 {0} --size 61x47", wanted)}};
       }
-  }
-  if (error) return tool_failed(fmt::format("sim/scenes: cannot be read: {}", error.message()));
-  return Ok{};
 }
 
-Result<bool> compare(const std::filesystem::path& source, bool renew) {
+ExitCode compare(const std::filesystem::path& source, bool renew) {
   const std::filesystem::path path = source / "tb/project/streams/streams.txt";
-  auto record = read_record(path);
-  if (!record) return record.error();
-  if (Status status = check_cover(*record, source); !status) return status.error();
-  const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  if (!folder) return folder.error();
+  Record record = read_record(path);
+  check_cover(record, source);
+  const TemporaryFolder folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 
   std::size_t changed = 0;
-  for (Case& one : record->cases) {
-    const auto streams = draw(one, source, folder->path());
+  for (Case& one : record.cases) {
+    const auto streams = caught([&] { return draw(one, source, folder.path()); });
     if (!streams)
-      return Error{streams.error().code, fmt::format("{}: {}", one.text(), streams.error().message)};
+      throw Failure{{streams.error().code, fmt::format("{}: {}", one.text(), streams.error().message)}};
     if (*streams == one.recorded) continue;
     ++changed;
     fmt::print("{}:{}{}\n  recorded {}\n  drawn    {}\n", one.text(),
@@ -199,27 +171,26 @@ Result<bool> compare(const std::filesystem::path& source, bool renew) {
                streams->text());
     one.recorded = *streams;
   }
-  fmt::print("{} of {} cases differ from streams.txt\n", changed, record->cases.size());
-  if (!renew || changed == 0) return changed == 0;
-  if (Status status = write_record(path, *record); !status) return status.error();
+  fmt::print("{} of {} cases differ from streams.txt\n", changed, record.cases.size());
+  if (changed == 0) return ExitCode::equal;
+  if (!renew) return ExitCode::differs;
+  write_record(path, record);
   fmt::print("{}: renewed; its commit says why the streams changed\n", path.string());
-  return true;
+  return ExitCode::equal;
 }
 
 }  // namespace
 }  // namespace halfway
 
 int main(int argc, char** argv) {
-  CLI::App app("Compares init vectors and golden fragments with those that streams.txt records");
+  using namespace halfway;
+  CLI::App app("Compares init vectors and golden fragments with those that streams.txt records",
+               "halfway_streams");
   bool renew = false;
   std::string source;
   app.add_flag("--renew", renew, "write today's hashes, and print what changed");
   app.add_option("source", source, "the checkout")->required();
-  CLI11_PARSE(app, argc, argv);
-  const auto equal = halfway::compare(source, renew);
-  if (!equal) {
-    fmt::print(stderr, "{}\n", equal.error().message);
-    return static_cast<int>(equal.error().code);
-  }
-  return *equal ? 0 : 1;
+  int exit_code = 0;
+  app.callback([&] { exit_code = static_cast<int>(compare(source, renew)); });
+  return cli::run_program(app, argc, argv, exit_code);
 }
