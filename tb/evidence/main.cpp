@@ -15,76 +15,62 @@
 #include "evidence/measured.hpp"
 #include "evidence/study_table.hpp"
 #include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 #include "sim/os/program.hpp"
 
 namespace halfway::page {
 namespace {
 
-Status write_origin(const std::filesystem::path& file, const std::string& page, const std::string& commit,
-                    std::span<const std::string_view> tools) {
-  const auto origin = origin_text(tools);
-  if (!origin) return origin.error();
-  const auto text = read_file(file);
-  if (!text) return text.error();
-  return write_file(file, with_origin(*text, {.page = page, .commit = commit, .text = *origin}));
-}
-
-Result<ExitCode> judge_column(const std::filesystem::path& root, const std::string& section,
-                              const std::string& file, const std::string& column) {
-  const auto thresholds = Thresholds::read(root);
-  if (!thresholds) return thresholds.error();
-  const auto text = read_file(root / file);
-  if (!text) return text.error();
+ExitCode judge_column(const std::filesystem::path& root, const std::string& section, const std::string& file,
+                      const std::string& column) {
+  const std::string text = must(read_file(root / file));
   std::vector<Value> values;
-  for (const std::string& name : thresholds->names(section)) {
-    const std::string cell = cell_of(*text, name, column);
+  for (const std::string& name : Thresholds::read(root).names(section)) {
+    const std::string cell = cell_of(text, name, column);
     values.push_back({section, name, {cell.empty() ? std::nan("") : std::strtod(cell.c_str(), nullptr)}});
   }
-  if (values.empty()) return bad_input("tb/evidence/thresholds.toml: has no names in [" + section + "]");
+  if (values.empty())
+    throw Failure{bad_input("tb/evidence/thresholds.toml: has no names in [" + section + "]")};
   return judged(root, values);
 }
 
-Status write_table(const std::filesystem::path& root, const std::string& part, const std::string& file,
-                   std::span<const std::string> studies) {
+void write_table(const std::filesystem::path& root, const std::string& part, const std::string& file,
+                 std::span<const std::string> studies) {
   std::vector<Table> tables;
   for (const std::string& study : studies) {
-    auto table = read_csv(root / study);
-    if (!table) return table.error();
-    if (table->rows.empty()) return bad_input(study + ": has no row");
-    tables.push_back(std::move(*table));
+    tables.push_back(must(read_csv(root / study)));
+    if (tables.back().rows.empty()) throw Failure{bad_input(study + ": has no row")};
   }
-  return write_sections(root / file, std::vector<Section>{{part, study_table(tables)}});
+  must(write_sections(root / file, std::vector<Section>{{part, study_table(tables)}}));
 }
 
-int run(const std::vector<std::string>& arguments) {
+ExitCode run(const std::vector<std::string>& arguments) {
   constexpr std::size_t c_root = 1, c_page = 3;  // numbers of arguments
   if (arguments.size() != c_root && arguments.size() < c_page)
-    return cli::report(bad_input("halfway_page: give ROOT, or ROOT PAGE FILE TOOL..."));
+    throw Failure{bad_input("halfway_page: give ROOT, or ROOT PAGE FILE TOOL...")};
   constexpr std::size_t c_judge = 5;
-  if (arguments.size() == c_judge && arguments[1] == "--judge") {
-    const auto end = judge_column(arguments[0], arguments[2], arguments[3], arguments[4]);
-    return end ? static_cast<int>(*end) : cli::report(end.error());
-  }
+  if (arguments.size() == c_judge && arguments[1] == "--judge")
+    return judge_column(arguments[0], arguments[2], arguments[3], arguments[4]);
   if (arguments.size() >= c_judge && arguments[1] == "--table") {
-    const Status written =
-        write_table(arguments[0], arguments[2], arguments[3], std::span(arguments).subspan(c_judge - 1));
-    return written ? 0 : cli::report(written.error());
+    write_table(arguments[0], arguments[2], arguments[3], std::span(arguments).subspan(c_judge - 1));
+    return ExitCode::equal;
   }
-  const auto commit = measured_commit(arguments[0]);
-  if (!commit) return cli::report(commit.error());
+  const std::string commit = measured_commit(arguments[0]);
   if (arguments.size() == c_root) {
-    fmt::print("{}\n", *commit);
-    return 0;
+    fmt::print("{}\n", commit);
+    return ExitCode::equal;
   }
+  const std::filesystem::path file = std::filesystem::path(arguments[0]) / arguments[2];
   const std::vector<std::string_view> tools(arguments.begin() + c_page, arguments.end());
-  const Status written =
-      write_origin(std::filesystem::path(arguments[0]) / arguments[2], arguments[1], *commit, tools);
-  return written ? 0 : cli::report(written.error());
+  must(write_file(file, with_origin(must(read_file(file)), {arguments[1], commit, origin_text(tools)})));
+  return ExitCode::equal;
 }
 
 }  // namespace
 }  // namespace halfway::page
 
 int main(int argc, char** argv) {
-  return halfway::page::run({argv + 1, argv + argc});
+  using namespace halfway;
+  const auto end = caught([&] { return page::run({argv + 1, argv + argc}); });
+  return end ? static_cast<int>(*end) : cli::report(end.error());
 }

@@ -17,6 +17,7 @@
 #include "sim/os/descriptor.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/machine.hpp"
+#include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
 
 namespace halfway::page {
@@ -25,17 +26,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // The output of git for the files that a measurement reads.
-Result<std::string> git(const std::filesystem::path& root, std::vector<std::string> arguments) {
+std::string git(const std::filesystem::path& root, std::vector<std::string> arguments) {
   std::vector<std::string> all{"git", "-C", root.string()};
   all.insert(all.end(), arguments.begin(), arguments.end());
   for (const char* path :
        {"--", ".", ":(exclude)*.md", ":(exclude)docs/results", ":(exclude)tb/evidence/thresholds.toml"})
     all.emplace_back(path);
-  const auto end = run_process({.arguments = all}, "apt-get install git");
-  if (!end) return end.error();
-  if (!end->succeeded())
-    return bad_input(fmt::format("evidence names a commit, so it needs a checkout of git: {}", end->output));
-  return end->output;
+  const ProcessEnd end = must(run_process({.arguments = all}, "apt-get install git"));
+  if (!end.succeeded())
+    throw Failure{
+        bad_input(fmt::format("evidence names a commit, so it needs a checkout of git: {}", end.output))};
+  return end.output;
 }
 
 std::string line_of(const Row& row) {
@@ -44,75 +45,63 @@ std::string line_of(const Row& row) {
   return "\n" + json.dump() + "\n";
 }
 
-Status append(const std::filesystem::path& file, std::string_view text) {
+void append(const std::filesystem::path& file, std::string_view text) {
   const Descriptor opened(::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-  if (opened.get() >= 0 &&
-      ::write(opened.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size()))
-    return Ok{};
-  return tool_failed(fmt::format("{}: {}", file.string(), std::strerror(errno)));
+  if (opened.get() < 0 ||
+      ::write(opened.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+    throw Failure{tool_failed(fmt::format("{}: {}", file.string(), std::strerror(errno)))};
 }
 
 }  // namespace
 
-Result<std::string> measured_commit(const std::filesystem::path& root) {
-  const auto changes = git(root, {"status", "--porcelain"});
-  if (!changes) return changes.error();
-  if (!changes->empty())
-    return bad_input(fmt::format(
-        "evidence is of a commit, and these files have changes; commit or stash them:\n{}", *changes));
-  auto commit = git(root, {"log", "-1", "--format=%H"});
-  if (!commit) return commit;
-  while (commit->ends_with('\n')) commit->pop_back();
-  if (commit->empty()) return bad_input("evidence is of a commit, and this checkout has none");
+std::string measured_commit(const std::filesystem::path& root) {
+  const std::string changes = git(root, {"status", "--porcelain"});
+  if (!changes.empty())
+    throw Failure{bad_input(fmt::format(
+        "evidence is of a commit, and these files have changes; commit or stash them:\n{}", changes))};
+  std::string commit = git(root, {"log", "-1", "--format=%H"});
+  while (commit.ends_with('\n')) commit.pop_back();
+  if (commit.empty()) throw Failure{bad_input("evidence is of a commit, and this checkout has none")};
   return commit;
 }
 
-Result<std::string> versions(std::span<const std::string_view> tools) {
+std::string versions(std::span<const std::string_view> tools) {
   std::string all;
   for (const std::string_view tool : tools) {
     const std::string install = fmt::format("apt-get install {}", tool);
-    const auto end = run_process({.arguments = {std::string(tool), tool == "yosys" ? "-V" : "--version"},
-                                  .timeout = std::chrono::seconds(30)},
-                                 install);
-    if (!end) return end.error();
-    if (!end->succeeded())
-      return tool_failed(fmt::format("{}: {}; install it with: {}", tool, end->how(), install));
-    all += fmt::format("{}{}", all.empty() ? "" : "; ", end->output.substr(0, end->output.find('\n')));
+    const ProcessEnd end =
+        must(run_process({.arguments = {std::string(tool), tool == "yosys" ? "-V" : "--version"},
+                          .timeout = std::chrono::seconds(30)},
+                         install));
+    if (!end.succeeded())
+      throw Failure{tool_failed(fmt::format("{}: {}; install it with: {}", tool, end.how(), install))};
+    all += fmt::format("{}{}", all.empty() ? "" : "; ", end.output.substr(0, end.output.find('\n')));
   }
   return all;
 }
 
-Result<std::string> origin_text(std::span<const std::string_view> tools) {
-  const auto found = versions(tools);
-  if (!found) return found;
-  return fmt::format("on {:%Y-%m-%d}. Tools: {}{}{}. Machine: {}.", fmt::gmtime(std::time(nullptr)), *found,
-                     found->empty() ? "" : "; ", operating_system(), machine());
+std::string origin_text(std::span<const std::string_view> tools) {
+  const std::string found = versions(tools);
+  return fmt::format("on {:%Y-%m-%d}. Tools: {}{}{}. Machine: {}.", fmt::gmtime(std::time(nullptr)), found,
+                     found.empty() ? "" : "; ", operating_system(), machine());
 }
 
 std::filesystem::path Measured::journal() const {
   return page_.root / "build/evidence" / commit_ / (page_.name + ".jsonl");
 }
 
-Result<Measured> Measured::open(Page page) {
-  if (std::set<std::string>(page.rows.begin(), page.rows.end()).size() != page.rows.size())
-    return bad_input(fmt::format("{}: two rows have the same name", page.name));
-  auto commit = measured_commit(page.root);
-  if (!commit) return commit.error();
-  Measured measured(std::move(page), std::move(*commit));
-  if (const Status made = make_folders(measured.journal().parent_path()); !made) return made.error();
-  const auto rows = measured.read_journal();
-  if (!rows) return rows.error();
-  for (const Row& row : *rows) measured.before_.push_back(row.name);
-  return measured;
+Measured::Measured(Page page) : page_(std::move(page)), commit_(measured_commit(page_.root)) {
+  if (std::set<std::string>(page_.rows.begin(), page_.rows.end()).size() != page_.rows.size())
+    throw Failure{bad_input(fmt::format("{}: two rows have the same name", page_.name))};
+  must(make_folders(journal().parent_path()));
+  for (const Row& row : read_journal()) before_.push_back(row.name);
 }
 
 // A killed run may leave a part of a line: that row counts as not measured.
-Result<std::vector<Row>> Measured::read_journal() const {
+std::vector<Row> Measured::read_journal() const {
   std::vector<Row> rows;
   if (!std::filesystem::exists(journal())) return rows;
-  const auto text = read_file(journal());
-  if (!text) return text.error();
-  std::istringstream lines(*text);
+  std::istringstream lines(must(read_file(journal())));
   for (std::string line; std::getline(lines, line);) {
     const Json json = Json::parse(line, nullptr, false);
     if (json.is_discarded()) continue;
@@ -128,32 +117,27 @@ bool Measured::has(std::string_view name) const {
   return std::ranges::find(before_, name) != before_.end();
 }
 
-Status Measured::put(const Row& row) const {
-  return append(journal(), line_of(row));
+void Measured::put(const Row& row) const {
+  append(journal(), line_of(row));
 }
 
-Result<ExitCode> Measured::finish() const {
-  const auto rows = read_journal();
-  if (!rows) return rows.error();
-  if (rows->size() < page_.rows.size()) {
-    fmt::print("{}: {} of {} rows are measured; the page is not written\n", page_.name, rows->size(),
+ExitCode Measured::finish() const {
+  const std::vector<Row> rows = read_journal();
+  if (rows.size() < page_.rows.size()) {
+    fmt::print("{}: {} of {} rows are measured; the page is not written\n", page_.name, rows.size(),
                page_.rows.size());
     return ExitCode::equal;
   }
   const std::filesystem::path file = page_.root / page_.file;
-  const auto text = read_file(file);
-  if (!text) return text.error();
-  if (is_of_commit(*text, page_.name, commit_)) {
+  const std::string text = must(read_file(file));
+  if (is_of_commit(text, page_.name, commit_)) {
     fmt::print("{}: {} is of this commit\n", page_.name, page_.file);
   } else {
-    const auto origin = origin_text(page_.tools);
-    if (!origin) return origin.error();
-    const std::string written = with_origin(with_sections(*text, page_.sections(*rows)),
-                                            {.page = page_.name, .commit = commit_, .text = *origin});
-    if (const Status done = write_file(file, written); !done) return done.error();
+    must(write_file(file, with_origin(with_sections(text, page_.sections(rows)),
+                                      {page_.name, commit_, origin_text(page_.tools)})));
     fmt::print("{}: {} is written\n", page_.name, page_.file);
   }
-  return judged(page_.root, page_.values(*rows));
+  return judged(page_.root, page_.values(rows));
 }
 
 std::string Countdown::next() {

@@ -19,14 +19,14 @@
 namespace halfway::page {
 
 /// The last commit that changed what a measurement reads: everything but Markdown files, docs/results and the
-/// thresholds. An error if such files have changes that are not committed.
-Result<std::string> measured_commit(const std::filesystem::path& root);
+/// thresholds. Throws Failure if such files have changes that are not committed.
+std::string measured_commit(const std::filesystem::path& root);
 
-/// The first lines that the tools print for their versions. An error names the package that is missing.
-Result<std::string> versions(std::span<const std::string_view> tools);
+/// The first lines that the tools print for their versions. Failure names the package that is missing.
+std::string versions(std::span<const std::string_view> tools);
 
 /// Date, tools and machine, for Origin::text.
-Result<std::string> origin_text(std::span<const std::string_view> tools);
+std::string origin_text(std::span<const std::string_view> tools);
 
 struct Page {
   std::string name;  ///< in `make evidence PAGE=...`
@@ -41,25 +41,24 @@ struct Page {
 
 class Measured {
  public:
-  /// Reads the journal. An error if the checkout has changes, or if a row's name occurs twice.
-  static Result<Measured> open(Page page);
+  /// Reads the journal. Throws Failure if the checkout has changes, or if a row's name occurs twice.
+  explicit Measured(Page page);
 
-  /// Whether the row was measured before open().
+  /// Whether the row was measured before.
   bool has(std::string_view name) const;
   /// Add a row to the journal. Other threads and processes may do the same at the same time.
-  Status put(const Row& row) const;
+  void put(const Row& row) const;
   /// If all rows are measured: write the page, unless it is of this commit, print each broken threshold and
   /// return `differs` if there is one. Else print how many rows are missing.
-  Result<ExitCode> finish() const;
+  ExitCode finish() const;
 
  private:
-  Measured(Page page, std::string commit) : page_(std::move(page)), commit_(std::move(commit)) {}
   std::filesystem::path journal() const;
-  Result<std::vector<Row>> read_journal() const;  ///< rows of the page, in order
+  std::vector<Row> read_journal() const;  ///< rows of the page, in order
 
   Page page_;
   std::string commit_;
-  std::vector<std::string> before_;  ///< names of the rows in the journal at open()
+  std::vector<std::string> before_;  ///< names of the rows in the journal at the start
 };
 
 /// Progress of a number of items: "[3/20, about 4 min left]".

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "sim/os/must.hpp"
 #include "sim/os/program.hpp"
 
 namespace halfway::page {
@@ -56,18 +57,18 @@ class Recorder : public testing::EmptyTestEventListener {
                static_cast<double>(result.elapsed_time()) / 1000);
     std::fflush(stdout);
     if (!result.Passed()) return;
-    if (const Status stored = store(name, result); !stored) status_ = stored;
+    if (const Status stored = caught([&] { store(name, result); }); !stored) status_ = stored;
   }
 
  private:
-  Status store(const std::string& name, const testing::TestResult& result) const {
+  void store(const std::string& name, const testing::TestResult& result) const {
     Row row{.name = name, .section = section_of(name)};
     for (int i = 0; i < result.test_property_count(); ++i) {
       const testing::TestProperty& property = result.GetTestProperty(i);
       row.fields.emplace_back(property.key(), property.value());
     }
-    if (row.fields.empty()) return bad_input(fmt::format("{}: the test records no property", name));
-    return measured_.put(row);
+    if (row.fields.empty()) throw Failure{bad_input(fmt::format("{}: the test records no property", name))};
+    measured_.put(row);
   }
 
   const Measured& measured_;
@@ -75,28 +76,27 @@ class Recorder : public testing::EmptyTestEventListener {
   Status status_ = Ok{};
 };
 
-Result<ExitCode> measure(Page page, const std::string& part) {
+ExitCode measure(Page page, const std::string& part) {
   const auto tests = tests_with_rows();
   for (const auto& [name, test] : tests) page.rows.push_back(name);
-  const auto measured = Measured::open(std::move(page));
-  if (!measured) return measured.error();
+  const Measured measured(std::move(page));
   std::string filter;
   std::size_t total = 0;
   for (const auto& [name, test] : tests) {
-    if (name.find(part) == std::string::npos || measured->has(name)) continue;
+    if (name.find(part) == std::string::npos || measured.has(name)) continue;
     filter += (filter.empty() ? "" : ":") + test;
     ++total;
   }
   if (total > 0) {
     testing::GTEST_FLAG(filter) = filter;
-    auto recorder = std::make_unique<Recorder>(*measured, total);
+    auto recorder = std::make_unique<Recorder>(measured, total);
     const Recorder* const observer = recorder.get();
     testing::UnitTest::GetInstance()->listeners().Append(recorder.release());
     const int failed = RUN_ALL_TESTS();
-    if (!observer->status()) return observer->status().error();
+    must(observer->status());
     if (failed != 0) return ExitCode::differs;
   }
-  return measured->finish();
+  return measured.finish();
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ int run_tests(int argc, char** argv, Page page) {
         fmt::format("{}: unknown argument; give --evidence, with it --part=TEXT, or options of GoogleTest",
                     arguments.front())));
   if (!is_evidence) return RUN_ALL_TESTS();
-  const auto end = measure(std::move(page), part);
+  const auto end = caught([&] { return measure(std::move(page), part); });
   return end ? static_cast<int>(*end) : cli::report(end.error());
 }
 

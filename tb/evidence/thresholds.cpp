@@ -20,8 +20,8 @@ namespace {
 
 constexpr std::string_view c_file = "tb/evidence/thresholds.toml";
 
-Error at(const toml::node& node, std::string_view what) {
-  return bad_input(fmt::format("{}:{}: {}", c_file, node.source().begin.line, what));
+Failure at(const toml::node& node, std::string_view what) {
+  return Failure{bad_input(fmt::format("{}:{}: {}", c_file, node.source().begin.line, what))};
 }
 
 // The rule with these words; nothing if there is no such rule.
@@ -68,36 +68,32 @@ bool Thresholds::Rule::is_broken_by(double number, double threshold) const {
   return (below && number < threshold - slack(*below)) || (above && number > threshold + slack(*above));
 }
 
-Result<Thresholds> Thresholds::read(const std::filesystem::path& root) {
-  const auto text = read_file(root / c_file);
-  if (!text) return text.error();
-  return parse(*text);
+Thresholds Thresholds::read(const std::filesystem::path& root) {
+  return parse(must(read_file(root / c_file)));
 }
 
-Result<Thresholds> Thresholds::parse(std::string_view text) {
+Thresholds Thresholds::parse(std::string_view text) {
   Thresholds thresholds;
-  const auto all = caught([&] { return parse_toml(text, std::string(c_file)); });
-  if (!all) return all.error();
-  for (const auto& [section_name, node] : *all) {
+  for (const auto& [section_name, node] : parse_toml(text, std::string(c_file))) {
     const toml::table* table = node.as_table();
-    if (table == nullptr) return at(node, fmt::format("{}: is not a section", section_name.str()));
+    if (table == nullptr) throw at(node, fmt::format("{}: is not a section", section_name.str()));
     Section section{.line = node.source().begin.line};
     section.release = (*table)["release"].value_or(std::string());
     section.columns = list_of<std::string>(table->get("columns"));
     for (const std::string& rule :
          list_of<std::string>(table->get(section.columns.empty() ? "rule" : "rules"))) {
       const auto known = rule_of(rule);
-      if (!known) return at(node, fmt::format("{}: no such rule: {}", section_name.str(), rule));
+      if (!known) throw at(node, fmt::format("{}: no such rule: {}", section_name.str(), rule));
       section.rules.push_back(*known);
     }
     if (section.columns.empty()) section.columns = {"it"};
     if (section.rules.size() != section.columns.size())
-      return at(node, fmt::format("{}: give a rule, or columns and as many rules", section_name.str()));
+      throw at(node, fmt::format("{}: give a rule, or columns and as many rules", section_name.str()));
     for (const auto& [name, limit] : *table) {
       if (name == "release" || name == "rule" || name == "rules" || name == "columns") continue;
       std::vector<double> numbers = list_of<double>(&limit);
       if (numbers.size() != section.columns.size())
-        return at(limit, fmt::format("{}: wants {} numbers", name.str(), section.columns.size()));
+        throw at(limit, fmt::format("{}: wants {} numbers", name.str(), section.columns.size()));
       section.limits[std::string(name.str())] = {std::move(numbers), limit.source().begin.line};
     }
     thresholds.sections_[std::string(section_name.str())] = std::move(section);
@@ -174,14 +170,13 @@ std::vector<Value> judged_here(const Thresholds& thresholds, std::vector<Value> 
   return values;
 }
 
-Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> all) {
+ExitCode judged(const std::filesystem::path& root, std::span<const Value> all) {
   if (all.empty()) return ExitCode::equal;
-  const auto thresholds = Thresholds::read(root);
-  if (!thresholds) return thresholds.error();
-  const std::vector<Value> values = judged_here(*thresholds, {all.begin(), all.end()});
-  std::vector<std::string> lines = thresholds->unmeasured(values);
+  const Thresholds thresholds = Thresholds::read(root);
+  const std::vector<Value> values = judged_here(thresholds, {all.begin(), all.end()});
+  std::vector<std::string> lines = thresholds.unmeasured(values);
   for (const Value& value : values)
-    for (std::string& line : thresholds->broken(value)) lines.push_back(std::move(line));
+    for (std::string& line : thresholds.broken(value)) lines.push_back(std::move(line));
   for (const std::string& line : lines) fmt::print(stderr, "{}\n", line);
   return lines.empty() ? ExitCode::equal : ExitCode::differs;
 }

@@ -38,8 +38,9 @@ struct Value {
 
 class Thresholds {
  public:
-  static Result<Thresholds> read(const std::filesystem::path& root);
-  static Result<Thresholds> parse(std::string_view text);
+  /// Throws Failure with file and line.
+  static Thresholds read(const std::filesystem::path& root);
+  static Thresholds parse(std::string_view text);
 
   /// One line for each number that breaks its threshold, and for a name without a threshold:
   /// "tb/evidence/thresholds.toml:LINE: SECTION: NAME: COLUMN is NUMBER, must be RULE NUMBER".
@@ -82,6 +83,6 @@ std::vector<Value> judged_here(const Thresholds& thresholds, std::vector<Value> 
 
 /// Print each threshold that the values break, and each name of their sections that they lack. Returns
 /// `differs` if there is one.
-Result<ExitCode> judged(const std::filesystem::path& root, std::span<const Value> values);
+ExitCode judged(const std::filesystem::path& root, std::span<const Value> values);
 
 }  // namespace halfway::page

@@ -181,18 +181,18 @@ class Run {
     std::set<std::string> tests;
     for (const SourceFault& fault : faults_) tests.insert(row_name(fault.test));
     rows.insert(rows.end(), tests.begin(), tests.end());
-    return must(page::Measured::open(
+    return page::Measured(
         {.name = "mutants",
          .root = options_.source,
          .file = "docs/results/mutants.md",
          .tools = {"ghdl", "yosys", "verilator"},
          .rows = std::move(rows),
          .sections = [this](std::span<const page::Row> of) { return mutant_sections(of, reasons_); },
-         .values = mutant_values}));
+         .values = mutant_values});
   }
 
   void store(const page::Row& row) const {
-    if (measured_) must(measured_->put(row));
+    if (measured_) measured_->put(row);
   }
 
   void run_netlists() {
@@ -276,7 +276,7 @@ class Run {
     if (options_.sources) fmt::print("sources: {} faults, {} found\n", sources_, sources_found_);
     for (const std::string& what : wrong) fmt::print("{}\n", what);
     if (!wrong.empty()) return ExitCode::differs;
-    return measured_ ? must(measured_->finish()) : ExitCode::equal;
+    return measured_ ? measured_->finish() : ExitCode::equal;
   }
 
   const Options& options_;

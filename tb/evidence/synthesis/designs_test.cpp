@@ -21,14 +21,11 @@ namespace {
 const std::filesystem::path c_root = HALFWAY_SOURCE_DIR;
 
 TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
-  auto sources = read_rtl_sources(c_root);
-  ASSERT_TRUE(sources) << sources.error().message;
-  auto accumulator = read_vhdl_source(c_root, c_accumulator);
-  ASSERT_TRUE(accumulator) << accumulator.error().message;
-  sources->push_back(std::move(*accumulator));
+  auto sources = must(read_rtl_sources(c_root));
+  sources.push_back(must(read_vhdl_source(c_root, c_accumulator)));
   const std::regex entity(R"((?:^|\n)entity (\w+) is)");
   std::set<std::string> there, listed;
-  for (const VhdlSource& source : *sources)
+  for (const VhdlSource& source : sources)
     for (std::sregex_iterator it(source.content.begin(), source.content.end(), entity), end; it != end; ++it)
       there.insert((*it)[1]);
   for (const ListedDesign& design : all_designs(c_root)) listed.insert(design.design.entity);
@@ -47,18 +44,17 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
 }
 
 TEST(SynthDesigns, HaveThresholds) {
-  const auto thresholds = page::Thresholds::read(c_root);
-  ASSERT_TRUE(thresholds) << thresholds.error().message;
+  const page::Thresholds thresholds = page::Thresholds::read(c_root);
   std::set<std::string> names;
   std::vector<page::Value> values;
   for (const ListedDesign& listed : all_designs(c_root)) {
     const std::string& name = listed.design.name;
     EXPECT_TRUE(names.insert(name).second) << name << ": a second design of this name";
     if (!listed.ice40) continue;
-    EXPECT_FALSE(thresholds->numbers("cells", name).empty()) << name;
+    EXPECT_FALSE(thresholds.numbers("cells", name).empty()) << name;
     values.push_back({"cells", name, {}});
   }
-  EXPECT_THAT(thresholds->unmeasured(values), ::testing::IsEmpty());
+  EXPECT_THAT(thresholds.unmeasured(values), ::testing::IsEmpty());
 }
 
 TEST(SynthDesigns, HaveThePapersTimes) {

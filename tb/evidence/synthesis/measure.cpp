@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "pages.hpp"
-#include "sim/os/must.hpp"
 #include "sim/os/program.hpp"
 #include "sim/os/threads.hpp"
 
@@ -35,7 +34,7 @@ ExitCode print(const Options& options, const Evidence& evidence, const std::vect
   std::vector<Row> rows(items.size());
   measure_all(items, options.jobs, [&](std::size_t i, const Row& row) { rows[i] = row; });
   for (const page::Section& section : page::sections_of(rows)) fmt::print("\n{}\n", section.body);
-  const auto thresholds = must(page::Thresholds::read(options.folders.source));
+  const auto thresholds = page::Thresholds::read(options.folders.source);
   ExitCode end = ExitCode::equal;
   for (const page::Value& value : page::judged_here(thresholds, evidence.values(rows)))
     for (const std::string& broken : thresholds.broken(value)) {
@@ -56,10 +55,10 @@ ExitCode measure(const Options& options, const Evidence& evidence, std::vector<I
                   .rows = {}};
   page.values = evidence.values;
   for (const Item& item : items) page.rows.push_back(item.name);
-  const auto journal = must(page::Measured::open(std::move(page)));
+  const page::Measured journal(std::move(page));
   std::erase_if(items, [&](const Item& item) { return journal.has(item.name); });
-  measure_all(items, options.jobs, [&](std::size_t, const Row& row) { must(journal.put(row)); });
-  return must(journal.finish());
+  measure_all(items, options.jobs, [&](std::size_t, const Row& row) { journal.put(row); });
+  return journal.finish();
 }
 
 }  // namespace halfway::synth
