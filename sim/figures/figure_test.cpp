@@ -16,7 +16,6 @@
 #include "sim/figures/figure7.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/figure_plot.hpp"
-#include "sim/figures/interpolator_timing.hpp"
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
@@ -282,32 +281,6 @@ TEST(CutLines, AreCutOnlyWhereABellEnds) {
   EXPECT_EQ(same.frame.rgb, matte.frame.rgb);
   EXPECT_EQ(same.vectors, matte.counts.vectors);
   EXPECT_EQ(same.records, matte.counts.records);
-}
-
-TEST(TimingTrace, MeasuresTheTimeFromAnInputsChangeToItsOwn) {
-  constexpr std::string_view c_vcd =
-      "$timescale 1 fs $end\n$scope module interpolator_timing_tb $end\n$var reg 1 ! step $end\n$var reg 12 "
-      "# "
-      "angle[11:0] $end\n$scope module inner $end\n$var reg 1 % step $end\n$upscope $end\n$upscope "
-      "$end\n$enddefinitions $end\n#0\n0!\nb"
-      "XXXXXXXXXXXX #\n"
-      "#60000000\n1!\n1%\n#65000000\nb000000001111 "
-      "#\n#90000000\n0!\n#120000000\n1!\n#125000000\nb000000010000 #\n#130000000\n";
-  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  const std::filesystem::path file = folder.path() / "trace.vcd";
-  ASSERT_TRUE(write_file(file, c_vcd));
-  const auto trace = timing_trace(file);
-  ASSERT_EQ(trace.steps.size(), 1u);
-  EXPECT_EQ(trace.steps[0].from, 60.0);
-  EXPECT_EQ(trace.steps[0].until, 120.0);
-  EXPECT_EQ(trace.end, 130.0);
-  ASSERT_EQ(trace.work.size(), 2u);
-  EXPECT_EQ(trace.work[1].signal, "angle");
-  EXPECT_EQ(trace.work[1].until - trace.work[1].from, 5.0);
-  EXPECT_EQ(trace.work[1].pixel, 1);
-  EXPECT_EQ(trace.values.back().text, "010");
-  ASSERT_TRUE(write_file(file, "$scope module other $end\n$enddefinitions $end\n#0\n"));
-  EXPECT_THROW(timing_trace(file), Failure);
 }
 
 TEST(Plot, ADataBlockIsGnuplots) {

@@ -6,183 +6,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <map>
-#include <optional>
-#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "sim/engines/ghdl/vcd.hpp"
 #include "sim/figures/figure_plot.hpp"
 #include "sim/files/timing_diagram.hpp"
-#include "sim/os/file.hpp"
+#include "words/generator/cosine.hpp"
 
 namespace halfway::figures {
 namespace {
 
-constexpr const char* c_top = "interpolator_timing_tb";
+// In ns. Published for an XCV300-6, except those of ROM and multiplier: our assumption, the rest of a step.
+constexpr double c_step = 60, c_multiplexer = 5, c_adder = 10, c_register = 5, c_rom = 15, c_multiplier = 35;
 
-/// A signal's lane in the picture, from top to bottom, and its inputs in the hardware.
-struct Lane {
-  std::string_view signal;
-  std::string_view title;
-  std::array<std::string_view, 2> inputs{};
+constexpr int c_line_pixels = 4;
+constexpr double c_line_end = (c_line_pixels + 1.5) * c_step;
+
+// A signal's change to a pixel's value. It begins when the signal's input changes.
+struct Change {
+  double began, at;
+  int pixel;
+  std::string value;
 };
-constexpr std::array<Lane, 8> c_lanes = {{{"step", "step"},
-                                          {"init", "init"},
-                                          {"sum", "adder, + ", {"angle"}},
-                                          {"next_angle", "multiplexer", {"sum", "init"}},
-                                          {"angle", "register", {"step"}},
-                                          {"ra", "ra, its bits 11 to 6"},
-                                          {"sample", "ROM", {"ra"}},
-                                          {"product", "multiplier, × ", {"sample"}}}};
-
-const Lane& lane_of(std::string_view signal) {
-  return *std::ranges::find(c_lanes, signal, &Lane::signal);
-}
-
-std::string hexadecimal_bits(std::string_view bits) {
-  if (bits.empty() || bits.find_first_not_of("01") != std::string_view::npos) return "X";
-  std::string padded((4 - bits.size() % 4) % 4, '0');
-  padded += bits;
-  std::string text;
-  for (std::size_t at = 0; at < padded.size(); at += 4)
-    text += "0123456789ABCDEF"[std::stoi(padded.substr(at, 4), nullptr, 2)];
-  return text;
-}
-
-class TraceBuilder {
- public:
-  void name(const std::string& code, const std::string& signal, bool is_wire) {
-    const bool shown = std::ranges::find(c_lanes, signal, &Lane::signal) != c_lanes.end();
-    if (shown || signal == "slope" || signal == "factor") name_[code] = signal;
-    if (is_wire) wires_.insert(signal);
-  }
-  void at(double ns) { now_ = ns; }
-  void change(const std::string& code, const std::string& value) {
-    if (const auto found = name_.find(code); found != name_.end()) move(found->second, value);
-  }
-
-  TimingTrace finish() {
-    trace_.pixels.push_back({step_at_, now_});
-    trace_.end = now_;
-    for (const Lane& lane : c_lanes) close(std::string(lane.signal), now_);
-    for (int i = 0; i < pixels_; ++i)
-      trace_.words += fmt::format(
-          "{}Pixel {}: angle {}, ra {}, sample {}, product {}; next to it the sum for pixel {}, {}.",
-          i == 0 ? "" : " ", i, told_[{i, "angle"}], told_[{i, "ra"}], told_[{i, "sample"}],
-          told_[{i, "product"}], i + 1, told_[{i + 1, "sum"}]);
-    return std::move(trace_);
-  }
-
- private:
-  // End the signal's current value. Its transition began when its input changed: the value was stable until
-  // then.
-  void close(const std::string& signal, double began) {
-    if (!value_.contains(signal)) return;
-    const double since = since_[signal];
-    if (wires_.contains(signal))
-      trace_.wires.push_back({signal, since, now_, value_[signal] == "1" ? 1 : 0});
-    else if (began > since)
-      trace_.values.push_back({signal, since, began, pixel_[signal], value_[signal]});
-  }
-
-  int pixel_of(const std::string& signal) {
-    if (signal == "sum") return pixel_["angle"] + 1;
-    if (signal == "next_angle") return value_["init"] == "1" ? 0 : pixel_["sum"];
-    if (signal == "sample" || signal == "product") return pixel_[std::string(lane_of(signal).inputs[0])];
-    return pixels_ - 1;
-  }
-
-  void move(const std::string& signal, const std::string& to) {
-    if (const auto held = value_.find(signal); held != value_.end() && held->second == to) return;
-    if (signal == "slope" || signal == "factor") {
-      value_[signal] = to;
-      (signal == "slope" ? trace_.slope : trace_.factor) = to;
-      return;
-    }
-    double began = now_;
-    if (to != "X" && !lane_of(signal).inputs[0].empty()) {
-      began = 0.0;
-      for (const std::string_view input : lane_of(signal).inputs)
-        if (!input.empty()) began = std::max(began, since_[std::string(input)]);
-    }
-    close(signal, began);
-    value_[signal] = to;
-    since_[signal] = now_;
-    pixel_[signal] = to == "X" ? -1 : pixel_of(signal);
-    if (signal == "step" && to == "1") {
-      if (pixels_ > 0) {
-        trace_.pixels.push_back({step_at_, now_});
-        trace_.steps.push_back({step_at_, now_});
-      }
-      ++pixels_;
-      step_at_ = now_;
-      stage_1_.clear();
-    }
-    if (to == "X") return;
-    told_[{pixel_[signal], signal}] = fmt::format("{} at {:g} ns", to, now_);
-    if (began < now_) trace_.work.push_back({signal, began, now_, pixel_[signal]});
-    if (signal == "sum" || signal == "next_angle") stage_1_.push_back({began, now_});
-    if (signal != "product") return;
-    for (const TimingTrace::Span& s : stage_1_)
-      if (s.from < now_ && s.until > since_["ra"])
-        trace_.both.push_back({std::max(s.from, since_["ra"]), std::min(s.until, now_)});
-  }
-
-  TimingTrace trace_;
-  std::map<std::string, std::string> name_;  // by the VCD's identifier code
-  std::set<std::string> wires_;
-  std::map<std::string, std::string> value_;
-  std::map<std::string, double> since_;
-  std::map<std::string, int> pixel_;
-  std::map<std::pair<int, std::string>, std::string> told_;
-  std::vector<TimingTrace::Span> stage_1_;  // activity since the last step
-  double now_ = 0.0, step_at_ = 0.0;
-  int pixels_ = 0;
-};
-
-}  // namespace
-
-TimingTrace timing_trace(const std::filesystem::path& vcd) {
-  constexpr double c_femtoseconds = 1e6;  // per nanosecond
-  VcdReader reader(vcd);
-  TraceBuilder builder;
-  const std::string scope = std::string(c_top) + '/';
-  for (const auto& [path, signal] : reader.signals())
-    if (path.starts_with(scope) && path.find('/', scope.size()) == std::string::npos)
-      builder.name(signal.code, path.substr(scope.size()), signal.is_scalar);
-  for (;;) {
-    const auto change = reader.next();
-    builder.at(static_cast<double>(reader.time()) / c_femtoseconds);
-    if (!change) break;
-    if (change->value.size() > 1)
-      builder.change(change->code, hexadecimal_bits(change->value));
-    else if (change->value == "0" || change->value == "1")
-      builder.change(change->code, change->value);
-  }
-  TimingTrace trace = builder.finish();
-  if (trace.steps.empty() || trace.values.empty())
-    throw Failure{tool_failed("the timing model's trace has no steps")};
-  return trace;
-}
-
-namespace {
-
-TimingTrace simulated(const Context& context) {
-  std::vector<VhdlSource> sources = must(read_rtl_sources(context.folders.source));
-  std::erase_if(sources, [](const VhdlSource& source) {
-    const bool of_tables =
-        source.name.find("tables/") != std::string::npos && source.name.ends_with("_pkg.vhd");
-    return !of_tables && !source.name.ends_with("raster/line_pkg.vhd");
-  });
-  const TemporaryFolder scratch = must(TemporaryFolder::make(context.folders.cache));
-  const std::filesystem::path vcd = std::filesystem::absolute(scratch.path()) / "trace.vcd";
-  for (const char* name : {"tb/rtl/tb_pkg.vhd", "tb/evidence/interpolator_timing/interpolator_timing.vhd",
-                           "tb/evidence/interpolator_timing/interpolator_timing_tb.vhd"})
-    sources.push_back(must(read_vhdl_source(context.folders.source, name)));
-  must(run_testbench(c_top, sources, {"-gg_lines=1", "--vcd=" + vcd.string()}, context.folders.cache));
-  return timing_trace(vcd);
-}
 
 // Each pixel has the same colour in all lanes: pale when stable, strong while changing. Values of no pixel
 // are grey.
@@ -193,70 +40,95 @@ unsigned colour_of(int pixel, bool changing) {
          (known ? c_colours[static_cast<std::size_t>(pixel)] : 0x8a8a8aU);
 }
 
-std::string script_of(const TimingTrace& trace) {
-  TimingDiagram diagram{.end = trace.end, .width = 930, .axis = "time in ns"};
-  for (double ns = 0; ns <= trace.end; ns += 30) diagram.ticks.emplace_back(ns, fmt::format("{}", ns));
-  diagram.lanes = {{"pixel"}, {"cycle"}, {"both stages at work"}};
-  for (std::size_t i = 0; i < trace.pixels.size(); ++i) {
-    const auto [from, until] = trace.pixels[i];
-    diagram.lanes[0].boxes.push_back(
-        {from, until, fmt::format("pixel {}", i), colour_of(static_cast<int>(i), false)});
-    diagram.lines.push_back(from);
+TimingLane lane_of(std::string name, std::span<const Change> changes) {
+  TimingLane lane{std::move(name)};
+  Change held{0.0, 0.0, -1, "X"};
+  const auto hold = [&](double until) {
+    if (until > held.at) lane.boxes.push_back({held.at, until, held.value, colour_of(held.pixel, false)});
+  };
+  for (const Change& c : changes) {
+    hold(c.began);
+    held = c;
   }
-  for (const auto& [from, until] : trace.steps)
-    diagram.lanes[1].boxes.push_back({from, until, fmt::format("{:g} ns", until - from), c_grey_box});
-  for (const auto& [from, until] : trace.both) diagram.lanes[2].boxes.push_back({from, until, "", c_red_box});
-  for (const Lane& lane : c_lanes) {
-    TimingLane shown{std::string(lane.title) + (lane.signal == "sum"       ? trace.slope
-                                                : lane.signal == "product" ? trace.factor
-                                                                           : "")};
-    for (const TimingTrace::Wire& w : trace.wires)
-      if (w.signal == lane.signal) shown.levels.push_back({w.from, w.until, w.level != 0});
-    for (const TimingTrace::Value& v : trace.values)
-      if (v.signal == lane.signal)
-        shown.boxes.push_back({v.from, v.until, v.text, colour_of(v.pixel, false)});
-    for (const TimingTrace::Work& w : trace.work)
-      if (w.signal == lane.signal)
-        shown.boxes.push_back(
-            {w.from, w.until, fmt::format("{:g}", w.until - w.from), colour_of(w.pixel, true)});
-    diagram.lanes.push_back(std::move(shown));
-  }
-  return timing_script(diagram);
-}
-
-// Print a single value, such as "5 ns", if all are equal. The model's delays are the published ones.
-Measured always(const std::vector<double>& times) {
-  const auto [least, most] = std::ranges::minmax(times);
-  if (least != most) return {fmt::format("{} to {} ns", least, most)};
-  return constructed(least, "{} ns");
+  hold(c_line_end);
+  for (const auto& [began, at, pixel, value] : changes)
+    if (began < at)
+      lane.boxes.push_back({began, at, fmt::format("{:g}", at - began), colour_of(pixel, true)});
+  return lane;
 }
 
 }  // namespace
 
+// The first pixels of a line through the slice of figure 12: adder, multiplexer and register, then ROM and
+// multiplier. Both stages start with the register.
 void draw_figure_17(const Context& context, Drawing& out) {
-  const TimingTrace trace = simulated(context);
-  std::vector<double> steps;
-  for (const TimingTrace::Span& s : trace.steps) steps.push_back(s.until - s.from);
-  out.measured["cycle of `step`"] = always(steps);
-  const double rate = 1e9 / (steps.front() * 1e6);
-  out.measured["frames a second at 1000×1000"] = constructed(std::floor(rate), "{} ({:.2f})", rate);
-  for (const auto& [what, signal] :
-       {std::pair{"multiplexer", "next_angle"}, {"adder", "sum"}, {"register", "angle"}}) {
-    std::vector<double> times;
-    for (const TimingTrace::Work& w : trace.work)
-      if (w.signal == signal) times.push_back(w.until - w.from);
-    if (times.empty())
-      throw Failure{tool_failed(fmt::format("the timing model's trace has no work of {}", signal))};
-    out.measured[what] = always(times);
-  }
+  constexpr unsigned c_start = 0xB9A, c_slope = 0x2CD, c_factor = 0xC8;
+  const tables::CosineTable bell = tables::cosine_table(false, 2, {6, 6});
+  TimingDiagram diagram{.end = c_line_end, .width = 930, .axis = "time in ns"};
+  for (double ns = 0; ns <= c_line_end; ns += 30) diagram.ticks.emplace_back(ns, fmt::format("{}", ns));
+  TimingLane pixels{"pixel"}, cycle{"cycle"}, both{"both stages at work"}, step{"step"}, init{"init"};
+  step.levels = {{0, c_step, false}};
+  init.levels = {{0, 1.5 * c_step, true}, {1.5 * c_step, c_line_end, false}};
+  std::vector<Change> sums, chosen{{0.0, c_multiplexer, 0, fmt::format("{:03X}", c_start)}}, angles,
+      addresses, samples, products;
+  std::string words;
   double together = 0.0;
-  for (const TimingTrace::Span& s : trace.both) together += s.until - s.from;
-  out.measured["both stages at work at once"] =
-      constructed(together, "{} ns in {} pixels", trace.pixels.size());
+  unsigned angle = c_start;
+  for (int i = 0; i < c_line_pixels; ++i) {
+    const bool last = i + 1 == c_line_pixels;
+    const double at = (i + 1) * c_step, next = at + c_step, angle_at = at + c_register,
+                 sum_at = angle_at + c_adder, sample_at = angle_at + c_rom,
+                 product_at = sample_at + c_multiplier;
+    // The multiplexer waits for init after the first step.
+    const double choice = i == 0 ? at + c_step / 2 : sum_at;
+    const unsigned address = angle >> 6, sample = bell.entries[address], sum = (angle + c_slope) & 0xFFF;
+    angles.push_back({at, angle_at, i, fmt::format("{:03X}", angle)});
+    addresses.push_back({angle_at, angle_at, i, fmt::format("{:02X}", address)});
+    samples.push_back({angle_at, sample_at, i, fmt::format("{:02X}", sample)});
+    products.push_back({sample_at, product_at, i, fmt::format("{:04X}", c_factor * sample)});
+    sums.push_back({angle_at, sum_at, i + 1, fmt::format("{:03X}", sum)});
+    chosen.push_back({choice, choice + c_multiplexer, i + 1, sums.back().value});
+    words += fmt::format(
+        "{}Pixel {}: angle {} at {:g} ns, ra {} at {:g} ns, sample {} at {:g} ns, product {} at {:g} ns; "
+        "next "
+        "to it the sum for pixel {}, {} at {:g} ns.",
+        i == 0 ? "" : " ", i, angles.back().value, angle_at, addresses.back().value, angle_at,
+        samples.back().value, sample_at, products.back().value, product_at, i + 1, sums.back().value, sum_at);
+    for (const Change& c : {sums.back(), chosen.back()}) {
+      const double until = std::min(c.at, product_at);
+      if (c.began >= until) continue;
+      both.boxes.push_back({c.began, until, "", c_red_box});
+      together += until - c.began;
+    }
+    diagram.lines.push_back(at);
+    pixels.boxes.push_back({at, last ? c_line_end : next, fmt::format("pixel {}", i), colour_of(i, false)});
+    if (!last) cycle.boxes.push_back({at, next, fmt::format("{:g} ns", c_step), c_grey_box});
+    step.levels.push_back({at, at + c_step / 2, true});
+    step.levels.push_back({at + c_step / 2, last ? c_line_end : next, false});
+    angle = sum;
+  }
+  diagram.lanes = {pixels,
+                   cycle,
+                   both,
+                   step,
+                   init,
+                   lane_of(fmt::format("adder, + {:X}", c_slope), sums),
+                   lane_of("multiplexer", chosen),
+                   lane_of("register", angles),
+                   lane_of("ra, its bits 11 to 6", addresses),
+                   lane_of("ROM", samples),
+                   lane_of(fmt::format("multiplier, × {:X}", c_factor), products)};
+  out.measured["cycle of `step`"] = constructed(c_step, "{} ns");
+  out.measured["multiplexer"] = constructed(c_multiplexer, "{} ns");
+  out.measured["adder"] = constructed(c_adder, "{} ns");
+  out.measured["register"] = constructed(c_register, "{} ns");
+  out.measured["both stages at work at once"] = constructed(together, "{} ns in {} pixels", c_line_pixels);
+  const double rate = 1e9 / (c_step * 1e6);
+  out.measured["frames a second at 1000×1000"] = constructed(std::floor(rate), "{} ({:.2f})", rate);
   draw_plot(context, "spherical-17",
             {.title = "Timing of the line interpolator, ROM and multiplier: two stages that overlap",
-             .words = trace.words,
-             .script = script_of(trace)},
+             .words = words,
+             .script = timing_script(diagram)},
             out);
 }
 
