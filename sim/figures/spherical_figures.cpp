@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
@@ -22,7 +23,6 @@
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/figure_plot.hpp"
 #include "sim/figures/interpolator_timing.hpp"
-#include "sim/figures/rings.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/threads.hpp"
 #include "words/generator/cosine.hpp"
@@ -336,6 +336,46 @@ Frame cut(const Frame& frame, std::uint32_t left, std::uint32_t top, FrameSize s
     std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(left, top + y)), 3 * size.width,
                 part.rgb.begin() + static_cast<std::ptrdiff_t>(part.offset(0, y)));
   return part;
+}
+
+constexpr FrameSize c_rings_frame{640, 480};
+
+// Rings around highlights, caused by small tables. Measured in discs around the highlights of the scene
+// `highlights`, inside every bell, where wrapping angles cause no ghost highlights.
+struct Rings {
+  int largest_step = 0;    ///< between neighbouring pixels of a line, in steps of 1/255
+  double rms_error = 0.0;  ///< against the same interpolation without tables
+};
+
+int blue(const Frame& frame, int x, int y) {
+  return frame.rgb[frame.offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)) + 2];
+}
+
+// Two frames of the scene `highlights` with c_rings_frame: with tables and without.
+Rings measure_rings(const Frame& frame, const Frame& without_tables) {
+  constexpr int c_spheres = 3, c_radius = 40, c_third = static_cast<int>(c_rings_frame.width) / c_spheres;
+  Rings rings;
+  double squares = 0.0;
+  int count = 0;
+  for (int sphere = 0; sphere < c_spheres; ++sphere) {
+    int peak_x = 0, peak_y = 0;
+    for (int y = c_radius; y < static_cast<int>(c_rings_frame.height) - c_radius; ++y)
+      for (int x = sphere * c_third + c_radius; x < (sphere + 1) * c_third - c_radius; ++x)
+        if (blue(without_tables, x, y) > blue(without_tables, peak_x, peak_y) || peak_x == 0)
+          peak_x = x, peak_y = y;
+    for (int dy = -c_radius; dy <= c_radius; ++dy) {
+      const int y = peak_y + dy, half = to_integer<int>(std::sqrt(c_radius * c_radius - dy * dy));
+      for (int x = peak_x - half; x <= peak_x + half; ++x) {
+        rings.largest_step =
+            std::max(rings.largest_step, std::abs(blue(frame, x + 1, y) - blue(frame, x, y)));
+        const int error = std::abs(blue(frame, x, y) - blue(without_tables, x, y));
+        squares += error * error;
+        ++count;
+      }
+    }
+  }
+  rings.rms_error = std::sqrt(squares / count);
+  return rings;
 }
 
 void draw_figure_15(const Context& context, Drawing& out) {
