@@ -157,8 +157,8 @@ void write_pictures(const std::filesystem::path& out, const PictureOrder& order)
 
 }  // namespace
 
-Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& options,
-                               const SimulatorFolders& folders) try {
+BoardCheck check_board(const Scene& scene, const BoardCheckOptions& options,
+                       const SimulatorFolders& folders) {
   const std::uint16_t background = rgb565(scene.background);
   const unsigned init_bits = make_golden_model(board_key())->init_bits();
   BoardCheck check;
@@ -186,21 +186,19 @@ Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& opti
 
   PictureOrder order(expected);
   const auto on_picture = [&](const DotPicture& dots) { return order.add(dots); };
-  const RunOptions run_options{.pause_seed = options.host == Host::unreliable ? 7U : 0U};
-  check.run = must(options.ghdl ? run_in_ghdl(script, folders, on_picture)
-                                : run_in_verilator(script, run_options, folders, on_picture));
+  const std::uint32_t pause_seed = options.host == Host::unreliable ? 7 : 0;
+  check.run = options.ghdl ? run_in_ghdl(script, folders, on_picture)
+                           : run_in_verilator(script, pause_seed, folders, on_picture);
   check.pictures = order.count();
   write_pictures(options.out, order);
   if (!order.complete() || !check.run.host_done)
-    return Error{ExitCode::differs, fmt::format("{}: {}", scene.name, order.difference())};
+    throw Failure{{ExitCode::differs, fmt::format("{}: {}", scene.name, order.difference())}};
   const HostReport& report = check.run.report;
   if (report.errors != bad_packets || report.faults != 0)
-    return Error{ExitCode::differs,
-                 fmt::format("{}: the status bytes report {} bad packets and {} faults instead of {} and 0",
-                             scene.name, report.errors, report.faults, bad_packets)};
+    throw Failure{{ExitCode::differs,
+                   fmt::format("{}: the status bytes report {} bad packets and {} faults instead of {} and 0",
+                               scene.name, report.errors, report.faults, bad_packets)}};
   return check;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway::board

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "scene/scene.hpp"
 #include "setup/setup.hpp"
 #include "sim/extras/board/board_simulator.hpp"
@@ -42,10 +41,9 @@ struct BoardCheck {
 };
 
 /// The monitor must show a black frame, the scene, the scene from a turned camera, in this order and nothing
-/// else. The status bytes must report each bad packet once, and no fault. A difference is an error with the
-/// code `differs`. Writes board-1.png and board-2.png (the monitor's), twin-1.png and twin-2.png;
+/// else. The status bytes must report each bad packet once, and no fault. Throws Failure, of the code
+/// `differs` for a difference. Writes board-1.png and board-2.png (the monitor's), twin-1.png and twin-2.png;
 /// board-different.png after a difference.
-Result<BoardCheck> check_board(const Scene& scene, const BoardCheckOptions& options,
-                               const SimulatorFolders& folders);
+BoardCheck check_board(const Scene& scene, const BoardCheckOptions& options, const SimulatorFolders& folders);
 
 }  // namespace halfway::board

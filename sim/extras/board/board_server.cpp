@@ -8,11 +8,15 @@
 
 #include <cerrno>
 #include <cstring>
-#include <optional>
+#include <deque>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "sim/extras/board/packet_twin.hpp"
+#include "golden_run/golden_run.hpp"
+#include "sim/extras/board/board_picture.hpp"
+#include "sim/extras/board/board_sources.hpp"
 #include "sim/extras/board/spi_packet.hpp"
 #include "sim/extras/board/verilated_board.hpp"
 #include "sim/files/image.hpp"
@@ -45,6 +49,47 @@ bool write_all(int descriptor, const std::vector<std::uint8_t>& bytes) {
   return true;
 }
 
+/// The twin of the board for packets: draws them by the golden model, and gives the pictures that the monitor
+/// may show.
+class PacketTwin {
+ public:
+  /// A packet that the board has received completely, with the status byte that it returned. Packets that the
+  /// board drops change nothing.
+  void take(std::span<const std::uint8_t> packet, std::uint8_t status) {
+    if (packet.size() < c_around_payload || crc16(packet) != 0) return;
+    const std::span<const std::uint8_t> payload = packet.subspan(1, packet.size() - c_around_payload);
+    if (packet[0] == c_draw && (status & c_room) != 0 && payload.size() == (golden_->init_bits() + 7) / 8) {
+      std::vector<std::uint32_t> words((golden_->init_bits() + 31) / 32);
+      for (std::size_t byte = 0; byte < payload.size(); ++byte)
+        words[byte / 4] |= std::uint32_t{payload[payload.size() - 1 - byte]} << (8 * (byte % 4));
+      back_.add(golden_->draw(words));
+    } else if (packet[0] == c_end_frame && (status & c_ending) == 0 && payload.size() == 2) {
+      ended_.push_back(back_.dots());
+      back_ = BoardPicture(static_cast<std::uint16_t>(payload[0] << 8 | payload[1]));
+    }
+  }
+
+  /// A picture of the monitor. Returns false if it is neither the one before nor the next frame.
+  bool shows(const DotPicture& dots) {
+    if (dots == shown_) return true;
+    if (ended_.empty() || dots != ended_.front()) return false;
+    shown_ = dots;
+    ended_.pop_front();
+    return true;
+  }
+
+  /// Number of ended frames that the monitor has not shown.
+  std::size_t pending() const { return ended_.size(); }
+
+ private:
+  static constexpr std::size_t c_around_payload = 3;  ///< bytes of command and CRC
+
+  std::unique_ptr<GoldenModel> golden_ = make_golden_model(board_key());
+  BoardPicture back_{0};
+  DotPicture shown_ = back_.dots();
+  std::deque<DotPicture> ended_;  ///< frames that are not shown yet
+};
+
 /// Compares the monitor's pictures with the twin's, and writes those that differ from the one before.
 class Pictures {
  public:
@@ -74,8 +119,8 @@ class Pictures {
 
 }  // namespace
 
-Result<ServerReport> serve_board(const std::filesystem::path& socket, const std::filesystem::path& out,
-                                 const SimulatorFolders& folders) try {
+ServerReport serve_board(const std::filesystem::path& socket, const std::filesystem::path& out,
+                         const SimulatorFolders& folders) {
   must(make_folders(out));
   PacketTwin twin;
   Pictures pictures(twin, out);
@@ -84,7 +129,7 @@ Result<ServerReport> serve_board(const std::filesystem::path& socket, const std:
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (socket.string().size() >= sizeof address.sun_path)
-    return bad_input(socket.string() + ": too long for the name of a socket; use a shorter path");
+    throw Failure{bad_input(socket.string() + ": too long for the name of a socket; use a shorter path")};
   std::strcpy(address.sun_path, socket.c_str());
   const Descriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   ::unlink(socket.c_str());
@@ -103,7 +148,7 @@ Result<ServerReport> serve_board(const std::filesystem::path& socket, const std:
   std::uint32_t count = 0;
   for (std::vector<std::uint8_t> packet; read_all(client.get(), &count, sizeof count);) {
     if (count == 0 || count > c_longest_packet)
-      return bad_input(fmt::format("{}: a packet of {} bytes", socket.string(), count));
+      throw Failure{bad_input(fmt::format("{}: a packet of {} bytes", socket.string(), count))};
     packet.resize(count);
     if (!read_all(client.get(), packet.data(), count)) break;
     wire.send(packet);
@@ -117,14 +162,12 @@ Result<ServerReport> serve_board(const std::filesystem::path& socket, const std:
   for (const std::uint64_t end = pictures.count() + c_pictures_at_end; twin.pending() > 0;) {
     clock();
     if (pictures.count() == end && twin.pending() > 0)
-      return Error{ExitCode::differs,
-                   fmt::format("the monitor has not shown the last {} frames", twin.pending())};
+      throw Failure{
+          {ExitCode::differs, fmt::format("the monitor has not shown the last {} frames", twin.pending())}};
   }
   report.clocks = board.clocks();
   report.pictures = pictures.different();
   return report;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway::board

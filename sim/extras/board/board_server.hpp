@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "common/result.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::board {
@@ -18,9 +17,9 @@ struct ServerReport {
 /// Listens at a Unix socket for one client, until it closes the connection and the monitor has shown its last
 /// frame. Each transfer is a packet: the client sends the number of bytes, 32 bits in the machine's order,
 /// and the bytes, and gets as many bytes back. The board's time passes during packets only. Every picture of
-/// the monitor must be equal to the twin's for the packets that the board has taken; a difference is an error
-/// with the code `differs`. Different pictures are written to out/picture-N.png.
-Result<ServerReport> serve_board(const std::filesystem::path& socket, const std::filesystem::path& out,
-                                 const SimulatorFolders& folders);
+/// the monitor must be equal to the twin's for the packets that the board has taken; a difference is a
+/// Failure with the code `differs`. Different pictures are written to out/picture-N.png.
+ServerReport serve_board(const std::filesystem::path& socket, const std::filesystem::path& out,
+                         const SimulatorFolders& folders);
 
 }  // namespace halfway::board

@@ -72,7 +72,7 @@ void simulate_board(const BoardSimulation& simulation, const BoardSimCommand& co
   if (options.ghdl) options.setup.quadratic.test = HighlightTest::none;
   Progress progress("board-sim");
   progress.show(fmt::format("{} in {}, {} host", simulation.scene, to_string(simulation.simulator), host));
-  const auto check = must(board::check_board(scene, options, {folders.source, folders.cache()}));
+  const auto check = board::check_board(scene, options, {folders.source, folders.cache()});
   progress.clear();
   const board::HostReport& report = check.run.report;
   fmt::print(
@@ -86,8 +86,7 @@ void simulate_board(const BoardSimulation& simulation, const BoardSimCommand& co
 
 /// Simulates the board for another program.
 void serve(const Folders& folders, const BoardSimCommand& command) {
-  const auto report_of =
-      must(board::serve_board(command.socket, command.out, {folders.source, folders.cache()}));
+  const auto report_of = board::serve_board(command.socket, command.out, {folders.source, folders.cache()});
   fmt::print(
       "{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
       command.socket, report_of.packets, report_of.vectors, report_of.clocks, report_of.pictures);

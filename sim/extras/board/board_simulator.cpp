@@ -14,7 +14,7 @@ namespace halfway::board {
 namespace {
 
 /// After the host is done, the last frame must be shown: four pictures of the monitor.
-constexpr std::uint64_t c_late_clocks = 4 * 840'000;
+constexpr std::uint64_t c_late_clocks = 4 * 840'000, c_most_clocks = 500'000'000;
 constexpr const char* c_testbench = "board_sim_tb";
 
 /// A line of the log of tb/rtl/board/board_sim_tb.vhd: numbers separated by blanks.
@@ -31,15 +31,15 @@ bool read_numbers(std::string_view line, Numbers&... numbers) {
 
 }  // namespace
 
-Result<BoardRun> run_in_verilator(const std::vector<HostAction>& script, const RunOptions& options,
-                                  const SimulatorFolders& folders, const OnPicture& on_picture) try {
+BoardRun run_in_verilator(const std::vector<HostAction>& script, std::uint32_t pause_seed,
+                          const SimulatorFolders& folders, const OnPicture& on_picture) {
   bool ended = false;
   VerilatedBoard board(folders, [&](const DotPicture& dots) { ended = !on_picture(dots); });
-  SpiHost host(script, options.pause_seed);
+  SpiHost host(script, pause_seed);
   BoardRun run;
   for (SpiPins pins; !ended;) {
-    if (board.clocks() == options.most_clocks)
-      return Error{ExitCode::differs, fmt::format("board: not done after {} clocks", options.most_clocks)};
+    if (board.clocks() == c_most_clocks)
+      throw Failure{{ExitCode::differs, fmt::format("board: not done after {} clocks", c_most_clocks)}};
     const bool data = board.clock(pins);
     if (!host.done()) run.clocks = board.clocks();
     if (board.clocks() > run.clocks + c_late_clocks) break;
@@ -48,12 +48,10 @@ Result<BoardRun> run_in_verilator(const std::vector<HostAction>& script, const R
   run.host_done = host.done();
   run.report = host.report();
   return run;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
-Result<BoardRun> run_in_ghdl(const std::vector<HostAction>& script, const SimulatorFolders& folders,
-                             const OnPicture& on_picture) try {
+BoardRun run_in_ghdl(const std::vector<HostAction>& script, const SimulatorFolders& folders,
+                     const OnPicture& on_picture) {
   std::vector<VhdlSource> sources = board_sources(folders);
   for (const char* name :
        {"tb/rtl/tb_pkg.vhd", "tb/rtl/board/ice40_cells.vhd", c_board_top_file, "tb/rtl/board/sram_model.vhd",
@@ -80,16 +78,15 @@ Result<BoardRun> run_in_ghdl(const std::vector<HostAction>& script, const Simula
     }
     std::uint64_t clocks = 0;
     unsigned hsync = 0, vsync = 0, red = 0, green = 0, blue = 0;
-    if (!read_numbers(line, clocks, hsync, vsync, red, green, blue)) return log.at("is not a line of levels");
+    if (!read_numbers(line, clocks, hsync, vsync, red, green, blue))
+      throw Failure{log.at("is not a line of levels")};
     const VideoPins pins{hsync != 0, vsync != 0, static_cast<std::uint8_t>(red),
                          static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue)};
     for (std::uint64_t i = 0; i < clocks; ++i) monitor.clock(pins);
   }
-  if (!complete) return log.at("the log has no last line");
-  if (!monitor.fault().empty()) return Error{ExitCode::differs, "board in GHDL: " + monitor.fault()};
+  if (!complete) throw Failure{log.at("the log has no last line")};
+  if (!monitor.fault().empty()) throw Failure{{ExitCode::differs, "board in GHDL: " + monitor.fault()}};
   return run;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway::board

@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/extras/board/monitor.hpp"
 #include "sim/extras/board/spi_host.hpp"
@@ -22,20 +21,15 @@ struct BoardRun {
 /// Gets each picture of the monitor; returns false to end the run. A run in GHDL ends by itself.
 using OnPicture = std::function<bool(const DotPicture&)>;
 
-struct RunOptions {
-  std::uint32_t pause_seed = 0;  ///< of the host; 0: none
-  std::uint64_t most_clocks = 500'000'000;
-};
-
 /// Runs board_core in Verilator with the C++ models until on_picture returns false, or for some pictures
-/// after the host is done. Faults of the bus and of the video timing, and a run without end, are errors with
-/// the code `differs`.
-Result<BoardRun> run_in_verilator(const std::vector<HostAction>& script, const RunOptions& options,
-                                  const SimulatorFolders& folders, const OnPicture& on_picture);
+/// after the host is done. The host pauses at random, without a seed never. Throws Failure, of the code
+/// `differs` for faults of the bus and of the video timing, and for a run without end.
+BoardRun run_in_verilator(const std::vector<HostAction>& script, std::uint32_t pause_seed,
+                          const SimulatorFolders& folders, const OnPicture& on_picture);
 
 /// The same in GHDL, with the VHDL models of tb/rtl/board/board_sim_tb.vhd, until the host is done and two
 /// more pictures are shown.
-Result<BoardRun> run_in_ghdl(const std::vector<HostAction>& script, const SimulatorFolders& folders,
-                             const OnPicture& on_picture);
+BoardRun run_in_ghdl(const std::vector<HostAction>& script, const SimulatorFolders& folders,
+                     const OnPicture& on_picture);
 
 }  // namespace halfway::board

@@ -16,6 +16,7 @@
 #include "sim/extras/board/board_sources.hpp"
 #include "sim/extras/board/spi_packet.hpp"
 #include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 #include "words/formats.hpp"
 #include "words/word.hpp"
 
@@ -38,12 +39,11 @@ std::vector<std::uint32_t> random_vector(std::mt19937& random, unsigned init_bit
 
 TEST(BoardInput, RandomVectorsEndAndTheNextFrameIsTheTwins) {
   const SimulatorFolders folders{HALFWAY_SOURCE_DIR, HALFWAY_CACHE_DIR};
-  const auto scene = load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", folders.source / "sim/scenes");
-  ASSERT_TRUE(scene) << scene.error().message;
-  const std::uint16_t background = rgb565(scene->background);
-  const auto stream = whole_stream(*scene, c_board_frame, board_key());
-  ASSERT_TRUE(stream) << stream.error().message;
-  const unsigned init_bits = stream->init_bits;
+  const Scene scene =
+      must(load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", folders.source / "sim/scenes"));
+  const std::uint16_t background = rgb565(scene.background);
+  const FrameStream stream = must(whole_stream(scene, c_board_frame, board_key()));
+  const unsigned init_bits = stream.init_bits;
 
   std::mt19937 random(1);
   std::vector<HostAction> script = {whole_packet(end_packet(background))};
@@ -51,23 +51,22 @@ TEST(BoardInput, RandomVectorsEndAndTheNextFrameIsTheTwins) {
     script.push_back(whole_packet(draw_packet(random_vector(random, init_bits), init_bits)));
   script.push_back(whole_packet(end_packet(background)));
   BoardPicture picture(background);
-  picture.add(stream->golden);
-  for (std::size_t at = 0; at < stream->words.size(); at += stream->vector_words())
+  picture.add(stream.golden);
+  for (std::size_t at = 0; at < stream.words.size(); at += stream.vector_words())
     script.push_back(
-        whole_packet(draw_packet(std::span(stream->words).subspan(at, stream->vector_words()), init_bits)));
+        whole_packet(draw_packet(std::span(stream.words).subspan(at, stream.vector_words()), init_bits)));
   script.push_back(whole_packet(end_packet(background)));
   script.push_back({HostAction::Kind::wait});
 
   DotPicture last;
-  const auto run = run_in_verilator(script, {}, folders, [&](const DotPicture& dots) {
+  const auto run = run_in_verilator(script, 0, folders, [&](const DotPicture& dots) {
     last = dots;
     return true;
   });
-  ASSERT_TRUE(run) << run.error().message;
-  EXPECT_TRUE(run->host_done);
-  EXPECT_EQ(run->report.errors, 0U);
-  EXPECT_GT(run->report.faults, 0U);
-  EXPECT_EQ(run->report.frames, 3U);
+  EXPECT_TRUE(run.host_done);
+  EXPECT_EQ(run.report.errors, 0U);
+  EXPECT_GT(run.report.faults, 0U);
+  EXPECT_EQ(run.report.frames, 3U);
   EXPECT_EQ(last, picture.dots());
 }
 
