@@ -11,6 +11,7 @@
 #include "sim/driver/limits.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
 #include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
 
 namespace halfway::synth {
@@ -35,26 +36,20 @@ TEST_P(MappedFrame, EqualsTheGoldenModels) {
   ASSERT_FALSE(find_program("yosys").empty()) << "no yosys: " << c_install_tools;
   const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const SimulatorFolders folders{source, HALFWAY_CACHE_DIR};
-  const auto scene = load_scene(GetParam().scene, source / "sim" / "scenes");
-  ASSERT_TRUE(scene) << scene.error().message;
+  const Scene scene = must(load_scene(GetParam().scene, source / "sim" / "scenes"));
   PlanRequest request{.shader = GetParam().shader, .preset = GetParam().preset};
   if (request.shader == Shader::processors) request.form = GetParam().form;
-  const auto plan = plan_scene(*scene, request);
-  ASSERT_TRUE(plan) << plan.error().message;
-  const HardwareKey key = plan->key;
+  const HardwareKey key = must(plan_scene(scene, request)).key;
 
   const std::string netlist =
       Synthesizer::open(folders.cache, false).simulated(design_of(key, folders.source));
-  const auto simulator = shared_engine(VerilatorSimulator::open(
-      key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = netlist}));
-  ASSERT_TRUE(simulator) << simulator.error().message;
+  const auto simulator = must(shared_engine(VerilatorSimulator::open(
+      key, folders, {.stall_seed = GetParam().stall_seed, .idle_limit = c_idle_limit, .netlist = netlist})));
 
-  FrameDriver driver(*scene, c_frame, key, {*simulator});
-  const Status drawn = driver.draw();
-  ASSERT_TRUE(drawn) << drawn.error().message;
+  FrameDriver driver(scene, c_frame, key, {simulator});
+  must(driver.draw());
   ASSERT_GT(driver.fragments(), 20U);
-  const Status equal = driver.equal();
-  EXPECT_TRUE(equal) << equal.error().message;
+  must(driver.equal());
 }
 
 INSTANTIATE_TEST_SUITE_P(Small, MappedFrame,

@@ -22,6 +22,7 @@
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/engines/verilator/verilated_library.hpp"
 #include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -44,29 +45,21 @@ void PrintTo(const Case& c, std::ostream* out) {
   *out << c.name;
 }
 
-Result<SharedLibrary> build(const HardwareKey& key, int limit_bits) {
-  const auto tool = GhdlTool::find();
-  if (!tool) return tool.error();
-  const auto sources = read_rtl_sources(c_folders.source);
-  if (!sources) return sources.error();
-  const auto library = GhdlLibrary::for_synthesis(*tool, *sources, c_folders.cache);
-  if (!library) return library.error();
+SharedLibrary build(const HardwareKey& key, int limit_bits) {
+  const auto library = must(GhdlLibrary::for_synthesis(
+      must(GhdlTool::find()), must(read_rtl_sources(c_folders.source)), c_folders.cache));
   const std::string top = fmt::format("{}_axi", to_string(key.shader));
   auto generics = key.generics();
   generics.emplace_back("g_limit_bits", std::to_string(limit_bits));
-  const auto netlist = library->synthesize(top, generics);
-  if (!netlist) return netlist.error();
-  auto mended = mend_netlist(*netlist);
-  if (!mended) return mended.error();
   const std::filesystem::path folder = c_folders.source / "tb/inputs/ports";
-  return open_verilated({.name = key.name() + "-axi",
-                         .netlist = std::move(*mended),
-                         .top = top,
-                         .harness = folder / "axi_harness.cpp",
-                         .include_folder = c_folders.source,
-                         .harness_headers = {folder / "axi_harness.hpp"},
-                         .fast = false},
-                        c_folders.cache);
+  return must(open_verilated({.name = key.name() + "-axi",
+                              .netlist = must(mend_netlist(must(library.synthesize(top, generics)))),
+                              .top = top,
+                              .harness = folder / "axi_harness.cpp",
+                              .include_folder = c_folders.source,
+                              .harness_headers = {folder / "axi_harness.hpp"},
+                              .fast = false},
+                             c_folders.cache));
 }
 
 class BadInput : public testing::TestWithParam<Case> {
@@ -75,23 +68,17 @@ class BadInput : public testing::TestWithParam<Case> {
     if (model_ != nullptr) destroy_(model_);
   }
   void SetUp() override {
-    const auto scene = load_scene(fmt::format(fmt::runtime(GetParam().scene), HALFWAY_SOURCE_DIR),
-                                  c_folders.source / "sim/scenes");
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto plan = plan_scene(*scene, GetParam().plan);
-    ASSERT_TRUE(plan) << plan.error().message;
-    auto stream = whole_stream(*scene, GetParam().size, plan->key);
-    ASSERT_TRUE(stream) << stream.error().message;
-    beat_words_ = stream->vector_words();
-    good_ = std::move(stream->words);
-    golden_ = std::move(stream->golden);
+    const Scene scene = must(load_scene(fmt::format(fmt::runtime(GetParam().scene), HALFWAY_SOURCE_DIR),
+                                        c_folders.source / "sim/scenes"));
+    const HardwareKey key = must(plan_scene(scene, GetParam().plan)).key;
+    FrameStream stream = must(whole_stream(scene, GetParam().size, key));
+    beat_words_ = stream.vector_words();
+    good_ = std::move(stream.words);
+    golden_ = std::move(stream.golden);
     ASSERT_GT(golden_.size(), 40U);
-    auto library = build(plan->key, GetParam().limit_bits);
-    ASSERT_TRUE(library) << library.error().message;
-    library_.emplace(std::move(*library));
-    const Status bound = library_->bind(draw_, "halfway_axi_draw", create_, "halfway_axi_create", destroy_,
-                                        "halfway_axi_destroy");
-    ASSERT_TRUE(bound) << bound.error().message;
+    library_.emplace(build(key, GetParam().limit_bits));
+    must(library_->bind(draw_, "halfway_axi_draw", create_, "halfway_axi_create", destroy_,
+                        "halfway_axi_destroy"));
     model_ = create_();
   }
 
