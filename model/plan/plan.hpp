@@ -40,7 +40,7 @@ struct PlanRequest {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
   std::optional<words::CosineSize> tables;  ///< of the spherical shader; empty: the preset's
-  /// Tables of a size that the program was not built with. The RTL must have them too (rtl_with_tables of
+  /// Tables of a size that the program was not built with. The RTL must have them too (rtl_with of
   /// sim/generator).
   std::span<const words::CosineTable> made_tables{};
   /// Preset exact of the spherical shader: the scene's own_exponents, if made_tables are its own tables.

@@ -159,8 +159,8 @@ std::string lacking(Way way, const SimulatorFolders& folders) {
 }
 
 MesaRun run_mesa(const WayInput& input, int repetitions) {
-  const MesaPicture drawn = must(draw_by_mesa(
-      {.scene = input.scene->name, .size = input.size, .repetitions = repetitions}, input.folders.source));
+  const MesaPicture drawn = draw_by_mesa(
+      {.scene = input.scene->name, .size = input.size, .repetitions = repetitions}, input.folders.source);
   const ReferenceImage reference = reference_of(input, Projector(*input.scene, input.size, {}).project_all());
   const FrameDistance whole = must(frame_distance(drawn.frame, reference.frame, reference.mask)),
                       inner = must(

@@ -56,11 +56,10 @@ struct PlanUnits {
 };
 
 PlanUnits count_units(const Plan& plan, UnitCounter& counter) {
-  PlanUnits units{.called_for = must(counter.count(plan.called_for)),
-                  .everything = must(counter.count(plan.everything)),
+  PlanUnits units{.called_for = counter.count(plan.called_for),
+                  .everything = counter.count(plan.everything),
                   .effects = {}};
-  for (const PlannedEffect& effect : plan.effects)
-    units.effects.push_back(must(counter.count(plan.key, effect)));
+  for (const PlannedEffect& effect : plan.effects) units.effects.push_back(counter.count(plan.key, effect));
   return units;
 }
 
@@ -366,8 +365,7 @@ int run(const Folders& folders, const PlanCommand& command) {
     called_for = simulation_cost(scene, plan.called_for, settings);
     everything = simulation_cost(scene, plan.everything, settings);
   }
-  if (!command.netlist.empty())
-    must(write_file(command.netlist, must(netlist_of(plan.key, simulator_folders))));
+  if (!command.netlist.empty()) must(write_file(command.netlist, netlist_of(plan.key, simulator_folders)));
 
   fmt::print(
       "scene {}, shader {}, preset {}\n  as needed      {}\n  all effects    {}\n  generics      {}\n\n",

@@ -73,7 +73,7 @@ void take_own_tables(const Scene& scene, SimulateSettings& settings,
   const words::CosineSize size = settings.plan.tables.value_or(tables::c_own_size);
   made.emplace(true, size, own);
   settings.folders.source =
-      must(tables::rtl_with(true, size, {}, settings.folders.source, settings.folders.cache, own));
+      tables::rtl_with(true, size, {}, settings.folders.source, settings.folders.cache, own);
   settings.plan.tables = size;
   settings.plan.made_tables = made->tables();
   settings.plan.own = std::move(own);

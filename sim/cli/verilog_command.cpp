@@ -43,7 +43,7 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
 }
 
 std::string netlist_of_top(const HardwareKey& key, const std::string& top, const Folders& folders) {
-  const GhdlLibrary library = must(rtl_library({folders.source, folders.cache()}));
+  const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   return must(mend_netlist(must(library.synthesize(top, key.generics()))));
 }
 

@@ -76,7 +76,7 @@ void add_plan(Json& table, const std::string& shader, const Plan& plan, UnitCoun
     Json& row = table["rows"][e];
     if (row.is_null())
       row = {{"effect", to_string(effect.effect)}, {"called_for", effect.called_for}, {"why", effect.why}};
-    const auto counted = must(counter.count(plan.key, effect));
+    const auto counted = counter.count(plan.key, effect);
     std::vector<std::string> units;
     for (const auto& [unit, count] : counted) units.push_back(fmt::format("{}\u00a0{}", count, unit));
     std::string text = effect.by == DoneBy::hardware ? "hardware"

@@ -62,8 +62,7 @@ class Simulation {
       drawings_[i].finished =
           std::async(std::launch::async, [&frame = driver_->frame(i)] { return frame.finish(); });
     wait_for_threads();
-    if (!s_.engines.empty())
-      summary_.units = must(must(UnitCounter::open(s_.folders)).count(summary_.plan.key));
+    if (!s_.engines.empty()) summary_.units = must(UnitCounter::open(s_.folders)).count(summary_.plan.key);
     must(write_png(files_.frame("golden"), golden().frame()));
     compare_with(reference.get());
     summary_.runs.resize(drawings_.size());

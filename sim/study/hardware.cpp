@@ -59,15 +59,15 @@ PointHardware hardware_of(const DesignPoint& point, const Scene& scene) {
 PointHardware drawing_hardware_of(const DesignPoint& point, const Scene& scene,
                                   const SimulatorFolders& folders) {
   PointHardware hardware = hardware_of(point, scene);
-  if (point.words.any()) hardware.models = must(made_models(hardware.key, folders));
+  if (point.words.any()) hardware.models = made_models(hardware.key, folders);
   return hardware;
 }
 
 SimulatorFolders rtl_of(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders) {
   const auto size = made_size(point);
   if (!size && !point.words.any()) return folders;
-  return {must(tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source,
-                                folders.cache, own_exponents_of(point, scene))),
+  return {tables::rtl_with(point.preset == Preset::exact, size, point.words, folders.source, folders.cache,
+                           own_exponents_of(point, scene)),
           folders.cache};
 }
 

@@ -92,7 +92,7 @@ HostTime host_time(const DesignPoint& point, const std::string& scene_name, cons
   if (point.method == Method::phong_mesa) {
     MesaRequest request = mesa_request(point, scene_name);
     request.repetitions = c_mesa_runs;
-    return {.ns = 1e9 * must(draw_by_mesa(request, folders.source)).seconds, .words = 0};
+    return {.ns = 1e9 * draw_by_mesa(request, folders.source).seconds, .words = 0};
   }
   const Scene scene = drawn_scene(scene_name, folders.source / "sim" / "scenes", point);
   if (in_hardware(point.method)) {

@@ -53,7 +53,7 @@ Drawing draw(const DesignPoint& point, const Subject& subject, const SimulatorFo
   if (in_hardware(point.method)) return draw_in_hardware(point, subject.scene, folders, tile);
   Drawing drawing;
   if (point.method == Method::phong_mesa) {
-    MesaPicture picture = must(draw_by_mesa(mesa_request(point, subject.name), folders.source));
+    MesaPicture picture = draw_by_mesa(mesa_request(point, subject.name), folders.source);
     drawing.frame = tile ? cut_tile(picture.frame, *tile) : std::move(picture.frame);
     drawing.mask = mask_of(drawing.frame, subject.scene);
     return drawing;

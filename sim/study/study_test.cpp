@@ -324,7 +324,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = words::CosineSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
-  const auto folder = must(tables::rtl_with_tables(true, {5, 4}, c_source_folder, folder_.path()));
+  const auto folder = tables::rtl_with(true, words::CosineSize{5, 4}, {}, c_source_folder, folder_.path());
   const std::filesystem::path package = folder / "rtl/tables/cosine_pkg.vhd";
   auto text = must(read_file(package));
   const std::size_t at = text.find("c_exact_cosine_1_5_4");

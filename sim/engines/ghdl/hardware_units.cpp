@@ -118,22 +118,18 @@ InstanceTree UnitCounter::tree(const HardwareKey& key) const {
   return {must(library_.synthesize(key.entity(), key.generics())), entities_};
 }
 
-Result<UnitCounts> UnitCounter::count(const HardwareKey& key) try {
+UnitCounts UnitCounter::count(const HardwareKey& key) {
   if (const auto at = counted_.find(key.name()); at != counted_.end()) return at->second;
   return counted_[key.name()] = tree(key).count(key.entity());
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
-Result<UnitCounts> UnitCounter::count(const HardwareKey& key, const PlannedEffect& effect) try {
+UnitCounts UnitCounter::count(const HardwareKey& key, const PlannedEffect& effect) {
   if (effect.other) {
-    const UnitCounts here = must(count(key)), there = must(count(*effect.other));
+    const UnitCounts here = count(key), there = count(*effect.other);
     return effect.elaborated ? difference(here, there) : difference(there, here);
   }
-  if (!effect.elaborated) return UnitCounts{};
+  if (!effect.elaborated) return {};
   return tree(key).count_named(key.entity(), instances_of(effect.effect, key.shader));
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway

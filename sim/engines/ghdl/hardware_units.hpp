@@ -49,10 +49,11 @@ class UnitCounter {
   static Result<UnitCounter> open(const SimulatorFolders& folders);
 
   /// Count the entities below the top. Synthesizes the netlist or takes it from the cache.
-  Result<UnitCounts> count(const HardwareKey& key);
+  /// Throws Failure.
+  UnitCounts count(const HardwareKey& key);
   /// Count the entities in the hardware `key` that only this effect needs. If the effect is not elaborated,
   /// count those that it would add.
-  Result<UnitCounts> count(const HardwareKey& key, const PlannedEffect& effect);
+  UnitCounts count(const HardwareKey& key, const PlannedEffect& effect);
 
  private:
   UnitCounter(GhdlLibrary library, std::set<std::string> entities)

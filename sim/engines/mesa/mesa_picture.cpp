@@ -35,7 +35,7 @@ std::string mesa_lacks(const std::filesystem::path& source) {
   return std::filesystem::exists(mesa_program(source)) ? "" : "libegl-dev, libgles-dev";
 }
 
-Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesystem::path& source) try {
+MesaPicture draw_by_mesa(const MesaRequest& request, const std::filesystem::path& source) {
   const TemporaryFolder scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   const std::filesystem::path file = scratch.path() / "mesa.rgb";
   Command command{
@@ -51,15 +51,14 @@ Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesyst
   MesaPicture picture{.frame = Frame(request.size)};
   std::istringstream said(end.output);
   if (!end.succeeded() || !(said >> picture.seconds >> picture.elapsed_seconds))
-    return tool_failed(fmt::format("halfway_mesa: {}: {}", end.how(), end.output));
+    throw Failure{tool_failed(fmt::format("halfway_mesa: {}: {}", end.how(), end.output))};
   said.ignore();
   std::getline(said, picture.renderer);
   const std::string rgb = must(read_file(file));
-  if (rgb.size() != picture.frame.rgb.size()) return tool_failed("halfway_mesa: a frame of another size");
+  if (rgb.size() != picture.frame.rgb.size())
+    throw Failure{tool_failed("halfway_mesa: a frame of another size")};
   std::copy(rgb.begin(), rgb.end(), picture.frame.rgb.begin());
   return picture;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway

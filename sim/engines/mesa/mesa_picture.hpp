@@ -35,6 +35,6 @@ struct MesaPicture {
   std::string renderer;          ///< the renderer's name
 };
 /// Draw the scene on one core in a new process. The caller checks that mesa_lacks is empty.
-Result<MesaPicture> draw_by_mesa(const MesaRequest& request, const std::filesystem::path& source);
+MesaPicture draw_by_mesa(const MesaRequest& request, const std::filesystem::path& source);
 
 }  // namespace halfway

@@ -6,17 +6,13 @@
 
 namespace halfway {
 
-Result<GhdlLibrary> rtl_library(const SimulatorFolders& folders) try {
-  const GhdlTool tool = must(GhdlTool::find());
-  return GhdlLibrary::for_synthesis(tool, must(read_rtl_sources(folders.source)), folders.cache);
-} catch (const Failure& failure) {
-  return failure.error;
+GhdlLibrary rtl_library(const SimulatorFolders& folders) {
+  return must(GhdlLibrary::for_synthesis(must(GhdlTool::find()), must(read_rtl_sources(folders.source)),
+                                         folders.cache));
 }
 
-Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders) try {
-  return mend_netlist(must(must(rtl_library(folders)).synthesize(key.entity(), key.generics())));
-} catch (const Failure& failure) {
-  return failure.error;
+std::string netlist_of(const HardwareKey& key, const SimulatorFolders& folders) {
+  return must(mend_netlist(must(rtl_library(folders).synthesize(key.entity(), key.generics()))));
 }
 
 }  // namespace halfway

@@ -4,17 +4,16 @@
 
 #include <string>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 
 /// The RTL, for synthesis.
-Result<GhdlLibrary> rtl_library(const SimulatorFolders& folders);
+GhdlLibrary rtl_library(const SimulatorFolders& folders);
 
 /// The repaired netlist of a key. GHDL's output is cached by its inputs, because synthesis takes longer than
 /// all other steps of an unchanged build.
-Result<std::string> netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
+std::string netlist_of(const HardwareKey& key, const SimulatorFolders& folders);
 
 }  // namespace halfway

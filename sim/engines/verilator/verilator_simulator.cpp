@@ -57,7 +57,7 @@ Result<VerilatorSimulator> VerilatorSimulator::open(const HardwareKey& key, cons
                                                     const VerilatorOptions& options) try {
   // Builds with waveforms or another netlist simulate few cycles, so compile them without optimization.
   const bool fast = options.wave_file.empty() && options.netlist.empty();
-  std::string netlist = must(netlist_of(key, folders));
+  std::string netlist = netlist_of(key, folders);
   const unsigned init_bits = port_bits(netlist, key.entity(), "init_data");
   if (init_bits == 0)
     return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));

@@ -122,7 +122,7 @@ void compile(const LaneBuild& build, const Toolchain& tools, const std::filesyst
 
 }  // namespace
 
-Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache) try {
+std::filesystem::path build_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
   const std::string verilator_version = must(ask({"verilator", "--version"}, c_install_verilator));
   const Toolchain tools = toolchain_of(build);
   const std::string harness = read_own_file(build.harness);
@@ -146,14 +146,10 @@ Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::fil
     compile(build, tools, fresh);
   });
   return folder / tools.product;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
-Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
-  const auto library = build_lanes(build, cache);
-  if (!library) return library.error();
-  return SharedLibrary::load(*library);
+SharedLibrary open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
+  return must(SharedLibrary::load(build_lanes(build, cache)));
 }
 
 }  // namespace halfway

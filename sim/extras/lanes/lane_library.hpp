@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "sim/extras/lanes/lane_generator.hpp"
 #include "sim/extras/lanes/register_names.hpp"
 #include "sim/os/shared_library.hpp"
@@ -38,10 +37,10 @@ struct LaneBuild {
 };
 
 /// Generate and compile in build/cache/lanes/<name>-<hash>/ unless it exists. The compiled file, lanes.so or
-/// lanes.wasm, next to the generated text, lanes.hpp.
-Result<std::filesystem::path> build_lanes(const LaneBuild& build, const std::filesystem::path& cache);
+/// lanes.wasm, next to the generated text, lanes.hpp. Throws Failure.
+std::filesystem::path build_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 /// Build the shared library and load it.
-Result<SharedLibrary> open_lanes(const LaneBuild& build, const std::filesystem::path& cache);
+SharedLibrary open_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway

@@ -197,13 +197,10 @@ class Lanes : public testing::Test {
             .compiler = {}};
   }
   Result<SharedLibrary> open(const std::string& body, LaneVectors vectors = LaneVectors::avx512) {
-    return open_lanes(build_of(body, vectors), c_cache);
+    return caught([&] { return open_lanes(build_of(body, vectors), c_cache); });
   }
   std::string text_of(const std::string& body) const {
-    const auto library = build_lanes(build_of(body), c_cache);
-    if (!library) return library.error().message;
-    const auto text = read_file(library->parent_path() / "lanes.hpp");
-    return text ? *text : text.error().message;
+    return must(read_file(build_lanes(build_of(body), c_cache).parent_path() / "lanes.hpp"));
   }
 
   void expect_refused(const std::string& body, const std::string& with) {
@@ -279,7 +276,7 @@ TEST_F(Lanes, TheTextCompilesForWebAssembly) {
   body.replace(body.find("ROM\n"), 4, "    rom[63] = 8'd1;\n");
   LaneBuild build = build_of(body);
   build.target = LaneTarget::web_assembly;
-  const auto module = must(build_lanes(build, c_cache));
+  const auto module = build_lanes(build, c_cache);
   const auto bytes = must(read_file(module));
   EXPECT_TRUE(bytes.starts_with(std::string_view("\0asm", 4)));
 }
@@ -375,7 +372,7 @@ TEST_F(Lanes, SignalsAreObservedBeforeTheEdge) {
   build.ports.top = "m";
   build.ports.observed = {
       {"part/value", 0, 40}, {"part/next", 4, 36}, {"part/odd", 0, 1}, {"two", 0, 8}, {"three", 5, 3}};
-  const auto library = must(open_lanes(build, c_cache));
+  const auto library = open_lanes(build, c_cache);
   const auto observe =
       library.function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_observe");
   ASSERT_TRUE(observe) << observe.error().message;
@@ -399,7 +396,7 @@ TEST_F(Lanes, SignalsAreObservedBeforeTheEdge) {
   }
 
   build.ports.observed = {{"part/missing", 0, 1}};
-  EXPECT_TRUE(is_error(build_lanes(build, c_cache), "part/missing: "));
+  EXPECT_TRUE(is_error(caught([&] { return build_lanes(build, c_cache); }), "part/missing: "));
 }
 
 TEST_F(Lanes, UnsupportedConstructsAreRefused) {

@@ -242,12 +242,12 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
   return Ok{};
 }
 
-Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
-                                const LaneOptions& options) try {
-  std::string netlist = must(netlist_of(key, folders));
+LaneBuild lane_build_of(const HardwareKey& key, const SimulatorFolders& folders, const LaneOptions& options) {
+  std::string netlist = netlist_of(key, folders);
   const unsigned init_bits = port_bits(netlist, key.entity(), "init_data");
   if (init_bits == 0)
-    return tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()));
+    throw Failure{
+        tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()))};
   const bool stalls = options.stall_seed != 0;
   std::map<std::string, bool> fixed;
   std::vector<std::string> definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits)};
@@ -255,29 +255,27 @@ Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& 
     definitions.emplace_back("HALFWAY_STALLS=1");
   else
     fixed["fragment_ready"] = true;
-  return LaneBuild{.name = key.name() + (stalls ? "-stalls" : ""),
-                   .netlist = std::move(netlist),
-                   .top = key.entity(),
-                   .ports = {.fixed = fixed,
-                             .outputs = {"init_ready", "fragment_valid", "fragment_triangle", "fragment_y",
-                                         "fragment_x", "fragment_z", "fragment_red", "fragment_green",
-                                         "fragment_blue", "busy", "fault"}},
-                   .harness = folders.source / "sim/extras/lanes/lane_harness.cpp",
-                   .source = folders.source,
-                   .definitions = definitions,
-                   .fast = options.fast,
-                   .vectors = options.vectors,
-                   .compiler = options.compiler};
-} catch (const Failure& failure) {
-  return failure.error;
+  return {.name = key.name() + (stalls ? "-stalls" : ""),
+          .netlist = std::move(netlist),
+          .top = key.entity(),
+          .ports = {.fixed = fixed,
+                    .outputs = {"init_ready", "fragment_valid", "fragment_triangle", "fragment_y",
+                                "fragment_x", "fragment_z", "fragment_red", "fragment_green", "fragment_blue",
+                                "busy", "fault"}},
+          .harness = folders.source / "sim/extras/lanes/lane_harness.cpp",
+          .source = folders.source,
+          .definitions = definitions,
+          .fast = options.fast,
+          .vectors = options.vectors,
+          .compiler = options.compiler};
 }
 
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
                                           const LaneOptions& options) try {
-  const LaneBuild build = must(lane_build_of(key, folders, options));
+  const LaneBuild build = lane_build_of(key, folders, options);
   Hardware hardware{.key = key,
                     .options = options,
-                    .library = must(open_lanes(build, folders.cache)),
+                    .library = open_lanes(build, folders.cache),
                     .init_bits = port_bits(build.netlist, key.entity(), "init_data")};
   decltype(&halfway_lanes_version) version = nullptr;
   decltype(&halfway_lanes_count) count = nullptr;

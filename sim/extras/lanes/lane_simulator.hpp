@@ -31,9 +31,9 @@ struct LaneOptions {
   std::string compiler{};  ///< empty: clang++ if installed, otherwise g++
 };
 
-/// The build of a shader's lanes.
-Result<LaneBuild> lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
-                                const LaneOptions& options = {});
+/// The build of a shader's lanes. Throws Failure.
+LaneBuild lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
+                        const LaneOptions& options = {});
 
 class LaneSimulator final : public Engine {
  public:

@@ -124,7 +124,7 @@ void compile(const Compiler& compiler, const fs::path& root, const std::vector<s
 
 }  // namespace
 
-Result<fs::path> build_core_module(const SimulatorFolders& folders) try {
+fs::path build_core_module(const SimulatorFolders& folders) {
   const Compiler compiler = must(Compiler::find("clang++"));
   const fs::path root = fs::absolute(folders.source);
   const std::vector<std::string> sources = sources_of(root);
@@ -133,8 +133,6 @@ Result<fs::path> build_core_module(const SimulatorFolders& folders) try {
                           ("core-" + hash_of(root, sources, generated, {compiler.identity}));
   make_once(folder, [&](const fs::path& fresh) { compile(compiler, root, sources, generated, fresh); });
   return folder / c_module_name;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway

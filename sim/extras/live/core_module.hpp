@@ -4,13 +4,12 @@
 
 #include <filesystem>
 
-#include "common/result.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 
 /// The module's file in build/cache/live/core-<hash>/, compiled unless it exists. core.cpp lists its
 /// functions.
-Result<std::filesystem::path> build_core_module(const SimulatorFolders& folders);
+std::filesystem::path build_core_module(const SimulatorFolders& folders);
 
 }  // namespace halfway

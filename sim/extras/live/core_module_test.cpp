@@ -81,7 +81,7 @@ class CoreModule : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
-    const auto module = must(build_core_module({c_source_folder, c_source_folder / "build" / "cache"}));
+    const auto module = build_core_module({c_source_folder, c_source_folder / "build" / "cache"});
     const auto bytes = must(read_file(module));
     const auto page = folder_.path() / "page.html";
     ASSERT_TRUE(write_file(page, "<!DOCTYPE html><meta charset=\"utf-8\"><title>core</title><script>" +

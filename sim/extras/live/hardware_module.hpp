@@ -4,13 +4,12 @@
 
 #include <filesystem>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway {
 
 /// The module's file in build/cache/lanes/, built unless it exists. hardware_harness.cpp lists its functions.
-Result<std::filesystem::path> build_hardware_module(const HardwareKey& key, const SimulatorFolders& folders);
+std::filesystem::path build_hardware_module(const HardwareKey& key, const SimulatorFolders& folders);
 
 }  // namespace halfway

@@ -75,7 +75,7 @@ std::map<std::string, Hardware> build_hardware(const std::vector<HardwareKey>& k
       const std::lock_guard lock(mutex);
       settings.on_progress(fmt::format("hardware {} of {}: {}", ++begun, keys.size(), name));
     }
-    std::string text = packed(must(build_hardware_module(keys[i], settings.folders)));
+    std::string text = packed(build_hardware_module(keys[i], settings.folders));
     const synth::Cost cost =
         synth::Costing(settings.folders).stored(synth::design_of(keys[i], settings.folders.source));
     const std::lock_guard lock(mutex);
@@ -111,7 +111,7 @@ LivePage write_live(const LiveSettings& settings) {
   const std::filesystem::path sources = settings.folders.source / "sim", here = sources / "extras/live";
   const auto keys = live_keys(settings);
   settings.on_progress("core");
-  std::string packed_core = packed(must(build_core_module(settings.folders)));
+  std::string packed_core = packed(build_core_module(settings.folders));
   const auto hardware = build_hardware(keys, settings);
 
   // Collect the page's data.

@@ -9,14 +9,12 @@
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  const auto written = [&]() -> Status {
-    if (argc != 3) return bad_input("halfway_built_from: takes a checkout and the file to write");
-    const auto hash = format_sources_hash(argv[1]);
-    if (!hash) return hash.error();
-    return write_file(argv[2], fmt::format("#include \"sim/generator/word_lengths/format_sources.hpp\"\n\n"
-                                           "const char* halfway::built_from() {{ return \"{}\"; }}\n",
-                                           *hash));
-  }();
+  const auto written = caught([&] {
+    if (argc != 3) throw Failure{bad_input("halfway_built_from: takes a checkout and the file to write")};
+    must(write_file(argv[2], fmt::format("#include \"sim/generator/word_lengths/format_sources.hpp\"\n\n"
+                                         "const char* halfway::built_from() {{ return \"{}\"; }}\n",
+                                         format_sources_hash(argv[1]))));
+  });
   if (written) return 0;
   fmt::print(stderr, "{}\n", written.error().message);
   return static_cast<int>(written.error().code);

@@ -12,7 +12,7 @@ std::vector<std::string> format_sources(Shader shader) {
           "model/setup/walk_header.cpp", fmt::format("model/setup/{}_setup.cpp", to_string(shader))};
 }
 
-Result<std::string> format_sources_hash(const std::filesystem::path& source) try {
+std::string format_sources_hash(const std::filesystem::path& source) {
   std::vector<std::filesystem::path> files;
   for (const Shader shader : c_shaders)
     for (const std::string& file : format_sources(shader)) files.emplace_back(file);
@@ -20,8 +20,6 @@ Result<std::string> format_sources_hash(const std::filesystem::path& source) try
   ContentHash hash;
   for (const std::filesystem::path& file : files) hash.add(file.string()).add(must(read_file(source / file)));
   return hash.hex();
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 
 namespace halfway {
@@ -17,7 +16,7 @@ namespace halfway {
 std::vector<std::string> format_sources(Shader shader);
 
 /// Hash over a checkout: the sources of all shaders and every header under model/.
-Result<std::string> format_sources_hash(const std::filesystem::path& source);
+std::string format_sources_hash(const std::filesystem::path& source);
 
 /// The same hash of the checkout that this program was built from, at build time. The build generates this
 /// function.

@@ -40,14 +40,14 @@ struct MadeFormats {
 
 }  // namespace
 
-Result<Models> made_models(const HardwareKey& key, const SimulatorFolders& folders) try {
+Models made_models(const HardwareKey& key, const SimulatorFolders& folders) {
   const fs::path source = fs::absolute(folders.source);
-  const std::string sources = must(format_sources_hash(source));
+  const std::string sources = format_sources_hash(source);
   if (sources != built_from())
-    return bad_input(fmt::format(
+    throw Failure{bad_input(fmt::format(
         "{}: the program was built from other sources; word lengths other than the preset's need the "
         "same sources: run make program",
-        (source / "model").lexically_normal().string()));
+        (source / "model").lexically_normal().string()))};
   const bool exact = key.preset == Preset::exact;
   const tables::WordLengths& words = key.words;
   const auto headers = tables::cpp_headers(tables::compiled_sizes(), exact, words);
@@ -86,13 +86,11 @@ Result<Models> made_models(const HardwareKey& key, const SimulatorFolders& folde
   const auto made = std::make_shared<MadeFormats>(must(SharedLibrary::load(folder / c_library)));
   must(made->library.bind(made->make_setup, "halfway_make_setup", made->make_golden_model,
                           "halfway_make_golden_model"));
-  return Models{
+  return {
       [made](const Scene& scene, FrameSize size, const HardwareKey& of, const SetupOptions& options) {
         return std::unique_ptr<Setup>(made->make_setup(scene, size, of, options));
       },
       [made](const HardwareKey& of) { return std::unique_ptr<GoldenModel>(made->make_golden_model(of)); }};
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway

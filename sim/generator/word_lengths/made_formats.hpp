@@ -3,7 +3,6 @@
 // compiled with other formats into a shared library, which is cached.
 #pragma once
 
-#include "common/result.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/driver/models.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
@@ -13,6 +12,6 @@ namespace halfway {
 /// The models of the key's shader, preset and word lengths, for keys with these. Opens their library; if it
 /// is not in the cache, compiles it with the program's own compiler. Returns bad input if the program was
 /// built from other sources than the checkout's. A setup or golden model must not outlive the models.
-Result<Models> made_models(const HardwareKey& key, const SimulatorFolders& folders);
+Models made_models(const HardwareKey& key, const SimulatorFolders& folders);
 
 }  // namespace halfway

@@ -59,14 +59,8 @@ bool compiled_in(bool exact, CosineSize size) {
   return std::ranges::find(list, size) != list.end();
 }
 
-Result<fs::path> rtl_with_tables(bool exact, CosineSize size, const fs::path& checkout,
-                                 const fs::path& cache) {
-  return rtl_with(exact, size, {}, checkout, cache);
-}
-
-Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
-                          const fs::path& checkout, const fs::path& cache,
-                          const std::vector<double>& own) try {
+fs::path rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
+                  const fs::path& checkout, const fs::path& cache, const std::vector<double>& own) {
   Packages packages;
   std::string name = exact ? "exact" : "published";
   if (size) {
@@ -92,8 +86,6 @@ Result<fs::path> rtl_with(bool exact, const std::optional<CosineSize>& size, con
     }
   });
   return folder;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 }  // namespace halfway::tables

@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "common/result.hpp"
 #include "words/cosine_tables.hpp"
 #include "words/generator/cosine.hpp"
 #include "words/generator/word_lengths.hpp"
@@ -36,14 +35,8 @@ bool compiled_in(bool exact, CosineSize size);
 
 /// A cached copy of the checkout: its sim/ and tb/, and its rtl/ with the given changes to the preset: only
 /// tables of that size (`own`: as in CosineSizes), other word lengths.
-Result<std::filesystem::path> rtl_with(bool exact, const std::optional<CosineSize>& size,
-                                       const WordLengths& words, const std::filesystem::path& checkout,
-                                       const std::filesystem::path& cache,
-                                       const std::vector<double>& own = {});
-
-/// Same as rtl_with, for tables only.
-Result<std::filesystem::path> rtl_with_tables(bool exact, CosineSize size,
-                                              const std::filesystem::path& checkout,
-                                              const std::filesystem::path& cache);
+std::filesystem::path rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
+                               const std::filesystem::path& checkout, const std::filesystem::path& cache,
+                               const std::vector<double>& own = {});
 
 }  // namespace halfway::tables

@@ -41,7 +41,7 @@ TEST(MadeTables, EqualTheCompiledTables) {
 
 TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
   auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
-  const auto folder = must(rtl_with_tables(false, {5, 4}, c_source_folder, cache.path()));
+  const auto folder = rtl_with(false, CosineSize{5, 4}, {}, c_source_folder, cache.path());
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(c_source_folder / "rtl")) {
     if (!entry.is_regular_file()) continue;
@@ -59,9 +59,9 @@ TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
   }
   EXPECT_GT(files, 20U);
   EXPECT_TRUE(fs::exists(folder / "sim/engines/verilator/verilator_harness.cpp"));
-  const auto again = must(rtl_with_tables(false, {5, 4}, c_source_folder, cache.path()));
+  const auto again = rtl_with(false, CosineSize{5, 4}, {}, c_source_folder, cache.path());
   EXPECT_EQ(again, folder);
-  EXPECT_NE(*rtl_with_tables(true, {5, 4}, c_source_folder, cache.path()), folder);
+  EXPECT_NE(rtl_with(true, CosineSize{5, 4}, {}, c_source_folder, cache.path()), folder);
 }
 
 TEST(MadeWords, ChangeOnePresetOnly) {
@@ -104,8 +104,7 @@ TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
 
 TEST(MadeWords, AreInTheCopiedRtl) {
   auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
-  const auto folder =
-      must(rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache.path()));
+  const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache.path());
   const auto formats = must(read_file(folder / "rtl/tables/formats_pkg.vhd"));
   EXPECT_THAT(formats, HasSubstr("angle => (23, 12)"));
   EXPECT_THAT(formats, HasSubstr("angle => (12, 11)"));

@@ -18,8 +18,8 @@
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/verilator/netlist.hpp"
+#include "sim/engines/verilator/shader_netlist.hpp"
 #include "sim/engines/verilator/verilated_library.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
@@ -46,20 +46,19 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 SharedLibrary build(const HardwareKey& key, int limit_bits) {
-  const auto library = must(GhdlLibrary::for_synthesis(
-      must(GhdlTool::find()), must(read_rtl_sources(c_folders.source)), c_folders.cache));
   const std::string top = fmt::format("{}_axi", to_string(key.shader));
   auto generics = key.generics();
   generics.emplace_back("g_limit_bits", std::to_string(limit_bits));
   const std::filesystem::path folder = c_folders.source / "tb/inputs/ports";
-  return must(open_verilated({.name = key.name() + "-axi",
-                              .netlist = must(mend_netlist(must(library.synthesize(top, generics)))),
-                              .top = top,
-                              .harness = folder / "axi_harness.cpp",
-                              .include_folder = c_folders.source,
-                              .harness_headers = {folder / "axi_harness.hpp"},
-                              .fast = false},
-                             c_folders.cache));
+  return must(
+      open_verilated({.name = key.name() + "-axi",
+                      .netlist = must(mend_netlist(must(rtl_library(c_folders).synthesize(top, generics)))),
+                      .top = top,
+                      .harness = folder / "axi_harness.cpp",
+                      .include_folder = c_folders.source,
+                      .harness_headers = {folder / "axi_harness.hpp"},
+                      .fast = false},
+                     c_folders.cache));
 }
 
 class BadInput : public testing::TestWithParam<Case> {
