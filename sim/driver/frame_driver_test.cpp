@@ -12,6 +12,7 @@
 #include "plan/plan.hpp"
 #include "scene/test/sides_apart.hpp"
 #include "shading/test/random_solids.hpp"
+#include "sim/driver/test/golden_engine.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/threads.hpp"
@@ -69,29 +70,6 @@ TEST(FrameDriver, IsPrologueAndUnitsForAnyNumberOfThreads) {
     }
 }
 
-/// Draws the golden model's fragments with one of them changed, and counts the calls.
-class GoldenEngine final : public Engine {
- public:
-  GoldenEngine(const HardwareKey& key, std::uint64_t wrong)
-      : golden_(make_golden_model(key)), wrong_(wrong) {}
-  EngineKind kind() const override { return EngineKind::verilator; }
-  Result<std::shared_ptr<Engine>> another() const override { return tool_failed("not needed"); }
-  Status draw(std::span<const std::uint32_t> init_words, std::uint64_t, const OnDrawn& on_drawn) override {
-    const auto drawn = golden_->draw(init_words);
-    std::vector<Fragment> own(drawn.begin(), drawn.end());
-    if (wrong_ >= drawn_ && wrong_ - drawn_ < own.size()) own[wrong_ - drawn_].red ^= 1;
-    drawn_ += own.size();
-    on_drawn(own);
-    return Ok{};
-  }
-  Status drain(std::uint64_t, const OnDrawn&) override { return Ok{}; }
-  std::optional<std::uint64_t> cycles() const override { return std::nullopt; }
-
- private:
-  std::unique_ptr<GoldenModel> golden_;
-  std::uint64_t wrong_, drawn_ = 0;
-};
-
 // Wherever the golden model draws, each engine gets the whole stream and is compared with all of it.
 TEST(FrameDriver, ComparesEachEngineWhereverTheGoldenModelDraws) {
   const auto scene =
@@ -100,8 +78,11 @@ TEST(FrameDriver, ComparesEachEngineWhereverTheGoldenModelDraws) {
     for (const GoldenDraws golden : {GoldenDraws::batches, GoldenDraws::beside, GoldenDraws::nothing})
       for (const unsigned threads : {1U, 3U}) {
         const HardwareKey key = key_of(scene, shader);
-        const auto right = std::make_shared<GoldenEngine>(key, UINT64_MAX);
-        const auto wrong = std::make_shared<GoldenEngine>(key, 700);
+        const auto right = std::make_shared<GoldenEngine>(key), wrong = std::make_shared<GoldenEngine>(key);
+        wrong->change = [&](std::vector<Fragment>& own) {
+          const std::size_t first = wrong->fragments.size() - own.size();
+          if (first <= 700 && 700 < first + own.size()) own[700 - first].red ^= 1;
+        };
         std::array<std::uint64_t, 2> drawn{};
         FrameDriver driver(scene, c_stream_frame, key, {right, wrong},
                            {.golden = golden,

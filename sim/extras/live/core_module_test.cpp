@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mesh_files/test/spelling.hpp"
+#include "sim/driver/test/golden_engine.hpp"
 #include "sim/extras/live/test/base64.hpp"
-#include "sim/extras/live_core/golden_engine_test.hpp"
 #include "sim/extras/live_core/live_frame.hpp"
 #include "sim/files/headless_browser.hpp"
 #include "sim/os/file.hpp"

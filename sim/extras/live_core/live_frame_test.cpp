@@ -8,15 +8,14 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
 #include <set>
 #include <string>
 #include <tuple>
 
 #include "common/test/is_error.hpp"
 #include "sim/driver/frame_driver.hpp"
+#include "sim/driver/test/golden_engine.hpp"
 #include "sim/driver/word_trace.hpp"
-#include "sim/extras/live_core/golden_engine_test.hpp"
 #include "sim/extras/live_core/stream_parts.hpp"
 #include "sim/extras/live_core/way_lines.hpp"
 #include "sim/files/load_scene.hpp"

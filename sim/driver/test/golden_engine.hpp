@@ -11,7 +11,7 @@
 #include "golden_run/golden_run.hpp"
 #include "sim/driver/engine.hpp"
 
-namespace halfway::live {
+namespace halfway {
 
 class GoldenEngine final : public Engine {
  public:
@@ -42,4 +42,4 @@ class GoldenEngine final : public Engine {
   std::unique_ptr<GoldenModel> golden_;
 };
 
-}  // namespace halfway::live
+}  // namespace halfway
