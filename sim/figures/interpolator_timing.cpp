@@ -20,6 +20,7 @@ namespace {
 
 // In ns. Published for an XCV300-6, except those of ROM and multiplier: our assumption, the rest of a step.
 constexpr double c_step = 60, c_multiplexer = 5, c_adder = 10, c_register = 5, c_rom = 15, c_multiplier = 35;
+static_assert(c_register + c_adder + c_multiplexer < c_step && c_register + c_rom + c_multiplier < c_step);
 
 constexpr int c_line_pixels = 4;
 constexpr double c_line_end = (c_line_pixels + 1.5) * c_step;
