@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <optional>
-#include <utility>
 
 #include "common/to_integer.hpp"
 #include "projection/unit_vector.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "common/recent_values.hpp"
 #include "setup/half_triangle.hpp"

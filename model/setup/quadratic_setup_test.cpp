@@ -21,7 +21,6 @@
 #include "scene/test/random_scenes.hpp"
 #include "setup/test/pixels.hpp"
 #include "shading/shade.hpp"
-#include "shading/test/random_solids.hpp"
 #include "words/quadratic_layout.hpp"
 
 namespace halfway {

@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <utility>
 
 #include "frame/metrics.hpp"
 #include "golden_run/golden_run.hpp"
@@ -20,7 +18,6 @@
 #include "sim/files/trace.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/seconds.hpp"
-#include "sim/os/subprocess.hpp"
 #include "sim/run/open_engine.hpp"
 
 namespace halfway {

@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "sim/cli/options.hpp"
-#include "sim/cost/synthesis.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/interruption.hpp"

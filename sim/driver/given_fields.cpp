@@ -5,7 +5,6 @@
 
 #include <span>
 
-#include "plan/plan.hpp"
 #include "sim/driver/stages.hpp"
 #include "words/processors_layout.hpp"
 #include "words/quadratic_layout.hpp"

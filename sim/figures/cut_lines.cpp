@@ -9,7 +9,6 @@
 #include "frame/assemble.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden_run/golden_run.hpp"
-#include "scene/lights.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/spherical_setup.hpp"
 #include "setup/walk_header.hpp"

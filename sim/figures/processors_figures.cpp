@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
@@ -13,8 +12,6 @@
 #include <utility>
 
 #include "plan/processor_count.hpp"
-#include "scene/builtin_meshes.hpp"
-#include "shading/shade.hpp"
 #include "sim/figures/figure.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/files/load_scene.hpp"

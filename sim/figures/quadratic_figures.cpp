@@ -5,19 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/to_integer.hpp"
 #include "golden/line_interpolator.hpp"
-#include "scene/builtin_meshes.hpp"
 #include "sim/figures/figure.hpp"
 #include "sim/figures/figure7.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/figure_plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/figures/software_shading.hpp"
-#include "sim/files/load_scene.hpp"
 #include "sim/files/timing_diagram.hpp"
 
 namespace halfway::figures {

@@ -5,13 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <optional>
 #include <regex>
 
 #include "sim/cli/command_test.hpp"
 #include "sim/generator/generated_files.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/subprocess.hpp"
 #include "words/processors_layout.hpp"
 
 namespace halfway {

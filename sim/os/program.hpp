@@ -17,7 +17,6 @@ namespace halfway::cli {
 /// Folders of the checkout that the program was built from.
 struct Folders {
   std::filesystem::path source;
-  std::filesystem::path rtl() const { return source / "rtl"; }
   std::filesystem::path scenes() const { return source / "sim" / "scenes"; }
   std::filesystem::path cache() const { return source / "build" / "cache"; }
 };

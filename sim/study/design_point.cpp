@@ -11,7 +11,6 @@
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
-#include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/toml_file.hpp"
 #include "words/cosine_tables.hpp"

@@ -4,12 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/files/load_scene.hpp"
 #include "sim/os/csv.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/study/host_setup.hpp"
-#include "sim/study/pictures.hpp"
 
 namespace halfway::study {
 namespace {

@@ -14,7 +14,6 @@
 #include "sim/cost/clock_store.hpp"
 #include "sim/cost/netlist_identity.hpp"
 #include "sim/cost/test/stored_clocks.hpp"
-#include "sim/engines/verilator/netlist.hpp"
 #include "sim/os/test/source_folder.hpp"
 #include "sim/os/test/test_files.hpp"
 #include "sim/study/pictures.hpp"

@@ -7,7 +7,6 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
-#include <utility>
 
 #include "sim/files/trace.hpp"
 #include "sim/os/must.hpp"

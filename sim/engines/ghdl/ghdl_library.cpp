@@ -2,7 +2,6 @@
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <string_view>

@@ -10,7 +10,6 @@
 
 #include "frame/assemble.hpp"
 #include "golden_run/golden_run.hpp"
-#include "plan/plan.hpp"
 #include "scene/turntable.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/extras/board/board_picture.hpp"

@@ -3,7 +3,6 @@
 // in GHDL.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 
 #include "plan/plan.hpp"

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "sim/extras/board/spi_packet.hpp"
 
 namespace halfway::board {

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace halfway::board {
 
 constexpr std::size_t c_words = std::size_t{1} << 18;

@@ -13,7 +13,6 @@
 #include "sim/engines/verilator/verilated_library.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/subprocess.hpp"
 #include "sim/os/test/source_folder.hpp"
 
 namespace halfway {

@@ -3,13 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "projection/project.hpp"
 #include "scene/lights.hpp"
 #include "setup/quadratic_setup.hpp"
-#include "setup/setup.hpp"
 #include "setup/walk_header.hpp"
 #include "sim/extras/library/halfway.h"
 #include "sim/extras/library/objects.hpp"

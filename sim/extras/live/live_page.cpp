@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <mutex>
@@ -24,7 +23,6 @@
 #include "sim/os/shared_library.hpp"
 #include "sim/os/threads.hpp"
 #include "sim/report/html.hpp"
-#include "words/cosine_tables.hpp"
 
 namespace halfway::live {
 namespace {

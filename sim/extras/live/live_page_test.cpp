@@ -15,7 +15,6 @@
 
 #include "frame/assemble.hpp"
 #include "plan/plan.hpp"
-#include "setup/setup.hpp"
 #include "sim/cli/command_test.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/extras/live/test/base64.hpp"
