@@ -13,7 +13,7 @@
 
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
-#include "setup/setup.hpp"
+#include "sim/driver/frame_driver.hpp"
 #include "sim/engines/verilator/harness_api.h"
 #include "sim/extras/live/test/base64.hpp"
 #include "sim/extras/live_core/stream_parts.hpp"
