@@ -21,7 +21,7 @@ say() { printf 'set-up: %s\n' "$*" >&2; }
 # The main version of the clang that is installed, or of the one that apt would install; empty if neither is known.
 clang_version() {
   { dpkg-query -W -f '${Version}' clang || apt-cache show --no-all-versions clang; } 2>/dev/null |
-    sed -n 's/^\(Version: \)\{0,1\}\([0-9]*:\)\{0,1\}\([0-9]*\).*/\3/p'
+    sed -n -e 's/^Version: //' -e 's/^\([0-9]*:\)\{0,1\}\([0-9][0-9]*\)\..*/\2/p'
 }
 
 # Every line of the list without comments, with tabs between its six columns.
