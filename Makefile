@@ -48,6 +48,7 @@ about_SEED := search seed of the random triangles (default: 1)
 about_PROOF := prove only proofs with this text in their names, such as raster/edge_walker (default: all)
 about_DESIGN := mutate,synth only designs with this text in their names (default: all)
 about_SEEDS := synth number of placement seeds (default: 3)
+about_DEVICE := synth hx8k or ecp5: only cells and clocks, without thresholds (default: hx8k)
 about_PAGE := evidence only this page: bounds, cells, accuracy, transcripts, figures, gallery, hard_cases, proofs, mutants; or speed, clocks (default: all but speed and clocks)
 about_AGAIN := evidence 1: measure pages of this commit, too
 about_JOBS := sim,view,live,board-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
@@ -227,11 +228,10 @@ search: configure ## test random triangles and scenes in the golden model, some 
 bounds: configure ## make evidence PAGE=bounds: error bounds of formats and tables
 	@$(call measure,bounds)
 
-synth: configure ## compare cells on two FPGAs and the clock on one with the thresholds (DESIGN, SEEDS)
+synth: configure ## compare cells on two FPGAs and the clock on one with the thresholds (DESIGN, SEEDS; DEVICE=ecp5)
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth synth_frames
-	@build/tb/halfway_synth cells --jobs "$(jobs)" $${DESIGN:+"$$DESIGN"}
-	@build/tb/synth_frames
-	@build/tb/halfway_synth clocks --jobs "$(jobs)" $(call option,SEEDS,--seeds) $${DESIGN:+"$$DESIGN"}
+	@[ "$${DEVICE:-hx8k}" != hx8k ] || { build/tb/halfway_synth cells --jobs "$(jobs)" $${DESIGN:+"$$DESIGN"} && build/tb/synth_frames; }
+	@build/tb/halfway_synth clocks --jobs "$(jobs)" $(call option,DEVICE,--device) $(call option,SEEDS,--seeds) $${DESIGN:+"$$DESIGN"}
 
 board: configure ## make the bitstream of the board and compare its figures with the thresholds
 	@$(lock) cmake --build build -j "$(jobs)" --target halfway_synth

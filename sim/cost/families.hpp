@@ -38,23 +38,26 @@ struct CellColumn {
 
 /// Names in nextpnr's reports and in the netlists that it reads.
 struct PlacedNames {
-  std::string_view logic_cell;                 ///< in the utilisation
-  std::string_view flip_flop, input, output;   ///< prefix of the types, and pins
-  std::string_view lut, lut_output;            ///< type and pin
-  std::string_view carry_output;               ///< pin
-  std::string_view mark;                       ///< in names that Yosys makes
+  std::string_view logic_cell;                ///< in the utilisation
+  std::string_view flip_flop, input, output;  ///< prefix of the types, and pins
+  std::string_view lut, lut_output;           ///< type and pin
+  std::string_view carry_output;              ///< pin
+  std::string_view mark;                      ///< in names that Yosys makes
+  std::string_view product_output{};  ///< pins of a multiplier, without their number; empty: there is none
   std::span<const std::string_view> packed{};  ///< suffixes of the cells that nextpnr packs
 };
 
 /// The device on which a family's designs are placed.
 struct Device {
   std::string_view name;
-  /// Logic cells, the largest number of them that nextpnr's placers can place, and block RAMs.
-  std::uint64_t cells, most_placed, rams;
+  /// Logic cells, the largest number of them that nextpnr's placers can place, block RAMs and multipliers.
+  std::uint64_t cells, most_placed, rams, multipliers;
   std::string_view placer;                            ///< program
+  const char* install;                                ///< what the error says if a tool is missing
   std::span<const std::string_view> options;          ///< device and package
   std::span<const std::string_view> clock_options{};  ///< more of them if a clock is determined
-  Result<std::string> (*prepare)(std::string_view);   ///< from Yosys's netlist to the one to place
+  /// From Yosys's netlist to the one to place; nullptr: they are the same.
+  Result<std::string> (*prepare)(std::string_view);
   PlacedNames names;
 };
 
@@ -83,7 +86,9 @@ inline constexpr Device c_hx8k = {.name = "HX8K",
                                   .cells = 7680,
                                   .most_placed = 6912,
                                   .rams = 32,
+                                  .multipliers = 0,
                                   .placer = "nextpnr-ice40",
+                                  .install = "apt-get install yosys nextpnr-ice40 fpga-icestorm",
                                   .options = c_hx8k_options,
                                   .clock_options = c_hx8k_clock_options,
                                   .prepare = with_global_buffers,
@@ -110,17 +115,45 @@ inline constexpr CellColumn c_ecp5_columns[] = {{"ECP5: LUTs", &Cells::luts},
                                                 {"ECP5: flip-flops", &Cells::flip_flops},
                                                 {"ECP5: RAMs", &Cells::rams},
                                                 {"ECP5: multipliers", &Cells::multipliers}};
+inline constexpr std::string_view c_ecp5_options[] = {"--85k", "--package", "CABGA756", "--speed", "6"};
+/// Without buffers for pins and global signals: the design is a part of a larger one.
+inline constexpr std::string_view c_ecp5_clock_options[] = {"--out-of-context"};
+inline constexpr Device c_lfe5u_85f = {
+    .name = "LFE5U-85F",
+    .cells = 83640,
+    .most_placed = 83640,
+    .rams = 208,
+    .multipliers = 156,
+    .placer = "nextpnr-ecp5",
+    .install = "apt-get install yosys nextpnr-ecp5 (since Debian 13; Debian 12 has no nextpnr-ecp5)",
+    .options = c_ecp5_options,
+    .clock_options = c_ecp5_clock_options,
+    .prepare = nullptr,
+    .names = {.logic_cell = "TRELLIS_COMB",
+              .flip_flop = "TRELLIS_FF",
+              .input = "DI",
+              .output = "Q",
+              .lut = "LUT4",
+              .lut_output = "Z",
+              .carry_output = "FCO",
+              .mark = "_TRELLIS_FF",
+              .product_output = "P"}};
 
 /// In the order of the page's columns.
-inline constexpr Family c_families[] = {
-    {.name = "ice40",
-     .pass = "synth_ice40 -device hx",
-     .kinds = c_ice40_kinds,
-     .columns = c_ice40_columns,
-     .device = &c_hx8k,
-     .models = "-D ICE40_HX +/ice40/cells_sim.v"},
-    {.name = "ecp5", .pass = "synth_ecp5", .kinds = c_ecp5_kinds, .columns = c_ecp5_columns}};
+inline constexpr Family c_families[] = {{.name = "ice40",
+                                         .pass = "synth_ice40 -device hx",
+                                         .kinds = c_ice40_kinds,
+                                         .columns = c_ice40_columns,
+                                         .device = &c_hx8k,
+                                         .models = "-D ICE40_HX +/ice40/cells_sim.v"},
+                                        {.name = "ecp5",
+                                         .pass = "synth_ecp5",
+                                         .kinds = c_ecp5_kinds,
+                                         .columns = c_ecp5_columns,
+                                         .device = &c_lfe5u_85f,
+                                         .models = "+/ecp5/cells_sim.v"}};
 inline constexpr const Family& c_ice40 = c_families[0];
+inline constexpr const Family& c_ecp5 = c_families[1];
 
 }  // namespace synth
 }  // namespace halfway

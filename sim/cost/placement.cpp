@@ -77,6 +77,10 @@ class Registers {
   const PlacedNames& types_;
 };
 
+bool is_product(const std::string& port, const PlacedNames& names) {
+  return !names.product_output.empty() && port.starts_with(names.product_output);
+}
+
 CriticalPath read_path(const json& path, const Registers& registers, const PlacedNames& names) {
   CriticalPath result;
   for (const json& part : path) {
@@ -85,7 +89,9 @@ CriticalPath read_path(const json& path, const Registers& registers, const Place
     (type == "routing" ? result.routing : result.logic) += delay;
     if (type != "logic") continue;
     const std::string port = part.at("to").value("port", "");
-    ++(port == names.carry_output ? result.carries : result.luts);
+    ++(port == names.carry_output ? result.carries
+       : is_product(port, names)  ? result.multipliers
+                                  : result.luts);
   }
   result.from = registers.name(path.front().at("from").value("cell", ""));
   result.to = registers.name(path.back().at("to").value("cell", ""));

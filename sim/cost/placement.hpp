@@ -16,9 +16,9 @@ std::vector<std::string> placer_command(const Device& device, int mhz, const std
 
 /// The routed register-to-register path that limits the clock.
 struct CriticalPath {
-  std::string from, to;            ///< names of registers, as far as known
-  unsigned luts = 0, carries = 0;  ///< on the path
-  double logic = 0, routing = 0;   ///< in ns; logic includes clock-to-output and setup times
+  std::string from, to;                             ///< names of registers, as far as known
+  unsigned luts = 0, carries = 0, multipliers = 0;  ///< on the path
+  double logic = 0, routing = 0;                    ///< in ns; logic includes clock-to-output and setup times
 };
 
 /// One placement and routing.

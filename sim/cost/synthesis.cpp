@@ -105,7 +105,8 @@ std::string does_not_fit(const Device& device, std::string_view what, std::uint6
 std::string does_not_fit(const Device& device, const Cells& cells) {
   for (const auto& [what, count, most] : {std::tuple{"LUTs", cells.luts, device.cells},
                                           {"flip-flops", cells.flip_flops, device.cells},
-                                          {"RAMs", cells.rams, device.rams}})
+                                          {"RAMs", cells.rams, device.rams},
+                                          {"multipliers", cells.multipliers, device.multipliers}})
     if (std::string why = does_not_fit(device, what, count, most); !why.empty()) return why;
   return {};
 }
@@ -120,7 +121,7 @@ Synthesizer Synthesizer::open(const Folder& cache, bool place, const Family& fam
                                       number_of(synthesizer.yosys_version()));
   if (place) {
     const std::string placer(synthesizer.device().placer);
-    synthesizer.placer_ = version_of(placer, "--version");
+    synthesizer.placer_ = version_of(placer, "--version", synthesizer.device().install);
     synthesizer.versions_ += fmt::format(", {} {}", placer, number_of(synthesizer.placer_));
   }
   return synthesizer;
@@ -172,7 +173,9 @@ std::string Synthesizer::wrapped(const Design& design) const {
       "hierarchy -top wrapped; flatten; opt_clean -purge; write_json {2}",
       design.entity, family_->pass, c_wrapped);
   const std::string around = wrapper(netlist_of(design, ghdl_cache_), design.entity, c_most_inputs);
-  const auto prepared = device().prepare(from_mapped(design, script, c_wrapped, around));
+  std::string netlist = from_mapped(design, script, c_wrapped, around);
+  if (device().prepare == nullptr) return netlist;
+  const auto prepared = device().prepare(netlist);
   if (!prepared) throw Failure{tool_failed(fmt::format("{}: {}", design.name, prepared.error().message))};
   return *prepared;
 }
@@ -218,7 +221,7 @@ Placement Synthesizer::place(const Design& design, unsigned seed) const {
   const Folder folder =
       placed(design, fmt::format("placed{}", seed), arguments, netlist, [&](const Folder& fresh) {
         const Command placer{.arguments = arguments, .working_folder = fresh, .timeout = c_tool_timeout};
-        const ProcessEnd end = must(run_process(placer, c_install_tools));
+        const ProcessEnd end = must(run_process(placer, device().install));
         // A timeout and a full device are valid results without a report.
         if (end.signal == SIGXCPU)
           must(write_file(fresh / c_no_end, ""));

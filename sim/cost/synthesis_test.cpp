@@ -76,6 +76,30 @@ TEST(SynthPlacement, ReadsClockCellsAndPath) {
   EXPECT_DOUBLE_EQ(placement.path.routing, 1.5);
 }
 
+// Two registers with a multiplier between them.
+constexpr const char* c_ecp5_wrapped = R"({"modules": {"wrapped": {"cells": {
+  "dut.a_TRELLIS_FF_Q_3": {"type": "TRELLIS_FF", "connections": {"DI": [2], "Q": [3]}},
+  "dut.p_TRELLIS_FF_Q": {"type": "TRELLIS_FF", "connections": {"DI": [4], "Q": [5]}}},
+  "netnames": {"dut.unit.a": {"bits": [9, 3]}, "dut.p": {"bits": [5]}}}}})";
+constexpr const char* c_ecp5_report =
+    R"({"critical_paths": [{"from": "posedge clk", "to": "posedge clk", "path": [
+  {"type": "clk-to-q", "delay": 0.5, "from": {"cell": "dut.a_TRELLIS_FF_Q_3", "port": "CLK"}, "to": {"cell": "dut.a_TRELLIS_FF_Q_3", "port": "Q"}},
+  {"type": "routing", "delay": 1.5, "from": {"cell": "dut.a_TRELLIS_FF_Q_3", "port": "Q"}, "to": {"cell": "m", "port": "B15"}},
+  {"type": "logic", "delay": 4.0, "from": {"cell": "m", "port": "B15"}, "to": {"cell": "m", "port": "P32"}},
+  {"type": "routing", "delay": 1.5, "from": {"cell": "m", "port": "P32"}, "to": {"cell": "dut.p_TRELLIS_FF_Q", "port": "M"}},
+  {"type": "setup", "delay": 0, "from": {"cell": "dut.p_TRELLIS_FF_Q", "port": "M"}, "to": {"cell": "dut.p_TRELLIS_FF_Q", "port": "M"}}]}],
+  "fmax": {"clk": {"achieved": 133.5, "constraint": 200}}})";
+
+TEST(SynthPlacement, CountsTheMultipliersOfAPath) {
+  const Placement placement = read_placement(c_ecp5_report, c_ecp5_wrapped, 1, c_lfe5u_85f.names);
+  EXPECT_EQ(placement.mhz, 133.5);
+  EXPECT_EQ(placement.path.from, "unit.a[1]");
+  EXPECT_EQ(placement.path.to, "p");
+  EXPECT_EQ(placement.path.luts, 0U);
+  EXPECT_EQ(placement.path.multipliers, 1U);
+  EXPECT_DOUBLE_EQ(placement.path.logic, 4.5);
+}
+
 TEST(SynthPlacement, RefusesWhatItCannotRead) {
   EXPECT_THROW(read_placement("", c_wrapped, 1, c_hx8k.names), Failure);
   EXPECT_THROW(read_placement("{}", c_wrapped, 1, c_hx8k.names), Failure);
@@ -87,6 +111,9 @@ TEST(SynthCells, HaveTheReasonWhyTheyDoNotFit) {
   EXPECT_EQ(does_not_fit(c_hx8k, {.luts = 7681}), "does not fit the HX8K: 7681 LUTs of 7680");
   EXPECT_EQ(does_not_fit(c_hx8k, {.flip_flops = 7681}), "does not fit the HX8K: 7681 flip-flops of 7680");
   EXPECT_EQ(does_not_fit(c_hx8k, {.rams = 33}), "does not fit the HX8K: 33 RAMs of 32");
+  EXPECT_EQ(does_not_fit(c_lfe5u_85f, {.multipliers = 156}), "");
+  EXPECT_EQ(does_not_fit(c_lfe5u_85f, {.multipliers = 157}),
+            "does not fit the LFE5U-85F: 157 multipliers of 156");
 }
 
 TEST(SynthPacking, ReadsNextpnrsOutput) {

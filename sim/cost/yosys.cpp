@@ -18,16 +18,16 @@ std::string failed_text(const std::string& doing, const Command& command, const 
 }
 
 std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
-                     const std::string& doing) {
+                     const std::string& doing, const char* install) {
   const Command command{
       .arguments = std::move(arguments), .working_folder = folder, .timeout = c_tool_timeout};
-  const ProcessEnd end = must(run_process(command, c_install_tools));
+  const ProcessEnd end = must(run_process(command, install));
   if (end.succeeded()) return end.output;
   throw Failure{tool_failed(failed_text(doing, command, end))};
 }
 
-std::string version_of(const std::string& tool, const std::string& option) {
-  const std::string said = run_tool({tool, option}, {}, "looking for " + tool);
+std::string version_of(const std::string& tool, const std::string& option, const char* install) {
+  const std::string said = run_tool({tool, option}, {}, "looking for " + tool, install);
   return said.substr(0, said.find('\n'));
 }
 

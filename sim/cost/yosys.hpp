@@ -18,17 +18,18 @@
 namespace halfway::synth {
 
 inline constexpr std::chrono::minutes c_tool_timeout{60};
-inline constexpr const char* c_install_tools = "apt-get install yosys nextpnr-ice40 fpga-icestorm";
+inline constexpr const char* c_install_tools = c_hx8k.install;
 
 /// The message for a command that failed while `doing`.
 std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end);
 
-/// What the command prints. If it fails, the error has its output; `doing` is for the message.
+/// What the command prints. If it fails, the error has its output; `doing` and `install` are for the message.
 std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
-                     const std::string& doing);
+                     const std::string& doing, const char* install = c_install_tools);
 
 /// The first line that a tool prints for its version.
-std::string version_of(const std::string& tool, const std::string& option);
+std::string version_of(const std::string& tool, const std::string& option,
+                       const char* install = c_install_tools);
 
 /// The folder of a result in the cache: that of the same key, or a fresh one that `make` fills. Without an
 /// error it is kept. Thread-safe.

@@ -17,7 +17,9 @@ namespace halfway::synth {
 namespace {
 
 constexpr const char* c_clocks_section = "Clocks";
-constexpr const char* c_studies_section = "Clocks of the hardware of studies";  // without thresholds
+// Without thresholds.
+constexpr const char* c_studies_section = "Clocks of the hardware of studies";
+constexpr const char* c_ecp5_section = "Clocks on the ECP5 LFE5U-85F";
 
 // The spaces whose hardware has stored clocks, and their scene.
 constexpr const char* c_spaces[] = {"sim/study/spaces/small.toml", "sim/study/spaces/times.toml",
@@ -30,8 +32,14 @@ struct Placed {
 };
 
 std::string path_text(const CriticalPath& path) {
-  return fmt::format("`{}` → `{}`: {} LUTs, {} carries, {:.1f} ns in cells, {:.1f} ns in wires", path.from,
-                     path.to, path.luts, path.carries, path.logic, path.routing);
+  const std::string products = path.multipliers > 0 ? fmt::format(" {} multipliers,", path.multipliers) : "";
+  return fmt::format("`{}` → `{}`: {} LUTs, {} carries,{} {:.1f} ns in cells, {:.1f} ns in wires", path.from,
+                     path.to, path.luts, path.carries, products, path.logic, path.routing);
+}
+
+void add_cells(const Cells& cells, const Family& family, page::Row& row) {
+  for (const CellColumn& column : family.columns)
+    row.fields.emplace_back(column.title, std::to_string(cells.*column.number));
 }
 
 page::Row clock_row(const Placed& placed, const Clock& clock) {
@@ -63,10 +71,17 @@ std::vector<page::Value> values(std::span<const page::Row> rows) {
   return values;
 }
 
+bool is_on_ecp5(const Options& options) {
+  return options.device == c_ecp5.name;
+}
+
 std::vector<Placed> hardware_of(const Options& options) {
   std::vector<Placed> hardware;
   for (const ListedDesign& listed : selected(options))
-    if (listed.ice40) hardware.push_back({listed.design, c_clocks_section});
+    if (is_on_ecp5(options))
+      hardware.push_back({listed.design, c_ecp5_section});
+    else if (listed.ice40)
+      hardware.push_back({listed.design, c_clocks_section});
   return hardware;
 }
 
@@ -126,7 +141,8 @@ void finish(const Options& options, const std::vector<Placed>& hardware, ClockSt
 ExitCode clocks(const Options& options) {
   std::vector<Placed> hardware = hardware_of(options);
   if (options.page) add_hardware_of_spaces(options, hardware);
-  const Synthesizer synthesizer = Synthesizer::open(options.folders.cache, true);
+  const Family& family = is_on_ecp5(options) ? c_ecp5 : c_ice40;
+  const Synthesizer synthesizer = Synthesizer::open(options.folders.cache, true, family);
   ClockStore stored = must(read_clocks(options.folders.source));
   std::mutex mutex;
   std::vector<Item> items;
@@ -139,7 +155,9 @@ ExitCode clocks(const Options& options) {
                          stored[placed.design.name] = std::move(measured);
                          must(write_clocks(options.folders.source, stored));
                        }
-                       return clock_row(placed, clock);
+                       page::Row row = clock_row(placed, clock);
+                       if (!options.page) add_cells(synthesizer.cells(placed.design, family), family, row);
+                       return row;
                      }});
   const ExitCode end =
       measure(options, {"clocks", {"ghdl", "yosys", "nextpnr-ice40"}, values}, std::move(items));

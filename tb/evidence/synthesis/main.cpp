@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// halfway_synth: cells of the listed designs on the FPGA families by Yosys, their clocks on an iCE40 HX8K by
-// nextpnr, and the board's bitstream. Prints them and compares them with tb/evidence/thresholds.toml; with
+// halfway_synth: cells of the listed designs on the FPGA families by Yosys, their clocks by nextpnr, and the
+// board's bitstream. Prints them and compares them with tb/evidence/thresholds.toml; with
 // --page, writes them into pages.
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "pages.hpp"
 #include "sim/os/program.hpp"
@@ -11,7 +13,7 @@
 int main(int argc, char** argv) {
   using namespace halfway;
   synth::Options options;
-  CLI::App app{"Cells on two FPGA families, and the clock on an iCE40 HX8K", "halfway_synth"};
+  CLI::App app{"Cells and clocks on two FPGA families", "halfway_synth"};
   app.require_subcommand(1);
   int exit_code = 0;
   const auto add = [&](const char* name, const char* help, ExitCode (*run)(const synth::Options&)) {
@@ -35,9 +37,13 @@ int main(int argc, char** argv) {
     return command;
   };
   add_designs(add("cells", "cells on iCE40 and ECP5", synth::cells));
-  add_designs(add("clocks", "clocks on an iCE40 HX8K: minutes for each design", synth::clocks))
-      ->add_option("--seeds", options.seeds, "of placement (as stored, or 3)")
-      ->check(CLI::Range(1, 999));
+  CLI::App* clocks =
+      add_designs(add("clocks", "clocks on an iCE40 HX8K or ECP5: minutes for each design", synth::clocks));
+  clocks->add_option("--seeds", options.seeds, "of placement (as stored, or 3)")->check(CLI::Range(1, 999));
+  auto* device =
+      clocks->add_option("--device", options.device, "hx8k, or ecp5: LFE5U-85F, without thresholds")
+          ->check(CLI::IsMember(std::vector<std::string>{"hx8k", "ecp5"}));
+  clocks->get_option("--page")->excludes(device);
   add("board", "the board's bitstream and its figures", synth::board);
   return cli::run_program(app, argc, argv, exit_code);
 }

@@ -20,15 +20,15 @@ inline constexpr const char* c_none = "–";  ///< in a column without a value
 
 struct Options {
   SimulatorFolders folders{".", {}};
-  std::string part{};
+  std::string part{}, device = "hx8k";
   bool quick = false, page = false;
   unsigned jobs = 2, seeds = 0;
 };
 
 /// Cells of the listed designs that the options select, on all families.
 ExitCode cells(const Options& options);
-/// Their clocks on an iCE40 HX8K. With --page also those of the hardware of studies; writes the stored clocks
-/// and docs/performance.md.
+/// Their clocks on an iCE40 HX8K, or on an ECP5. With --page also those of the hardware of studies; writes
+/// the stored clocks and docs/performance.md.
 ExitCode clocks(const Options& options);
 /// Makes the board's bitstream. With --page, writes its figures into docs/board.md.
 ExitCode board(const Options& options);

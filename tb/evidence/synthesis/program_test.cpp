@@ -31,6 +31,15 @@ esac
 echo >mapped.il
 echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 )";
+constexpr const char* c_nextpnr_ecp5 = R"sh(#!/bin/sh
+[ "$1" = --version ] && echo 'nextpnr-ecp5 (Version 0.7)' && exit
+case "$*" in
+  *--pack-only*) echo 'Info: 	 TRELLIS_COMB:  40/ 83640    1%' ; exit ;;
+  '--85k --package CABGA756 --speed 6 --freq 200 --out-of-context --json'*) ;;
+  *) exit 1 ;;
+esac
+echo '{"fmax": {"clk": {"achieved": 130}}, "critical_paths": []}' >report.json
+)sh";
 // Seed 2 does not end: the limit of processor time stops it.
 constexpr const char* c_nextpnr = R"sh(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
@@ -101,6 +110,14 @@ TEST_F(SynthProgram, ComparesClocksWithThresholds) {
         HasSubstr("| `accumulator_24` | 90.0 | 90 to 90 of 2; nextpnr does not end: 1 | 11.1 | – | `"));
   EXPECT_EQ(must(read_file(root() / "bin/placed")), "1\n1\n1\n");
   EXPECT_THAT(run(1, {"clocks", "--seeds", "1", "accumulator_32"}), HasSubstr("accumulator_32: "));
+}
+
+TEST_F(SynthProgram, PlacesOnAnEcp5WithoutThresholds) {
+  put("nextpnr-ecp5", c_nextpnr_ecp5);
+  EXPECT_THAT(run(0, {"clocks", "--device", "ecp5", "--seeds", "2", "accumulator_24"}),
+              ::testing::ContainsRegex(
+                  "[|] `accumulator_24` [|] 130.0 [|] 130 to 130 of 2 .* 25 [|] 24 [|] 0 [|] 0 [|]"));
+  EXPECT_THAT(run(2, {"clocks", "--device", "other", "accumulator_24"}), HasSubstr("other"));
 }
 
 TEST_F(SynthProgram, RefusesAnUnknownDesignAndABrokenTool) {
