@@ -22,6 +22,7 @@ about_FRAMES := view steps of one turn of the camera (default: 36)
 about_VIDEO := view a file for a video
 about_RATE := view,plan frames per second: of the video; make plan: that the shading processors draw
 about_TERMINAL := view 1: draw in the terminal
+about_MULTIPLIER_BITS := verilog width of multipliers in the device; 0: products in lookup tables (default: 18)
 about_AXI := verilog 1: make verilog: the top with AXI4-Stream ports
 about_PIXEL := why x,y of the pixel that make why explains
 about_MEASURE := plan 1: count cells by Yosys, and cycles and seconds by simulation
@@ -144,7 +145,7 @@ plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEAS
 	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
 
 verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports)
-	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call option,OUT,--out) $(scene)
+	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
 
 savings: program ## measure the tables of docs/effects.md again (minutes)
 	@build/halfway savings $(call option,THREADS,--threads)

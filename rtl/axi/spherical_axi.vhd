@@ -31,6 +31,7 @@ entity spherical_axi is
     g_powers             : natural := 2;
     g_address_bits       : positive := cosine_address_bits(g_exact);
     g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_multiplier_bits    : natural  := 0;
     g_limit_bits         : positive := 26 -- of axi_control
   );
   port (
@@ -82,7 +83,8 @@ begin
       g_highlight_channels => g_highlight_channels,
       g_powers             => g_powers,
       g_address_bits       => g_address_bits,
-      g_data_bits          => g_data_bits
+      g_data_bits          => g_data_bits,
+      g_multiplier_bits    => g_multiplier_bits
       )
     port map (
       clk               => aclk,

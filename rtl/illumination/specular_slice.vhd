@@ -27,11 +27,12 @@ use work.formats_pkg.all;
 
 entity specular_slice is
   generic (
-    g_exact        : boolean              := true;
-    g_channels     : natural range 1 to 3 := 3; -- of the highlight
-    g_powers       : natural              := 2;
-    g_address_bits : positive;
-    g_data_bits    : positive
+    g_exact           : boolean              := true;
+    g_channels        : natural range 1 to 3 := 3; -- of the highlight
+    g_powers          : natural              := 2;
+    g_address_bits    : positive;
+    g_data_bits       : positive;
+    g_multiplier_bits : natural := 0 -- of multiplier
   );
   port (
     clk         : in  std_logic;
@@ -248,9 +249,10 @@ begin
     -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
     product : entity work.multiplier
       generic map (
-        g_a_bits => g_data_bits,
-        g_b_bits => formats(g_exact).factor.bits,
-        g_gated  => g_exact -- in preset published no angle is out of range
+        g_a_bits          => g_data_bits,
+        g_b_bits          => formats(g_exact).factor.bits,
+        g_multiplier_bits => g_multiplier_bits,
+        g_gated           => g_exact -- in preset published no angle is out of range
         )
       port map (
         clk     => clk,

@@ -31,7 +31,8 @@ entity spherical_light is
     g_highlight_channels : positive := g_channels;
     g_powers             : natural  := 2;
     g_address_bits       : positive := cosine_address_bits(g_exact);
-    g_data_bits          : positive := cosine_data_bits(g_exact)
+    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_multiplier_bits    : natural  := 0 -- of multiplier
   );
   port (
     clk         : in  std_logic;
@@ -71,10 +72,11 @@ begin
 
     slice : entity work.diffuse_slice
       generic map (
-        g_exact        => g_exact,
-        g_channels     => c_diffuse_channels,
-        g_address_bits => g_address_bits,
-        g_data_bits    => g_data_bits
+        g_exact           => g_exact,
+        g_channels        => c_diffuse_channels,
+        g_address_bits    => g_address_bits,
+        g_data_bits       => g_data_bits,
+        g_multiplier_bits => g_multiplier_bits
         )
       port map (
         clk         => clk,
@@ -110,11 +112,12 @@ begin
 
     slice : entity work.specular_slice
       generic map (
-        g_exact        => g_exact,
-        g_channels     => g_highlight_channels,
-        g_powers       => g_powers,
-        g_address_bits => g_address_bits,
-        g_data_bits    => g_data_bits
+        g_exact           => g_exact,
+        g_channels        => g_highlight_channels,
+        g_powers          => g_powers,
+        g_address_bits    => g_address_bits,
+        g_data_bits       => g_data_bits,
+        g_multiplier_bits => g_multiplier_bits
         )
       port map (
         clk         => clk,

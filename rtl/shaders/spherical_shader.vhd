@@ -38,7 +38,8 @@ entity spherical_shader is
     g_highlight_channels : positive := g_channels; -- 1: highlights are grey, with one multiplier per light
     g_powers             : natural  := 2; -- bit i: the table of cosine to the power 2**i exists
     g_address_bits       : positive := cosine_address_bits(g_exact);
-    g_data_bits          : positive := cosine_data_bits(g_exact)
+    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_multiplier_bits    : natural  := 0 -- width of the device's multipliers; 0: products in lookup tables
   );
   port (
     clk               : in  std_logic;
@@ -239,7 +240,8 @@ begin
         g_highlight_channels => g_highlight_channels,
         g_powers             => g_powers,
         g_address_bits       => g_address_bits,
-        g_data_bits          => g_data_bits
+        g_data_bits          => g_data_bits,
+        g_multiplier_bits    => g_multiplier_bits
         )
       port map (
         clk         => clk,

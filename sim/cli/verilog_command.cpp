@@ -21,7 +21,8 @@ namespace {
 struct VerilogCommand {
   DrawOptions draw;
   std::string scene = "spheres";
-  bool axi = false;  // the top with AXI4-Stream ports
+  bool axi = false;               // the top with AXI4-Stream ports
+  unsigned multiplier_bits = 18;  // as in most FPGAs
 };
 
 struct Port {
@@ -42,20 +43,24 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
   return ports;
 }
 
-std::string netlist_of_top(const HardwareKey& key, const std::string& top, const Folders& folders) {
-  const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
-  return must(mend_netlist(must(library.synthesize(top, key.generics()))));
+using Generics = std::vector<std::pair<std::string, std::string>>;
+
+Generics generics_of(const HardwareKey& key, unsigned multiplier_bits) {
+  auto generics = key.generics();
+  if (key.multiplies()) generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
+  return generics;
 }
 
 std::string header(const VerilogCommand& command, const HardwareKey& key, const std::string& top,
-                   const std::vector<Port>& ports, const std::string& version) {
+                   const Generics& generics, const std::vector<Port>& ports, const std::string& version) {
   std::string text = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}, hardware key {}: written by Halfway {} with\n"
-      "//   halfway verilog {} {}{}\n"
+      "//   halfway verilog {} {}{}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
       top, key.name(), version, printable(command.scene), hardware_options(command.draw),
-      command.axi ? " --axi" : "");
-  for (const auto& [name, value] : key.generics()) text += fmt::format(" {}={}", name, value);
+      command.axi ? " --axi" : "",
+      key.multiplies() ? fmt::format(" --multiplier-bits {}", command.multiplier_bits) : std::string());
+  for (const auto& [name, value] : generics) text += fmt::format(" {}={}", name, value);
   text += "\n// Ports, in this order:\n";
   for (const Port& port : ports)
     text += fmt::format("//   {:<6}  {:>5}  {}\n", port.direction, port.bits, port.name);
@@ -68,7 +73,9 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
   const std::string top = command.axi ? fmt::format("{}_axi", to_string(key.shader)) : key.entity();
-  const auto netlist = netlist_of_top(key, top, folders);
+  const Generics generics = generics_of(key, command.multiplier_bits);
+  const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
+  const auto netlist = must(mend_netlist(must(library.synthesize(top, generics))));
   const std::vector<Port> ports = ports_of(netlist, top);
   if (ports.empty())
     throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), top))};
@@ -76,7 +83,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const std::filesystem::path folder = draw.out / key.name();
   const std::filesystem::path file = folder / (top + ".v"), list = folder / (top + ".f");
   must(make_folders(folder));
-  must(write_file(file, header(command, key, top, ports, version) + netlist));
+  must(write_file(file, header(command, key, top, generics, ports, version) + netlist));
   must(write_file(list, top + ".v\n"));
   fmt::print("{}: module {} with {} ports\n{}: the list of files\n", file.string(), top, ports.size(),
              list.string());
@@ -92,6 +99,10 @@ void add_verilog(CLI::App& app, const Folders& folders, int&) {
   sub->add_option("scene", command->scene, "as for sim")->capture_default_str();
   command->draw.add_to(*sub);
   sub->add_flag("--axi", command->axi, "the top with AXI4-Stream ports");
+  sub->add_option("--multiplier-bits", command->multiplier_bits,
+                  "width of the device's multipliers; 0: products in lookup tables")
+      ->check(CLI::Range(0, 64))
+      ->capture_default_str();
   sub->callback([=, &app, &folders] { run(folders, *command, app.version()); });
 }
 

@@ -12,7 +12,8 @@ Design design_of(const HardwareKey& key, const std::filesystem::path& root) {
           .entity = key.entity(),
           .generics = key.generics(),
           .root = root,
-          .has_products = key.shader == Shader::processors};
+          .has_products = key.shader == Shader::processors,
+          .multiplies = key.multiplies()};
 }
 
 std::string netlist_of(const Design& design, const std::filesystem::path& cache) {

@@ -18,6 +18,7 @@ struct Design {
   std::filesystem::path root{};  ///< the project, or a copy of its RTL
   std::string more{};         ///< a VHDL source in addition to those of rtl/, relative to the root; or empty
   bool has_products = false;  ///< nine tenths of it would be multipliers in LUTs (generic_cells.hpp)
+  bool multiplies = false;    ///< the entity has the generic g_multiplier_bits
 };
 
 /// The hardware of a key, with the RTL of `root`.

@@ -68,6 +68,7 @@ struct Family {
   std::span<const CellColumn> columns;
   const Device* device = nullptr;  ///< none: designs are not placed
   std::string_view models{};       ///< of the cells, for Yosys's read_verilog; of a placed family
+  unsigned multiplier_bits = 0;    ///< width of the multipliers; 0: there are none
 };
 
 inline constexpr CellKind c_ice40_kinds[] = {{"SB_LUT4", &Cells::luts},
@@ -151,7 +152,8 @@ inline constexpr Family c_families[] = {{.name = "ice40",
                                          .kinds = c_ecp5_kinds,
                                          .columns = c_ecp5_columns,
                                          .device = &c_lfe5u_85f,
-                                         .models = "+/ecp5/cells_sim.v"}};
+                                         .models = "+/ecp5/cells_sim.v",
+                                         .multiplier_bits = 18}};
 inline constexpr const Family& c_ice40 = c_families[0];
 inline constexpr const Family& c_ecp5 = c_families[1];
 

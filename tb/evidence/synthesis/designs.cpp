@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "plan/hardware_key.hpp"
 #include "sim/os/must.hpp"
 #include "words/formats.hpp"
@@ -14,7 +16,9 @@ namespace {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 ListedDesign shader(const std::string& name, const HardwareKey& key) {
-  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
+  return {
+      .design = {
+          .name = name, .entity = key.entity(), .generics = key.generics(), .multiplies = key.multiplies()}};
 }
 
 // The shader with AXI4-Stream ports.
@@ -169,7 +173,12 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
     all.back().ice40 = !exact;
   }
-  for (ListedDesign& listed : all) listed.design.root = root;
+  const std::set<std::string> multiplying = {"multiplier", "diffuse_slice", "specular_slice",
+                                             "spherical_light"};
+  for (ListedDesign& listed : all) {
+    listed.design.root = root;
+    if (multiplying.contains(listed.design.entity)) listed.design.multiplies = true;
+  }
   return all;
 }
 
