@@ -95,23 +95,6 @@ struct Extent {
   double uneven = 0.0;  // greatest distance, along the edge, of an edge's middle sample from the middle
 };
 
-// Distance of the origin from a triangle in space: from its plane if the perpendicular foot lies inside,
-// otherwise from the nearest edge.
-double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const auto to_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
-    const glm::dvec3 e = q - p;
-    const double length2 = glm::dot(e, e);
-    const double t = length2 > 0.0 ? std::clamp(-glm::dot(p, e) / length2, 0.0, 1.0) : 0.0;
-    return glm::length(p + t * e);
-  };
-  const double edges = std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const double length = glm::length(normal);
-  const bool inside = glm::dot(glm::cross(a, b), normal) >= 0.0 &&
-                      glm::dot(glm::cross(b, c), normal) >= 0.0 && glm::dot(glm::cross(c, a), normal) >= 0.0;
-  return inside && length > 0.0 ? std::min(edges, std::abs(glm::dot(a, normal)) / length) : edges;
-}
-
 // For each edge the samples at its two vertices and at its midpoint.
 constexpr std::array<std::array<std::size_t, 3>, 3> c_edges = {{{0, 1, 3}, {0, 2, 4}, {1, 2, 5}}};
 
@@ -165,22 +148,6 @@ double smooth_miss(const Extent& e, double exponent) {
   return c_third_derivative *
          (s * s * s * third_derivative_beyond(x) + c_second_derivative * s * u * second_derivative_beyond(x) +
           c_first_derivative * u * u / s * first_derivative_beyond(x));
-}
-
-// An upper bound of the specular factor if the two vectors differ by at least `angle`. `apart` is the
-// greatest angle between light and eye, `n_dot_v` the least cosine to the eye.
-double factor_bound(const Material& m, double angle, double apart, double n_dot_v) {
-  const double cosine = std::cos(std::clamp(angle, 0.0, c_pi / 2));
-  if (m.brdf != Brdf::cook_torrance) return highlight_power(cosine, m.exponent);
-  const double sine = std::sin(std::clamp(angle, 0.0, c_pi / 2));
-  // The density falls to its only minimum and may rise again towards the horizon. F increases with the angle
-  // between light and halfway vector. The geometry term is at most 2/|L+V|^2 and at most 1/(4 N.V).
-  const double density =
-      std::max(beckmann(cosine, sine * sine, m.roughness), beckmann(0.1, 0.99, m.roughness));
-  const double half_cosine = std::cos(std::min(apart, c_pi) / 2.0);
-  const double geometry =
-      std::min(0.5 / std::max(1e-6, half_cosine * half_cosine), 0.25 / std::max(1e-6, n_dot_v));
-  return density * schlick(m.reflectance, half_cosine) * geometry;
 }
 
 struct LightOnTriangle {
@@ -470,6 +437,36 @@ double quick_sum(const Scene& scene, const Material& m, const SampledTriangle& t
 }
 
 }  // namespace
+
+double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const auto to_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
+    const glm::dvec3 e = q - p;
+    const double length2 = glm::dot(e, e);
+    const double t = length2 > 0.0 ? std::clamp(-glm::dot(p, e) / length2, 0.0, 1.0) : 0.0;
+    return glm::length(p + t * e);
+  };
+  const double edges = std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
+  const glm::dvec3 normal = glm::cross(b - a, c - a);
+  const double length = glm::length(normal);
+  const bool inside = glm::dot(glm::cross(a, b), normal) >= 0.0 &&
+                      glm::dot(glm::cross(b, c), normal) >= 0.0 && glm::dot(glm::cross(c, a), normal) >= 0.0;
+  return inside && length > 0.0 ? std::min(edges, std::abs(glm::dot(a, normal)) / length) : edges;
+}
+
+double factor_bound(const Material& m, double angle, double apart, double n_dot_v) {
+  double cosine = std::cos(std::clamp(angle, 0.0, c_pi / 2));
+  if (m.brdf != Brdf::cook_torrance) return highlight_power(cosine, m.exponent);
+  double sine = std::sin(std::clamp(angle, 0.0, c_pi / 2));
+  // The density rises up to tan^2 = 2 m^2 - 1 and falls beyond. F increases with the angle between light and
+  // halfway vector. The geometry term is at most 2/|L+V|^2 and at most 1/(4 N.V).
+  const double peak2 = 1 / (2 * m.roughness * m.roughness);
+  if (cosine * cosine > peak2) cosine = std::sqrt(peak2), sine = std::sqrt(1 - peak2);
+  const double density = beckmann(cosine, sine * sine, m.roughness);
+  const double half_cosine = std::cos(std::min(apart, c_pi) / 2.0);
+  const double geometry =
+      std::min(0.5 / std::max(1e-6, half_cosine * half_cosine), 0.25 / std::max(1e-6, n_dot_v));
+  return density * schlick(m.reflectance, half_cosine) * geometry;
+}
 
 double centroid_error(const SampledTriangle& t, const glm::dvec3& centroid_radiance) {
   const auto& r = t.radiance;

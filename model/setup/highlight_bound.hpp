@@ -27,13 +27,20 @@ double centroid_error(const SampledTriangle& triangle, const glm::dvec3& centroi
 /// edge of a spot. For each light the angle between normal and halfway vector (Blinn, Cook-Torrance) or
 /// between reflected light and eye (Phong) has a lower bound. It is found from the samples, or from cones
 /// around the directions at the vertices if these are wide. It bounds the highlight and its third derivative.
-/// Calibrated, not proved: for random triangles on which this value and `centroid_error` are at most T = 2,
-/// the error of Blinn and Phong exceeded 2 T on one of 200,000 and was at most 3.5 T
-/// (highlight_bound_test.cpp draws them).
+/// Calibrated, not proved: docs/accuracy.md gives the largest errors found on triangles on which this value
+/// and `centroid_error` are at most T. `proved_bound` (proved_bound.hpp) is an upper bound, and greater.
 double missed_highlight_bound(const Scene& scene, const Material& material, const SampledTriangle& triangle);
 
 /// missed_highlight_bound(...) > steps. For most triangles a simpler bound decides.
 bool may_miss_highlight(const Scene& scene, const Material& material, const SampledTriangle& triangle,
                         double steps);
+
+/// Distance of the origin from a triangle in space: from its plane if the perpendicular foot lies inside,
+/// otherwise from the nearest edge.
+double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+/// An upper bound of the specular factor if the two vectors differ by at least `angle`. `apart` is the
+/// greatest angle between light and eye, `n_dot_v` the least cosine to the eye.
+double factor_bound(const Material& m, double angle, double apart, double n_dot_v);
 
 }  // namespace halfway

@@ -296,6 +296,27 @@ TEST(HighlightTest, BoundIsZeroWithoutLightAndInTheDark) {
   EXPECT_EQ(missed_highlight_bound(c.scene, c.scene.materials[0], t), 0.0);
 }
 
+// Also for rough surfaces, whose density is greatest off the normal.
+TEST(HighlightTest, TheFactorIsWithinItsBound) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  const auto unit = [&] {
+    return glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
+  };
+  for (int i = 0; i < 100'000; ++i) {
+    const glm::dvec3 n = unit(), l = unit(), v = unit();
+    Material m;
+    m.brdf = std::array{Brdf::blinn, Brdf::phong, Brdf::cook_torrance}[i % 3];
+    m.roughness = std::uniform_real_distribution<double>(0.05, 1)(random);
+    const double apart =
+        m.brdf == Brdf::phong ? angle(2 * glm::dot(n, l) * n - l, v) : angle(n, glm::normalize(l + v));
+    for (const double least : {0.0, 0.5, 0.999})
+      ASSERT_LE(specular_factor(m, n, l, v),
+                factor_bound(m, least * apart, angle(l, v), glm::dot(n, v)) * (1 + 1e-9))
+          << "case " << i;
+  }
+}
+
 // Eye or light in the triangle, at a corner, normals in all directions: the bound is a number and large.
 TEST(HighlightTest, DegenerateDirectionsGiveALargeBound) {
   const Case base = sphere_patch(20, 100, {0.3, 0.5, 0.2});
