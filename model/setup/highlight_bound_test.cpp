@@ -13,6 +13,7 @@
 #include <glm/trigonometric.hpp>
 #include <random>
 
+#include "setup/proved_bound.hpp"
 #include "setup/quadratic_setup.hpp"
 #include "shading/shade.hpp"
 
@@ -233,6 +234,76 @@ TEST(HighlightTest, CookTorrancePassesWithinThreeThresholds) {
   const Outcome o = outcome(Brdf::cook_torrance, 2, 12000);
   EXPECT_LE(o.worst, 3.0);
   EXPECT_LT(o.split_in_vain, 0.35 * o.followed);
+}
+
+// The error is nowhere above the proved bound, and the bound is not much above the error.
+TEST(ProvedBound, IsNotExceeded) {
+  for (const auto& [place, count] :
+       {std::pair{LightPlace::near_highlight, 3000}, {LightPlace::grazing, 1000}})
+    for (const Brdf brdf : {Brdf::blinn, Brdf::phong, Brdf::cook_torrance}) {
+      RandomCases random(5, place);
+      int accepted = 0;
+      double worst = 0.0;
+      for (int i = 0; i < count; ++i) {
+        const Case c = random.next(brdf);
+        const SampledTriangle t = sampled(c);
+        const double error = dense_error(c, t),
+                     bound = proved_bound(c.scene, lights_of(c.scene), c.scene.materials[0], t);
+        ASSERT_LE(error, bound + 1e-9) << "case " << i;
+        accepted += bound <= 4 * c_threshold;
+        if (error > 0.1) worst = std::max(worst, error / bound);
+      }
+      EXPECT_GT(accepted, count / 10);
+      EXPECT_GT(worst, 0.4);
+    }
+}
+
+// Taylor remainders about the best y, on a grid of x and y; a bend at every place and in every direction.
+TEST(ProvedBound, ConstantsOfInterpolation) {
+  constexpr int c_divisions = 30;
+  using Vec = glm::dvec3;
+  const std::array<Vec, 6> node = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, .5, 0}, {.5, 0, .5}, {0, .5, .5}}};
+  std::vector<Vec> grid;
+  for (int i = 0; i <= c_divisions; ++i)
+    for (int j = 0; i + j <= c_divisions; ++j)
+      grid.push_back(Vec(i, j, c_divisions - i - j) / double(c_divisions));
+  const auto size = [](Vec d) { return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}); };
+  double third = 0, second = 0, sum = 0, midpoints = 0, bend = 0;
+  for (const Vec& x : grid) {
+    std::array<double, 6> weight;
+    for (int i = 0; i < 3; ++i) weight[i] = x[i] * (2 * x[i] - 1);
+    weight[3] = 4 * x.x * x.y, weight[4] = 4 * x.x * x.z, weight[5] = 4 * x.y * x.z;
+    double best_third = 1, best_second = 1, all = 0;
+    for (const Vec& y : grid) {
+      double third_at = std::pow(size(x - y), 3) / 6, second_at = std::pow(size(x - y), 2) / 2;
+      for (int i = 0; i < 6; ++i) {
+        third_at += std::abs(weight[i]) * std::pow(size(node[i] - y), 3) / 6;
+        second_at += std::abs(weight[i]) * std::pow(size(node[i] - y), 2) / 2;
+      }
+      best_third = std::min(best_third, third_at), best_second = std::min(best_second, second_at);
+    }
+    third = std::max(third, best_third), second = std::max(second, best_second);
+    for (const double w : weight) all += std::abs(w);
+    sum = std::max(sum, all), midpoints = std::max(midpoints, weight[3] + weight[4] + weight[5]);
+    for (int turn = 0; turn < 24; ++turn)
+      for (int at = 1; at < 50; ++at) {
+        // x from 0 at one vertex to 1 at another
+        const Vec plane(0, turn / 23.0, 1);
+        const auto bent = [&](const Vec& p) { return std::max(0.0, glm::dot(plane, p) - at / 50.0); };
+        double through = 0;
+        for (int i = 0; i < 6; ++i) through += weight[i] * bent(node[i]);
+        bend = std::max(bend, std::abs(through - bent(x)));
+      }
+  }
+  const auto expect_just_below = [](double value, double constant) {
+    EXPECT_LE(value, constant + 1e-12);
+    EXPECT_GT(value, 0.96 * constant);
+  };
+  expect_just_below(third, c_of_third);
+  expect_just_below(second, c_of_second);
+  expect_just_below(sum, c_weights);
+  expect_just_below(midpoints, c_midpoint_weights);
+  expect_just_below(bend, c_of_bend);
 }
 
 // A triangle of a sphere. The normals of its vertices are `degrees` apart; eye and light are far away.

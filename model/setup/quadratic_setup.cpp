@@ -8,6 +8,7 @@
 #include "common/recent_values.hpp"
 #include "setup/half_triangle.hpp"
 #include "setup/highlight_bound.hpp"
+#include "setup/proved_bound.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/walk.hpp"
 #include "setup/walk_header.hpp"
@@ -99,6 +100,7 @@ class Sampler {
   }
   const Material& material() const { return material_; }
   const Scene& scene() const { return scene_; }
+  std::span<const Light> lights() const { return lights_; }
 
  private:
   static Corner middle_of(const Sample& a, const Sample& b) {
@@ -182,6 +184,10 @@ bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticS
     t.surface[i] = p.samples[i].surface;
     t.radiance[i] = p.samples[i].radiance;
   }
+  if (options.test == HighlightTest::proved)
+    return !(proved_bound(sampler.scene(), sampler.lights(), sampler.material(), t) +
+                 (degree == 1 ? c_midpoint_weights * flatten(t) : 0.0) <=
+             options.threshold);
   if (options.test == HighlightTest::conservative &&
       may_miss_highlight(sampler.scene(), sampler.material(), t, options.threshold))
     return true;
@@ -368,7 +374,7 @@ QuadraticSetup::QuadraticSetup(const Scene& scene, FrameSize frame, const Hardwa
       init_bits_(preset_ == Preset::exact ? vector_bits<Exact>(degree_, channels_)
                                           : vector_bits<Published>(degree_, channels_)),
       options_(options),
-      small_by_pixel_(preset_ == Preset::exact && options.test == HighlightTest::conservative),
+      small_by_pixel_(draws_small_by_pixel(preset_, options.test)),
       projector_(scene, frame,
                  preset_ == Preset::exact ? ProjectionOptions{.subpixel_bits = 4, .clip_to_frame = false}
                                           : ProjectionOptions{.subpixel_bits = 0, .clip_to_frame = true}) {}

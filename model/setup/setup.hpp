@@ -19,10 +19,16 @@
 namespace halfway {
 
 enum class HighlightTest {
-  none,         ///< never split
-  centroid,     ///< as published: test at the centroid
-  conservative  ///< additionally uses a bound on missed highlights; preset exact draws small leaves by pixel
+  none,          ///< never split
+  centroid,      ///< as published: test at the centroid
+  conservative,  ///< additionally uses a bound on missed highlights; preset exact draws small leaves by pixel
+  proved,        ///< an upper bound of the error (proved_bound.hpp) instead; small leaves as conservative
 };
+
+/// True if small leaves are drawn pixel by pixel, without error.
+inline bool draws_small_by_pixel(Preset preset, HighlightTest test) {
+  return preset == Preset::exact && (test == HighlightTest::conservative || test == HighlightTest::proved);
+}
 
 /// A triangle or piece of at most this width and height, in pixels, is small: it is not split. It covers at
 /// most three pixels, so preset exact can draw it with the exact colours at their centres (PixelFit).

@@ -106,13 +106,13 @@ const std::vector<Option>& options_of_some_shaders() {
       {"--highlight-test",
        {{Shader::quadratic}},
        false,
-       "quadratic: test for splitting a triangle in four: none, centroid (as published), or\n"
-       "conservative (default: conservative in preset exact, centroid in published)",
+       "quadratic: test for splitting a triangle in four: none, centroid (as published),\n"
+       "conservative, or proved (default: conservative in preset exact, centroid in published)",
        [](const Given& given, DrawSettings& s) {
-         s.setup.quadratic.test =
-             given.one_of<HighlightTest>({{"none", HighlightTest::none},
-                                          {"centroid", HighlightTest::centroid},
-                                          {"conservative", HighlightTest::conservative}});
+         s.setup.quadratic.test = given.one_of<HighlightTest>({{"none", HighlightTest::none},
+                                                               {"centroid", HighlightTest::centroid},
+                                                               {"conservative", HighlightTest::conservative},
+                                                               {"proved", HighlightTest::proved}});
        }},
       {"--threshold",
        {{Shader::quadratic}, {Shader::spherical, Preset::exact}},
