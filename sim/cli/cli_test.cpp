@@ -252,6 +252,20 @@ TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
   EXPECT_EQ(run({"compare", mesh, "--out", out()}).exit_code, 0);
 }
 
+TEST_F(CliTest, UnresolvedLeavesAreCounted) {
+  const auto drawn = [&](const std::string& level) {
+    return run({"sim", "highlights", "--size", "160x120", "--max-level", level, "--highlight-test", "proved",
+                "--simulator", "verilator", "--out", out()});
+  };
+  EXPECT_THAT(drawn("5"), Ends(0, Not(HasSubstr("unresolved"))));
+  const Outcome rough = drawn("0");
+  const auto summary =
+      nlohmann::json::parse(must(read_file(out() / "highlights" / "quadratic" / "summary.json")));
+  EXPECT_GT(summary["setup"]["unresolved"], 10);
+  EXPECT_THAT(rough, Ends(0, HasSubstr(fmt::format(" | {} unresolved | reference: ",
+                                                   summary["setup"]["unresolved"].get<int>()))));
+}
+
 // Results of both kinds of hardware are in separate folders.
 TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
   const auto mesh = write("one.obj", c_triangle);

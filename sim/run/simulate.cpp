@@ -138,8 +138,7 @@ class Simulation {
           "[camera] to draw them whole",
           n.projection.cut_by_near, Projector(scene_, s_.size, {}).range().near));
     if (n.unresolved != 0 && s_.setup.quadratic.max_level > 0) {
-      const bool by_pixel =
-          s_.plan.preset == Preset::exact && s_.setup.quadratic.test == HighlightTest::conservative;
+      const bool by_pixel = draws_small_by_pixel(s_.plan.preset, s_.setup.quadratic.test);
       note(fmt::format(
           "{} pieces may err by more than {} colour steps; they are split {} times{}", n.unresolved,
           s_.setup.quadratic.threshold, s_.setup.quadratic.max_level,
@@ -441,6 +440,8 @@ std::string to_line(const SceneSummary& s) {
       fmt::format_to(to, "{} mismatches", run.mismatches);
     if (run.seconds) fmt::format_to(to, ", {:.2f} s", *run.seconds);
   }
+  if (s.setup.unresolved != 0)
+    fmt::format_to(std::back_inserter(line), " | {} unresolved", s.setup.unresolved);
   if (std::isfinite(s.accuracy.psnr_db))
     fmt::format_to(std::back_inserter(line), " | reference: PSNR {:.2f} dB, largest error {}/255",
                    s.accuracy.psnr_db, s.accuracy.max_lsb);
