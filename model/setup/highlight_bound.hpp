@@ -28,8 +28,9 @@ double centroid_error(const SampledTriangle& triangle, const glm::dvec3& centroi
 /// between reflected light and eye (Phong) has a lower bound. It is found from the samples, or from cones
 /// around the directions at the vertices if these are wide. It bounds the highlight and its third derivative.
 /// Calibrated, not proved: for random triangles on which this value and `centroid_error` are at most T = 2,
-/// the error of Blinn and Phong exceeded 2 T on one of 200,000 and was at most 3.5 T (highlight_bound_test.cpp
-/// draws them; `make search` draws others). `proved_bound` is an upper bound, and greater.
+/// the error of Blinn and Phong exceeded 2 T on one of 200,000 and was at most 3.5 T
+/// (highlight_bound_test.cpp draws them; `make search` draws others). `proved_bound` is an upper bound, and
+/// greater.
 double missed_highlight_bound(const Scene& scene, const Material& material, const SampledTriangle& triangle);
 
 /// missed_highlight_bound(...) > steps. For most triangles a simpler bound decides.

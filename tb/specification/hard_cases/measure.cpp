@@ -44,6 +44,18 @@ const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std:
       [&](const ScreenTriangle& a, const ScreenTriangle& b) { return least(a) < least(b); });
 }
 
+void for_each_error(const Scene& scene, const Pieces& pieces, std::span<const Fragment> fragments,
+                    const std::function<void(double, const Fragment&)>& add) {
+  for (const Fragment& f : fragments) {
+    const ScreenTriangle& t = pieces.nearest(f.triangle, f.x, f.y);
+    const ExactSurface s = surface(t, c_subpixel_bits, f.x, f.y);
+    bool doubtful = false;
+    const LongVec exact = oracle::radiance(scene, scene.materials[t.material], s.position_world,
+                                           unit_normal(t, s), oracle::c_no_shadows, {}, doubtful);
+    if (!doubtful) add(static_cast<double>(colour_error(f, exact)), f);
+  }
+}
+
 void measure_shading(Trial& trial, Preset preset, const Scene& scene, FrameSize frame,
                      std::span<const Fragment> fragments, std::string_view name) {
   const ShadingBound bound(scene, frame);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "frame/fragment.hpp"
 #include "projection/project.hpp"
+#include "setup/setup.hpp"
 #include "specification/hard_cases/specification.hpp"
 #include "specification/hard_cases/trial.hpp"
 
@@ -49,6 +51,18 @@ class Pieces {
   int subpixel_bits_;
   std::vector<ScreenTriangle> pieces_;  ///< in order of their sources
 };
+
+/// The error of a quadratic leaf, in units of the threshold, that the test is proved or calibrated to
+/// (docs/accuracy.md).
+inline double thresholds_of(HighlightTest test) {
+  return test == HighlightTest::proved ? 1.0 : 2.0;
+}
+
+/// Compares the fragments of a scene without shadows with the illumination model at the pixels' centres.
+/// Calls add(error in colour steps, fragment). Leaves out pixels at a jump of the model, where doubles
+/// decide.
+void for_each_error(const Scene& scene, const Pieces& pieces, std::span<const Fragment> fragments,
+                    const std::function<void(double, const Fragment&)>& add);
 
 /// Compares each channel of the shading processors' fragments with the illumination model at the pixel's
 /// centre, with the bounds of ShadingBound.

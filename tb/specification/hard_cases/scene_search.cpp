@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The searches over scenes in the spherical shader and in the shading processors.
+// The searches over scenes: patches in the quadratic shader; scenes in the spherical shader and in the
+// shading processors.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numbers>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "scene/lights.hpp"
 #include "scene/test/random_scenes.hpp"
 #include "setup/walk_header.hpp"
 #include "specification/hard_cases/measure.hpp"
+#include "specification/hard_cases/screen_drawing.hpp"
 #include "specification/hard_cases/search.hpp"
 #include "specification/hard_cases/shading_bound.hpp"
 #include "specification/hard_cases/spherical_trial.hpp"
@@ -20,11 +28,96 @@ struct Input {
   Scene scene;
   FrameSize frame;
   PlanRequest plan;  ///< of the hardware that the scene needs
-  bool many_lights;
+  bool many_lights = false;
+  SetupOptions setup{};
   bool is_published() const { return plan.preset == Preset::published; }
 };
 
+// Adds a light whose highlight is on the triangle or close to it, or that shines along the surface or against
+// the eye.
+void add_light_near_highlight(RandomScenes& random, Scene& scene, double size) {
+  const auto weight = [&] { return random.within(0, 1); };
+  const glm::dvec3 b = glm::dvec3(weight(), weight(), weight());
+  glm::dvec3 place(0), normal(0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double share = b[static_cast<int>(i)] / (b.x + b.y + b.z);
+    place += share * scene.positions_world[i];
+    normal += share * scene.normals_world[i];
+  }
+  if (glm::length(normal) < 1e-6) normal = glm::dvec3(0, 0, 1);
+  normal = glm::normalize(normal);
+  const glm::dvec3 to_eye = glm::normalize(scene.camera.eye_world - place),
+                   half = glm::normalize(normal + random.within(0, 3) /
+                                                      std::sqrt(scene.materials[0].exponent) * random.unit());
+  glm::dvec3 to_light = 2 * glm::dot(half, to_eye) * half - to_eye;
+  if (random.one_in(8))  // along the surface
+    to_light = glm::cross(normal, random.unit()) + random.within(-0.1, 0.1) * normal;
+  else if (random.one_in(8))
+    to_light = -to_eye + random.log_within(1e-9, 0.1) * random.cube();
+  else if (random.one_in(10))
+    to_light = random.unit();
+  to_light = glm::normalize(to_light);
+  const glm::dvec3 intensity = random.within(0.3, random.one_in(5) ? 10 : 1) * random.colour(false),
+                   position = place + size * random.log_within(1e-3, 100) * to_light;
+  switch (random.whole(0, 2)) {
+    case 0:
+      scene.directional.push_back({to_light, intensity});
+      return;
+    case 1:
+      scene.positional.push_back({position, intensity});
+      return;
+    default: {
+      const double outer = random.log_within(0.02, 1.4),
+                   inner = random.one_in(3) ? outer : random.within(0, 0.95) * outer;
+      scene.spots.push_back({position, glm::normalize(random.within(0, 0.6) * random.unit() - to_light),
+                             std::cos(inner), std::cos(outer), intensity});
+    }
+  }
+}
+
+// One triangle of 1 to 4096 pixels, flat or curved, with normals that agree, differ or cancel.
+Input patch_of(std::uint32_t seed) {
+  RandomScenes random(seed);
+  Input input{.scene = {}, .frame = {96, 96}, .plan = {.shader = Shader::quadratic}};
+  input.setup.quadratic = {.test = random.one_in(2) ? HighlightTest::proved : HighlightTest::conservative,
+                           .threshold = 0.5 * (1 << random.whole(0, 4))};
+  if (input.setup.quadratic.test == HighlightTest::proved && random.one_in(4)) input.plan.degree = 1;
+  Scene& scene = input.scene;
+  scene.name = "search";
+  Material& m = scene.materials.emplace_back(random.material(false, random.one_in(2)));
+  const int brdf = random.whole(0, 3);
+  m.brdf = brdf == 0 ? Brdf::cook_torrance : brdf == 1 ? Brdf::phong : Brdf::blinn;
+  m.roughness = random.log_within(0.05, 1);
+  if (random.one_in(5)) m.diffuse = 0.0;
+  scene.ambient = random.colour(false);
+
+  // Twice the circumcircle's area is about that of the square around it.
+  const double size = random.log_within(0.1, 10), distance = size * random.log_within(1.2, 100),
+               radius_pixels = 0.88 * std::sqrt(random.log_within(1, 4096));
+  scene.camera.eye_world = {0, 0, distance};
+  scene.camera.vertical_fov_degrees =
+      2 * 180 / std::numbers::pi * std::atan(0.5 * input.frame.height * size / (distance * radius_pixels));
+  const double tilt = random.one_in(4) ? 0 : random.log_within(0.01, 0.7 * distance / size),
+               turn = random.within(0, 7), spread = random.one_in(5) ? 0 : random.log_within(1e-3, 1),
+               bend = random.one_in(5) ? 0 : random.log_within(0.01, 3);
+  const int normals = random.whole(0, 19);
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.within(0, 0.8)) / 3;
+    const glm::dvec3 p(std::cos(angle), std::sin(angle), tilt * std::cos(angle - turn));
+    scene.positions_world.push_back(size * p);
+    glm::dvec3 n = glm::dvec3(bend * p.x, bend * p.y, 1) + spread * random.cube();
+    if (normals == 0) n = random.unit();
+    if (normals == 1 && i == 1) n = -scene.normals_world[0] + random.log_within(1e-6, 0.1) * random.cube();
+    scene.normals_world.push_back(glm::normalize(n));
+  }
+  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0, Culling::none}};
+  const int lights = random.one_in(50) ? 16 : random.whole(1, 3);
+  for (int i = 0; i < lights; ++i) add_light_near_highlight(random, scene, size);
+  return input;
+}
+
 Input input_of(Shader shader, std::uint32_t seed) {
+  if (shader == Shader::quadratic) return patch_of(seed);
   const bool processors = shader == Shader::processors;
   RandomScenes random(seed);
   Input input;
@@ -53,6 +146,54 @@ Input input_of(Shader shader, std::uint32_t seed) {
   scene.materials = {m};
   scene.ambient = random.colour(false);
   return input;
+}
+
+// Simpler inputs: without a light, a triangle, a term or a colour.
+std::vector<Input> simpler(const Input& input) {
+  std::vector<Input> all;
+  const auto add = [&](auto&& change) { change(all.emplace_back(input).scene); };
+  const auto erase_each = [&](auto list) {
+    for (std::size_t i = 0; i < (input.scene.*list).size(); ++i)
+      add([&](Scene& s) { (s.*list).erase((s.*list).begin() + static_cast<std::ptrdiff_t>(i)); });
+  };
+  erase_each(&Scene::directional);
+  erase_each(&Scene::positional);
+  erase_each(&Scene::spots);
+  if (input.scene.triangles.size() > 1) erase_each(&Scene::triangles);
+  const Material& m = input.scene.materials[0];
+  if (input.scene.ambient != glm::dvec3(0)) add([](Scene& s) { s.ambient = glm::dvec3(0); });
+  if (m.diffuse != 0) add([](Scene& s) { s.materials[0].diffuse = 0; });
+  if (m.specular != 0) add([](Scene& s) { s.materials[0].specular = 0; });
+  if (m.colour != glm::dvec3(1)) add([](Scene& s) { s.materials[0].colour = glm::dvec3(1); });
+  if (m.specular_colour != glm::dvec3(1))
+    add([](Scene& s) { s.materials[0].specular_colour = glm::dvec3(1); });
+  if (m.exponent != std::round(m.exponent))
+    add([](Scene& s) { s.materials[0].exponent = std::round(s.materials[0].exponent); });
+  return all;
+}
+
+std::string description(const Input& input) {
+  const Scene& s = input.scene;
+  const Material& m = s.materials[0];
+  const auto point = [](const glm::dvec3& v) {
+    return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z);
+  };
+  std::string text = fmt::format(
+      "{}x{}, eye {}, {:.9g} degrees; BRDF {}, k_d {:.9g}, k_s {:.9g}, n {:.9g}, m {:.9g}, colours {} {}",
+      input.frame.width, input.frame.height, point(s.camera.eye_world), s.camera.vertical_fov_degrees,
+      static_cast<int>(m.brdf), m.diffuse, m.specular, m.exponent, m.roughness, point(m.colour),
+      point(m.specular_colour));
+  for (const SceneTriangle& t : s.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      text += fmt::format("; vertex {} normal {}", point(s.positions_world[t.position[i]]),
+                          point(s.normals_world[t.normal[i]]));
+  for_each_light(s, [&](const Light& l) {
+    text += fmt::format("; {} {} of {}", to_string(l.ref.kind), point(l.point.xyz_world), point(l.intensity));
+    if (l.cone)
+      text += fmt::format(" along {}, cosines {:.9g} {:.9g}", point(l.cone->axis_world), l.cone->cos_inner,
+                          l.cone->cos_outer);
+  });
+  return text;
 }
 
 // Counts the pieces that cover each pixel, for each triangle and for all.
@@ -92,11 +233,28 @@ class SceneSearch final : public Search {
   SceneSearch(Shader shader, SimulatorFolders folders, bool quick)
       : shader_(shader), folders_(std::move(folders)), quick_(quick) {}
 
+  // Of an input that fails, returns the simplest form that still fails.
   std::string check(std::uint32_t seed, Tally& tally) override {
-    const auto [scene, frame, plan, many_lights] = input_of(shader_, seed);
+    Input input = input_of(shader_, seed);
+    const std::string failure = failure_of(input, tally);
+    if (failure.empty()) return "";
+    const auto quantity = [](const std::string& f) { return f.substr(0, f.find(':')); };
+    for (bool simplified = true; std::exchange(simplified, false);)
+      for (Input& next : simpler(input)) {
+        Tally apart;
+        if (quantity(failure_of(next, apart)) != quantity(failure)) continue;
+        input = std::move(next);
+        simplified = true;
+        break;
+      }
+    return fmt::format("{}; simplified: {}", failure, description(input));
+  }
+
+  std::string failure_of(const Input& input, Tally& tally) const {
+    const auto& [scene, frame, plan, many_lights, setup] = input;
     const bool published = plan.preset == Preset::published;
     ++tally.inputs;
-    const Result<Drawing> drawing = draw_golden(scene, {.plan = plan, .frame = frame});
+    const Result<Drawing> drawing = draw_golden(scene, {.plan = plan, .frame = frame, .setup = setup});
     if (!drawing) return "plan: " + drawing.error().message;
     tally.fragments += drawing->golden.size();
     if (drawing->fault) return "a counter of shadow volumes exceeded its format";
@@ -109,6 +267,7 @@ class SceneSearch final : public Search {
         [] { return "pixels"; });
     const std::string wrong = tally.add("coverage", coverage);
     if (published || !wrong.empty()) return wrong;
+    if (shader_ == Shader::quadratic) return against_threshold(input, *drawing, pieces, tally);
     if (shader_ == Shader::processors)
       against_range(scene, frame, *drawing, pieces, colour);
     else
@@ -124,9 +283,9 @@ class SceneSearch final : public Search {
         continue;
       // Lights of fixed kinds in order: many scenes share the same hardware.
       input.plan.all_effects = true;
-      input.plan.lights = input.many_lights ? 16 : 3;
+      if (shader_ != Shader::quadratic) input.plan.lights = input.many_lights ? 16 : 3;
       Trial trial(folders_, rtl_, true);
-      trial.draw(input.scene, {.plan = input.plan, .frame = input.frame});
+      trial.draw(input.scene, {.plan = input.plan, .frame = input.frame, .setup = input.setup});
       auto failure = rtl_failure(trial, 1, tally);
       if (!failure || !failure->empty()) return failure;
     }
@@ -166,6 +325,29 @@ class SceneSearch final : public Search {
                 [&] { return where(f); });
   }
 
+  // Greater than the errors found, which exceed what the conservative test is calibrated to.
+  static constexpr double c_of_conservative = 5.0;
+
+  // The error of the worst pixel beyond the rounding of the hardware, in thresholds. Unresolved leaves have
+  // no bound.
+  static std::string against_threshold(const Input& input, const Drawing& drawing, const Pieces& pieces,
+                                       Tally& tally) {
+    const auto& [test, threshold, level] = input.setup.quadratic;
+    const bool unresolved = drawing.counts.unresolved > 0;
+    const double rounding = colour_bound(Preset::exact, 3.0 * input.frame.width),
+                 bound = unresolved                      ? 255 / threshold
+                         : test == HighlightTest::proved ? thresholds_of(test)
+                                                         : c_of_conservative;
+    Worst worst;
+    for_each_error(input.scene, pieces, drawing.golden, [&](double off, const Fragment& f) {
+      worst.add(std::max(0.0, off - rounding) / threshold, bound, [&] { return where(f); });
+    });
+    if (unresolved) return tally.add("error in thresholds, unresolved leaves", worst);
+    return tally.add(
+        test == HighlightTest::proved ? "error in thresholds, proved" : "error in thresholds, conservative",
+        worst);
+  }
+
   Shader shader_;
   SimulatorFolders folders_;
   bool quick_;
@@ -174,6 +356,9 @@ class SceneSearch final : public Search {
 
 }  // namespace
 
+std::unique_ptr<Search> make_quadratic_search(const SimulatorFolders& folders, bool quick) {
+  return std::make_unique<SceneSearch>(Shader::quadratic, folders, quick);
+}
 std::unique_ptr<Search> make_spherical_search(const SimulatorFolders& folders, bool quick) {
   return std::make_unique<SceneSearch>(Shader::spherical, folders, quick);
 }

@@ -44,6 +44,6 @@ Result<std::string> rtl_failure(const Trial& trial, std::uint64_t inputs, Tally&
 
 /// With `quick`, a search leaves out hardware that takes minutes to build.
 using MakeSearch = std::unique_ptr<Search>(const SimulatorFolders& folders, bool quick);
-MakeSearch make_triangle_search, make_spherical_search, make_processors_search;
+MakeSearch make_triangle_search, make_quadratic_search, make_spherical_search, make_processors_search;
 
 }  // namespace halfway::stability
