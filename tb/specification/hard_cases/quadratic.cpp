@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "golden_run/test/spherical_drawing.hpp"
 #include "projection/project.hpp"
 #include "specification/hard_cases/hard_case.hpp"
 #include "specification/hard_cases/screen_drawing.hpp"
@@ -311,11 +312,180 @@ void split_alike(Trial& trial) {
     }
 }
 
+// ---- Hard scenes of one triangle
+
+// Draws the scene in preset exact with both tests of ours, and with the published test.
+void against_model(Trial& trial, const Scene& scene, const std::string& name, FrameSize frame = {64, 48}) {
+  const Pieces pieces(scene, frame);
+  const double rounding = colour_bound(Preset::exact, 3.0 * frame.width);
+  for (const HighlightTest test :
+       {HighlightTest::conservative, HighlightTest::proved, HighlightTest::centroid}) {
+    DrawOptions options{.frame = frame};
+    options.setup.quadratic.test = test;
+    const Drawing drawing = trial.draw(scene, options);
+    const bool ours = test != HighlightTest::centroid;
+    // Pieces of a side of 64 pixels are drawn pixel by pixel at the last level.
+    trial.require(!drawing.golden.empty() && !(ours && drawing.counts.unresolved > 0),
+                  [&] { return name + ": nothing is drawn, or a leaf is not resolved"; });
+    const double bound = options.setup.quadratic.threshold * thresholds_of(test) + rounding;
+    for_each_error(scene, pieces, drawing.golden, [&](double off, const Fragment& f) {
+      trial.measure(ours ? Preset::exact : Preset::published, off, bound,
+                    [&] { return fmt::format("{}, pixel {},{}", name, f.x, f.y); });
+    });
+  }
+}
+
+const std::array<glm::dvec3, 3> c_leaning = {{{0.5, 0.2, 1}, {-0.5, 0.3, 1}, {0, -0.6, 1}}};
+
+Scene bright_stage(double exponent, Brdf brdf = Brdf::blinn) {
+  Scene scene = stage(c_leaning);
+  Material& m = scene.materials[0];
+  m.brdf = brdf;
+  m.exponent = exponent;
+  m.roughness = 1 / std::sqrt(exponent);
+  return scene;
+}
+
+constexpr std::array c_brdfs = {Brdf::blinn, Brdf::phong, Brdf::cook_torrance};
+
+// A light at the surface, and at 10^-6 to 1 from it.
+void light_at_the_surface(Trial& trial) {
+  for (const Brdf brdf : c_brdfs)
+    for (const double distance : {0.0, 1e-6, 1e-3, 0.05, 1.0}) {
+      Scene scene = bright_stage(50, brdf);
+      scene.positional.push_back({{0.1, -0.2, distance}, glm::dvec3(1.0)});
+      against_model(trial, scene, fmt::format("light at {:g}", distance));
+    }
+}
+
+// Light from behind the triangle towards the eye, exactly opposite and almost. The normals lean away from the
+// eye, so that the light shines on them; the half vector turns around the point where it is 0.
+void no_halfway(Trial& trial) {
+  for (const Brdf brdf : c_brdfs)
+    for (const double aside : {0.0, 1e-12, 1e-6, 1e-2, 0.3}) {
+      Scene scene = bright_stage(20, brdf);
+      for (glm::dvec3& n : scene.normals_world) n = glm::normalize(glm::dvec3(n.x, n.y, -0.3));
+      scene.directional.push_back({glm::normalize(glm::dvec3(aside, aside / 3, -1)), glm::dvec3(1.0)});
+      scene.positional.push_back({{aside, 0, -3}, glm::dvec3(0.5)});
+      against_model(trial, scene, fmt::format("opposite but for {:g}", aside));
+    }
+}
+
+// The terminator crosses the triangle, and light and eye graze it from opposite sides.
+void terminator(Trial& trial) {
+  for (const Brdf brdf : c_brdfs)
+    for (int i = -4; i <= 4; ++i) {
+      Scene scene = bright_stage(20, brdf);
+      scene.directional.push_back({glm::normalize(glm::dvec3(1, 0.02, 0.15 * i)), glm::dvec3(1.0)});
+      against_model(trial, scene, fmt::format("light at slope {:.2f}", 0.15 * i));
+      scene.camera.eye_world = {-4, 0, 0.1 * std::abs(i) + 0.3};
+      against_model(trial, scene, fmt::format("light at slope {:.2f}, eye grazing", 0.15 * i));
+    }
+}
+
+// Cones whose edge crosses the triangle, from a hard edge to a soft one, from a pixel to all of the triangle.
+void spots(Trial& trial) {
+  for (const double outer : {0.005, 0.05, 0.3, 1.0})
+    for (const double inner : {1.0, 0.999, 0.9, 0.0}) {
+      Scene scene = bright_stage(50);
+      scene.spots.push_back({{0.5, 0.2, 2},
+                             glm::normalize(glm::dvec3(-0.5, -0.3, -2)),
+                             std::cos(inner * outer),
+                             std::cos(outer),
+                             glm::dvec3(1.0)});
+      against_model(trial, scene, fmt::format("cone of {:g}, full to {:g} of it", outer, inner));
+    }
+}
+
+// A floor from behind the eye, under lights close to it. It is narrow, so that no piece of it is too large to
+// resolve.
+void across_the_near_plane(Trial& trial) {
+  for (const double near : {0.3, 0.4, 0.6})
+    for (const double exponent : {5.0, 100.0}) {
+      Scene scene = bright_stage(exponent);
+      scene.positions_world = {{-0.12, 0, 1.3}, {0.12, 0, 1.3}, {0, 0, -2}};
+      for (glm::dvec3& n : scene.normals_world) n = glm::normalize(glm::dvec3(0.2 * n.x, 1, 0.2 * n.y));
+      scene.camera.eye_world = {0, 0.12, 1};
+      scene.camera.target_world = {0, 0.05, 0};
+      scene.camera.near = near;
+      add_side_lights(scene);
+      scene.positional[0].position_world = {0.1, 0.1, 0.4};
+      against_model(trial, scene, fmt::format("near plane at {:g}, exponent {:g}", near, exponent));
+    }
+}
+
+// Sixteen lights with highlights in a row; together up to ten times white.
+void sixteen_lights(Trial& trial) {
+  for (const double intensity : {0.05, 0.2, 1.0}) {
+    Scene scene = bright_stage(400);
+    for (int i = 0; i < 16; ++i)
+      scene.directional.push_back(
+          {glm::normalize(glm::dvec3(0.12 * (i - 8), 0.05 * (i % 5 - 2), 1)), glm::dvec3(intensity)});
+    against_model(trial, scene, fmt::format("sixteen lights of {:g}", intensity));
+  }
+}
+
+void exponents(Trial& trial) {
+  for (const Brdf brdf : c_brdfs)
+    for (const double exponent : {1.0, 1.5, 2.0, 3.0, 10.0, 100.0, 1000.0}) {
+      Scene scene = bright_stage(exponent, brdf);
+      scene.directional.push_back({glm::normalize(glm::dvec3(0.05, 0.02, 1)), glm::dvec3(0.9)});
+      scene.directional.push_back({glm::normalize(glm::dvec3(2, 0.4, 1)), glm::dvec3(0.5)});
+      against_model(trial, scene, fmt::format("exponent {:g}", exponent));
+    }
+}
+
+// The interpolated normal is almost zero on an edge or at a point inside.
+void cancelling_normals(Trial& trial) {
+  for (const double left : {1e-1, 1e-3, 1e-6}) {
+    Scene scene = bright_stage(30);
+    scene.directional.push_back({glm::normalize(glm::dvec3(0.3, 0.2, 1)), glm::dvec3(1.0)});
+    auto& n = scene.normals_world;
+    n = {{1, 0, 0}, glm::normalize(glm::dvec3(-1, left, left)), {0, 0, 1}};
+    against_model(trial, scene, fmt::format("edge, {:g} left", left));
+    for (int i = 0; i < 3; ++i)
+      n[i] = glm::normalize(glm::dvec3(std::cos(2.0944 * i), std::sin(2.0944 * i), left));
+    against_model(trial, scene, fmt::format("inside, {:g} left", left));
+  }
+}
+
+// Lengths times a power of two give the same fragments. 10^-6 and 10^6 are rounded, so they are compared.
+void scales(Trial& trial) {
+  const auto scaled = [](double by) {
+    Scene scene = bright_stage(50);
+    add_side_lights(scene);
+    for (glm::dvec3& p : scene.positions_world) p *= by;
+    scene.positional[0].position_world *= by;
+    scene.spots[0].position_world *= by;
+    scene.camera.eye_world *= by;
+    return scene;
+  };
+  for (const HighlightTest test : {HighlightTest::conservative, HighlightTest::proved}) {
+    DrawOptions options;
+    options.setup.quadratic.test = test;
+    const std::vector<Fragment> one = trial.draw(scaled(1), options).golden;
+    for (const double by : {0x1p-20, 0x1p-200, 0x1p20, 0x1p200})
+      trial.require(trial.draw(scaled(by), options).golden == one,
+                    [&] { return fmt::format("another picture, scaled by {:g}", by); });
+  }
+  for (const double by : {1e-6, 1.0, 1e6})
+    against_model(trial, scaled(by), fmt::format("scaled by {:g}", by));
+}
+
 constexpr HardCase c_cases[] = {{"no_divisor", no_divisor},
                                 {"long_spans", long_spans},
                                 {"between_samples", between_samples},
                                 {"split_alike", split_alike},
-                                {"depths", depths}};
+                                {"depths", depths},
+                                {"light_at_the_surface", light_at_the_surface},
+                                {"no_halfway", no_halfway},
+                                {"terminator", terminator},
+                                {"spots", spots},
+                                {"across_the_near_plane", across_the_near_plane},
+                                {"sixteen_lights", sixteen_lights},
+                                {"exponents", exponents},
+                                {"cancelling_normals", cancelling_normals},
+                                {"scales", scales}};
 INSTANTIATE_TEST_SUITE_P(quadratic, HardCases, testing::ValuesIn(c_cases), id_of);
 
 }  // namespace
