@@ -363,7 +363,7 @@ void light_at_the_surface(Trial& trial) {
 void no_halfway(Trial& trial) {
   for (const Brdf brdf : c_brdfs)
     for (const double aside : {0.0, 1e-12, 1e-6, 1e-2, 0.3}) {
-      Scene scene = bright_stage(20, brdf);
+      Scene scene = bright_stage(2, brdf);
       for (glm::dvec3& n : scene.normals_world) n = glm::normalize(glm::dvec3(n.x, n.y, -0.3));
       scene.directional.push_back({glm::normalize(glm::dvec3(aside, aside / 3, -1)), glm::dvec3(1.0)});
       scene.positional.push_back({{aside, 0, -3}, glm::dvec3(0.5)});
