@@ -43,8 +43,8 @@ ViewBasis view_basis(const Camera& camera);
 BoundingSphere bounding_sphere(const Scene& scene);
 
 /// The camera's own near and far where they are given (> 0), whatever is in view. Otherwise they are fitted
-/// to the sphere: near is the sphere's nearest point but at least `c_near_part_of_far` of far; far is slightly
-/// beyond its farthest point.
+/// to the sphere: near is the sphere's nearest point but at least `c_near_part_of_far` of far; far is
+/// slightly beyond its farthest point.
 DepthRange depth_range(const Camera& camera, const BoundingSphere& sphere);
 
 /// A camera on the ray from the sphere's centre along `to_eye_world`. It shows the whole sphere in a frame of
