@@ -176,6 +176,17 @@ double flatten(SampledTriangle& t) {
   return 255.0 * largest;
 }
 
+// Normals that nearly cancel turn unevenly, which the conservative test does not expect.
+bool normals_nearly_cancel(const SampledTriangle& t) {
+  constexpr double c_least_part = 0.7;
+  double least = t.surface[0].normal_length, most = least;
+  for (const SurfacePoint& point : t.surface) {
+    least = std::min(least, point.normal_length);
+    most = std::max(most, point.normal_length);
+  }
+  return least < c_least_part * most;
+}
+
 bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticSetupOptions& options,
                         int degree) {
   if (options.test == HighlightTest::none) return false;
@@ -184,7 +195,8 @@ bool is_above_threshold(const Piece& p, const Sampler& sampler, const QuadraticS
     t.surface[i] = p.samples[i].surface;
     t.radiance[i] = p.samples[i].radiance;
   }
-  if (options.test == HighlightTest::proved)
+  if (options.test == HighlightTest::proved ||
+      (options.test == HighlightTest::conservative && normals_nearly_cancel(t)))
     return !(proved_bound(sampler.scene(), sampler.lights(), sampler.material(), t) +
                  (degree == 1 ? c_midpoint_weights * flatten(t) : 0.0) <=
              options.threshold);

@@ -413,6 +413,18 @@ TEST(QuadraticSetup, PlanesPassThroughTheVertices) {
   }
 }
 
+/// In colour steps, of triangles that are one piece on the screen.
+double largest_error(const Scene& scene, FrameSize frame, const Drawn& drawn) {
+  const auto by_source = whole_triangles(scene, frame);
+  double largest = 0.0;
+  for (const Fragment& f : drawn.fragments) {
+    const glm::dvec3 steps = steps_at(scene, by_source.at(f.triangle), f);
+    const glm::dvec3 off = glm::abs(colour_of(f) - glm::clamp(steps, 0.0, 255.0));
+    largest = std::max({largest, off.x, off.y, off.z});
+  }
+  return largest;
+}
+
 // The test of planes looks at the midpoints too: the quadratic through the same samples would pass it there.
 TEST(QuadraticSetup, PlanesAreSplitUntilTheyAreWithinTheThreshold) {
   const FrameSize frame{160, 120};
@@ -423,16 +435,36 @@ TEST(QuadraticSetup, PlanesAreSplitUntilTheyAreWithinTheThreshold) {
                      quadratic_key(Preset::exact, 3, 1));
   EXPECT_GT(planes.counts.subdivided, 100U);
   EXPECT_EQ(planes.counts.unresolved, 0U);
-  const auto by_source = whole_triangles(scene, frame);
-  double largest = 0.0;
-  for (const Fragment& f : planes.fragments) {
-    const glm::dvec3 steps = steps_at(scene, by_source.at(f.triangle), f);
-    const glm::dvec3 off = glm::abs(colour_of(f) - glm::clamp(steps, 0.0, 255.0));
-    largest = std::max({largest, off.x, off.y, off.z});
-  }
+  const double largest = largest_error(scene, frame, planes);
   // The test is calibrated to twice the threshold (highlight_bound.hpp); 0.5 for rounding.
   EXPECT_LE(largest, 2 * c_one_step + 0.5);
   EXPECT_GT(largest, 0.5);
+}
+
+// The normals turn unevenly: between the samples of a piece the diffuse light leaves the quadratic by 4
+// steps.
+TEST(QuadraticSetup, TheConservativeTestSplitsTrianglesWhoseNormalsNearlyCancel) {
+  const FrameSize frame{96, 96};
+  Scene scene;
+  scene.camera = {.eye_world = {0.0, 0.0, 18.1920772}, .vertical_fov_degrees = 3.50671699};
+  scene.materials = {{.name = "m",
+                      .colour = {0.182055682, 0.689076162, 0.806460095},
+                      .ambient = 0.0,
+                      .diffuse = 0.472784285,
+                      .specular = 0.0}};
+  scene.positional = {{{2.58392484, 3.78771039, 0.529845985}, {0.760841086, 0.712012578, 0.0516666987}}};
+  scene.positions_world = {{0.172289477, 0.35274379, 0.025128196},
+                           {-0.209638847, 0.331908721, -0.00883330649},
+                           {-0.175783218, -0.351015819, -0.0253840576}};
+  scene.normals_world = {{0.0412215144, 0.0407555293, 0.998318473},
+                         {-0.0412464874, -0.0406292613, -0.998322588},
+                         {-0.010949409, -0.0538216765, 0.99849053}};
+  scene.triangles = {{{0, 1, 2}, {0, 1, 2}, 0}};
+  const QuadraticSetupOptions options{.test = HighlightTest::conservative, .threshold = 0.5};
+  const Drawn drawn = draw_quadratic(scene, frame, options);
+  EXPECT_GT(drawn.fragments.size(), 500U);
+  EXPECT_EQ(drawn.counts.unresolved, 0U);
+  EXPECT_LE(largest_error(scene, frame, drawn), options.threshold + 0.5);
 }
 
 }  // namespace

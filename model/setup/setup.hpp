@@ -21,8 +21,9 @@ namespace halfway {
 enum class HighlightTest {
   none,          ///< never split
   centroid,      ///< as published: test at the centroid
-  conservative,  ///< additionally uses a bound on missed highlights; preset exact draws small leaves by pixel
-  proved,        ///< an upper bound of the error (proved_bound.hpp) instead; small leaves as conservative
+  conservative,  ///< additionally uses a bound on missed highlights, and `proved` where normals nearly
+                 ///< cancel; preset exact draws small leaves by pixel
+  proved,  ///< an upper bound of the error (proved_bound.hpp) instead; small leaves as conservative
 };
 
 /// True if small leaves are drawn pixel by pixel, without error.

@@ -334,12 +334,8 @@ class SceneSearch final : public Search {
                                        Tally& tally) {
     const auto& [test, threshold, level] = input.setup.quadratic;
     const bool unresolved = drawing.counts.unresolved > 0;
-    const auto& n = input.scene.normals_world;
-    // The conservative test has no limit where normals nearly cancel.
-    const bool opposed = test != HighlightTest::proved &&
-                         std::min({glm::dot(n[0], n[1]), glm::dot(n[0], n[2]), glm::dot(n[1], n[2])}) < -0.9;
     const double rounding = colour_bound(Preset::exact, 3.0 * input.frame.width),
-                 bound = unresolved || opposed           ? 255 / threshold
+                 bound = unresolved                      ? 255 / threshold
                          : test == HighlightTest::proved ? thresholds_of(test)
                                                          : c_of_conservative;
     Worst worst;
@@ -347,7 +343,6 @@ class SceneSearch final : public Search {
       worst.add(std::max(0.0, off - rounding) / threshold, bound, [&] { return where(f); });
     });
     if (unresolved) return tally.add("error in thresholds, unresolved leaves", worst);
-    if (opposed) return tally.add("error in thresholds, conservative, opposed normals", worst);
     return tally.add(
         test == HighlightTest::proved ? "error in thresholds, proved" : "error in thresholds, conservative",
         worst);
