@@ -23,7 +23,7 @@ enum class HighlightTest {
   centroid,      ///< as published: test at the centroid
   conservative,  ///< additionally uses a bound on missed highlights, and `proved` where normals nearly
                  ///< cancel; preset exact draws small leaves by pixel
-  proved,  ///< an upper bound of the error (proved_bound.hpp) instead; small leaves as conservative
+  proved,        ///< an upper bound of the error (proved_bound.hpp) instead; small leaves as conservative
 };
 
 /// True if small leaves are drawn pixel by pixel, without error.
