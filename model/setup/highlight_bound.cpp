@@ -15,7 +15,6 @@
 namespace halfway {
 namespace {
 
-constexpr double c_steps = 255.0;
 constexpr double c_pi = std::numbers::pi;
 
 // All directions within `angle` of a unit axis. The direction of a convex combination of vectors lies in a
@@ -62,19 +61,6 @@ constexpr double c_sag = 0.5;
 // N.L between the samples may exceed its values at the samples by this fraction of its range.
 constexpr double c_overshoot = 0.1;
 
-struct Range {
-  double least = 1e300, most = -1e300;
-  void take(double v) {
-    least = std::min(least, v);
-    most = std::max(most, v);
-  }
-  double width() const { return most - least; }
-};
-
-double largest(const glm::dvec3& v) {
-  return std::max({v.x, v.y, v.z});
-}
-
 // The cone of directions from the three vertices to a point.
 std::optional<Cone> cone_to(const SampledTriangle& t, const glm::dvec3& point_world) {
   std::array<glm::dvec3, 3> d;
@@ -98,7 +84,7 @@ struct Extent {
 // For each edge the samples at its two vertices and at its midpoint.
 constexpr std::array<std::array<std::size_t, 3>, 3> c_edges = {{{0, 1, 3}, {0, 2, 4}, {1, 2, 5}}};
 
-Extent extent(const std::array<glm::dvec3, 6>& w) {
+Extent extent(const SampleVectors& w) {
   double half_edge = 0.0, sag = 0.0, uneven = 0.0;
   for (const auto& [a, b, middle] : c_edges) {
     half_edge = std::max({half_edge, glm::length(w[middle] - w[a]), glm::length(w[middle] - w[b])});
@@ -109,10 +95,7 @@ Extent extent(const std::array<glm::dvec3, 6>& w) {
   }
   // Use four flat triangles through the samples. The distance of a quadratic field from them is at most a
   // third of an edge's sag.
-  const double flat =
-      std::min({distance_from_origin(w[0], w[3], w[4]), distance_from_origin(w[3], w[1], w[5]),
-                distance_from_origin(w[4], w[5], w[2]), distance_from_origin(w[3], w[5], w[4])});
-  return {2.0 * half_edge, std::max(0.0, flat - c_sag * sag), uneven};
+  return {2.0 * half_edge, std::max(0.0, flat_distance(w) - c_sag * sag), uneven};
 }
 
 // Close to its peak, Beckmann's exp(-tan^2/m^2) equals cos^n with n = 2/m^2.
@@ -151,40 +134,26 @@ double smooth_miss(const Extent& e, double exponent) {
 }
 
 struct LightOnTriangle {
-  std::optional<Cone> to_light;              // empty if the light is too close for a cone
-  std::array<glm::dvec3, 6> to_light_world;  // unit, at the samples
+  std::optional<Cone> to_light;  // empty if the light is too close for a cone
+  SampleVectors to_light_world;  // unit
   glm::dvec3 intensity;
   bool highlight;
 };
 
 struct ViewedTriangle {
   std::optional<Cone> normals, to_eye;
-  std::array<glm::dvec3, 6> to_eye_world;  // unit, at the samples
+  SampleVectors to_eye_world;  // unit
 };
 
 // If the cones are wider than this, a field of angles is bounded by the cones alone, because six samples may
 // miss its course.
 constexpr double c_wide = 1.0;
 
-// Phong: reflected light minus eye. Otherwise: normal minus halfway vector. At the samples. Zero at the peak
-// of the highlight; elsewhere its length is the chord of the angle between the two vectors.
-std::array<glm::dvec3, 6> off_peak(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
-                                   const LightOnTriangle& light) {
-  std::array<glm::dvec3, 6> w;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const glm::dvec3 &n = t.surface[i].normal_world, &to_light = light.to_light_world[i],
-                     &to_eye = view.to_eye_world[i];
-    w[i] = m.brdf == Brdf::phong ? 2.0 * glm::dot(n, to_light) * n - to_light - to_eye
-                                 : n - glm::normalize(to_light + to_eye);
-  }
-  return w;
-}
-
 // The greatest error at bends of a highlight whose maximum is 1. Cook-Torrance bends where masking changes to
 // shadowing. The others bend where cos^n ends, which is visible for small n.
 double missed_bends(const Material& m, const SampledTriangle& t, const ViewedTriangle& view,
-                    const LightOnTriangle& light, const std::array<glm::dvec3, 6>& w) {
-  Range r;
+                    const LightOnTriangle& light, const SampleVectors& w) {
+  ValueRange r;
   for (std::size_t i = 0; i < 6; ++i) {
     const glm::dvec3 &n = t.surface[i].normal_world, &to_light = light.to_light_world[i],
                      &to_eye = view.to_eye_world[i];
@@ -200,11 +169,10 @@ double missed_bends(const Material& m, const SampledTriangle& t, const ViewedTri
 }
 
 double diffuse_amplitude(const Material& m, const LightOnTriangle& light) {
-  return m.diffuse * largest(m.colour * light.intensity) * c_steps;
+  return diffuse_amplitude(m, light.intensity);
 }
 double specular_amplitude(const Material& m, const LightOnTriangle& light) {
-  if (!light.highlight) return 0.0;
-  return m.specular * largest(m.specular_colour * light.intensity) * c_steps;
+  return light.highlight ? specular_amplitude(m, light.intensity) : 0.0;
 }
 
 // Greatest error of one light's highlight between the samples, and its greatest value, in colour steps.
@@ -234,7 +202,7 @@ Missed missed_specular(const Material& m, const SampledTriangle& t, const Viewed
     span = n.angle + (l.angle + v.angle) / (2.0 * std::cos(apart / 2.0));
     between = angle_between(n.axis, glm::normalize(l.axis + v.axis));
   }
-  const std::array<glm::dvec3, 6> w = off_peak(m, t, view, light);
+  const SampleVectors w = off_peak(m, t, light.to_light_world, view.to_eye_world);
   const Extent e = span < c_wide ? extent(w) : Extent{2.0 * span, std::max(0.0, between - span)};
   const double greatest = amplitude * factor_bound(m, e.least, apart, n_dot_v);
   // At the terminator a highlight ends abruptly. A Cook-Torrance highlight also does at the eye's horizon.
@@ -249,7 +217,7 @@ Missed missed_specular(const Material& m, const SampledTriangle& t, const Viewed
 // N.L at the samples.
 struct DiffuseCosines {
   std::array<double, 6> at_sample;
-  Range range;
+  ValueRange range;
 
   DiffuseCosines(const SampledTriangle& t, const LightOnTriangle& light) {
     for (std::size_t i = 0; i < 6; ++i) {
@@ -258,7 +226,7 @@ struct DiffuseCosines {
     }
   }
   // Between the samples N.L may exceed its sampled range by the sag of the edges and a small margin.
-  Range between_samples() const {
+  ValueRange between_samples() const {
     double slack = c_overshoot * range.width();
     for (const auto& [a, b, middle] : c_edges)
       slack += c_sag * std::abs(at_sample[middle] - 0.5 * (at_sample[a] + at_sample[b]));
@@ -266,17 +234,17 @@ struct DiffuseCosines {
   }
 };
 
-bool is_terminator(const Range& between_samples) {
+bool is_terminator(const ValueRange& between_samples) {
   return between_samples.least < 0.0 && between_samples.most > 0.0;
 }
 // max(0, N.L) has a bend at the terminator.
-double bend_at_terminator(const Range& between_samples, const Range& at_samples) {
+double bend_at_terminator(const ValueRange& between_samples, const ValueRange& at_samples) {
   return std::min({between_samples.most, -between_samples.least, c_bend * at_samples.width()});
 }
 
 // Normal minus direction to the light, at the samples.
-std::array<glm::dvec3, 6> off_light(const SampledTriangle& t, const LightOnTriangle& light) {
-  std::array<glm::dvec3, 6> w;
+SampleVectors off_light(const SampledTriangle& t, const LightOnTriangle& light) {
+  SampleVectors w;
   for (std::size_t i = 0; i < 6; ++i) w[i] = t.surface[i].normal_world - light.to_light_world[i];
   return w;
 }
@@ -302,7 +270,7 @@ Missed missed_light(const Material& m, const SampledTriangle& t, const ViewedTri
     }
     diffuse *= smooth_diffuse_miss(extent(off_light(t, light)));
   }
-  const Range between_samples = n_dot_l.between_samples();
+  const ValueRange between_samples = n_dot_l.between_samples();
   const bool terminator = is_terminator(between_samples);
   if (terminator) diffuse += amplitude * bend_at_terminator(between_samples, n_dot_l.range);
   const Missed specular = missed_specular(m, t, view, light, terminator);
@@ -314,13 +282,13 @@ struct SpotOnTriangle {
   double greatest, missed;
 };
 SpotOnTriangle spot_on_triangle(const LightCone& spot, const std::optional<Cone>& to_light,
-                                const std::array<glm::dvec3, 6>& to_light_world) {
+                                const SampleVectors& to_light_world) {
   if (!to_light) return {1.0, 1.0};
   const double off_axis = angle_between(-to_light->axis, spot.axis_world);
-  Range angle;
+  ValueRange angle;
   double width;
   if (to_light->angle < 0.5 * c_wide) {
-    std::array<glm::dvec3, 6> w;
+    SampleVectors w;
     for (std::size_t i = 0; i < 6; ++i) {
       w[i] = -to_light_world[i] - spot.axis_world;
       angle.take(angle_between(-to_light_world[i], spot.axis_world));
@@ -364,7 +332,7 @@ bool is_narrow(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, do
 
 // The extent of a field by a few square roots, up to rounding: the same width and unevenness, and a smaller
 // lower bound.
-Extent quick_extent(const std::array<glm::dvec3, 6>& w) {
+Extent quick_extent(const SampleVectors& w) {
   const auto length2 = [](const glm::dvec3& v) { return glm::dot(v, v); };
   double half_edge2 = 0.0, uneven2 = 0.0, sag2 = 0.0, nearest2 = length2(w[0]);
   for (const glm::dvec3& v : w) nearest2 = std::min(nearest2, length2(v));
@@ -390,7 +358,7 @@ double quick_bound(const Material& m, const SampledTriangle& t, const ViewedTria
   const auto& to_light = light.to_light_world;
   if (!is_narrow(to_light[0], to_light[1], to_light[2], c_narrow_directions)) return c_unknown;
   const DiffuseCosines n_dot_l(t, light);
-  const Range between_samples = n_dot_l.between_samples();
+  const ValueRange between_samples = n_dot_l.between_samples();
   const bool terminator = is_terminator(between_samples);
   double diffuse = smooth_diffuse_miss(quick_extent(off_light(t, light)));
   if (terminator) diffuse += bend_at_terminator(between_samples, n_dot_l.range);
@@ -399,27 +367,16 @@ double quick_bound(const Material& m, const SampledTriangle& t, const ViewedTria
   if (amplitude <= 0.0) return diffuse;
   const glm::dvec3 l_plus_v = to_light[0] + view.to_eye_world[0];
   if (m.brdf == Brdf::cook_torrance || !(glm::dot(l_plus_v, l_plus_v) >= 1.0)) return c_unknown;
-  const std::array<glm::dvec3, 6> w = off_peak(m, t, view, light);
+  const SampleVectors w = off_peak(m, t, light.to_light_world, view.to_eye_world);
   const Extent e = quick_extent(w);
   if (terminator) return diffuse + amplitude * factor_bound(m, e.least, c_pi, 0.0);
   return diffuse +
          amplitude * (smooth_miss({e.width, 0.0, e.uneven}, m.exponent) + missed_bends(m, t, view, light, w));
 }
 
-std::array<glm::dvec3, 6> directions_to(const SampledTriangle& t, const glm::dvec3& point_world) {
-  std::array<glm::dvec3, 6> d;
-  for (std::size_t i = 0; i < 6; ++i) d[i] = direction(t.surface[i].position_world, point_world);
-  return d;
-}
-
 // At the samples; without a cone.
 LightOnTriangle light_at_samples(const Light& light, const SampledTriangle& t) {
-  LightOnTriangle on_triangle{{}, {}, light.intensity, has_highlight(light.ref.kind)};
-  if (light.point.w == 0.0)
-    on_triangle.to_light_world.fill(light.point.xyz_world);
-  else
-    on_triangle.to_light_world = directions_to(t, light.point.xyz_world);
-  return on_triangle;
+  return {{}, directions_to(t, light.point), light.intensity, has_highlight(light.ref.kind)};
 }
 
 // The sum of the lights' quick bounds.
@@ -437,36 +394,6 @@ double quick_sum(const Scene& scene, const Material& m, const SampledTriangle& t
 }
 
 }  // namespace
-
-double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const auto to_edge = [](const glm::dvec3& p, const glm::dvec3& q) {
-    const glm::dvec3 e = q - p;
-    const double length2 = glm::dot(e, e);
-    const double t = length2 > 0.0 ? std::clamp(-glm::dot(p, e) / length2, 0.0, 1.0) : 0.0;
-    return glm::length(p + t * e);
-  };
-  const double edges = std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
-  const glm::dvec3 normal = glm::cross(b - a, c - a);
-  const double length = glm::length(normal);
-  const bool inside = glm::dot(glm::cross(a, b), normal) >= 0.0 &&
-                      glm::dot(glm::cross(b, c), normal) >= 0.0 && glm::dot(glm::cross(c, a), normal) >= 0.0;
-  return inside && length > 0.0 ? std::min(edges, std::abs(glm::dot(a, normal)) / length) : edges;
-}
-
-double factor_bound(const Material& m, double angle, double apart, double n_dot_v) {
-  double cosine = std::cos(std::clamp(angle, 0.0, c_pi / 2));
-  if (m.brdf != Brdf::cook_torrance) return highlight_power(cosine, m.exponent);
-  double sine = std::sin(std::clamp(angle, 0.0, c_pi / 2));
-  // The density rises up to tan^2 = 2 m^2 - 1 and falls beyond. F increases with the angle between light and
-  // halfway vector. The geometry term is at most 2/|L+V|^2 and at most 1/(4 N.V).
-  const double peak2 = 1 / (2 * m.roughness * m.roughness);
-  if (cosine * cosine > peak2) cosine = std::sqrt(peak2), sine = std::sqrt(1 - peak2);
-  const double density = beckmann(cosine, sine * sine, m.roughness);
-  const double half_cosine = std::cos(std::min(apart, c_pi) / 2.0);
-  const double geometry =
-      std::min(0.5 / std::max(1e-6, half_cosine * half_cosine), 0.25 / std::max(1e-6, n_dot_v));
-  return density * schlick(m.reflectance, half_cosine) * geometry;
-}
 
 double centroid_error(const SampledTriangle& t, const glm::dvec3& centroid_radiance) {
   const auto& r = t.radiance;

@@ -3,19 +3,12 @@
 // whether the triangle must be split.
 #pragma once
 
-#include <array>
 #include <glm/vec3.hpp>
 
-#include "projection/project.hpp"
 #include "scene/scene.hpp"
+#include "setup/sampled_triangle.hpp"
 
 namespace halfway {
-
-/// Input of the test: the surface at the three vertices, then at the midpoints of edges 1-2, 1-3, 2-3.
-struct SampledTriangle {
-  std::array<SurfacePoint, 6> surface;
-  std::array<glm::dvec3, 6> radiance;
-};
 
 /// Published test (quadratic paper, section 4): the difference between the quadratic and the radiance at the
 /// centroid, in colour steps of 1/255, of the channel with the largest difference. At the centroid the
@@ -36,13 +29,5 @@ double missed_highlight_bound(const Scene& scene, const Material& material, cons
 /// missed_highlight_bound(...) > steps. For most triangles a simpler bound decides.
 bool may_miss_highlight(const Scene& scene, const Material& material, const SampledTriangle& triangle,
                         double steps);
-
-/// Distance of the origin from a triangle in space: from its plane if the perpendicular foot lies inside,
-/// otherwise from the nearest edge.
-double distance_from_origin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
-
-/// An upper bound of the specular factor if the two vectors differ by at least `angle`. `apart` is the
-/// greatest angle between light and eye, `n_dot_v` the least cosine to the eye.
-double factor_bound(const Material& m, double angle, double apart, double n_dot_v);
 
 }  // namespace halfway

@@ -13,8 +13,6 @@
 namespace halfway {
 namespace {
 
-using Vectors = std::array<glm::dvec3, 6>;  // at the samples
-
 constexpr double c_unbounded = std::numeric_limits<double>::infinity();
 
 // Bounds of the derivatives 0 to 3 of a unit vector along an edge: the parts across and along the vector.
@@ -107,7 +105,7 @@ double third_beyond(double x) {
 // cos^n of the angle between the unit vectors a and b, whose differences at the samples are w: with D = a -
 // b, cos = 1 - |D|^2/2 = g. Greatest third derivative: with q = D.D' = -g' and g'' = -|D'|^2 - c,
 //   n (n-1) g^(n-3) q (3 g |D'|^2 - (n-2) q^2) + 3 n (n-1) g^(n-2) q c + n g^(n-1) g'''.
-Course power_course(double n, const Turn& a, const Turn& b, const Vectors& w, double most,
+Course power_course(double n, const Turn& a, const Turn& b, const SampleVectors& w, double most,
                     double least_length) {
   const double second = a.whole(2) + b.whole(2);
   const double chord =
@@ -140,37 +138,28 @@ Course power_course(double n, const Turn& a, const Turn& b, const Vectors& w, do
 }
 
 // Least length of a field of unit vectors' sums or differences, whose second derivative is bounded, on the
-// triangle: its distance from four flat triangles through the samples.
-double least_length(const Vectors& w, double second) {
-  const double flat =
-      std::min({distance_from_origin(w[0], w[3], w[4]), distance_from_origin(w[3], w[1], w[5]),
-                distance_from_origin(w[4], w[5], w[2]), distance_from_origin(w[3], w[5], w[4])});
-  return std::max(0.0, flat - c_of_plane / 4 * second);
+// triangle.
+double least_length(const SampleVectors& w, double second) {
+  return std::max(0.0, flat_distance(w) - c_of_plane / 4 * second);
 }
 
 // A cosine's range on the triangle.
-struct CosineRange {
-  double least = c_unbounded, most = -c_unbounded;
-};
-CosineRange range_of(const Vectors& a, const Vectors& b, double second) {
-  CosineRange r;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const double cosine = glm::dot(a[i], b[i]);
-    r = {std::min(r.least, cosine), std::max(r.most, cosine)};
-  }
+ValueRange range_of(const SampleVectors& a, const SampleVectors& b, double second) {
+  ValueRange r;
+  for (std::size_t i = 0; i < 6; ++i) r.take(glm::dot(a[i], b[i]));
   return {r.least - c_of_plane / 4 * second, r.most + c_of_plane / 4 * second};
 }
-double greatest_sine(const CosineRange& cosine) {
+double greatest_sine(const ValueRange& cosine) {
   return cosine.least > 0 ? std::sqrt(std::max(0.0, 1 - cosine.least * cosine.least)) : 1.0;
 }
 
 // smoothstep of (cosine - cos_outer)/(cos_inner - cos_outer).
-Course share_of(const LightCone& cone, const Turn& to_light, const Vectors& to_light_world) {
-  Vectors axis, from_light;
+Course share_of(const LightCone& cone, const Turn& to_light, const SampleVectors& to_light_world) {
+  SampleVectors axis, from_light;
   axis.fill(cone.axis_world);
   for (std::size_t i = 0; i < 6; ++i) from_light[i] = -to_light_world[i];
   const Course c = cosine_course(to_light, {}, 1, 1);
-  const CosineRange r = range_of(from_light, axis, c.second);
+  const ValueRange r = range_of(from_light, axis, c.second);
   if (r.most < cone.cos_outer) return {};
   if (r.least > cone.cos_inner) return {1, 0, 0, 0};
   const double width = cone.cos_inner - cone.cos_outer;
@@ -184,7 +173,7 @@ Course share_of(const LightCone& cone, const Turn& to_light, const Vectors& to_l
 // The triangle with its normals and directions to the eye, or to a light.
 struct UnitField {
   std::optional<Turn> turn;
-  Vectors unit_world;
+  SampleVectors unit_world;
 };
 template <class At>
 std::array<glm::dvec3, 3> at_vertices(const SampledTriangle& t, At&& at) {
@@ -195,20 +184,23 @@ UnitField normal_field(const SampledTriangle& t) {
                   t, [](const SurfacePoint& s) { return s.inverse_w * s.normal_length * s.normal_world; })),
               {}};
   for (std::size_t i = 0; i < 6; ++i) n.unit_world[i] = t.surface[i].normal_world;
+  // A flat triangle has its own normal everywhere.
+  if (std::none_of(t.surface.begin(), t.surface.begin() + 3,
+                   [](const SurfacePoint& s) { return s.is_smooth(); }))
+    n.turn = Turn{};
   return n;
 }
-UnitField field_to(const SampledTriangle& t, const glm::dvec3& place_world) {
-  UnitField d{turn_of(at_vertices(
-                  t, [&](const SurfacePoint& s) { return s.inverse_w * (place_world - s.position_world); })),
-              {}};
-  for (std::size_t i = 0; i < 6; ++i) d.unit_world[i] = direction(t.surface[i].position_world, place_world);
-  return d;
+UnitField field_to(const SampledTriangle& t, const LightPoint& point) {
+  if (point.w == 0.0) return {Turn{}, directions_to(t, point)};
+  return {turn_of(at_vertices(
+              t, [&](const SurfacePoint& s) { return s.inverse_w * point.way_from(s.position_world); })),
+          directions_to(t, point)};
 }
 
 // The specular factor, for a light that shines on the whole triangle.
-Course specular_course(const Material& m, const UnitField& n, const UnitField& v, const UnitField& l,
-                       const Course& n_dot_l) {
-  Vectors sum;
+Course specular_course(const Material& m, const SampledTriangle& t, const UnitField& n, const UnitField& v,
+                       const UnitField& l, const Course& n_dot_l) {
+  SampleVectors sum;
   for (std::size_t i = 0; i < 6; ++i) sum[i] = l.unit_world[i] + v.unit_world[i];
   const double length = least_length(sum, l.turn->whole(2) + v.turn->whole(2));
   const Course n_dot_v = cosine_course(*n.turn, *v.turn, 1, 1);
@@ -221,39 +213,27 @@ Course specular_course(const Material& m, const UnitField& n, const UnitField& v
   if (!mirrored && length < 0.05) return jump(most(0));
   const Turn a = mirrored ? reflected_turn(*n.turn, *l.turn, n_dot_l) : *n.turn,
              b = mirrored ? *v.turn : halfway_turn(*l.turn, *v.turn, length);
-  Vectors w;
-  for (std::size_t i = 0; i < 6; ++i)
-    w[i] = mirrored ? 2.0 * glm::dot(n.unit_world[i], l.unit_world[i]) * n.unit_world[i] - sum[i]
-                    : n.unit_world[i] - glm::normalize(sum[i]);
+  const SampleVectors w = off_peak(m, t, l.unit_world, v.unit_world);
   const double chord = least_length(w, a.whole(2) + b.whole(2));
   if (m.brdf == Brdf::cook_torrance) return jump(most(chord));
   return power_course(m.exponent, a, b, w, most(chord), chord);
 }
 
-// The error of one light, in units of its intensity times 1/255.
+// The error of one light, in colour steps.
 double light_error(const Light& light, const Material& m, const SampledTriangle& t, const UnitField& n,
                    const UnitField& v) {
-  const auto largest = [](const glm::dvec3& c) { return 255 * std::max({c.x, c.y, c.z}); };
-  const double diffuse = m.diffuse * largest(m.colour * light.intensity),
-               highlight = has_highlight(light.ref.kind)
-                               ? m.specular * largest(m.specular_colour * light.intensity)
-                               : 0;
-  UnitField l;
-  if (light.point.w == 0.0) {
-    l.turn = Turn{};
-    l.unit_world.fill(light.point.xyz_world);
-  } else {
-    l = field_to(t, light.point.xyz_world);
-  }
+  const double diffuse = diffuse_amplitude(m, light.intensity),
+               highlight = has_highlight(light.ref.kind) ? specular_amplitude(m, light.intensity) : 0;
+  const UnitField l = field_to(t, light.point);
   if (!n.turn || !v.turn || !l.turn)
     return c_of_range * (diffuse + (highlight > 0 ? highlight * factor_bound(m, 0, 4, 0) : 0));
 
   Course n_dot_l = cosine_course(*n.turn, *l.turn, 1, 1);
-  const CosineRange range = range_of(n.unit_world, l.unit_world, n_dot_l.second);
+  const ValueRange range = range_of(n.unit_world, l.unit_world, n_dot_l.second);
   if (range.most <= 0) return 0;  // all normals face away from the light
   n_dot_l = cosine_course(*n.turn, *l.turn, std::min(1.0, range.most), greatest_sine(range));
   const bool terminator = range.least <= 0;
-  Course factor = highlight > 0 ? specular_course(m, n, v, l, n_dot_l) : Course{};
+  Course factor = highlight > 0 ? specular_course(m, t, n, v, l, n_dot_l) : Course{};
   if (terminator) factor = jump(factor.most);
   if (light.cone) {
     const Course share = share_of(*light.cone, *l.turn, l.unit_world);
@@ -262,14 +242,10 @@ double light_error(const Light& light, const Material& m, const SampledTriangle&
   double bend = n_dot_l.error();
   if (terminator) {
     // max(0, N.L) differs from max(0, x) with the plane x through N.L at the vertices as N.L does from x.
-    CosineRange at_vertices;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double at = glm::dot(n.unit_world[i], l.unit_world[i]);
-      at_vertices = {std::min(at_vertices.least, at), std::max(at_vertices.most, at)};
-    }
-    bend = std::min(
-        {c_of_range * n_dot_l.most, bend - c_of_range * range.least,
-         c_of_bend * (at_vertices.most - at_vertices.least) + (1 + c_weights) * c_of_plane * n_dot_l.second});
+    ValueRange at_vertices;
+    for (std::size_t i = 0; i < 3; ++i) at_vertices.take(glm::dot(n.unit_world[i], l.unit_world[i]));
+    bend = std::min({c_of_range * n_dot_l.most, bend - c_of_range * range.least,
+                     c_of_bend * at_vertices.width() + (1 + c_weights) * c_of_plane * n_dot_l.second});
   }
   return diffuse * bend + (highlight * factor).error();
 }
@@ -280,7 +256,7 @@ double proved_bound(const Scene& scene, std::span<const Light> lights, const Mat
                     const SampledTriangle& t) {
   for (const glm::dvec3& r : t.radiance)
     if (std::max({r.x, r.y, r.z}) > c_largest_sample / 255) return c_unbounded;
-  const UnitField n = normal_field(t), v = field_to(t, scene.camera.eye_world);
+  const UnitField n = normal_field(t), v = field_to(t, LightPoint{scene.camera.eye_world, 1.0});
   double sum = 0;
   for (const Light& light : lights) sum += light_error(light, m, t, n, v);
   return sum;

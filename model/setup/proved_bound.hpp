@@ -6,7 +6,7 @@
 
 #include "scene/lights.hpp"
 #include "scene/scene.hpp"
-#include "setup/highlight_bound.hpp"
+#include "setup/sampled_triangle.hpp"
 
 namespace halfway {
 

@@ -441,6 +441,21 @@ TEST(QuadraticSetup, PlanesAreSplitUntilTheyAreWithinTheThreshold) {
   EXPECT_GT(largest, 0.5);
 }
 
+// A flat triangle has its own normal everywhere: its diffuse light is constant.
+TEST(QuadraticSetup, AFlatTriangleInDirectionalLightIsNotSplit) {
+  Scene scene;
+  scene.materials = {{.name = "m", .specular = 0.0}};
+  scene.directional.push_back({{0.6, 0.0, 0.8}, glm::dvec3(1.0)});
+  scene.positions_world = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  scene.normals_world = {glm::dvec3(0.0)};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
+  for (const HighlightTest test : {HighlightTest::conservative, HighlightTest::proved}) {
+    const Drawn drawn = draw_quadratic(scene, {160, 120}, {.test = test, .threshold = 0.5});
+    EXPECT_GT(drawn.fragments.size(), 500U);
+    EXPECT_EQ(drawn.counts.leaves, 1U);
+  }
+}
+
 // The normals turn unevenly: between the samples of a piece the diffuse light leaves the quadratic by 4
 // steps.
 TEST(QuadraticSetup, TheConservativeTestSplitsTrianglesWhoseNormalsNearlyCancel) {
