@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mesh_files/mesh_file.hpp"
 
+#include <fmt/format.h>
+
 #include "mesh_files/number.hpp"
 #include "mesh_files/ply.hpp"
 #include "mesh_files/stl.hpp"
@@ -47,8 +49,7 @@ Result<LoadedMesh> read_mesh(std::string_view bytes, std::string_view file, cons
   if (ending == ".stl") return read_stl(bytes, file);
   if (ending == ".obj") return read_obj(bytes, file, others.library);
   if (ending == ".gltf" || ending == ".glb") return read_gltf(bytes, file, others.buffer);
-  return bad_input(std::string(file) +
-                   ": not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read");
+  return bad_input(fmt::format("{}: {}", file, c_no_mesh_file));
 }
 
 }  // namespace halfway

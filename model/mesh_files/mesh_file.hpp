@@ -19,6 +19,12 @@ std::string lower_ending(std::string_view path);
 /// The file's name without its ending.
 std::string file_stem(std::string_view path);
 
+/// What is said of a file with another ending, where a mesh, or a mesh or a scene file, is wanted.
+inline constexpr std::string_view c_no_mesh_file =
+    "not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read";
+inline constexpr std::string_view c_no_scene_file =
+    "not a scene by its name; .toml, .obj, .ply, .stl, .gltf and .glb are";
+
 /// True if the ending is that of a mesh file (.obj .ply .stl .gltf .glb in either case).
 bool is_mesh_file_name(std::string_view path);
 

@@ -26,7 +26,7 @@ MeshFile read_mesh_of_scene(const std::filesystem::path& folder, std::string_vie
   MeshFile file{.path = path.string(), .refusal = {}, .mesh = LoadedMesh{}};
   // Report these as errors of the scene file, because it contains the wrong path.
   if (!is_mesh_file_name(path.string()))
-    file.refusal = "is not a mesh file by its name; .obj, .ply, .stl, .gltf and .glb can be read";
+    file.refusal = fmt::format("is {}", c_no_mesh_file);
   else if (Status ok = check_readable(path); !ok)
     file.refusal = "cannot be used: " + ok.error().message;
   else
@@ -91,9 +91,7 @@ Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::p
     }
     if (std::filesystem::exists(path, fault)) {
       const Status ok = check_readable(path);
-      return ok ? bad_input(path.string() +
-                            ": not a scene by its name; .toml, .obj, .ply, .stl, .gltf and .glb are")
-                : ok.error();
+      return ok ? bad_input(fmt::format("{}: {}", path.string(), c_no_scene_file)) : ok.error();
     }
     return bad_input(fmt::format("{}: neither a built-in scene nor a file; built in are: {}", name_or_path,
                                  known_scenes(scenes_folder)));

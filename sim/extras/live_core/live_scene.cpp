@@ -67,9 +67,7 @@ Status check(const Settings& s) {
 Result<Scene> read_scene(std::string_view file, std::string_view text, double tessellation) {
   if (lower_ending(file) == ".toml")
     return parse_scene(text, file, refuse_mesh_file, {.tessellation = tessellation});
-  if (!is_mesh_file_name(file))
-    return bad_input(std::string(file) +
-                     ": not a scene by its name; .toml, .obj, .ply, .stl, .gltf and .glb are");
+  if (!is_mesh_file_name(file)) return bad_input(fmt::format("{}: {}", file, c_no_scene_file));
   if (tessellation != 1.0)
     return bad_input(std::string(file) + ": a mesh file has the triangles it has: no other tessellation");
   if (text.empty()) return bad_input(std::string(file) + ": the file is empty");
