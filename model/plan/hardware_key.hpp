@@ -82,8 +82,6 @@ struct HardwareKey {
   std::string entity() const;
   /// Generics of the top entity, in the form of the option `-g`, in a fixed order.
   std::vector<std::pair<std::string, std::string>> generics() const;
-  /// True if the top has the generic g_multiplier_bits, which changes no fragment and no clock.
-  bool multiplies() const { return shader == Shader::spherical; }
   /// The width of the top's port init_data, as a VHDL expression of its generics.
   std::string vhdl_init_bits() const;
   /// For example quadratic_shader-exact-c3. Also the name of the cached build.

@@ -7,6 +7,7 @@
 
 #include "plan/plan.hpp"
 #include "sim/cli/options.hpp"
+#include "sim/cost/design.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/engines/verilator/shader_netlist.hpp"
@@ -45,9 +46,10 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
-Generics generics_of(const HardwareKey& key, unsigned multiplier_bits) {
+Generics generics_of(const HardwareKey& key, const std::string& top, unsigned multiplier_bits) {
   auto generics = key.generics();
-  if (key.multiplies()) generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
+  if (synth::takes_multiplier_bits(top))
+    generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
   return generics;
 }
 
@@ -59,7 +61,8 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
       top, key.name(), version, printable(command.scene), hardware_options(command.draw),
       command.axi ? " --axi" : "",
-      key.multiplies() ? fmt::format(" --multiplier-bits {}", command.multiplier_bits) : std::string());
+      synth::takes_multiplier_bits(top) ? fmt::format(" --multiplier-bits {}", command.multiplier_bits)
+                                        : std::string());
   for (const auto& [name, value] : generics) text += fmt::format(" {}={}", name, value);
   text += "\n// Ports, in this order:\n";
   for (const Port& port : ports)
@@ -73,7 +76,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
   const std::string top = command.axi ? fmt::format("{}_axi", to_string(key.shader)) : key.entity();
-  const Generics generics = generics_of(key, command.multiplier_bits);
+  const Generics generics = generics_of(key, top, command.multiplier_bits);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = must(mend_netlist(must(library.synthesize(top, generics))));
   const std::vector<Port> ports = ports_of(netlist, top);

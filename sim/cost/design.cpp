@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cost/design.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/os/must.hpp"
@@ -12,8 +15,14 @@ Design design_of(const HardwareKey& key, const std::filesystem::path& root) {
           .entity = key.entity(),
           .generics = key.generics(),
           .root = root,
-          .has_products = key.shader == Shader::processors,
-          .multiplies = key.multiplies()};
+          .has_products = key.shader == Shader::processors};
+}
+
+bool takes_multiplier_bits(std::string_view entity) {
+  constexpr std::array<std::string_view, 6> c_entities = {"multiplier",       "diffuse_slice",
+                                                          "specular_slice",   "spherical_light",
+                                                          "spherical_shader", "spherical_axi"};
+  return std::ranges::find(c_entities, entity) != c_entities.end();
 }
 
 std::string netlist_of(const Design& design, const std::filesystem::path& cache) {

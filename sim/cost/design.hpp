@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,11 +19,13 @@ struct Design {
   std::filesystem::path root{};  ///< the project, or a copy of its RTL
   std::string more{};         ///< a VHDL source in addition to those of rtl/, relative to the root; or empty
   bool has_products = false;  ///< nine tenths of it would be multipliers in LUTs (generic_cells.hpp)
-  bool multiplies = false;    ///< the entity has the generic g_multiplier_bits
 };
 
 /// The hardware of a key, with the RTL of `root`.
 Design design_of(const HardwareKey& key, const std::filesystem::path& root);
+
+/// True if the entity has the generic g_multiplier_bits, which changes no fragment and no clock.
+bool takes_multiplier_bits(std::string_view entity);
 
 /// The netlist by GHDL, mended. Cached. Throws Failure.
 std::string netlist_of(const Design& design, const std::filesystem::path& cache);

@@ -133,7 +133,7 @@ Synthesizer::Folder Synthesizer::mapped(const Design& design, const Family& fami
       // Only the design: of the cells' models, later versions keep those with parameters.
       family.device != nullptr ? "; select " + design.entity + "; write_rtlil -selected mapped.il" : "");
   Design fitted = design;
-  if (design.multiplies && family.multiplier_bits > 0)
+  if (takes_multiplier_bits(design.entity) && family.multiplier_bits > 0)
     fitted.generics.emplace_back("g_multiplier_bits", std::to_string(family.multiplier_bits));
   return yosys_.run(fmt::format("{}-{}", design.name, family.name), script,
                     {{"netlist.v", netlist_of(fitted, ghdl_cache_)}}, read_statistics);

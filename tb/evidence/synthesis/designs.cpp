@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <set>
-
 #include "plan/hardware_key.hpp"
 #include "sim/os/must.hpp"
 #include "words/formats.hpp"
@@ -16,9 +14,7 @@ namespace {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 ListedDesign shader(const std::string& name, const HardwareKey& key) {
-  return {
-      .design = {
-          .name = name, .entity = key.entity(), .generics = key.generics(), .multiplies = key.multiplies()}};
+  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
 }
 
 // The shader with AXI4-Stream ports.
@@ -173,12 +169,7 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
     all.back().ice40 = !exact;
   }
-  const std::set<std::string> multiplying = {"multiplier", "diffuse_slice", "specular_slice",
-                                             "spherical_light"};
-  for (ListedDesign& listed : all) {
-    listed.design.root = root;
-    if (multiplying.contains(listed.design.entity)) listed.design.multiplies = true;
-  }
+  for (ListedDesign& listed : all) listed.design.root = root;
   return all;
 }
 

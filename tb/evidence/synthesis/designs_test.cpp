@@ -43,6 +43,15 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   EXPECT_GT(there.size(), 30U);
 }
 
+TEST(SynthDesigns, TakeMultiplierBitsWhereTheEntityHasThisGeneric) {
+  const std::regex entity(R"((?:^|\n)entity (\w+) is)");
+  for (const VhdlSource& source : must(read_rtl_sources(c_root)))
+    if (std::smatch found; std::regex_search(source.content, found, entity)) {
+      const bool has_generic = source.content.find("g_multiplier_bits ") != std::string::npos;
+      EXPECT_EQ(takes_multiplier_bits(found[1].str()), has_generic) << found[1];
+    }
+}
+
 TEST(SynthDesigns, HaveThresholds) {
   const page::Thresholds thresholds = page::Thresholds::read(c_root);
   std::set<std::string> names;
