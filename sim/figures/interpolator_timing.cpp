@@ -90,9 +90,8 @@ void draw_figure_17(const Context& context, Drawing& out) {
     sums.push_back({angle_at, sum_at, i + 1, fmt::format("{:03X}", sum)});
     chosen.push_back({choice, choice + c_multiplexer, i + 1, sums.back().value});
     words += fmt::format(
-        "{}Pixel {}: angle {} at {:g} ns, ra {} at {:g} ns, sample {} at {:g} ns, product {} at {:g} ns; "
-        "next "
-        "to it the sum for pixel {}, {} at {:g} ns.",
+        "{}Pixel {}: angle {} at {:g} ns, ra {} at {:g} ns, sample {} at {:g} ns, product {} at "
+        "{:g} ns; next to it the sum for pixel {}, {} at {:g} ns.",
         i == 0 ? "" : " ", i, angles.back().value, angle_at, addresses.back().value, angle_at,
         samples.back().value, sample_at, products.back().value, product_at, i + 1, sums.back().value, sum_at);
     for (const Change& c : {sums.back(), chosen.back()}) {

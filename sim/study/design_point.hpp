@@ -45,8 +45,17 @@ constexpr bool is_drawn(Method method) {
 
 /// Names of HighlightTest and SpanEnds in spaces, as for --highlight-test and --span-ends.
 inline const char* name_of(HighlightTest test) {
-  if (test == HighlightTest::none) return "none";
-  return test == HighlightTest::centroid ? "centroid" : "conservative";
+  switch (test) {
+    case HighlightTest::none:
+      return "none";
+    case HighlightTest::centroid:
+      return "centroid";
+    case HighlightTest::conservative:
+      return "conservative";
+    case HighlightTest::proved:
+      break;
+  }
+  return "proved";
 }
 inline const char* name_of(SpanEnds ends) {
   return ends == SpanEnds::on_surface ? "surface" : "slerp";

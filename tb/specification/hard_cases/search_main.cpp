@@ -46,14 +46,13 @@ constexpr SearchKind c_searches[] = {
      20'000, 10'000'000, 25, make_triangle_search},
     {"patches",
      "Random triangles of 1 to 4096 pixels in the quadratic shader, preset `exact`, with the conservative "
-     "and "
-     "the proved test and thresholds T of 0.5 to 8 steps: flat or curved, with normals that agree, differ or "
-     "nearly cancel, seen from close to far away. One to three lights, or 16, of all kinds: with a highlight "
-     "on the triangle or next to it, along the surface, opposite to the eye, from 10⁻³ to 100 of its size "
-     "away; spots with soft and hard edges; Blinn, Phong (n from 1 to 1000) and Cook–Torrance. Planes with "
-     "the proved test, too. The figure of a triangle is the error of its worst pixel beyond the rounding of "
-     "the hardware, divided by T. The last row counts triangles with leaves that `make sim` reports as "
-     "unresolved; they have no bound.",
+     "and the proved test and thresholds T of 0.5 to 8 steps: flat or curved, with normals that agree, "
+     "differ or nearly cancel, seen from close to far away. One to three lights, or 16, of all kinds: with a "
+     "highlight on the triangle or next to it, along the surface, opposite to the eye, from 10⁻³ to 100 of "
+     "its size away; spots with soft and hard edges; Blinn, Phong (n from 1 to 1000) and Cook–Torrance. "
+     "Planes with the proved test, too. The figure of a triangle is the error of its worst pixel beyond the "
+     "rounding of the hardware, divided by T. The last row counts triangles with leaves that `make sim` "
+     "reports as unresolved; they have no bound.",
      2'000, 1'000'000, 100, make_quadratic_search},
     {"spherical-scenes",
      "Random scenes in the spherical shader, both presets: up to eight triangles with their own normals, up "
