@@ -45,10 +45,17 @@ constexpr std::uint64_t c_max_instances = 1'000'000;
 /// Extensions that a file may require. Those of textures change only what is left out with the textures.
 constexpr std::string_view c_visibility = "KHR_node_visibility", c_unlit = "KHR_materials_unlit",
                            c_glossiness = "KHR_materials_pbrSpecularGlossiness",
+                           c_strength = "KHR_materials_emissive_strength",
                            c_instancing = "EXT_mesh_gpu_instancing", c_lights = "KHR_lights_punctual";
-constexpr std::string_view c_extensions[] = {
-    c_visibility,         c_instancing,      c_lights, c_unlit, c_glossiness, "KHR_texture_transform",
-    "KHR_texture_basisu", "EXT_texture_webp"};
+constexpr std::string_view c_extensions[] = {c_visibility,
+                                             c_instancing,
+                                             c_lights,
+                                             c_unlit,
+                                             c_glossiness,
+                                             c_strength,
+                                             "KHR_texture_transform",
+                                             "KHR_texture_basisu",
+                                             "EXT_texture_webp"};
 /// In place of a material's index: its surfaces are not drawn.
 constexpr std::uint32_t c_not_drawn = UINT32_MAX;
 
@@ -999,16 +1006,18 @@ class GltfReader {
     return value;
   }
 
-  /// A surface that only emits, and one without lighting, is drawn as one that reflects ambient light alone.
+  /// A surface without lighting emits its colour and reflects nothing.
   void read_emission(const Item& source, Material& material) {
-    const glm::dvec3 emission(colour(source, "emissiveFactor", glm::dvec4(0.0)));
-    const bool is_unlit = has_extension(source, c_unlit);
-    const bool is_black = material.colour == glm::dvec3(0.0);
-    if (!is_unlit && emission == glm::dvec3(0.0)) return;
-    if (!is_unlit && !is_black)
-      return note(source, "'emissiveFactor' is not used, because the surface reflects light too");
-    if (is_unlit) material.specular = 0.0;
-    make_emitter(material, is_unlit ? material.colour : emission);
+    material.emission = glm::dvec3(colour(source, "emissiveFactor", glm::dvec4(0.0)));
+    if (has_extension(source, c_strength)) {
+      const Item strength = extension_of(source, c_strength);
+      const double times = strength.number("emissiveStrength", 1.0);
+      if (times < 0.0) strength.at("emissiveStrength").fail("is negative; correct the strength");
+      material.emission *= times;
+    }
+    if (!has_extension(source, c_unlit)) return;
+    material.emission = material.colour;
+    material.ambient = material.diffuse = material.specular = 0.0;
   }
 
   double read_alpha(const Item& source, double alpha) {

@@ -428,22 +428,32 @@ TEST(Gltf, AMaterialThatCannotBeReadIsTheDefault) {
   }
 }
 
-TEST(Gltf, ASurfaceThatOnlyEmitsIsDrawnWithAmbientLight) {
-  const auto loaded = with_material(json::parse(
-      R"({"emissiveFactor":[1,0.8,0.1],"pbrMetallicRoughness":{"baseColorFactor":[0,0,0,1],"metallicFactor":0}})"));
+TEST(Gltf, EmissionIsRead) {
+  const auto plain = with_material(json::parse("{}"));
+  const auto loaded = with_material(json::parse(R"({"emissiveFactor":[1,0.8,0.1]})"));
   const Material& m = loaded.mesh.materials.at(0);
-  EXPECT_EQ(m.ambient * 0.2 * m.colour, glm::dvec3(1.0, 0.8, 0.1));
-  EXPECT_EQ(m.diffuse, 0.0);
+  EXPECT_EQ(m.emission, glm::dvec3(1.0, 0.8, 0.1));
+  EXPECT_EQ(m.colour, plain.mesh.materials.at(0).colour);
+  EXPECT_EQ(m.diffuse, plain.mesh.materials.at(0).diffuse);
   EXPECT_EQ(loaded.notes, TextList{});
-  EXPECT_EQ(
-      with_material(json::parse(R"({"emissiveFactor":[1,0,0]})")).notes,
-      TextList{"a.gltf: materials[0]: 'emissiveFactor' is not used, because the surface reflects light too"});
+  const auto with_strength = [](const std::string& strength) {
+    return with_material(
+        json::parse(R"({"emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_emissive_strength":{)" +
+                    strength + "}}}"));
+  };
+  EXPECT_EQ(with_strength(R"("emissiveStrength":4)").mesh.materials.at(0).emission,
+            glm::dvec3(4.0, 2.0, 0.0));
+  EXPECT_EQ(with_strength("").mesh.materials.at(0).emission, glm::dvec3(1.0, 0.5, 0.0));
+  EXPECT_EQ(with_strength(R"("emissiveStrength":-1)").mesh.materials.at(0).name, "default");
+}
+
+TEST(Gltf, ASurfaceWithoutLightingEmitsItsColour) {
   const auto unlit = with_material(json::parse(
       R"({"extensions":{"KHR_materials_unlit":{}},
           "pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,1],"roughnessFactor":0.2}})"));
-  EXPECT_EQ(unlit.mesh.materials.at(0).specular, 0.0);
-  EXPECT_EQ(unlit.mesh.materials.at(0).ambient * 0.2 * unlit.mesh.materials.at(0).colour,
-            glm::dvec3(1, 0.5, 0));
+  const Material& m = unlit.mesh.materials.at(0);
+  EXPECT_EQ(m.emission, glm::dvec3(1, 0.5, 0));
+  EXPECT_EQ(m.ambient + m.diffuse + m.specular, 0.0);
 }
 
 TEST(Gltf, SurfacesOfAlphaZeroAreNotDrawn) {

@@ -39,12 +39,4 @@ inline Material default_material() {
   return material;
 }
 
-/// Makes a surface that emits this colour and diffuses nothing: it reflects the ambient light of a mesh
-/// file's scene alone.
-inline void make_emitter(Material& material, const glm::dvec3& colour) {
-  material.colour = colour;
-  material.ambient = 1.0 / Scene().ambient.x;
-  material.diffuse = 0.0;
-}
-
 }  // namespace halfway

@@ -77,7 +77,7 @@ std::string read_key(TextLines& lines, std::string_view key, MtlMaterial& read, 
     material.specular_colour = is_black ? glm::dvec3(1.0) : colour;
     material.specular = is_black ? 0.0 : 1.0;
   } else if (key == "ke") {
-    return read_colour(lines, read.emission);
+    return read_colour(lines, material.emission);
   } else if (key == "ns" || key == "d" || key == "tr") {
     std::array<double, 1> number{};
     std::size_t count = 0;

@@ -15,7 +15,6 @@ namespace halfway {
 struct MtlMaterial {
   Material material;
   double file_exponent = 0.0;   ///< Ns; below 1 the material's exponent is 1
-  glm::dvec3 emission{0.0};     ///< Ke
   std::optional<double> d, tr;  ///< opacity and transparency
   bool has_textures = false;
   /// d, because some files have Tr = 1 too.

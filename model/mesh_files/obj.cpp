@@ -299,12 +299,6 @@ class ObjReader {
     }
     Material& material = loaded_.mesh.materials.emplace_back(found.material);
     if (found.opacity() < 1.0) note(fmt::format("material '{}': transparency is left out", name));
-    if (found.emission != glm::dvec3(0.0)) {
-      if (material.colour == glm::dvec3(0.0))
-        make_emitter(material, found.emission);
-      else
-        note(fmt::format("material '{}': Ke is not used, because the surface reflects light too", name));
-    }
     if (found.file_exponent < 1.0 && found.material.specular > 0.0) {
       note(fmt::format("material '{}': exponent {} raised to 1", name, found.file_exponent));
     }

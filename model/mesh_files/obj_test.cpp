@@ -244,18 +244,18 @@ TEST(Obj, KeysOfMaterialsThatAreNotUsedAreNoted) {
       must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl",
                                               "newmtl a\nd 1.0\nTr 0\nKe 0 0 0\nTf 1 1 1\nillum 2\nNi 1.5\n"
                                               "newmtl b\nKe 1 0 0\nd -halo 1\nKa 1 1 1\nTr .5\nillum 3\n"}}));
-  EXPECT_EQ(loaded.notes, (std::vector<std::string>{
-                              "dir/m.mtl:13: 'illum' is not used", "dir/m.mtl:11: 'ka' is not used",
-                              "dir/m.mtl:10: d: '-halo' is not a number; the line is left out",
-                              "a.obj: material 'b': Ke is not used, because the surface reflects light too",
-                              "a.obj: material 'b': transparency is left out"}));
+  EXPECT_EQ(loaded.notes,
+            (std::vector<std::string>{"dir/m.mtl:13: 'illum' is not used", "dir/m.mtl:11: 'ka' is not used",
+                                      "dir/m.mtl:10: d: '-halo' is not a number; the line is left out",
+                                      "a.obj: material 'b': transparency is left out"}));
 }
 
-TEST(Obj, ABlackMaterialThatEmitsIsDrawnWithAmbientLight) {
+TEST(Obj, EmissionIsRead) {
   const auto loaded =
-      must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\nKd 0 0 0\nKe 1 .5 0\nnewmtl b\n"}}));
-  const Material& m = loaded.mesh.materials.at(0);
-  EXPECT_EQ(m.ambient * Scene().ambient * m.colour, glm::dvec3(1, 0.5, 0));
+      must(read("mtllib m.mtl\n" + c_faces, {{"m.mtl", "newmtl a\nKd .2 0 0\nKe 1 .5 0\nnewmtl b\n"}}));
+  EXPECT_EQ(loaded.mesh.materials.at(0).emission, glm::dvec3(1, 0.5, 0));
+  EXPECT_EQ(loaded.mesh.materials.at(0).colour, glm::dvec3(0.2, 0, 0));
+  EXPECT_EQ(loaded.mesh.materials.at(1).emission, glm::dvec3(0));
   EXPECT_EQ(loaded.notes, std::vector<std::string>{});
 }
 

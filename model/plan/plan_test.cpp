@@ -46,7 +46,7 @@ TEST(Plan, OneChannelIfEverythingVisibleIsGrey) {
         EXPECT_TRUE(why(scene).called_for) << reason;
         EXPECT_THAT(why(scene).why, HasSubstr(reason));
       };
-      Scene ambient = grey, positional = grey, spot = grey, rust = grey, gold = grey;
+      Scene ambient = grey, positional = grey, spot = grey, rust = grey, gold = grey, lamp = grey;
       ambient.ambient = {0.2, 0.2, 0.3};
       expect_coloured(ambient, "ambient");
       positional.positional = {{}, {.intensity = {0.0, 1.0, 0.0}}};
@@ -57,6 +57,8 @@ TEST(Plan, OneChannelIfEverythingVisibleIsGrey) {
       expect_coloured(rust, "'rust'");
       wear(gold, {.name = "gold", .specular_colour = {1.0, 0.8, 0.3}});
       expect_coloured(gold, "'gold'");
+      wear(lamp, {.name = "lamp", .emission = {0.5, 0.4, 0.3}});
+      expect_coloured(lamp, "'lamp'");
       gold.materials.back().specular = 0.0;  // a highlight of strength zero has no colour
       EXPECT_EQ(channels(gold), 1U);
     }
@@ -135,6 +137,9 @@ TEST(Plan, AmbientLightNeedsALightAndAMaterial) {
     scene.ambient = glm::dvec3(0.0);
     EXPECT_FALSE(ambient(scene).called_for);
     EXPECT_EQ(ambient(scene).why, "the ambient light is 0");
+    scene.materials[0].emission = glm::dvec3(0.0, 0.5, 0.0);
+    EXPECT_TRUE(ambient(scene).called_for);
+    EXPECT_EQ(ambient(scene).why, "material 'plain' emits light");
   }
 }
 

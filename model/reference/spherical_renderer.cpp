@@ -112,7 +112,7 @@ class SphericalShader {
     const Material& material = scene_.materials[triangle.material];
     const SurfaceColours colours(material);
 
-    glm::dvec3 sum = scene_.ambient * (material.ambient * material.colour);
+    glm::dvec3 sum = ambient_radiance(scene_, material);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const double spot = mix(begin_.lights[i].spot, end_.lights[i].spot, t);
       sum += spot * lights_[i].intensity *

@@ -89,6 +89,7 @@ void check_lights(Checker& check, const Scene& scene) {
 void check_material(Checker& check, const Material& m) {
   check.vector("a material's colour", m.colour, 0.0);
   check.vector("a material's specular colour", m.specular_colour, 0.0);
+  check.vector("a material's emission", m.emission, 0.0);
   check.number("a material's k_a", m.ambient, 0.0);
   check.number("a material's k_d", m.diffuse, 0.0);
   check.number("a material's k_s", m.specular, 0.0);

@@ -19,6 +19,7 @@ struct Material {
   Brdf brdf = Brdf::blinn;
   glm::dvec3 colour{1.0};
   glm::dvec3 specular_colour{1.0};
+  glm::dvec3 emission{0.0};   ///< radiance that the surface adds by itself; drawn with the ambient term
   double ambient = 0.1;       ///< k_a >= 0
   double diffuse = 0.6;       ///< k_d >= 0
   double specular = 0.4;      ///< k_s >= 0

@@ -208,8 +208,8 @@ class SceneReader {
 
   void read_material(const toml::table& node) {
     const TomlTable table(node, file_, "material",
-                          {"name", "brdf", "colour", "specular_colour", "k_a", "k_d", "k_s", "exponent",
-                           "roughness", "reflectance"},
+                          {"name", "brdf", "colour", "specular_colour", "emission", "k_a", "k_d", "k_s",
+                           "exponent", "roughness", "reflectance"},
                           error_);
     Material material;
     material.name = table.text("name");
@@ -230,6 +230,7 @@ class SceneReader {
     }
     material.colour = table.colour("colour", material.colour);
     material.specular_colour = table.colour("specular_colour", material.specular_colour);
+    material.emission = table.colour("emission", material.emission);
     material.ambient = table.number("k_a", material.ambient, c_not_negative);
     material.diffuse = table.number("k_d", material.diffuse, c_not_negative);
     material.specular = table.number("k_s", material.specular, c_not_negative);

@@ -18,6 +18,7 @@
 #include "setup/walk.hpp"
 #include "setup/walk_header.hpp"
 #include "shading/effects.hpp"
+#include "shading/shade.hpp"
 #include "words/processors_layout.hpp"
 
 namespace halfway {
@@ -152,6 +153,7 @@ class ProcessorsSetup final : public Setup {
             std::any_of(lights_.begin(), lights_.end(), [&](LightRef light) { return has_place(light); })),
         normalizes_(has_places_ || options.normalize) {
     set_scales();
+    set_ambient();
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));
     note_clamped_values();
     if (config_.shadows) index_lines();
@@ -171,7 +173,7 @@ class ProcessorsSetup final : public Setup {
     counts += whole_frame_;
     request(words, Command::new_frame, counts);
     InitVector ambient = request(words, Command::define, counts);
-    put_colour(ambient, scene_.ambient);
+    put_colour(ambient, ambient_);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       InitVector light = request(words, Command::define, counts, static_cast<int>(i) + 1);
       put_light(light, i);
@@ -235,6 +237,30 @@ class ProcessorsSetup final : public Setup {
   };
 
   int subpixel_bits() const { return projector_.options().subpixel_bits; }
+
+  // I_a of the frame. A processor multiplies it by k_a, so it is raised until each emission has a k_a in
+  // range, to a whole number of colour steps, which both presets hold.
+  void set_ambient() {
+    const std::vector<bool> used = used_materials(scene_);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const Material& m = scene_.materials[i];
+      for (int c = 0; c < 3; ++c) {
+        if (!used[i] || m.emission[c] == 0.0) continue;
+        const double steps = std::min(ambient_radiance(scene_, m)[c] * c_white, largest_value(c_reflected));
+        const double least = std::ceil(steps / largest_value(c_coefficient)) / c_white;
+        ambient_[c] = std::max(ambient_[c], least);
+      }
+    }
+  }
+
+  // k_a times colour, or what draws the same radiance with the frame's I_a.
+  glm::dvec3 ambient_coefficient(const Material& m) const {
+    glm::dvec3 k = m.ambient * m.colour;
+    for (int c = 0; c < 3; ++c)
+      if (m.emission[c] > 0.0 || ambient_[c] != scene_.ambient[c])
+        k[c] = ambient_radiance(scene_, m)[c] / ambient_[c];
+    return k;
+  }
 
   void set_scales() {
     const DepthRange& range = projector_.range();
@@ -350,9 +376,10 @@ class ProcessorsSetup final : public Setup {
 
   MaterialWords material_words(const Material& m) const {
     MaterialWords w{.exponent = clamped(m.exponent, c_exponent)};
+    const glm::dvec3 ambient = ambient_coefficient(m);
     for (int c = 0; c < 3; ++c) {
       const auto i = static_cast<std::size_t>(c);
-      w.ambient[i] = clamped(m.ambient * m.colour[c], c_coefficient);
+      w.ambient[i] = clamped(ambient[c], c_coefficient);
       w.diffuse[i] = clamped(m.diffuse * m.colour[c], c_coefficient);
       w.specular[i] = clamped(m.specular * m.specular_colour[c], c_coefficient);
     }
@@ -553,7 +580,7 @@ class ProcessorsSetup final : public Setup {
         notes_.push_back(fmt::format("the {} is {:.4g} times white and was clamped to {:.4g}", name, most,
                                      largest_value(c_intensity) / c_white));
     };
-    note_light("ambient light", scene_.ambient);
+    note_light("ambient light", ambient_);
     for (const LightRef light : lights_) note_light(name_of(light), light_of(scene_, light).intensity);
     const std::vector<bool> used = used_materials(scene_);
     for (std::size_t i = 0; i < used.size(); ++i)
@@ -588,9 +615,10 @@ class ProcessorsSetup final : public Setup {
       const char* name;
       glm::dvec3 k;
     };
-    const std::array<Term, 3> terms = {{{"k_a", m.ambient * m.colour},
-                                        {"k_d", m.diffuse * m.colour},
-                                        {"k_s", m.specular * m.specular_colour}}};
+    const std::array<Term, 3> terms = {
+        {{m.emission == glm::dvec3(0.0) ? "k_a" : "k_a and emission", ambient_coefficient(m)},
+         {"k_d", m.diffuse * m.colour},
+         {"k_s", m.specular * m.specular_colour}}};
     for (const Term& term : terms) {
       const double most = largest_component(term.k);
       if (most > 0.0 && !holds(most, c_coefficient))
@@ -607,7 +635,7 @@ class ProcessorsSetup final : public Setup {
             fmt::format("material '{}': its {} times the {} is {:.4g} times white and is clamped to {:.4g}",
                         m.name, term.name, light, most, largest_value(c_reflected) / c_white));
     };
-    note_reflected(terms[0], "ambient light", scene_.ambient);
+    note_reflected(terms[0], "ambient light", ambient_);
     for (const LightRef light : lights_)
       for (const Term& term : {terms[1], terms[2]})
         note_reflected(term, name_of(light), light_of(scene_, light).intensity);
@@ -619,6 +647,7 @@ class ProcessorsSetup final : public Setup {
   words::ProcessorsLayout<P> layout_;
   ViewSpace view_;
   Projector projector_;
+  glm::dvec3 ambient_ = scene_.ambient;
   std::vector<LightRef> lights_;  // at most the key's number; further lights of the key stay undefined
   bool has_places_;
   bool normalizes_;  // published

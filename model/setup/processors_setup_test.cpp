@@ -104,6 +104,31 @@ Scene ball() {
   return scene;
 }
 
+TEST(ProcessorsSetup, DrawsEmission) {
+  for (const double light : {0.0, 0.2, 3.0})
+    for (const glm::dvec3 emission : {glm::dvec3(1.0, 0.25, 0.0), glm::dvec3(0.01, 0.0, 5.0)})
+      for (const bool lit : {false, true}) {
+        SCOPED_TRACE(fmt::format("I_a {}, emission of red {}, lit {}", light, emission.x, lit));
+        Scene scene = ball();
+        scene.ambient = glm::dvec3(light);
+        if (lit) scene.directional = {{glm::normalize(glm::dvec3(-0.5, 0.6, 1.0)), glm::dvec3(0.5)}};
+        scene.materials.push_back(scene.materials[0]);
+        scene.materials[1].emission = emission;
+        for (std::size_t i = 0; i < scene.triangles.size(); ++i)
+          scene.triangles[i].material = static_cast<std::uint32_t>(i / 2 % 2);
+        EXPECT_LE(distance_of_exact(scene).max_lsb, 1U);
+        // Without lights the published word lengths cost half a step for k_a and half a step for the sum.
+        // They hold no ambient light above white.
+        if (lit || light > 1.0) continue;
+        const ReferenceImage reference = reference_of(scene, c_small_frame);
+        const Drawn drawn = draw_processors(scene, key_of(scene, Preset::published));
+        EXPECT_LE(
+            frame_distance(frame_of(scene, c_small_frame, drawn.fragments), reference.frame, reference.mask)
+                ->max_lsb,
+            1U);
+      }
+}
+
 // A spot on the middle of a wall. Its narrow cone fills a large part of the picture. Inner and outer edge in
 // degrees.
 Scene narrow_spot(double inner, double outer) {

@@ -152,9 +152,10 @@ std::int64_t SphericalSetup::factor_word(double steps, SetupCounts& counts) cons
 void SphericalSetup::put_ambient(InitVector& init, const Material& material, SetupCounts& counts) const {
   const words::SphericalLayout<Exact> exact(config_);
   const words::SphericalLayout<Published> published(config_);
+  const glm::dvec3 ambient = ambient_radiance(*scene_, material);
   for (int c = 0; c < config_.channels; ++c) {
     // Add one half: truncating the sum's fraction then rounds.
-    const double steps = 255.0 * scene_->ambient[c] * material.ambient * material.colour[c] + 0.5;
+    const double steps = 255.0 * ambient[c] + 0.5;
     if (preset_ == Preset::exact)
       init.put(Exact::ambient_channel_at::ambient, factor_word<Exact>(steps, counts), exact.ambient_low(c));
     else
@@ -248,7 +249,7 @@ void SphericalSetup::put_record(InitVector& record, std::uint32_t material_index
 
 double SphericalSetup::interpolation_error(const Material& material, const SpanArcs& span, double t,
                                            const SurfacePoint& there) const {
-  glm::dvec3 sum = scene_->ambient * (material.ambient * material.colour);
+  glm::dvec3 sum = ambient_radiance(*scene_, material);
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const LightArcs& arcs = span.light[i];
     const double cosine = arcs.diffuse.at(t);

@@ -666,14 +666,17 @@ TEST(SphericalSetup, WithoutLightsThereAreNoRecords) {
     scene.ambient = {0.3, 0.2, 0.1};
     scene.materials[0].ambient = 0.9;
     scene.materials[0].colour = {1.0, 0.5, 0.25};
-    const Drawn drawn = draw(scene, {160, 120}, spherical_key(scene, preset));
-    EXPECT_EQ(drawn.counts.records, 0u);
-    EXPECT_EQ(drawn.counts.subdivided, 0u);
-    ASSERT_GT(drawn.fragments.size(), 1000u);
-    for (const Fragment& f : drawn.fragments) {
-      ASSERT_EQ(f.red, to_byte(0.27));
-      ASSERT_EQ(f.green, to_byte(0.09));
-      ASSERT_EQ(f.blue, to_byte(0.0225));
+    for (const glm::dvec3 emission : {glm::dvec3(0.0), glm::dvec3(0.1, 0.3, 0.0)}) {
+      scene.materials[0].emission = emission;
+      const Drawn drawn = draw(scene, {160, 120}, spherical_key(scene, preset));
+      EXPECT_EQ(drawn.counts.records, 0u);
+      EXPECT_EQ(drawn.counts.subdivided, 0u);
+      ASSERT_GT(drawn.fragments.size(), 1000u);
+      for (const Fragment& f : drawn.fragments) {
+        ASSERT_EQ(f.red, to_byte(0.27 + emission.r));
+        ASSERT_EQ(f.green, to_byte(0.09 + emission.g));
+        ASSERT_EQ(f.blue, to_byte(0.0225 + emission.b));
+      }
     }
   }
 }

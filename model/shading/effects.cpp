@@ -38,11 +38,14 @@ bool reflects(const Materials& materials) {
 bool has_ambient(const Material& m) {
   return m.ambient > 0.0 && !is_black(m.colour);
 }
+bool has_emission(const Material& m) {
+  return !is_black(m.emission);
+}
 bool has_coloured_highlight(const Material& m) {
   return has_specular(m) && !is_grey(m.specular_colour);
 }
 bool is_coloured(const Material& m) {
-  return !is_grey(m.colour) || has_coloured_highlight(m);
+  return !is_grey(m.colour) || !is_grey(m.emission) || has_coloured_highlight(m);
 }
 
 // The shining lights of the kinds that pass the test.
@@ -60,6 +63,8 @@ std::string first_coloured(const Scene& scene, const std::vector<LightRef>& ligh
 }
 
 Call call_ambient(const Scene& scene, const Materials& in_use) {
+  if (const Material* m = first(in_use, has_emission))
+    return {true, fmt::format("material '{}' emits light", m->name)};
   if (is_black(scene.ambient)) return {false, "the ambient light is 0"};
   const Material* m = first(in_use, has_ambient);
   if (m == nullptr) return {false, "every k_a is 0"};

@@ -74,7 +74,7 @@ glm::dvec3 sum_of_lights(const Scene& scene, const Material& material, glm::dvec
   }();
   const SurfaceColours colours(material);
 
-  glm::dvec3 sum = scene.ambient * (material.ambient * material.colour);
+  glm::dvec3 sum = ambient_radiance(scene, material);
   each_light([&](const Light& light) {
     const glm::dvec3 to_light = direction_to(light, position_world);
     const double share = cone_share(light, to_light);

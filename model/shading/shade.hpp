@@ -41,6 +41,11 @@ double cook_torrance_geometry(double n_dot_l, double n_dot_v, double length2_l_p
 /// c_largest_specular.
 double specular_factor(const Material& material, glm::dvec3 normal, glm::dvec3 to_light, glm::dvec3 to_eye);
 
+/// The part of the radiance that no light adds: I_a k_a and the surface's emission.
+inline glm::dvec3 ambient_radiance(const Scene& scene, const Material& m) {
+  return scene.ambient * (m.ambient * m.colour) + m.emission;
+}
+
 /// A material's colours, k_d and k_s included.
 struct SurfaceColours {
   glm::dvec3 diffuse, specular;

@@ -135,6 +135,7 @@ brdf = "cook_torrance"
 colour = [0.1, 0.2, 0.3]
 specular_colour = 0.25
 k_a = 0.5
+emission = [0.25, 0.5, 2]
 k_d = 0
 k_s = 2
 exponent = 1
@@ -170,6 +171,7 @@ material = "m"
   EXPECT_EQ(material.colour, glm::dvec3(0.1, 0.2, 0.3));
   EXPECT_EQ(material.specular_colour, glm::dvec3(0.25));
   EXPECT_EQ(material.ambient, 0.5);
+  EXPECT_EQ(material.emission, glm::dvec3(0.25, 0.5, 2.0));
   EXPECT_EQ(material.diffuse, 0.0);
   EXPECT_EQ(material.specular, 2.0);
   EXPECT_EQ(material.exponent, 1.0);

@@ -110,6 +110,12 @@ std::string scene_hash(const Scene& scene) {
     add_numbers(hash, {static_cast<double>(m.brdf), m.ambient, m.diffuse, m.specular, m.exponent, m.roughness,
                        m.reflectance});
   }
+  // A scene without emission has the hash that it had before there was any.
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (const glm::dvec3& emission = scene.materials[i].emission; emission != glm::dvec3(0.0)) {
+      hash.add(fmt::format("emission of {}", i));
+      add_vector(hash, emission);
+    }
   add_numbers(hash, scene.positions_world);
   add_numbers(hash, scene.normals_world);
   std::vector<std::uint32_t> triangles, cullings;

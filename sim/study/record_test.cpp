@@ -62,6 +62,7 @@ TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
   changes.emplace_back("brdf", [](Scene& s) { s.materials[1].brdf = Brdf::phong; });
   vector("colour", [](Scene& s, int i) { s.materials[1].colour[i] += c_tiny; });
   vector("specular colour", [](Scene& s, int i) { s.materials[1].specular_colour[i] += c_tiny; });
+  vector("emission", [](Scene& s, int i) { s.materials[1].emission[i] += c_tiny; });
   changes.emplace_back("k_a", [](Scene& s) { s.materials[1].ambient += c_tiny; });
   changes.emplace_back("k_d", [](Scene& s) { s.materials[1].diffuse += c_tiny; });
   changes.emplace_back("k_s", [](Scene& s) { s.materials[1].specular += c_tiny; });

@@ -29,6 +29,7 @@
 #include "scene/camera.hpp"
 #include "scene/lights.hpp"
 #include "scene/mesh.hpp"
+#include "shading/shade.hpp"
 #include "sim/engines/mesa/mesa_picture.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
@@ -133,7 +134,7 @@ class Picture {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     for (const Part& part : parts_) {
       const Material& m = scene_->materials[part.material];
-      set("ambient", scene_->ambient * (m.ambient * m.colour));
+      set("ambient", ambient_radiance(*scene_, m));
       set("diffuse", m.diffuse * m.colour);
       set("specular", m.specular * m.specular_colour);
       glUniform1f(glGetUniformLocation(program_, "exponent"), static_cast<float>(m.exponent));

@@ -150,8 +150,9 @@ Findings compare_fragments(const Scene& scene, FrameSize size, const Oracle& ora
 // Scenes.
 
 // A new kind comes last: then the random scenes of the others stay.
-enum class Lights { ambient, directional, positional, spot, hard_spot, all };
-constexpr const char* c_light_names[] = {"ambient", "directional", "positional", "spot", "hard_spot", "all"};
+enum class Lights { ambient, directional, positional, spot, hard_spot, all, emission };
+constexpr const char* c_light_names[] = {"ambient",   "directional", "positional", "spot",
+                                         "hard_spot", "all",         "emission"};
 constexpr const char* c_brdf_names[] = {"blinn", "phong", "cook_torrance"};
 
 // Solids with holes, and one light of the kind, or of each kind, around and between them.
@@ -182,6 +183,7 @@ Scene random_scene(unsigned seed, Brdf brdf, Lights lights, bool shadows) {
     m.brdf = brdf;
     m.roughness = random.within(0.15, 0.6);
     m.reflectance = random.within(0.02, 0.9);
+    if (lights == Lights::emission) m.emission = random.colour(false);
   }
   for (std::size_t i = 0; i < scene.triangles.size(); ++i)
     scene.triangles[i].material = static_cast<std::uint32_t>(i % 2);
@@ -220,9 +222,9 @@ std::vector<Case> random_cases(unsigned seeds) {
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     for (const Brdf brdf : {Brdf::blinn, Brdf::phong, Brdf::cook_torrance})
       for (const Lights lights : {Lights::ambient, Lights::directional, Lights::positional, Lights::spot,
-                                  Lights::hard_spot, Lights::all})
+                                  Lights::hard_spot, Lights::all, Lights::emission})
         for (const bool shadows : {false, true}) {
-          if (shadows && lights == Lights::ambient) continue;
+          if (shadows && (lights == Lights::ambient || lights == Lights::emission)) continue;
           const unsigned number =
               6 * static_cast<unsigned>(lights) + 2 * static_cast<unsigned>(brdf) + shadows;
           cases.push_back(
@@ -341,6 +343,7 @@ constexpr Fault c_faults[] = {
     "flat_normal",  // normal of the first corner
     // Illumination
     "ambient_missing",
+    "emission_missing",
     "diffuse_unclamped",        // lights below the horizon reduce the radiance
     "highlight_below_horizon",  // also where N.L <= 0
     "eye_at_infinity",          // V is the viewing axis

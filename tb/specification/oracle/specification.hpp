@@ -180,6 +180,7 @@ Vector radiance(const Scene& scene, const Material& m, const Vector& position, c
   const Real noise = 4 * std::numeric_limits<double>::epsilon() * length(position);
   Vector sum(0);
   if (!has("ambient_missing")) sum = Real(m.ambient) * Vector(scene.ambient) * own_colour;
+  if (!has("emission_missing")) sum += Vector(m.emission);
   int number = 0;
   oracle::for_each_light(scene, [&](const Light& light) {
     if (number++ == 1 && has("second_light_missing")) return;
