@@ -174,7 +174,9 @@ TEST(Figures, HaveAllFiguresAndClaims) {
       EXPECT_TRUE(names.insert(c.what).second);
       const bool agrees = c.why_not.empty() && c.by_construction.empty() && c.ours.empty();
       ASSERT_EQ(c.fails_for.has_value(), agrees);
-      if (agrees) EXPECT_EQ((Row{c, *c.fails_for}.verdict()), Verdict::differs);
+      if (agrees) {
+        EXPECT_EQ((Row{c, *c.fails_for}.verdict()), Verdict::differs);
+      }
     }
   }
   for (const char* id : {"spherical-05", "spherical-09", "spherical-10", "spherical-table-1", "spherical-11",
