@@ -177,12 +177,11 @@ std::string readme_times(const Table& times) {
       "*{0} designs draw one grey sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
       "host's set-up on one core, and the hardware at its clock on an iCE40. The transfer between them and "
       "the depth test after the hardware are not counted. On the dashed line, no other design is both "
-      "quicker "
-      "and more accurate. An arrow: at least this time, by the clock of the slowest placed part; the design "
+      "quicker and more accurate. An arrow: at least this time, by the clock of the slowest placed part; the design "
       "does not fit the iCE40. phong, phong-mesa: Phong shading per pixel in software on one core, by the "
       "reference in double precision and by OpenGL on Mesa's llvmpipe. planes: Gouraud's shading in "
-      "hardware. adaptive: quadratic, with triangles split until the error is below the threshold, in colour "
-      "steps; quadratic: never split.*\n\n"
+      "hardware. adaptive: quadratic, triangles split until the estimated error is below the threshold, in "
+      "colour steps; quadratic: never split.*\n\n"
       "| design | ms per frame, overlapped | bound by | in sequence | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",
       picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture));
