@@ -124,7 +124,7 @@ class ObjReader {
     }
     if (count < 3 || count == 5)
       return lines.error(
-          fmt::format("vertex {} has {} numbers; it must have 3, 4, 6 or 7", position_.all, count));
+          fmt::format("vertex {} has {} numbers; it must have 3, 4, 6 or more", position_.all, count));
     if (count == 4) {
       if (v[3] == 0.0) {
         return lines.error(

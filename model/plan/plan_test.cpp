@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -140,6 +141,19 @@ TEST(Plan, AmbientLightNeedsALightAndAMaterial) {
     scene.materials[0].emission = glm::dvec3(0.0, 0.5, 0.0);
     EXPECT_TRUE(ambient(scene).called_for);
     EXPECT_EQ(ambient(scene).why, "material 'plain' emits light");
+  }
+}
+
+TEST(Plan, ColoursOfMaterialsAreNumbersFromZero) {
+  const auto error = [](double value, glm::dvec3 Material::* colour) {
+    Scene scene = with_lights(1);
+    (scene.materials[0].*colour).y = value;
+    return plan_scene(scene, {}).error().message;
+  };
+  for (const double value : {-0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THAT(error(value, &Material::colour), HasSubstr("a material's colour"));
+    EXPECT_THAT(error(value, &Material::specular_colour), HasSubstr("a material's specular colour"));
+    EXPECT_THAT(error(value, &Material::emission), HasSubstr("a material's emission"));
   }
 }
 

@@ -47,9 +47,9 @@ std::size_t append_published(const QuadraticStream& to, std::uint32_t triangle,
                              const std::array<HalfVertex, 3>& vertices, const ChannelSamples& samples);
 
 /// Hardware of degree 1 draws planes through the samples at the three vertices, as in Gouraud's shading.
-/// With degree 2, preset exact with the conservative test draws small leaves pixel by pixel (PixelFit), so
-/// that the colour of every pixel is the reference's, rounded. All other leaves are drawn by the quadratic
-/// through six samples.
+/// Preset exact with the conservative or the proved test draws small leaves pixel by pixel (PixelFit), in
+/// both degrees, so that the colour of every pixel is the reference's, rounded. With degree 2 all other
+/// leaves are drawn by the quadratic through six samples.
 class QuadraticSetup final : public Setup {
  public:
   /// The scene must outlive the setup.

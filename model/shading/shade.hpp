@@ -72,10 +72,11 @@ glm::dvec3 reflected(LightKind kind, const SurfaceColours& colours, double n_dot
 /// True if a light reaches the point. Without a function every light does.
 using LightFilter = std::function<bool(LightRef)>;
 
-/// Radiance towards the eye: I_a k_a colour, and from each light I (k_d colour max(N.L, 0) + k_s
-/// specular_colour specular). Linear, not clamped to 1; finite and >= 0. `normal_world` is unit. A light
-/// exactly at the point has no direction and contributes nothing. If the eye is exactly at the point, the
-/// normal is used as the direction to the eye. A light for which `reaches` is false contributes nothing.
+/// Radiance towards the eye: I_a k_a colour, the surface's emission, and from each light I (k_d colour
+/// max(N.L, 0) + k_s specular_colour specular). Linear, not clamped to 1; finite and >= 0. `normal_world` is
+/// unit. A light exactly at the point has no direction and contributes nothing. If the eye is exactly at the
+/// point, the normal is used as the direction to the eye. A light for which `reaches` is false contributes
+/// nothing.
 glm::dvec3 radiance(const Scene& scene, const Material& material, glm::dvec3 position_world,
                     glm::dvec3 normal_world, const LightFilter& reaches = {});
 

@@ -137,7 +137,8 @@ std::string page_front(const Table& front) {
       "*{0} designs draw one sphere at {1}x{2}, exponent {3}. A design is on the dashed line if no other\n"
       "design has both fewer cells and a smaller rms error (in colour steps, 1/255 of white):\n{4}.{5}\n"
       "4x4: address bits × data bits of the cosine tables. adaptive: quadratic, triangles split until the "
-      "estimated error\nis below the threshold; quadratic: never split. processors-2: with normalization of N.\n"
+      "estimated error\nis below the threshold; quadratic: never split. processors-2: with normalization of "
+      "N.\n"
       "`make gallery` measures [the table](results/gallery/front.csv) and draws the plot.*\n",
       plot.points.size(), front.text(any, "width"), front.text(any, "height"), front.text(any, "exponent"),
       fmt::join(joined, ";\n"),
