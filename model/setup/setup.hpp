@@ -26,6 +26,21 @@ enum class HighlightTest {
   proved,        ///< an upper bound of the error (proved_bound.hpp) instead; small leaves as conservative
 };
 
+/// As for --highlight-test and in study spaces.
+inline const char* to_string(HighlightTest test) {
+  switch (test) {
+    case HighlightTest::none:
+      return "none";
+    case HighlightTest::centroid:
+      return "centroid";
+    case HighlightTest::conservative:
+      return "conservative";
+    case HighlightTest::proved:
+      break;
+  }
+  return "proved";
+}
+
 /// True if small leaves are drawn pixel by pixel, without error.
 inline bool draws_small_by_pixel(Preset preset, HighlightTest test) {
   return preset == Preset::exact && (test == HighlightTest::conservative || test == HighlightTest::proved);

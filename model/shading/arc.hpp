@@ -16,6 +16,11 @@ enum class SpanEnds {
   slerped_along_edges,
 };
 
+/// As for --span-ends and in study spaces.
+inline const char* to_string(SpanEnds ends) {
+  return ends == SpanEnds::on_surface ? "surface" : "slerp";
+}
+
 /// Cosine of the angle between two turning directions: amplitude * cos(t * sweep - phase), t in [0, 1].
 struct CosineArc {
   double amplitude;  ///< in [0, 1]

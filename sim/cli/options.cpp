@@ -62,11 +62,11 @@ struct Given {
   }
 
   template <class Value>
-  Value one_of(std::initializer_list<std::pair<const char*, Value>> choices) const {
+  Value one_of(std::initializer_list<Value> choices) const {
     std::vector<const char*> names;
-    for (const auto& [name, value] : choices) {
-      if (text == name) return value;
-      names.push_back(name);
+    for (const Value value : choices) {
+      if (text == to_string(value)) return value;
+      names.push_back(to_string(value));
     }
     fail(fmt::format("'{}' is not one of its values; take {}", text, fmt::join(names, " or ")));
   }
@@ -109,10 +109,8 @@ const std::vector<Option>& options_of_some_shaders() {
        "quadratic: test for splitting a triangle in four: none, centroid (as published),\n"
        "conservative, or proved (default: conservative in preset exact, centroid in published)",
        [](const Given& given, DrawSettings& s) {
-         s.setup.quadratic.test = given.one_of<HighlightTest>({{"none", HighlightTest::none},
-                                                               {"centroid", HighlightTest::centroid},
-                                                               {"conservative", HighlightTest::conservative},
-                                                               {"proved", HighlightTest::proved}});
+         s.setup.quadratic.test = given.one_of({HighlightTest::none, HighlightTest::centroid,
+                                                HighlightTest::conservative, HighlightTest::proved});
        }},
       {"--threshold",
        {{Shader::quadratic}, {Shader::spherical, Preset::exact}},
@@ -167,8 +165,7 @@ const std::vector<Option>& options_of_some_shaders() {
        "processors: unrolled, one object per clock, or folded, as published: one datapath\n"
        "per processor, several clocks per object (default: unrolled)",
        [](const Given& given, DrawSettings& s) {
-         s.plan.form = given.one_of<ProcessorForm>(
-             {{"unrolled", ProcessorForm::unrolled}, {"folded", ProcessorForm::folded}});
+         s.plan.form = given.one_of({ProcessorForm::unrolled, ProcessorForm::folded});
        }},
       {"--span-ends",
        {{Shader::spherical, Preset::exact}},
@@ -177,8 +174,7 @@ const std::vector<Option>& options_of_some_shaders() {
        "slerp along the edges, as published: never cut into strips, so errors are large close to a\n"
        "light (default: surface)",
        [](const Given& given, DrawSettings& s) {
-         s.setup.spherical.ends = given.one_of<SpanEnds>(
-             {{"surface", SpanEnds::on_surface}, {"slerp", SpanEnds::slerped_along_edges}});
+         s.setup.spherical.ends = given.one_of({SpanEnds::on_surface, SpanEnds::slerped_along_edges});
        }},
   };
   return c_options;

@@ -20,18 +20,6 @@
 namespace halfway::study {
 namespace {
 
-// The names of values in a space.
-const char* name_of(Method method) {
-  return to_string(method);
-}
-const char* name_of(Preset preset) {
-  return to_string(preset);
-}
-const char* name_of(ProcessorForm form) {
-  return to_string(form);
-}
-using study::name_of;
-
 // One sweep of the file.
 class Sweep {
  public:
@@ -97,8 +85,8 @@ class SpaceValue {
   Value name(const std::vector<Value>& known) const {
     std::vector<std::string> all;
     for (const Value value : known) {
-      if (node_.value<std::string>() == name_of(value)) return value;
-      all.emplace_back(name_of(value));
+      if (node_.value<std::string>() == to_string(value)) return value;
+      all.emplace_back(to_string(value));
     }
     fail(fmt::format("takes {}", fmt::join(all, ", ")));
   }
@@ -208,12 +196,12 @@ constexpr Knob c_knobs[] = {
      [](const Value& v, Point& p) {
        p.test = v.name<HighlightTest>({HighlightTest::conservative, HighlightTest::centroid});
      },
-     [](const Point& p) { return std::string(name_of(p.test)); }},
+     [](const Point& p) { return std::string(to_string(p.test)); }},
     {"span_ends", false, [](const Point& p) { return p.has_ends(); },
      [](const Value& v, Point& p) {
        p.ends = v.name<SpanEnds>({SpanEnds::on_surface, SpanEnds::slerped_along_edges});
      },
-     [](const Point& p) { return std::string(name_of(p.ends)); }},
+     [](const Point& p) { return std::string(to_string(p.ends)); }},
     {"own_tables", false, [](const Point& p) { return p.has_ends(); },
      [](const Value& v, Point& p) {
        p.own_tables = v.flag();
@@ -300,8 +288,8 @@ std::string DesignPoint::design() const {
   if (words.newton) text += *words.newton ? " with Newton" : " without Newton";
   if (is_processors(*this) && form == ProcessorForm::folded) text += " folded";
   if (method == Method::adaptive && test != HighlightTest::conservative)
-    text += fmt::format(" {}", name_of(test));
-  if (has_ends() && ends != SpanEnds::on_surface) text += fmt::format(" {}", name_of(ends));
+    text += fmt::format(" {}", to_string(test));
+  if (has_ends() && ends != SpanEnds::on_surface) text += fmt::format(" {}", to_string(ends));
   if (has_threshold()) text += fmt::format(", threshold {:g}", threshold);
   return text;
 }

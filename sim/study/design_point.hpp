@@ -43,24 +43,6 @@ constexpr bool is_drawn(Method method) {
   return method != Method::phong;
 }
 
-/// Names of HighlightTest and SpanEnds in spaces, as for --highlight-test and --span-ends.
-inline const char* name_of(HighlightTest test) {
-  switch (test) {
-    case HighlightTest::none:
-      return "none";
-    case HighlightTest::centroid:
-      return "centroid";
-    case HighlightTest::conservative:
-      return "conservative";
-    case HighlightTest::proved:
-      break;
-  }
-  return "proved";
-}
-inline const char* name_of(SpanEnds ends) {
-  return ends == SpanEnds::on_surface ? "surface" : "slerp";
-}
-
 struct DesignPoint {
   Method method = Method::quadratic;
   Preset preset = Preset::exact;                 ///< of hardware methods

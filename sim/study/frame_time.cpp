@@ -49,8 +49,8 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
           {"perceived_pixels", fmt::format("{}", m.perceived)},
           {"clock_mhz", time.mhz ? fmt::format("{:.1f}", *time.mhz) : ""},
           {"slowest_part", time.slowest_part},
-          {"highlight_test", p.method == Method::adaptive ? name_of(p.test) : ""},
-          {"span_ends", p.has_ends() ? name_of(p.ends) : ""}};
+          {"highlight_test", p.method == Method::adaptive ? to_string(p.test) : ""},
+          {"span_ends", p.has_ends() ? to_string(p.ends) : ""}};
 }
 
 constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";
