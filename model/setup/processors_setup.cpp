@@ -243,10 +243,12 @@ class ProcessorsSetup final : public Setup {
   void set_ambient() {
     const std::vector<bool> used = used_materials(scene_);
     for (std::size_t i = 0; i < used.size(); ++i) {
+      if (!used[i]) continue;
       const Material& m = scene_.materials[i];
+      const glm::dvec3 radiance = ambient_radiance(scene_, m);
       for (int c = 0; c < 3; ++c) {
-        if (!used[i] || m.emission[c] == 0.0) continue;
-        const double steps = std::min(ambient_radiance(scene_, m)[c] * c_white, largest_value(c_reflected));
+        if (m.emission[c] == 0.0) continue;
+        const double steps = std::min(radiance[c] * c_white, largest_value(c_reflected));
         const double least = std::ceil(steps / largest_value(c_coefficient)) / c_white;
         ambient_[c] = std::max(ambient_[c], least);
       }
@@ -255,10 +257,10 @@ class ProcessorsSetup final : public Setup {
 
   // k_a times colour, or what draws the same radiance with the frame's I_a.
   glm::dvec3 ambient_coefficient(const Material& m) const {
+    const glm::dvec3 radiance = ambient_radiance(scene_, m);
     glm::dvec3 k = m.ambient * m.colour;
     for (int c = 0; c < 3; ++c)
-      if (m.emission[c] > 0.0 || ambient_[c] != scene_.ambient[c])
-        k[c] = ambient_radiance(scene_, m)[c] / ambient_[c];
+      if (m.emission[c] > 0.0 || ambient_[c] != scene_.ambient[c]) k[c] = radiance[c] / ambient_[c];
     return k;
   }
 

@@ -24,7 +24,7 @@ struct Design {
 /// The hardware of a key, with the RTL of `root`.
 Design design_of(const HardwareKey& key, const std::filesystem::path& root);
 
-/// True if the entity has the generic g_multiplier_bits, which changes no fragment and no clock.
+/// True if the entity has the generic g_multiplier_bits, which changes no fragment and no number of clocks.
 bool takes_multiplier_bits(std::string_view entity);
 
 /// The netlist by GHDL, mended. Cached. Throws Failure.

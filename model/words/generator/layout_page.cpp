@@ -85,8 +85,7 @@ constexpr MaterialWord c_material[] = {
     {"exponent", "1", "exponent", "`g_specular`", "exponent n of the highlight"},
     {"ambient", "one per channel", "coefficient", "always",
      "k_a: ambient coefficient times colour; with emission in the scene, the surface's ambient term and "
-     "emission, divided by "
-     "the frame's ambient light"},
+     "emission, divided by the frame's ambient light"},
     {"diffuse", "one per channel", "coefficient", "`g_diffuse`", "k_d: diffuse coefficient times colour"},
     {"specular", "one per channel", "coefficient", "`g_specular`",
      "k_s: specular coefficient times the highlight's colour"},
