@@ -291,6 +291,7 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: extensionsRequired[0]: 'KHR_draco_mesh_compression' cannot be read; export the file without "
      "it"},
     {"unlit", with({{"/extensionsRequired", {"KHR_materials_unlit"}}}), c_triangle},
+    {"emissive_strength", with({{"/extensionsRequired", {"KHR_materials_emissive_strength"}}}), c_triangle},
     {"transmission", with({{"/extensionsRequired", {"KHR_materials_transmission"}}}),
      "! a.gltf: extensionsRequired[0]: 'KHR_materials_transmission' cannot be read; export the file without "
      "it"},

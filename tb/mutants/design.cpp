@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "sim/os/must.hpp"
 
 namespace halfway::mutants {
 namespace {
+
+constexpr const char* c_list = "tb/mutants/designs.toml";
 
 Stream read_stream(const toml::table& table) {
   return {table["port"].value_or(std::string()), table["file"].value_or(std::string()),
@@ -47,7 +51,7 @@ std::vector<Without> read_without(const std::filesystem::path& file) {
 
 std::vector<Design> read_designs(const std::filesystem::path& source) {
   std::vector<Design> designs;
-  const toml::table all = read_toml(source / "tb/mutants/designs.toml");
+  const toml::table all = read_toml(source / c_list);
   const toml::table testbenches = read_toml(source / "tb/vectors/rows.toml");
   for (const toml::node& node : *all["entity"].as_array()) {
     const toml::table& entity = *node.as_table();
@@ -58,6 +62,7 @@ std::vector<Design> read_designs(const std::filesystem::path& source) {
     common.stalled = text_of(entity, "stalled");
     common.reset = entity["reset"].value_or(false);
     common.proofs = entity["proofs"].value_or(true);
+    common.own_cells = entity["own_cells"].value_or(false);
     if (const toml::table* input = entity["input"].as_table()) common.input = read_stream(*input);
     if (!entity.contains("rows") && !entity.contains("input")) take_rows(testbenches, common);
     if (entity.contains("outputs")) common.outputs = read_list<Stream>(entity, "outputs", read_stream);
@@ -76,6 +81,13 @@ std::vector<Design> read_designs(const std::filesystem::path& source) {
       designs.push_back(std::move(design));
     }
   }
+  std::set<std::string> tested;
+  for (const Design& design : designs) tested.insert(design.entity);
+  for (const Without& without : read_without(source / c_list))
+    if (!without.reason.empty()) tested.insert(without.entity);
+  for (Design& design : designs)
+    if (design.own_cells)
+      std::ranges::remove_copy(tested, std::back_inserter(design.without_faults), design.entity);
   return designs;
 }
 

@@ -34,6 +34,8 @@ struct Design {
   bool reset = false;   ///< before each pass, since the vectors start from that state
   bool proofs = true;   ///< whether survivors are tried to be proved equivalent
   bool quick = false;   ///< part of the quick form
+  bool own_cells = false;
+  std::vector<std::string> without_faults;  ///< entities that get no faults in this netlist
 };
 
 // These functions throw Failure, with file and line.

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "sim/engines/verilator/netlist.hpp"
@@ -22,13 +24,14 @@ constexpr std::chrono::seconds c_yosys_time{3600};
 constexpr std::chrono::seconds c_miter_time{60};     // of a netlist; for larger ones nothing is proved
 constexpr std::chrono::seconds c_reduction_time{5};  // of one fault, before the proof
 
-// {0}: top, {1}: faults, {2}: seed. Make the faults after optimization: a fault in logic that is constant, or
-// that no output depends on, would have no effect.
+// {0}: top, {1}: faults, {2}: seed, {3}: marks of the modules without faults. Make the faults after
+// optimization: a fault in logic that is constant, or that no output depends on, would have no effect.
 constexpr const char* c_mutate =
     "read_verilog netlist.v\n"
     "hierarchy -top {0}\n"
-    "proc\nflatten\nopt -full\nwreduce\nopt_dff\nopt_clean -purge\nmemory -nomap\nopt_clean -purge\n"
-    "mutate -list {1} -seed {2} -ctrl mutsel 16 1 -o faults.ys\n"
+    "proc\n{3}flatten\nopt -full\nwreduce\nopt_dff\nopt_clean -purge\nmemory -nomap\nopt_clean "
+    "-purge\n"
+    "mutate -list {1} -seed {2} -ctrl mutsel 16 1 -o faults.ys c:* a:tested %d\n"
     "script faults.ys\n"
     "opt_clean\n"
     "write_verilog -noattr mutated.v\n";
@@ -60,6 +63,33 @@ std::string option(const std::string& line, const std::string& name) {
   if (at == std::string::npos) return {};
   const auto begin = at + name.size() + 3;
   return line.substr(begin, line.find(' ', begin) - begin);
+}
+
+/// GHDL appends the generics to an entity's name.
+bool is_of(const std::string& module, const std::string& entity) {
+  return module == entity || module.starts_with(entity + "_");
+}
+
+/// The modules of `entities`, and those that only such modules contain.
+std::set<std::string> modules_of(const std::string& netlist, const std::vector<std::string>& entities) {
+  static const std::regex c_instance(R"(^  (\w+) \w+ \($)"), c_module(R"(^module (\w+))");
+  std::set<std::string> marked;
+  std::map<std::string, std::set<std::string>> parents;
+  std::string module;
+  for (const std::string& line : lines_of(netlist))
+    if (std::smatch found; std::regex_search(line, found, c_module)) {
+      module = found[1];
+      if (std::ranges::any_of(entities, [&](const std::string& entity) { return is_of(module, entity); }))
+        marked.insert(module);
+    } else if (std::regex_match(line, found, c_instance)) {
+      parents[found[1]].insert(module);
+    }
+  for (std::size_t before = 0; before != marked.size();) {
+    before = marked.size();
+    for (const auto& [inner, outer] : parents)
+      if (std::ranges::includes(marked, outer)) marked.insert(inner);
+  }
+  return marked;
 }
 
 Fault read_fault(const std::string& line, const std::vector<std::string>& netlist_lines,
@@ -176,7 +206,11 @@ FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& libra
   const std::string printed = must(library.synthesize(design.entity, design.generics));
   const std::string text = must(mend_netlist(printed));
   FaultyNetlist netlist{scratch / design.name, design.entity, {}, {}};
-  const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed);
+  // Optimize first: cells that Yosys makes in a module get its mark.
+  std::string marks = design.without_faults.empty() ? "" : "opt -full\n";
+  for (const std::string& module : modules_of(text, design.without_faults))
+    marks += fmt::format("setattr -set tested 1 {}/*\n", module);
+  const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed, marks);
   // Reuse the result of an earlier run on the same netlist.
   const std::string key = ContentHash().add(text).add(script).add(c_lint).hex();
   const auto kept = read_file(netlist.folder / "key");

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
+#include <string_view>
 #include <vector>
 
 #include "golden/shading_pipeline.hpp"
@@ -24,7 +26,8 @@ constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
 
 // A line: token; the output token, fault afterwards.
 template <class Preset>
-void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults) {
+void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults,
+                     const char* suffix = "") {
   const auto& [config, term, light] = processor;
   const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits * 8 + static_cast<int>(term) * 3 + light);
@@ -44,7 +47,7 @@ void write_processor(const Folder& folder, const Processor& processor, int token
     twin.process(words);
     file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
   }
-  file.write(folder / (name_of<Preset>(processor) + ".txt"));
+  file.write(folder / (name_of<Preset>(processor) + suffix + ".txt"));
 }
 
 template <class Preset>
@@ -53,6 +56,16 @@ void write_processors(const Folder& folder, int tokens) {
     const bool faults = processor.light == 1 && processor.term == Term::diffuse;
     write_processor<Preset>(folder, processor, tokens, faults);
   }
+}
+
+// More tokens, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
+template <class Preset>
+void write_long(const Folder& folder) {
+  constexpr std::string_view c_names[] = {"exact_31111111_00", "exact_31111111_13", "published_30101110_21",
+                                          "published_31001100_21"};
+  for (const Processor& processor : processors())
+    if (std::ranges::find(c_names, name_of<Preset>(processor)) != std::end(c_names))
+      write_processor<Preset>(folder, processor, 5600, false, "_long");
 }
 
 // Tokens for the parts of a processor: one configuration with several lights.
@@ -290,6 +303,9 @@ void write_shading_processor(const Folder& folder) {
   constexpr int c_tokens = 280 / divisor;
   write_processors<Exact>(folder, c_tokens);
   write_processors<Published>(folder, c_tokens);
+  if (divisor > 1) return;
+  write_long<Exact>(folder);
+  write_long<Published>(folder);
 }
 
 template <int divisor>

@@ -24,18 +24,19 @@ struct Processors {
   const char* name;
   words::ProcessorsConfig config;
   std::int64_t pixels;
+  std::int64_t long_pixels = 0;  // of the set `long`, for netlists with faults (tb/mutants)
 };
 
 constexpr Processors c_exact_processors[] = {
-    {"directional", {3, 1, 0, 0, true, true, true, false}, 112},
+    {"directional", {3, 1, 0, 0, true, true, true, false}, 112, 2400},
     {"all_kinds", {3, 1, 1, 1, true, true, true, false}, 112},
     {"grey", {1, 2, 0, 0, true, false, false, false}, 112},
     {"no_light", {3, 0, 0, 0, false, false, true, false}, 112},
-    {"shadows", {3, 1, 1, 0, true, true, true, true}, 112},
-    {"folded", {3, 0, 1, 0, true, true, true, false}, 64},
+    {"shadows", {3, 1, 1, 0, true, true, true, true}, 112, 400},
+    {"folded", {3, 0, 1, 0, true, true, true, false}, 64, 800},
 };
 constexpr Processors c_published_processors[] = {
-    {"published", {3, 1, 1, 1, true, true, true, false}, 64},
+    {"published", {3, 1, 1, 1, true, true, true, false}, 64, 800},
     {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, 112},
     {"published_shadows", {3, 0, 1, 0, false, true, true, true}, 64},
 };
@@ -50,7 +51,8 @@ class Host {
         layout_(processors.config),
         twin_(processors.config),
         rasterizer_(processors.config),
-        random_(layout_.init_bits()) {}
+        random_(layout_.init_bits()),
+        pace_(layout_.token_bits()) {}
 
   // The elements of a set.
   void define_all() {
@@ -158,10 +160,14 @@ class Host {
   void send_to_parts(const InitVector& vector) {
     const auto command = static_cast<Command>(words::get_bits(vector, Preset::request_header_at::command));
     const bool loads = command >= Command::new_frame && command <= Command::remove;
-    const auto order = [&](bool load, const std::vector<std::uint32_t>& in,
-                           const std::vector<std::uint32_t>& out) {
-      ordered_.flag(load).words_of(in, layout_.token_bits()).words_of(out, layout_.token_bits());
-      ordered_.flag(command == Command::new_frame).end_vector();
+    const auto order = [&](const std::vector<std::uint32_t>& in, const std::vector<std::uint32_t>& out) {
+      // The word waits, or no word follows in a clock, which may be one with a reset.
+      if (pace_.one_in(3)) order_row({.load = loads, .object = !loads}, in, out);
+      order_row({.load = loads, .object = !loads, .ready = true}, in, out);
+      if (!pace_.one_in(4)) return;
+      const bool reset = pace_.one_in(4);
+      order_row({.reset = reset, .ready = pace_.one_in(2)}, in, out);
+      if (reset) order_.new_frame();
     };
     if (loads) {
       if (command == Command::new_frame) order_.new_frame();
@@ -170,7 +176,7 @@ class Host {
         const Field field{"", low, std::min(8, load_bits() - low), false, 0};
         set_bits(words, field, words::get_bits(vector, field));
       }
-      order(true, words, words);
+      order(words, words);
       return;
     }
     triangles_.words_of(vector, layout_.init_bits()).end_vector();
@@ -189,8 +195,21 @@ class Host {
           if (walk != Command::shadow)
             set_bits(words, Preset::request_header_at::command,
                      static_cast<std::uint32_t>(order_.place(token.y, token.x)));
-          order(false, before, words);
+          order(before, words);
         });
+  }
+  // A clock of token_order.
+  struct OrderClock {
+    bool reset = false, load = false, object = false, ready = false;
+  };
+  void order_row(const OrderClock& now, const std::vector<std::uint32_t>& in,
+                 const std::vector<std::uint32_t>& out) {
+    const auto command = static_cast<Command>(words::get_bits(in, Preset::request_header_at::command));
+    ordered_.flag(now.reset).flag(now.load).flag(now.object).flag(now.ready);
+    ordered_.words_of(in, load_bits()).words_of(in, layout_.token_bits());
+    ordered_.flag(now.ready).flag(now.ready).flag(now.load || now.object);
+    ordered_.words_of(out, layout_.token_bits());
+    ordered_.flag(now.load && now.ready && command == Command::new_frame).end_vector();
   }
   void send(const InitVector& vector) {
     send_to_parts(vector);
@@ -310,7 +329,7 @@ class Host {
   words::ProcessorsLayout<Preset> layout_;
   Shader twin_;
   golden::TokenRasterizer<Preset> rasterizer_;
-  Random random_;
+  Random random_, pace_;
   VectorFile inits_, fragments_;
   golden::TokenOrder order_;
   VectorFile triangles_, tokens_, ordered_, shaded_;
@@ -359,6 +378,11 @@ void write_set(const Folder& folder, const Processors& processors, const char* s
 template <class Preset>
 void write_all(const Folder& folder, std::span<const Processors> shaders, std::int64_t divisor) {
   for (Processors processors : shaders) {
+    if (processors.long_pixels > 0 && divisor == 1) {
+      Processors longer = processors;
+      longer.pixels = processors.long_pixels;
+      write_set<Preset>(folder, longer, "long");
+    }
     processors.pixels /= divisor;
     for (const char* set : {"dense", "mixed", "fault"}) {
       if (set == std::string_view("fault") && !processors.config.shadows) continue;

@@ -28,8 +28,9 @@ class TokenMaker {
   /// Most tokens are for light `light`.
   Token token(int light) {
     if (random_.one_in(40)) turn();
-    const auto number = static_cast<std::uint32_t>(random_.one_in(4) ? random_.between(0, config_.lights())
-                                                                     : std::int64_t{light});
+    const auto number = static_cast<std::uint32_t>(random_.one_in(12)  ? random_.word(Preset::c_light_bits)
+                                                   : random_.one_in(4) ? random_.between(0, config_.lights())
+                                                                       : std::int64_t{light});
     const int choice = static_cast<int>(random_.between(0, 31));
     if (choice == 0) return load(words::Command::remove, number);
     if (choice <= 2) return load(words::Command::redefine, number);
