@@ -54,6 +54,17 @@ TEST(SourceFaults, FileEndsEarly) {
   EXPECT_EQ(with_fault(fault, "1\n2\n3\n4\nend 4\n"), "1\n2\n3\n4\n");
 }
 
+TEST(ModulesOf, AreThoseOfTheEntitiesAndWhatOnlyTheyContain) {
+  const std::string netlist =
+      "module half_8\n  adder_8 sum (\nendmodule\n"
+      "module power_8\n  rom_8 table (\n  adder_8 sum (\n  shift_8 left (\nendmodule\n"
+      "module top\n  half_8 a (\n  power_8 b (\n  shift_8 c (\nendmodule\n";
+  EXPECT_THAT(modules_of(netlist, {"power"}), testing::ElementsAre("power_8", "rom_8"));
+  EXPECT_THAT(modules_of(netlist, {"power", "half", "pow"}),
+              testing::ElementsAre("adder_8", "half_8", "power_8", "rom_8"));
+  EXPECT_THAT(modules_of(netlist, {}), testing::IsEmpty());
+}
+
 TEST(VhdlPlaces, AreThoseOfTheCommentBeforeTheStatement) {
   EXPECT_THAT(
       vhdl_places("module m\n  (input a);\n  wire b;\n  /* rtl/x.vhd:12:3  */\n  assign b = a;\n"

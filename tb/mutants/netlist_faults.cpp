@@ -70,28 +70,6 @@ bool is_of(const std::string& module, const std::string& entity) {
   return module == entity || module.starts_with(entity + "_");
 }
 
-/// The modules of `entities`, and those that only such modules contain.
-std::set<std::string> modules_of(const std::string& netlist, const std::vector<std::string>& entities) {
-  static const std::regex c_instance(R"(^  (\w+) \w+ \($)"), c_module(R"(^module (\w+))");
-  std::set<std::string> marked;
-  std::map<std::string, std::set<std::string>> parents;
-  std::string module;
-  for (const std::string& line : lines_of(netlist))
-    if (std::smatch found; std::regex_search(line, found, c_module)) {
-      module = found[1];
-      if (std::ranges::any_of(entities, [&](const std::string& entity) { return is_of(module, entity); }))
-        marked.insert(module);
-    } else if (std::regex_match(line, found, c_instance)) {
-      parents[found[1]].insert(module);
-    }
-  for (std::size_t before = 0; before != marked.size();) {
-    before = marked.size();
-    for (const auto& [inner, outer] : parents)
-      if (std::ranges::includes(marked, outer)) marked.insert(inner);
-  }
-  return marked;
-}
-
 Fault read_fault(const std::string& line, const std::vector<std::string>& netlist_lines,
                  const std::vector<std::string>& places) {
   Fault fault{option(line, "mode"),
@@ -181,6 +159,27 @@ std::string select_fault(const std::string& text, std::uint32_t number) {
 }
 
 }  // namespace
+
+std::set<std::string> modules_of(const std::string& netlist, const std::vector<std::string>& entities) {
+  static const std::regex c_instance(R"(^  (\w+) \w+ \($)"), c_module(R"(^module (\w+))");
+  std::set<std::string> marked;
+  std::map<std::string, std::set<std::string>> parents;
+  std::string module;
+  for (const std::string& line : lines_of(netlist))
+    if (std::smatch found; std::regex_search(line, found, c_module)) {
+      module = found[1];
+      if (std::ranges::any_of(entities, [&](const std::string& entity) { return is_of(module, entity); }))
+        marked.insert(module);
+    } else if (std::regex_match(line, found, c_instance)) {
+      parents[found[1]].insert(module);
+    }
+  for (std::size_t before = 0; before != marked.size();) {
+    before = marked.size();
+    for (const auto& [inner, outer] : parents)
+      if (std::ranges::includes(marked, outer)) marked.insert(inner);
+  }
+  return marked;
+}
 
 std::vector<std::string> vhdl_places(const std::string& printed) {
   static const std::regex c_place(R"(/\* (\S+\.vhd):(\d+):\d+ )");

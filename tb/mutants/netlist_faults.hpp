@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct FaultyNetlist {
 /// For each line of the mended netlist, the VHDL file and line from GHDL's comments; empty without a comment.
 /// `printed` is GHDL's netlist.
 std::vector<std::string> vhdl_places(const std::string& printed);
+
+/// The modules of these entities in GHDL's netlist, and those that only such modules contain.
+std::set<std::string> modules_of(const std::string& netlist, const std::vector<std::string>& entities);
 
 // These functions throw Failure.
 
