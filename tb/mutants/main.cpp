@@ -29,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Limit of one proof. The quick form has a longer one, so that a busy machine does not change its result.
-constexpr std::chrono::seconds c_proof_time{2}, c_quick_proof_time{60};
+constexpr std::chrono::seconds c_proof_time{5}, c_quick_proof_time{60};
 constexpr unsigned c_fewest = 25;     // faults that a row is of, if the netlist has so many
 constexpr unsigned c_quick_step = 8;  // the quick form replays every eighth fault
 

@@ -273,9 +273,11 @@ std::vector<bool> prove_equivalent(const FaultyNetlist& netlist, const std::vect
     const ProcessEnd end =
         run_in(netlist.folder,
                {"yosys-abc", "-c",
-                fmt::format("read_aiger fault.aig; &get -n; &scorr; &put; pdr -T {}", time.count())},
+                fmt::format("read_aiger fault.aig; &get -n; &scorr; &put; pdr -T {}; sat", time.count())},
                c_reduction_time + time);
-    proved[i] = end.succeeded() && end.output.find("Property proved.") != std::string::npos;
+    // Without registers later versions of pdr decide nothing; with registers sat decides nothing.
+    proved[i] = end.succeeded() && (end.output.find("Property proved.") != std::string::npos ||
+                                    end.output.find("UNSATISFIABLE") != std::string::npos);
   }
   return proved;
 }
