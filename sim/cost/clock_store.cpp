@@ -13,12 +13,19 @@ namespace halfway::synth {
 namespace {
 
 const std::vector<std::string> c_columns = {"design", "luts",  "carries", "flip_flops", "rams",
-                                            "mhz",    "seeds", "tools",   "netlist"};
+                                            "mhz",    "seeds", "tools",   "netlist",    "hardware"};
 
 }  // namespace
 
 ClockStore::const_iterator clock_of(const ClockStore& clocks, const std::string& netlist) {
   return std::ranges::find_if(clocks, [&](const auto& clock) { return clock.second.netlist == netlist; });
+}
+
+ClockStore::const_iterator clock_by_other_ghdl(const ClockStore& clocks, const std::string& hardware,
+                                               const std::string& ghdl) {
+  return std::ranges::find_if(clocks, [&](const auto& clock) {
+    return clock.second.hardware == hardware && !clock.second.tools.starts_with(ghdl + ",");
+  });
 }
 
 Result<ClockStore> read_clocks(const std::filesystem::path& root) {
@@ -39,7 +46,8 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root) {
                             .mhz = number("mhz"),
                             .seeds = static_cast<unsigned>(count("seeds")),
                             .tools = table->text(row, "tools"),
-                            .netlist = table->text(row, "netlist")};
+                            .netlist = table->text(row, "netlist"),
+                            .hardware = table->text(row, "hardware")};
     right = right && !clock.netlist.empty() && clocks.emplace(table->text(row, "design"), clock).second;
     if (!right)
       return bad_input(
@@ -56,7 +64,7 @@ Status write_clocks(const std::filesystem::path& root, const ClockStore& clocks)
     const auto text = [&](std::uint64_t Cells::* number) { return std::to_string(clock.cells.*number); };
     table.rows.push_back({design, text(&Cells::luts), text(&Cells::carries), text(&Cells::flip_flops),
                           text(&Cells::rams), fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds),
-                          clock.tools, clock.netlist});
+                          clock.tools, clock.netlist, clock.hardware});
   }
   return write_file(root / c_clocks, to_csv(table));
 }

@@ -15,16 +15,23 @@ namespace halfway::synth {
 inline constexpr const char* c_clocks = "docs/results/clocks.csv";
 
 struct StoredClock {
-  Cells cells;                     ///< on an iCE40
-  double mhz = 0;                  ///< median of the placements; 0: the hardware is not placed
-  unsigned seeds = 0;              ///< number of placements
-  std::string tools{}, netlist{};  ///< Synthesizer::versions, netlist_identity
+  Cells cells;             ///< on an iCE40
+  double mhz = 0;          ///< median of the placements; 0: the hardware is not placed
+  unsigned seeds = 0;      ///< number of placements
+  std::string tools{};     ///< Synthesizer::versions
+  std::string netlist{};   ///< netlist_identity
+  std::string hardware{};  ///< hardware_text
 };
 /// By the name of the design, or of the hardware key.
 using ClockStore = std::map<std::string, StoredClock>;
 
 /// The first clock of a netlist with this identity.
 ClockStore::const_iterator clock_of(const ClockStore& clocks, const std::string& netlist);
+
+/// The first clock of this hardware that was placed from the netlist of another GHDL than `ghdl`, such as
+/// "GHDL 2.0.0". That netlist differs, and cannot be compared.
+ClockStore::const_iterator clock_by_other_ghdl(const ClockStore& clocks, const std::string& hardware,
+                                               const std::string& ghdl);
 
 /// Empty if there is no file.
 Result<ClockStore> read_clocks(const std::filesystem::path& root);

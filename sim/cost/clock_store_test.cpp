@@ -15,7 +15,7 @@ TEST(ClockStore, ReadsWhatItWrites) {
   const std::filesystem::path root = folder->path();
   EXPECT_TRUE(read_clocks(root)->empty());
   ASSERT_TRUE(make_folders((root / c_clocks).parent_path()));
-  ASSERT_TRUE(write_clocks(root, {{"a", {{1, 2, 3, 4}, 87.54, 3, "GHDL 2, Yosys 1", "ab"}},
+  ASSERT_TRUE(write_clocks(root, {{"a", {{1, 2, 3, 4}, 87.54, 3, "GHDL 2, Yosys 1", "ab", "e g_a=1"}},
                                   {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
   const auto clocks = read_clocks(root);
   ASSERT_TRUE(clocks) << clocks.error().message;
@@ -26,14 +26,20 @@ TEST(ClockStore, ReadsWhatItWrites) {
   EXPECT_EQ(a.seeds, 3U);
   EXPECT_EQ(a.tools, "GHDL 2, Yosys 1");
   EXPECT_EQ(a.netlist, "ab");
+  EXPECT_EQ(a.hardware, "e g_a=1");
   EXPECT_EQ(clocks->at("large").mhz, 0);
   EXPECT_EQ(clock_of(*clocks, "cd")->first, "large");
   for (const char* other : {"aa", "bc", "ef"}) EXPECT_EQ(clock_of(*clocks, other), clocks->end()) << other;
 
+  // The netlists of one GHDL are compared.
+  EXPECT_EQ(clock_by_other_ghdl(*clocks, "e g_a=1", "GHDL 5")->first, "a");
+  EXPECT_EQ(clock_by_other_ghdl(*clocks, "e g_a=1", "GHDL 2"), clocks->end());
+  EXPECT_EQ(clock_by_other_ghdl(*clocks, "e g_a=2", "GHDL 5"), clocks->end());
+
   const auto text = read_file(root / c_clocks);
   ASSERT_TRUE(text);
   for (const char* line :
-       {"a,1,2,3,4,5,6,,ef\n", "b,1,2,x,4,5,6,,ef\n", "b,1,2,-3,4,5,6,,ef\n", "b,1,2,3,4,5,6,,\n"}) {
+       {"a,1,2,3,4,5,6,,ef,\n", "b,1,2,x,4,5,6,,ef,\n", "b,1,2,-3,4,5,6,,ef,\n", "b,1,2,3,4,5,6,,,\n"}) {
     ASSERT_TRUE(write_file(root / c_clocks, *text + line));
     const auto wrong = read_clocks(root);
     ASSERT_FALSE(wrong) << line;

@@ -47,7 +47,9 @@ double cell_count(const Cells& cells) {
 
 Cost Costing::stored(const Design& design) const {
   Cost cost;
-  const auto found = clock_of(clocks_, netlist_identity(netlist_of(design, cache_)));
+  auto found = clock_of(clocks_, netlist_identity(netlist_of(design, cache_)));
+  const bool is_of_this_netlist = found != clocks_.end();
+  if (!is_of_this_netlist) found = clock_by_other_ghdl(clocks_, hardware_text(design), ghdl_);
   if (found == clocks_.end()) return cost;
   const StoredClock& stored = found->second;
   cost.ice40 = stored.cells;
@@ -59,7 +61,8 @@ Cost Costing::stored(const Design& design) const {
     cost.clock = does_not_fit(c_hx8k, stored.cells);
     if (cost.clock.empty()) cost.clock = "too full, or nextpnr does not end";
   }
-  add_tools(cost, "placed with " + stored.tools);
+  add_tools(cost, "placed with " + stored.tools +
+                      (is_of_this_netlist ? "" : ", from a netlist that this GHDL does not write"));
   return cost;
 }
 

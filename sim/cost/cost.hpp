@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of hardware, from the stored clocks, the cache and the tools. A stored clock belongs to hardware
-// with the same netlist, whatever its name is. Errors are thrown as Failure.
+// with the same netlist, whatever its name is; with another GHDL, to the same entity and generics. Errors are
+// thrown as Failure.
 #pragma once
 
 #include <optional>
@@ -42,7 +43,7 @@ class Costing {
  public:
   /// The source folder has the stored clocks; the cache keeps results of tools.
   explicit Costing(const SimulatorFolders& folders)
-      : cache_(folders.cache), clocks_(must(read_clocks(folders.source))) {}
+      : cache_(folders.cache), clocks_(must(read_clocks(folders.source))), ghdl_(ghdl_name()) {}
 
   const ClockStore& clocks() const { return clocks_; }
   /// The stored clock and cells, if there are any. Needs only GHDL.
@@ -55,6 +56,7 @@ class Costing {
   void add_slowest_part(const Design& design, Cost& cost) const;
   std::filesystem::path cache_;
   ClockStore clocks_;
+  std::string ghdl_;
 };
 
 }  // namespace halfway::synth

@@ -18,6 +18,12 @@ Design design_of(const HardwareKey& key, const std::filesystem::path& root) {
           .has_products = key.shader == Shader::processors};
 }
 
+std::string hardware_text(const Design& design) {
+  std::string text = design.entity;
+  for (const auto& [name, value] : design.generics) text += ' ' + name + '=' + value;
+  return text;
+}
+
 bool takes_multiplier_bits(std::string_view entity) {
   constexpr std::array<std::string_view, 6> c_entities = {"multiplier",       "diffuse_slice",
                                                           "specular_slice",   "spherical_light",

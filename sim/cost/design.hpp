@@ -24,6 +24,9 @@ struct Design {
 /// The hardware of a key, with the RTL of `root`.
 Design design_of(const HardwareKey& key, const std::filesystem::path& root);
 
+/// The entity and its generics, as in "quadratic_shader g_exact=true g_channels=1".
+std::string hardware_text(const Design& design);
+
 /// True if the entity has the generic g_multiplier_bits, which changes no fragment and no number of clocks.
 bool takes_multiplier_bits(std::string_view entity);
 

@@ -111,14 +111,17 @@ std::string does_not_fit(const Device& device, const Cells& cells) {
   return {};
 }
 
+std::string ghdl_name() {
+  return "GHDL " + number_of(must(GhdlTool::find()).version);
+}
+
 const Placement* Clock::median() const {
   return placements.empty() ? nullptr : &placements[placements.size() / 2];
 }
 
 Synthesizer Synthesizer::open(const Folder& cache, bool place, const Family& family) {
   Synthesizer synthesizer(family, std::filesystem::absolute(cache));
-  synthesizer.versions_ = fmt::format("GHDL {}, Yosys {}", number_of(must(GhdlTool::find()).version),
-                                      number_of(synthesizer.yosys_version()));
+  synthesizer.versions_ = fmt::format("{}, Yosys {}", ghdl_name(), number_of(synthesizer.yosys_version()));
   if (place) {
     const std::string placer(synthesizer.device().placer);
     synthesizer.placer_ = version_of(placer, "--version", synthesizer.device().install);

@@ -45,6 +45,9 @@ std::string does_not_fit(const Device& device, const Cells& cells);
 /// table that is before a flip-flop on an iCE40.
 std::string wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs);
 
+/// The installed GHDL, such as "GHDL 5.0.1". Throws Failure.
+std::string ghdl_name();
+
 class Synthesizer {
  public:
   using Folder = std::filesystem::path;

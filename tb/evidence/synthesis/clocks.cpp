@@ -122,7 +122,8 @@ StoredClock to_store(const Synthesizer& synthesizer, const Design& design, const
           .mhz = median != nullptr ? median->mhz : 0,
           .seeds = static_cast<unsigned>(clock.placements.size()),
           .tools = synthesizer.versions(),
-          .netlist = identity_of(design, options)};
+          .netlist = identity_of(design, options),
+          .hardware = hardware_text(design)};
 }
 
 // Remove clocks of other hardware, and write what the pages show of the rest.
