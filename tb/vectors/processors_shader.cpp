@@ -196,6 +196,10 @@ class Host {
             set_bits(words, Preset::request_header_at::command,
                      static_cast<std::uint32_t>(order_.place(token.y, token.x)));
           order(before, words);
+          // A shadow polygon keeps its command. The hardware decodes it without shadows, too.
+          if (!pace_.one_in(8)) return;
+          set_bits(words, Preset::request_header_at::command, static_cast<std::uint32_t>(Command::shadow));
+          order(words, words);
         });
   }
   // A clock of token_order.
