@@ -102,8 +102,10 @@ std::vector<page::Section> mutant_sections(std::span<const page::Row> rows, cons
         "{}", fmt::join(texts.begin(),
                         texts.begin() + static_cast<std::ptrdiff_t>(std::min(texts.size(), c_shown)), "; "));
     if (texts.size() > c_shown) shown += fmt::format("; {} more", texts.size() - c_shown);
+    const std::string reason = reasons.of(at.first);
     survivor_rows.push_back({at.first.empty() ? "not known" : "`" + at.first + "`", "`" + at.second + "`",
-                             std::to_string(texts.size()), "`" + shown + "`", reasons.of(at.first)});
+                             std::to_string(texts.size()), "`" + shown + "`",
+                             reason.empty() ? "not decided" : reason});
   }
   const unsigned long possible = all[0] - all[2];
   const Cells kind_columns{"kind", "faults", "found", "equivalent", "survived"};

@@ -43,6 +43,10 @@ void write_processor(const Folder& folder, const Processor& processor, int token
                                 : maker.token(light);
     if (term != Term::ambient) token = maker.behind_ambient(token);
     auto words = maker.words(token, bits);
+    // The bits of x in a load often name a column with shadow polygons.
+    if (!token.is_object() && maker.random().one_in(2))
+      words::set_bits(words, Preset::pixel_header_at::x,
+                      static_cast<std::uint64_t>(maker.random().between(40, 42)));
     const auto before = words;
     twin.process(words);
     file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
