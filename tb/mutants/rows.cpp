@@ -125,15 +125,16 @@ std::vector<page::Section> mutant_sections(std::span<const page::Row> rows, cons
 std::vector<page::Value> mutant_values(std::span<const page::Row> rows) {
   constexpr double c_percent = 100;
   std::vector<page::Value> values;
-  double faults = 0, found = 0;
+  double possible = 0, found = 0;
   for (const page::Row& row : rows) {
     if (row.section != c_netlist_section) continue;
-    const double of_row = std::stod(row.field("faults")), found_of_row = std::stod(row.field("found"));
-    values.push_back({"mutants", row.name, {c_percent * found_of_row / of_row}});
-    faults += of_row;
+    const double possible_of_row = std::stod(row.field("faults")) - std::stod(row.field("equivalent"));
+    const double found_of_row = std::stod(row.field("found"));
+    values.push_back({"mutants", row.name, {c_percent * found_of_row / std::max(possible_of_row, 1.0)}});
+    possible += possible_of_row;
     found += found_of_row;
   }
-  if (faults > 0) values.push_back({"mutants", "all netlists", {c_percent * found / faults}});
+  if (possible > 0) values.push_back({"mutants", "all netlists", {c_percent * found / possible}});
   return values;
 }
 
