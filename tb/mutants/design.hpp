@@ -30,12 +30,12 @@ struct Design {
   unsigned skip = 0;  ///< lines at the start of each file that are no vectors
   Stream input;
   std::vector<Stream> outputs;
-  std::string stalled;  ///< a ready input without a stream
-  bool reset = false;   ///< before each pass, since the vectors start from that state
-  bool proofs = true;   ///< whether survivors are tried to be proved equivalent
-  bool quick = false;   ///< part of the quick form
-  bool own_cells = false;
-  std::vector<std::string> without_faults;  ///< entities that get no faults in this netlist
+  std::string stalled;                      ///< a ready input without a stream
+  bool reset = false;                       ///< before each pass, since the vectors start from that state
+  bool proofs = true;                       ///< whether survivors are tried to be proved equivalent
+  bool quick = false;                       ///< part of the quick form
+  bool own_cells = false;                   ///< no faults in entities that are tested by themselves
+  std::vector<std::string> without_faults;  ///< these entities
 };
 
 // These functions throw Failure, with file and line.

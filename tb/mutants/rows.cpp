@@ -130,7 +130,9 @@ std::vector<page::Value> mutant_values(std::span<const page::Row> rows) {
     if (row.section != c_netlist_section) continue;
     const double possible_of_row = std::stod(row.field("faults")) - std::stod(row.field("equivalent"));
     const double found_of_row = std::stod(row.field("found"));
-    values.push_back({"mutants", row.name, {c_percent * found_of_row / std::max(possible_of_row, 1.0)}});
+    values.push_back({"mutants",
+                      row.name,
+                      {possible_of_row > 0 ? c_percent * found_of_row / possible_of_row : c_percent}});
     possible += possible_of_row;
     found += found_of_row;
   }

@@ -43,14 +43,17 @@ void write_processor(const Folder& folder, const Processor& processor, int token
                                 : maker.token(light);
     if (term != Term::ambient) token = maker.behind_ambient(token);
     auto words = maker.words(token, bits);
-    // The bits of x in a load often name a column with shadow polygons.
-    if (!token.is_object() && maker.random().one_in(2))
+    // The bits of x in a load sometimes name a column with shadow polygons. In a definition they are slope.
+    const bool loads = !token.is_object() && token.command != Command::shadow;
+    if (loads && maker.random().one_in(token.is_define() ? 8 : 2))
       words::set_bits(words, Preset::pixel_header_at::x,
                       static_cast<std::uint64_t>(maker.random().between(40, 42)));
     const auto before = words;
     twin.process(words);
     file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
   }
+  if (faults && config.shadows && !twin.fault())
+    throw Failure{tool_failed(name_of<Preset>(processor) + ": the shadow counter did not overflow")};
   file.write(folder / (name_of<Preset>(processor) + suffix + ".txt"));
 }
 
