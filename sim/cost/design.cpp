@@ -15,10 +15,12 @@ Design design_of(const HardwareKey& key, const std::filesystem::path& root) {
           .entity = key.entity(),
           .generics = key.generics(),
           .root = root,
+          .key = key.name(),
           .has_products = key.shader == Shader::processors};
 }
 
 std::string hardware_text(const Design& design) {
+  if (!design.key.empty()) return design.key;
   std::string text = design.entity;
   for (const auto& [name, value] : design.generics) text += ' ' + name + '=' + value;
   return text;

@@ -18,13 +18,14 @@ struct Design {
   std::vector<std::pair<std::string, std::string>> generics{};
   std::filesystem::path root{};  ///< the project, or a copy of its RTL
   std::string more{};         ///< a VHDL source in addition to those of rtl/, relative to the root; or empty
+  std::string key{};          ///< name of the hardware key; empty: an entity of another kind
   bool has_products = false;  ///< nine tenths of it would be multipliers in LUTs (generic_cells.hpp)
 };
 
 /// The hardware of a key, with the RTL of `root`.
 Design design_of(const HardwareKey& key, const std::filesystem::path& root);
 
-/// The entity and its generics, as in "quadratic_shader g_exact=true g_channels=1".
+/// The name of the hardware key; otherwise the entity and its generics, as in "power g_exact=true".
 std::string hardware_text(const Design& design);
 
 /// True if the entity has the generic g_multiplier_bits, which changes no fragment and no number of clocks.

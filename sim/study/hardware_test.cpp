@@ -127,7 +127,7 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
   EXPECT_EQ(bounded.slowest_part, "inside");
 }
 
-TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOnly) {
+TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlForTheSameHardware) {
   const synth::Cost none = figures(false);
   EXPECT_FALSE(none.mhz);
   EXPECT_FALSE(none.part_mhz);
@@ -141,6 +141,17 @@ TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOnly) {
   EXPECT_EQ(stored.tools, "placed with Placer 1, cells by Yosys 0.23");
   EXPECT_EQ(placements(), 0U);
   store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist + "0"}}});
+  EXPECT_FALSE(figures(false).mhz);
+  // Of another GHDL, whose netlist cannot be compared; of this one, it is other hardware.
+  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "GHDL 0, Placer 1", netlist + "0", key_.name()}}});
+  const synth::Cost other = figures(true);
+  EXPECT_EQ(other.mhz, 87.5);
+  EXPECT_THAT(other.tools,
+              ::testing::HasSubstr("GHDL 0, Placer 1, from a netlist that this GHDL does not write"));
+  EXPECT_EQ(placements(), 0U);
+  store({{"any", {{1, 2, 3, 4}, 87.5, 3, synth::ghdl_name() + ", Placer 1", netlist + "0", key_.name()}}});
+  EXPECT_FALSE(figures(false).mhz);
+  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "GHDL 0, Placer 1", netlist + "0", key_.name() + "-fraction12"}}});
   EXPECT_FALSE(figures(false).mhz);
   // Hardware that has no placement.
   store({{"any", {{7681, 2, 3, 4}, 0, 0, "Placer 1", netlist}}});
