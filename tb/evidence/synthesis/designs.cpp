@@ -14,13 +14,14 @@ namespace {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 ListedDesign shader(const std::string& name, const HardwareKey& key) {
-  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics()}};
+  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics(), .key = key.name()}};
 }
 
 // The shader with AXI4-Stream ports.
 ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
   ListedDesign top = shader(name, key);
   top.design.entity = to_string(key.shader) + std::string("_axi");
+  top.design.key.clear();
   return top;
 }
 

@@ -73,6 +73,14 @@ TEST(SynthDesigns, HaveThePapersTimes) {
   EXPECT_FALSE(published_ns("unrolled_shading_processor_diffuse_published"));
 }
 
+TEST(SynthDesigns, HaveTheHardwareOfTheirStoredClocks) {
+  const ClockStore clocks = must(read_clocks(c_root));
+  for (const ListedDesign& listed : all_designs(c_root))
+    if (listed.ice40) {
+      EXPECT_EQ(clocks.at(listed.design.name).hardware, hardware_text(listed.design));
+    }
+}
+
 TEST(SynthDesigns, HaveTheClocksOfThePage) {
   ClockStore clocks = must(read_clocks(c_root));
   EXPECT_THAT(performance_table(clocks), ::testing::HasSubstr("\n| `quadratic_shader_grey_exact` | "));
