@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cost of hardware, from the stored clocks, the cache and the tools. A stored clock belongs to hardware
-// with the same netlist, whatever its name is; with another GHDL, to the same entity and generics. Errors are
+// with the same netlist, whatever its name is; with another GHDL, to the same hardware_text. Errors are
 // thrown as Failure.
 #pragma once
 
