@@ -208,21 +208,15 @@ Answer run_cvc5(const std::filesystem::path& folder, const Proof& proof, int clo
   return {Verdict::refuted, reason};
 }
 
-constexpr const char* c_combinational = "sat";
-
 Answer run_abc(const std::filesystem::path& folder, const Proof& proof, const std::string& engine) {
+  // Later versions of pdr and bmc3 decide nothing if Yosys has left no registers. sat does, and only then.
   const ProcessEnd end =
-      run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; orpos; " + engine});
+      run(folder, {"yosys-abc", "-c", "read_aiger model.aig; fold; strash; orpos; " + engine + "; sat"});
   if (end.timed_out) return {Verdict::open, c_timed_out};
   if (contains(end.output, "Property proved.") || contains(end.output, "No output asserted in"))
     return {Verdict::holds};
   if (contains(end.output, "was asserted in frame"))
     return {Verdict::refuted, last_line_with(end.output, "was asserted")};
-  // Yosys may have simplified the model until it has no registers, which pdr and bmc3 of later versions do
-  // not decide.
-  if (engine != c_combinational &&
-      (contains(end.output, "UNDECIDED") || contains(end.output, "combinational")))
-    return run_abc(folder, proof, c_combinational);
   if (contains(end.output, "UNSATISFIABLE")) return {Verdict::holds};
   if (contains(end.output, "SATISFIABLE"))
     return {Verdict::refuted, last_line_with(end.output, "SATISFIABLE")};
