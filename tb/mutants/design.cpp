@@ -13,8 +13,6 @@
 namespace halfway::mutants {
 namespace {
 
-constexpr const char* c_list = "tb/mutants/designs.toml";
-
 Stream read_stream(const toml::table& table) {
   return {table["port"].value_or(std::string()), table["file"].value_or(std::string()),
           table["columns"].value_or(std::string()), table["prompt"].value_or(false)};
@@ -35,6 +33,22 @@ void take_rows(const toml::table& folders, Design& design) {
   }
 }
 
+std::vector<Without> without_of(const toml::table& all) {
+  return read_list<Without>(all, "without", [](const toml::table& table) {
+    return Without{text_of(table, "name"), text_of(table, "within"), text_of(table, "reason")};
+  });
+}
+
+// The entities that are tested by themselves.
+std::set<std::string> tested_entities(const toml::table& all) {
+  std::set<std::string> tested;
+  for (const toml::node& entity : *all["entity"].as_array())
+    tested.insert(text_of(*entity.as_table(), "name"));
+  for (const Without& without : without_of(all))
+    if (!without.reason.empty()) tested.insert(without.entity);
+  return tested;
+}
+
 }  // namespace
 
 std::vector<Survivor> read_survivors(const std::filesystem::path& file) {
@@ -44,15 +58,14 @@ std::vector<Survivor> read_survivors(const std::filesystem::path& file) {
 }
 
 std::vector<Without> read_without(const std::filesystem::path& file) {
-  return read_list<Without>(read_toml(file), "without", [](const toml::table& table) {
-    return Without{text_of(table, "name"), text_of(table, "within"), text_of(table, "reason")};
-  });
+  return without_of(read_toml(file));
 }
 
 std::vector<Design> read_designs(const std::filesystem::path& source) {
   std::vector<Design> designs;
-  const toml::table all = read_toml(source / c_list);
+  const toml::table all = read_toml(source / "tb/mutants/designs.toml");
   const toml::table testbenches = read_toml(source / "tb/vectors/rows.toml");
+  const std::set<std::string> tested = tested_entities(all);
   for (const toml::node& node : *all["entity"].as_array()) {
     const toml::table& entity = *node.as_table();
     Design common;
@@ -62,7 +75,8 @@ std::vector<Design> read_designs(const std::filesystem::path& source) {
     common.stalled = text_of(entity, "stalled");
     common.reset = entity["reset"].value_or(false);
     common.proofs = entity["proofs"].value_or(true);
-    common.own_cells = entity["own_cells"].value_or(false);
+    if (entity["own_cells"].value_or(false))
+      std::ranges::remove_copy(tested, std::back_inserter(common.without_faults), common.entity);
     if (const toml::table* input = entity["input"].as_table()) common.input = read_stream(*input);
     if (!entity.contains("rows") && !entity.contains("input")) take_rows(testbenches, common);
     if (entity.contains("outputs")) common.outputs = read_list<Stream>(entity, "outputs", read_stream);
@@ -81,13 +95,6 @@ std::vector<Design> read_designs(const std::filesystem::path& source) {
       designs.push_back(std::move(design));
     }
   }
-  std::set<std::string> tested;
-  for (const Design& design : designs) tested.insert(design.entity);
-  for (const Without& without : read_without(source / c_list))
-    if (!without.reason.empty()) tested.insert(without.entity);
-  for (Design& design : designs)
-    if (design.own_cells)
-      std::ranges::remove_copy(tested, std::back_inserter(design.without_faults), design.entity);
   return designs;
 }
 

@@ -34,8 +34,7 @@ struct Design {
   bool reset = false;                       ///< before each pass, since the vectors start from that state
   bool proofs = true;                       ///< whether survivors are tried to be proved equivalent
   bool quick = false;                       ///< part of the quick form
-  bool own_cells = false;                   ///< no faults in entities that are tested by themselves
-  std::vector<std::string> without_faults;  ///< these entities
+  std::vector<std::string> without_faults;  ///< own_cells: the entities that are tested by themselves
 };
 
 // These functions throw Failure, with file and line.

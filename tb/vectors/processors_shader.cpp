@@ -24,7 +24,7 @@ struct Processors {
   const char* name;
   words::ProcessorsConfig config;
   std::int64_t pixels;
-  std::int64_t long_pixels = 0;  // of the set `long`, for netlists with faults (tb/mutants)
+  std::int64_t long_pixels = 0;  // of the set `long`
 };
 
 constexpr Processors c_exact_processors[] = {
@@ -382,11 +382,6 @@ void write_set(const Folder& folder, const Processors& processors, const char* s
 template <class Preset>
 void write_all(const Folder& folder, std::span<const Processors> shaders, std::int64_t divisor) {
   for (Processors processors : shaders) {
-    if (processors.long_pixels > 0 && divisor == 1) {
-      Processors longer = processors;
-      longer.pixels = processors.long_pixels;
-      write_set<Preset>(folder, longer, "long");
-    }
     processors.pixels /= divisor;
     for (const char* set : {"dense", "mixed", "fault"}) {
       if (set == std::string_view("fault") && !processors.config.shadows) continue;
@@ -401,6 +396,15 @@ void write_processors_shader(const Folder& folder) {
   write_all<Published>(folder, c_published_processors, divisor);
 }
 
+// More pixels, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
+template <class Preset>
+void write_long(const Folder& folder, std::span<const Processors> shaders) {
+  for (Processors processors : shaders) {
+    processors.pixels = processors.long_pixels;
+    if (processors.pixels > 0) write_set<Preset>(folder, processors, "long");
+  }
+}
+
 }  // namespace
 
 std::vector<Entity> processors_shader_entities() {
@@ -410,7 +414,12 @@ std::vector<Entity> processors_shader_entities() {
       {"token_order", [](const Folder& f) { write_parts([&](const auto& host) { host.write_order(f); }); }},
       {"fragment_output",
        [](const Folder& f) { write_parts([&](const auto& host) { host.write_output(f); }); }},
-      {"processors_shader", write_processors_shader<1>},
+      {"processors_shader",
+       [](const Folder& f) {
+         write_processors_shader<1>(f);
+         write_long<Exact>(f, c_exact_processors);
+         write_long<Published>(f, c_published_processors);
+       }},
       {"short/processors_shader", write_processors_shader<c_short>},
       {"processors_axi", write_processors_shader<1>},
       {"short/processors_axi", write_processors_shader<c_short>},

@@ -14,7 +14,9 @@ namespace {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 ListedDesign shader(const std::string& name, const HardwareKey& key) {
-  return {.design = {.name = name, .entity = key.entity(), .generics = key.generics(), .key = key.name()}};
+  Design design = design_of(key, {});
+  design.name = name;
+  return {.design = std::move(design)};
 }
 
 // The shader with AXI4-Stream ports.
