@@ -62,6 +62,7 @@ TEST(ModulesOf, AreThoseOfTheEntitiesAndWhatOnlyTheyContain) {
   EXPECT_THAT(modules_of(netlist, {"power"}), testing::ElementsAre("power_8", "rom_8"));
   EXPECT_THAT(modules_of(netlist, {"power", "half", "pow"}),
               testing::ElementsAre("adder_8", "half_8", "power_8", "rom_8"));
+  EXPECT_THAT(modules_of(netlist, {"pow"}), testing::IsEmpty());
   EXPECT_THAT(modules_of(netlist, {}), testing::IsEmpty());
 }
 
