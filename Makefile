@@ -49,7 +49,7 @@ about_SEED := search seed of the random triangles (default: 1)
 about_PROOF := prove only proofs with this text in their names, such as raster/edge_walker (default: all)
 about_DESIGN := mutate,synth only designs with this text in their names (default: all)
 about_SEEDS := synth number of placement seeds (default: 3)
-about_DEVICE := synth hx8k or ecp5: only cells and clocks, without thresholds (default: hx8k)
+about_DEVICE := live,plan,study,synth the FPGA whose clocks count: hx8k (iCE40, without multipliers) or ecp5 (default: ecp5; make synth: hx8k)
 about_PAGE := evidence only this page: bounds, cells, accuracy, transcripts, figures, gallery, hard_cases, proofs, mutants; or speed, clocks (default: all but speed and clocks)
 about_AGAIN := evidence 1: measure pages of this commit, too
 about_JOBS := sim,view,live,board-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
@@ -128,7 +128,7 @@ view: program ## draw one scene from all sides, by the RTL in Verilator or lanes
 	  $(call flag,TERMINAL,--terminal) $(scene)
 
 live: program ## write a page in which the RTL draws, live in a browser: build/live/index.html
-	@build/halfway live $(call option,THREADS,--threads)
+	@build/halfway live $(call option,DEVICE,--device) $(call option,THREADS,--threads)
 
 board-sim: program ## draw two frames on the simulated board, from the pins to the picture on a monitor (SCENE)
 	@build/halfway board-sim $(call option,SIMULATOR,--simulator) $(call option,OUT,--out) $(scene)
@@ -142,7 +142,7 @@ why: program ## show one pixel stage by stage, in golden model and RTL (SCENE, P
 
 plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEASURE=1: cells and time)
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
-	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,THREADS,--threads) $(scene)
+	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,DEVICE,--device) $(call option,THREADS,--threads) $(scene)
 
 verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports)
 	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
@@ -153,7 +153,7 @@ savings: program ## measure the tables of docs/effects.md again (minutes)
 study: studies ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
 	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/study/spaces/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
-	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) \
+	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) $(call option,DEVICE,--device) \
 	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
 	  $(call option,OUT,--out) $(scene)
 

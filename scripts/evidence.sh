@@ -66,7 +66,7 @@ write_study() { # part, space, scenes
   for scene; do
     shift
     out=build/accuracy/$(basename "$space" .toml)/$(basename "$scene" .toml)
-    build/halfway study "$scene" --space "$space" --out "$out" ${threads:+--threads "$threads"}
+    build/halfway study "$scene" --space "$space" --device hx8k --out "$out" ${threads:+--threads "$threads"}
     set -- "$@" "$out/study.csv"
   done
   build/tb/halfway_page . --table "$part" docs/accuracy.md "$@"

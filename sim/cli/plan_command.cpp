@@ -43,6 +43,7 @@ struct PlanCommand {
   std::vector<std::string> simulators;
   std::optional<std::uint64_t> objects, rate;
   std::string netlist;  // file to write; empty: none
+  const synth::Family* family = nullptr;
 };
 
 constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;
@@ -281,18 +282,19 @@ void print_errors(const std::string& which, const FrameDistance& planes, const F
 }
 
 // The stored clocks, without placement.
-void print_clocks(const HardwareKey& planes, const HardwareKey& quadratics, const SimulatorFolders& folders) {
+void print_clocks(const HardwareKey& planes, const HardwareKey& quadratics, const SimulatorFolders& folders,
+                  const synth::Family& family) {
   const auto text = [&](const HardwareKey& key) -> std::string {
     const auto figures =
-        caught([&] { return synth::Costing(folders).stored(synth::design_of(key, folders.source)); });
+        caught([&] { return synth::Costing(folders, family).stored(synth::design_of(key, folders.source)); });
     return figures && figures->mhz ? fmt::format("{:.1f}", *figures->mhz) : "-";
   };
-  print_row("clock, MHz on an iCE40 HX8K, as stored", text(planes), text(quadratics), "");
+  print_row(fmt::format("stored clock, MHz, {}", family.device->title), text(planes), text(quadratics), "");
 }
 
 // Quadratics and planes: for which triangles a plane is enough, what either costs, and their errors.
 void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
-                   const CellsByKey& cells, const SimulatorFolders& folders) {
+                   const CellsByKey& cells, const SimulatorFolders& folders, const synth::Family& family) {
   QuadraticSetupOptions options = draw.setup.quadratic, whole = options;
   if (options.test == HighlightTest::none) options.max_level = 0;
   whole.test = options.test = HighlightTest::conservative;
@@ -321,7 +323,7 @@ void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareK
   print_counts("pieces above the threshold", few.unresolved, all.unresolved);
   print_errors("never split", whole_planes.error, whole_quadratics.error);
   print_errors("split", split_planes.error, split_quadratics.error);
-  print_clocks(planes, quadratics, folders);
+  print_clocks(planes, quadratics, folders, family);
   const std::uint64_t mixed = enough * bits(planes) + unsplit.unresolved * bits(quadratics);
   fmt::print(
       "With a plane for each triangle that planes draw within the threshold, and a quadratic for each other\n"
@@ -380,7 +382,8 @@ int run(const Folders& folders, const PlanCommand& command) {
   const bool same = called_for.frame.rgb == everything.frame.rgb &&
                     (hides_more(plan) || called_for.fragments == everything.fragments);
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
-  if (plan.key.shader == Shader::quadratic) print_degrees(scene, draw, plan.key, cells, simulator_folders);
+  if (plan.key.shader == Shader::quadratic)
+    print_degrees(scene, draw, plan.key, cells, simulator_folders, *command.family);
   if (command.objects || command.rate) print_processors(scene, command, draw.size);
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }
@@ -400,6 +403,7 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option("--objects", command->objects,
                   "objects per pixel, for the number of processors (processors paper, table 5)");
   sub->add_option("--rate", command->rate, "frames per second, for the same table (default: 30)");
+  add_device(*sub, command->family);
   sub->add_option("--netlist", command->netlist,
                   "file to write: the planned hardware as Verilog, GHDL's netlist with its faults repaired");
   sub->callback([=, &folders, &exit_code] { exit_code = run(folders, *command); });

@@ -65,9 +65,10 @@ TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
   EXPECT_THAT(few, AllOf(ContainsRegex("160x120: [1-9][0-9]* of [1-9][0-9]* triangles are within 2 steps"),
                          ContainsRegex("\nbits of an init vector +640 +880 +27 %\n"),
                          ContainsRegex("\nsamples shaded +[0-9]+ +[0-9]+"), Not(HasSubstr("LUTs"))));
-  // The clocks of the default preset and one channel are stored.
-  const std::string clocks = "\nclock, MHz on an iCE40 HX8K, as stored +[0-9]+[.][0-9] +[0-9]+[.][0-9]";
-  EXPECT_THAT(few, ContainsRegex(clocks));
+  // The clocks of the default preset and one channel are stored, for each device.
+  EXPECT_THAT(few, ContainsRegex("\nstored clock, MHz, ECP5 LFE5U-85F +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
+  EXPECT_THAT(lines({"plan", "matte", "--size", "80x60", "--device", "hx8k"}),
+              ContainsRegex("\nstored clock, MHz, iCE40 HX8K +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
   // Splitting makes the error of planes smaller, and that of quadratics is smaller unsplit.
   const auto figures = [&](const std::string& name) {
     double planes = 0, quadratics = 0;

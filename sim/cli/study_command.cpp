@@ -39,6 +39,7 @@ struct StudyCommand {
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
   bool place = false;
+  const synth::Family* family = nullptr;
   std::string out = "build/study";
   unsigned threads = 0;
   std::string executor = "local";
@@ -60,9 +61,10 @@ StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   StudyPlan plan;
   plan.demand = study::read_demand(command.error, command.psnr, command.time);
   if (command.clock_mhz && !(*command.clock_mhz > 0)) throw Failure{bad_input("--clock: takes MHz above 0")};
-  if (command.place && (find_program("yosys").empty() || find_program("nextpnr-ice40").empty()))
-    throw Failure{tool_failed(fmt::format("--place: yosys or nextpnr-ice40 is not found; install both: {}",
-                                          synth::c_install_tools))};
+  const synth::Device& device = *command.family->device;
+  if (command.place && (find_program("yosys").empty() || find_program(std::string(device.placer)).empty()))
+    throw Failure{tool_failed(
+        fmt::format("--place: yosys or {} is not found; install both: {}", device.placer, device.install))};
   if (command.executor != "local" && command.executor != "slurm")
     throw Failure{
         bad_input("--executor: '" + command.executor + "' is not an executor; take local or slurm")};
@@ -74,6 +76,7 @@ StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   if (command.parts == 0) throw Failure{bad_input("--parts: takes 1 or more")};
   settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
   settings.out = command.out;
+  settings.family = command.family;
   settings.threads =
       command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency());
   settings.folders = {folders.source, folders.cache()};
@@ -158,7 +161,9 @@ void run_on_slurm(study::StudySettings settings, const Folders& folders, const S
   for (const std::string& word :
        {std::string("--out"), absolute_path(settings.out), std::string("--threads=1")})
     array.worker.push_back(word);
-  if (command.place) array.worker.push_back("--place");
+  if (command.place)
+    array.worker.insert(array.worker.end(),
+                        {"--place", "--device=" + std::string(command.family->device->option)});
   const bool any_tiles = std::ranges::any_of(settings.points, &study::DesignPoint::in_tiles);
   const std::filesystem::path logs = settings.out / "slurm";
   std::vector<std::filesystem::path> rounds = {logs};
@@ -170,6 +175,16 @@ void run_on_slurm(study::StudySettings settings, const Folders& folders, const S
   }
 }
 
+// Say which clocks the times are of.
+std::string clocks_text(const synth::Family& family, const study::HardwareTable& hardware) {
+  const auto count = [&](std::string_view origin) {
+    return std::ranges::count_if(hardware, [&](const auto& of) { return of.second.clock == origin; });
+  };
+  const auto stored = count(synth::c_stored), placed = count(synth::c_placed);
+  return fmt::format("clocks on an {}: {} stored, {} placed, {} kinds of hardware have none\n",
+                     family.device->title, stored, placed, std::ssize(hardware) - stored - placed);
+}
+
 // Write the table. Print the answer for each picture, or without a demand the front of the main picture.
 int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
              study::Clock clock) {
@@ -178,7 +193,8 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
   const std::filesystem::path table =
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   must(write_file(table, csv));
-  fmt::print("{}: {} points, {} measured in this run\n", table.string(), made.records.size(), made.measured);
+  fmt::print("{}: {} points, {} measured in this run\n{}", table.string(), made.records.size(), made.measured,
+             clocks_text(*plan.settings.family, hardware));
   const auto times = study::frame_times_of(made.records, hardware, clock);
   if (!plan.demand.any())
     must(write_file(plan.settings.out / c_times_table,
@@ -241,9 +257,11 @@ int run(const Folders& folders, const StudyCommand& command) {
     return 0;
   }
   const study::HardwareTable hardware = finished([&] {
-    return study::hardware_figures(
-        settings.scene, study.records, settings.folders,
-        {.threads = settings.threads, .place = command.place, .on_progress = settings.on_progress});
+    return study::hardware_figures(settings.scene, study.records, settings.folders,
+                                   {.threads = settings.threads,
+                                    .place = command.place,
+                                    .family = command.family,
+                                    .on_progress = settings.on_progress});
   });
   return conclude(plan, study, hardware, {command.clock_mhz});
 }
@@ -266,6 +284,7 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
   study->add_option("--clock", command->clock_mhz, "clock in MHz assumed for hardware without a known clock");
   study->add_flag("--place", command->place,
                   "place and route hardware without a known clock: minutes for each design");
+  add_device(*study, command->family);
   study
       ->add_option("--out", command->out,
                    fmt::format("folder for results: the table {}, of a query {}, and points/", c_study_table,

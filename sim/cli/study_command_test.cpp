@@ -11,6 +11,8 @@
 
 #include "sim/cli/command_test.hpp"
 #include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/test/test_files.hpp"
 #include "sim/study/stand_in_slurm_test.hpp"
 
 namespace halfway {
@@ -38,6 +40,7 @@ TEST_F(StudyCommandTest, RefusesInvalidQueries) {
       {{"--psnr", "loud"}, "--psnr: 'loud' is not valid"},
       {{"--time", "10"}, "--time: '10' is not valid; take a time with its unit"},
       {{"--clock", "0"}, "--clock: takes MHz above 0"},
+      {{"--device", "xcv300"}, "--device: 'xcv300' is not a device; take hx8k or ecp5"},
       {{"--size", "huge"}, "--size: 'huge'"},
       {{"--executor", "cloud"}, "--executor: 'cloud'"},
       {{"--part", "3/3"}, "--part: '3/3'"},
@@ -60,11 +63,26 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
                             HasSubstr("none of 2 points of hardware meets it"),
                             HasSubstr("most accurate  adaptive exact"))));
   // With three channels; these are stored as not fitting the device.
-  EXPECT_THAT(study({"spheres", "--time", "1s"}),
+  EXPECT_THAT(study({"spheres", "--time", "1s", "--device", "hx8k"}),
               Ends(1, HasSubstr("2 points have no clock: they do not fit the device")));
   EXPECT_THAT(study({"--time", "1s", "--clock", "50"}),
               Ends(0, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
                             Not(HasSubstr("no clock")))));
+}
+
+// The device's clocks, and without its placer none but the stored ones.
+TEST_F(StudyCommandTest, NamesTheDevice) {
+  EXPECT_THAT(study({}), Ends(0, HasSubstr("clocks on an ECP5 LFE5U-85F: 1 stored, 0 placed, 0 kinds")));
+  EXPECT_THAT(must(read_file(folder_.path() / "out/times.csv")), HasSubstr(",ECP5 LFE5U-85F\n"));
+  EXPECT_THAT(study({"--device", "hx8k"}), Ends(0, HasSubstr("clocks on an iCE40 HX8K: 1 stored")));
+  EXPECT_THAT(must(read_file(folder_.path() / "out/study.csv")), HasSubstr(",iCE40 HX8K,"));
+  const std::filesystem::path bin = folder_.path() / "bin";
+  put_program(bin / "yosys", "#!/bin/sh\n");
+  const Environment without{{"PATH", bin.string()}};
+  EXPECT_THAT(study({"--place"}, without),
+              Ends(3, AllOf(HasSubstr("nextpnr-ecp5"), HasSubstr("since Debian 13"))));
+  EXPECT_THAT(study({"--place", "--device", "hx8k"}, without),
+              Ends(3, HasSubstr("apt-get install yosys nextpnr-ice40")));
 }
 
 TEST_F(StudyCommandTest, SoftwareMeetsNoDemand) {

@@ -10,12 +10,9 @@
 #include "sim/os/file.hpp"
 
 namespace halfway::synth {
-namespace {
-
-const std::vector<std::string> c_columns = {"design", "luts",  "carries", "flip_flops", "rams",
-                                            "mhz",    "seeds", "tools",   "netlist",    "hardware"};
-
-}  // namespace
+std::string clocks_file(const Family& family) {
+  return fmt::format("docs/results/clocks_{}.csv", family.device->option);
+}
 
 ClockStore::const_iterator clock_of(const ClockStore& clocks, const std::string& netlist) {
   return std::ranges::find_if(clocks, [&](const auto& clock) { return clock.second.netlist == netlist; });
@@ -28,26 +25,27 @@ ClockStore::const_iterator clock_by_other_ghdl(const ClockStore& clocks, const s
   });
 }
 
-Result<ClockStore> read_clocks(const std::filesystem::path& root) {
+Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& family) {
   ClockStore clocks;
-  const std::filesystem::path path = root / c_clocks;
+  const std::filesystem::path path = root / clocks_file(family);
   if (!std::filesystem::exists(path)) return clocks;
   const auto table = read_csv(path);
   if (!table) return table.error();
   for (std::size_t row = 0; row < table->rows.size(); ++row) {
     bool right = true;
-    const auto number = [&](const char* column) {
-      const auto value = table->number(row, column);
+    const auto number = [&](std::string_view column) {
+      const auto value = table->number(row, std::string(column));
       right = right && value && *value >= 0;
       return right ? *value : 0;
     };
-    const auto count = [&](const char* column) { return to_integer<std::uint64_t>(number(column)); };
-    const StoredClock clock{.cells = {count("luts"), count("carries"), count("flip_flops"), count("rams")},
-                            .mhz = number("mhz"),
-                            .seeds = static_cast<unsigned>(count("seeds")),
-                            .tools = table->text(row, "tools"),
-                            .netlist = table->text(row, "netlist"),
-                            .hardware = table->text(row, "hardware")};
+    const auto count = [&](std::string_view column) { return to_integer<std::uint64_t>(number(column)); };
+    StoredClock clock{.cells = {},
+                      .mhz = number("mhz"),
+                      .seeds = static_cast<unsigned>(count("seeds")),
+                      .tools = table->text(row, "tools"),
+                      .netlist = table->text(row, "netlist"),
+                      .hardware = table->text(row, "hardware")};
+    for (const CellColumn& column : family.columns) clock.cells.*column.number = count(column.name);
     right = right && !clock.netlist.empty() && clocks.emplace(table->text(row, "design"), clock).second;
     if (!right)
       return bad_input(
@@ -58,15 +56,17 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root) {
   return clocks;
 }
 
-Status write_clocks(const std::filesystem::path& root, const ClockStore& clocks) {
-  Table table{c_columns, {}};
+Status write_clocks(const std::filesystem::path& root, const Family& family, const ClockStore& clocks) {
+  Table table{{"design"}, {}};
+  for (const CellColumn& column : family.columns) table.columns.emplace_back(column.name);
+  table.columns.insert(table.columns.end(), {"mhz", "seeds", "tools", "netlist", "hardware"});
   for (const auto& [design, clock] : clocks) {
-    const auto text = [&](std::uint64_t Cells::* number) { return std::to_string(clock.cells.*number); };
-    table.rows.push_back({design, text(&Cells::luts), text(&Cells::carries), text(&Cells::flip_flops),
-                          text(&Cells::rams), fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds),
-                          clock.tools, clock.netlist, clock.hardware});
+    std::vector<std::string>& row = table.rows.emplace_back(1, design);
+    for (const CellColumn& column : family.columns) row.push_back(std::to_string(clock.cells.*column.number));
+    row.insert(row.end(), {fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds), clock.tools,
+                           clock.netlist, clock.hardware});
   }
-  return write_file(root / c_clocks, to_csv(table));
+  return write_file(root / clocks_file(family), to_csv(table));
 }
 
 }  // namespace halfway::synth

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measured clocks that are kept in the checkout: docs/results/clocks.csv, written by
+// The measured clocks that are kept in the checkout, one file for each device, written by
 // `make evidence PAGE=clocks`.
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace halfway::synth {
 
-/// Relative to the project's root.
-inline constexpr const char* c_clocks = "docs/results/clocks.csv";
+/// The file of the family's device, relative to the project's root: docs/results/clocks_hx8k.csv.
+std::string clocks_file(const Family& family);
 
 struct StoredClock {
-  Cells cells;             ///< on an iCE40
+  Cells cells;             ///< on the device
   double mhz = 0;          ///< median of the placements; 0: the hardware is not placed
   unsigned seeds = 0;      ///< number of placements
   std::string tools{};     ///< Synthesizer::versions
@@ -34,7 +34,7 @@ ClockStore::const_iterator clock_by_other_ghdl(const ClockStore& clocks, const s
                                                const std::string& ghdl);
 
 /// Empty if there is no file.
-Result<ClockStore> read_clocks(const std::filesystem::path& root);
-Status write_clocks(const std::filesystem::path& root, const ClockStore& clocks);
+Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& family);
+Status write_clocks(const std::filesystem::path& root, const Family& family, const ClockStore& clocks);
 
 }  // namespace halfway::synth

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -13,11 +14,14 @@ TEST(ClockStore, ReadsWhatItWrites) {
   const auto folder = TemporaryFolder::make(std::filesystem::temp_directory_path());
   ASSERT_TRUE(folder) << folder.error().message;
   const std::filesystem::path root = folder->path();
-  EXPECT_TRUE(read_clocks(root)->empty());
-  ASSERT_TRUE(make_folders((root / c_clocks).parent_path()));
-  ASSERT_TRUE(write_clocks(root, {{"a", {{1, 2, 3, 4}, 87.54, 3, "GHDL 2, Yosys 1", "ab", "e g_a=1"}},
-                                  {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
-  const auto clocks = read_clocks(root);
+  const std::filesystem::path file = root / clocks_file(c_ice40);
+  EXPECT_EQ(clocks_file(c_ice40), "docs/results/clocks_hx8k.csv");
+  EXPECT_TRUE(read_clocks(root, c_ice40)->empty());
+  ASSERT_TRUE(make_folders(file.parent_path()));
+  ASSERT_TRUE(write_clocks(root, c_ice40,
+                           {{"a", {{1, 2, 3, 4}, 87.54, 3, "GHDL 2, Yosys 1", "ab", "e g_a=1"}},
+                            {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
+  const auto clocks = read_clocks(root, c_ice40);
   ASSERT_TRUE(clocks) << clocks.error().message;
   ASSERT_EQ(clocks->size(), 2U);
   const StoredClock& a = clocks->at("a");
@@ -36,15 +40,31 @@ TEST(ClockStore, ReadsWhatItWrites) {
   EXPECT_EQ(clock_by_other_ghdl(*clocks, "e g_a=1", "GHDL 2"), clocks->end());
   EXPECT_EQ(clock_by_other_ghdl(*clocks, "e g_a=2", "GHDL 5"), clocks->end());
 
-  const auto text = read_file(root / c_clocks);
+  const auto text = read_file(file);
   ASSERT_TRUE(text);
   for (const char* line :
        {"a,1,2,3,4,5,6,,ef,\n", "b,1,2,x,4,5,6,,ef,\n", "b,1,2,-3,4,5,6,,ef,\n", "b,1,2,3,4,5,6,,,\n"}) {
-    ASSERT_TRUE(write_file(root / c_clocks, *text + line));
-    const auto wrong = read_clocks(root);
+    ASSERT_TRUE(write_file(file, *text + line));
+    const auto wrong = read_clocks(root, c_ice40);
     ASSERT_FALSE(wrong) << line;
-    EXPECT_THAT(wrong.error().message, ::testing::HasSubstr("clocks.csv:4: ")) << line;
+    EXPECT_THAT(wrong.error().message, ::testing::HasSubstr("clocks_hx8k.csv:4: ")) << line;
   }
+}
+
+// The clocks of two devices do not mix, and each file has its family's cells.
+TEST(ClockStore, IsOfOneDevice) {
+  const TemporaryFolder folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  const std::filesystem::path root = folder.path();
+  ASSERT_TRUE(make_folders((root / clocks_file(c_ecp5)).parent_path()));
+  const StoredClock clock{.cells = {.luts = 1, .carries = 9, .flip_flops = 2, .rams = 3, .multipliers = 4},
+                          .mhz = 99,
+                          .netlist = "ab"};
+  ASSERT_TRUE(write_clocks(root, c_ecp5, {{"a", clock}}));
+  EXPECT_TRUE(must(read_clocks(root, c_ice40)).empty());
+  EXPECT_EQ(must(read_clocks(root, c_ecp5)).at("a").cells,
+            (Cells{.luts = 1, .flip_flops = 2, .rams = 3, .multipliers = 4}));
+  EXPECT_THAT(must(read_file(root / clocks_file(c_ecp5))),
+              ::testing::StartsWith("design,luts,flip_flops,rams,multipliers,mhz,"));
 }
 
 }  // namespace

@@ -16,22 +16,24 @@ namespace halfway::synth {
 
 inline constexpr const char* c_not_placed = "not placed";
 inline constexpr const char* c_stored = "stored";
+inline constexpr const char* c_placed = "placed";
 
 struct Cost {
+  std::string device{};        ///< Device::title
   std::optional<Cells> cells;  ///< generic_cells; std::nullopt without Yosys
-  /// On an iCE40 HX8K with registered ports: the median of c_seeds placements.
+  /// On the family's device with registered ports: the median of c_seeds placements.
   std::optional<double> mhz;
   /// Origin of the clock: `stored` or `placed`; otherwise the reason why there is none.
   std::string clock = c_not_placed;
   /// Cells of hardware that was placed, in this run or for the store, without the port registers.
-  std::optional<Cells> ice40;
+  std::optional<Cells> device_cells;
   /// False: the hardware is larger than the device, so it has no clock.
   bool fits = true;
   /// Of hardware that does not fit: the slowest of its parts whose clock is stored, and that clock. The clock
   /// of the whole is not higher. Empty: no part's clock is stored.
   std::string slowest_part{};
   std::optional<double> part_mhz{};
-  /// Tool versions for all values, such as `placed with nextpnr-ice40 0.4, cells by Yosys 0.23`.
+  /// Tool versions for all values, such as `placed with nextpnr-ecp5 0.7, cells by Yosys 0.52`.
   std::string tools{};
 };
 
@@ -39,11 +41,15 @@ struct Cost {
 /// 16 bits.
 double cell_count(const Cells& cells);
 
+/// Costs on the device of one family.
 class Costing {
  public:
   /// The source folder has the stored clocks; the cache keeps results of tools.
-  explicit Costing(const SimulatorFolders& folders)
-      : cache_(folders.cache), clocks_(must(read_clocks(folders.source))), ghdl_(ghdl_name()) {}
+  Costing(const SimulatorFolders& folders, const Family& family)
+      : family_(family),
+        cache_(folders.cache),
+        clocks_(must(read_clocks(folders.source, family))),
+        ghdl_(ghdl_name()) {}
 
   const ClockStore& clocks() const { return clocks_; }
   /// The stored clock and cells, if there are any. Needs only GHDL.
@@ -53,7 +59,10 @@ class Costing {
   Cost of(const Design& design, bool place) const;
 
  private:
+  void take_size(Cost& cost) const;
+  void add_placement(const Synthesizer& synthesizer, const Design& design, Cost& cost) const;
   void add_slowest_part(const Design& design, Cost& cost) const;
+  const Family& family_;
   std::filesystem::path cache_;
   ClockStore clocks_;
   std::string ghdl_;

@@ -30,9 +30,9 @@ struct CellKind {
   std::uint64_t weight = 1;
 };
 
-/// A number of the page of synthesis.
+/// A number of the page of synthesis, and of the stored clocks.
 struct CellColumn {
-  std::string_view title;
+  std::string_view title, name;
   std::uint64_t Cells::* number;
 };
 
@@ -49,7 +49,7 @@ struct PlacedNames {
 
 /// The device on which a family's designs are placed.
 struct Device {
-  std::string_view name;
+  std::string_view option, name, title;  ///< of --device; in messages; with the family, after "an"
   /// Logic cells, the largest number of them that nextpnr's placers can place, block RAMs and multipliers.
   std::uint64_t cells, most_placed, rams, multipliers;
   std::string_view placer;                            ///< program
@@ -75,15 +75,17 @@ inline constexpr CellKind c_ice40_kinds[] = {{"SB_LUT4", &Cells::luts},
                                              {"SB_CARRY", &Cells::carries},
                                              {"SB_DFF", &Cells::flip_flops},
                                              {"SB_RAM40_4K", &Cells::rams}};
-inline constexpr CellColumn c_ice40_columns[] = {{"LUTs", &Cells::luts},
-                                                 {"carries", &Cells::carries},
-                                                 {"flip-flops", &Cells::flip_flops},
-                                                 {"RAMs", &Cells::rams}};
+inline constexpr CellColumn c_ice40_columns[] = {{"LUTs", "luts", &Cells::luts},
+                                                 {"carries", "carries", &Cells::carries},
+                                                 {"flip-flops", "flip_flops", &Cells::flip_flops},
+                                                 {"RAMs", "rams", &Cells::rams}};
 inline constexpr std::string_view c_ice40_packed[] = {"_DFFLC", "_LC", "_RAM", "$nextpnr_RAM"};
 inline constexpr std::string_view c_hx8k_options[] = {"--hx8k", "--package", "ct256"};
 inline constexpr std::string_view c_hx8k_clock_options[] = {"--no-promote-globals"};
 /// nextpnr 0.4's placers do not finish at 95 % of the logic cells.
-inline constexpr Device c_hx8k = {.name = "HX8K",
+inline constexpr Device c_hx8k = {.option = "hx8k",
+                                  .name = "HX8K",
+                                  .title = "iCE40 HX8K",
                                   .cells = 7680,
                                   .most_placed = 6912,
                                   .rams = 32,
@@ -112,15 +114,17 @@ inline constexpr CellKind c_ecp5_kinds[] = {{"LUT4", &Cells::luts},
                                             // Multiplexers between the LUTs of a slice.
                                             {"PFUMX", nullptr},
                                             {"L6MUX21", nullptr}};
-inline constexpr CellColumn c_ecp5_columns[] = {{"ECP5: LUTs", &Cells::luts},
-                                                {"ECP5: flip-flops", &Cells::flip_flops},
-                                                {"ECP5: RAMs", &Cells::rams},
-                                                {"ECP5: multipliers", &Cells::multipliers}};
+inline constexpr CellColumn c_ecp5_columns[] = {{"ECP5: LUTs", "luts", &Cells::luts},
+                                                {"ECP5: flip-flops", "flip_flops", &Cells::flip_flops},
+                                                {"ECP5: RAMs", "rams", &Cells::rams},
+                                                {"ECP5: multipliers", "multipliers", &Cells::multipliers}};
 inline constexpr std::string_view c_ecp5_options[] = {"--85k", "--package", "CABGA756", "--speed", "6"};
 /// Without buffers for pins and global signals: the design is a part of a larger one.
 inline constexpr std::string_view c_ecp5_clock_options[] = {"--out-of-context"};
 inline constexpr Device c_lfe5u_85f = {
+    .option = "ecp5",
     .name = "LFE5U-85F",
+    .title = "ECP5 LFE5U-85F",
     .cells = 83640,
     .most_placed = 83640,
     .rams = 208,
@@ -156,6 +160,15 @@ inline constexpr Family c_families[] = {{.name = "ice40",
                                          .multiplier_bits = 18}};
 inline constexpr const Family& c_ice40 = c_families[0];
 inline constexpr const Family& c_ecp5 = c_families[1];
+/// Whose clocks and cells the commands show, if no device is given.
+inline constexpr const Family& c_default_family = c_ecp5;
+
+/// The family of the device with this option; nullptr: there is none.
+constexpr const Family* family_of(std::string_view option) {
+  for (const Family& family : c_families)
+    if (family.device->option == option) return &family;
+  return nullptr;
+}
 
 }  // namespace synth
 }  // namespace halfway

@@ -16,6 +16,9 @@ namespace halfway::report {
 namespace {
 
 constexpr double c_ms = 1e-6;  // ns to ms
+constexpr const char* c_arrow_text =
+    "An arrow: at least this time, by the clock of the slowest placed part; the design does not fit this "
+    "FPGA. ";
 
 double ms(const Table& table, std::size_t row, const char* column) {
   return c_ms * table.number(row, column).value_or(0.0);
@@ -110,6 +113,13 @@ std::string size_of(const Table& picture) {
   return fmt::format("{}×{}", picture.text(0, "width"), picture.text(0, "height"));
 }
 
+// The device that the hardware's clocks are of.
+std::string device_of(const Table& picture) {
+  for (std::size_t row = 0; row < picture.rows.size(); ++row)
+    if (!picture.text(row, "device").empty()) return picture.text(row, "device");
+  return "FPGA";
+}
+
 // The rows of the README: those of the front, and Phong shading in software whether a design beats it or not.
 std::vector<std::size_t> short_rows(const Table& picture, const std::vector<std::size_t>& front) {
   std::vector<std::size_t> rows = by_time(picture);
@@ -172,20 +182,22 @@ std::string readme_times(const Table& times) {
   std::ranges::copy_if(front, std::back_inserter(hardware),
                        [&](std::size_t row) { return is_hardware(picture, row); });
   if (hardware.size() < 2) throw Failure{bad_input("times: fewer than two designs of hardware to compare")};
+  bool any_least = false;
+  for (std::size_t row = 0; row < picture.rows.size(); ++row) any_least = any_least || is_least(picture, row);
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one grey sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
-      "host's set-up on one core, and the hardware at its clock on an iCE40. The transfer between them and "
+      "host's set-up on one core, and the hardware at its clock on an {4}. The transfer between them and "
       "the depth test after the hardware are not counted. On the dashed line, no other design is both "
-      "quicker and more accurate. An arrow: at least this time, by the clock of the slowest placed part; the "
-      "design "
-      "does not fit the iCE40. phong, phong-mesa: Phong shading per pixel in software on one core, by the "
+      "quicker and more accurate. {5}phong, phong-mesa: Phong shading per pixel in software on one core, by "
+      "the "
       "reference in double precision and by OpenGL on Mesa's llvmpipe. planes: Gouraud's shading in "
       "hardware. adaptive: quadratic, triangles split until the estimated error is below the threshold, in "
       "colour steps; quadratic: never split.*\n\n"
       "| design | ms per frame, overlapped | bound by | in sequence | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",
-      picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture));
+      picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture),
+      device_of(picture), any_least ? c_arrow_text : "");
   const std::vector<std::size_t> rows = short_rows(picture, front);
   for (const std::size_t row : rows)
     text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", picture.text(row, "design"),

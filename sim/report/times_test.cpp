@@ -18,15 +18,17 @@ using ::testing::Not;
 constexpr const char* c_times =
     "scene_hash,point,design,method,preset,form,tessellation,exponent,width,height,hardware,triangles,"
     "host_ns,host_instructions,words,hardware_ns,overlapped_ns,sequential_ns,bound,rms,largest_error,"
-    "perceived_pixels,clock_mhz,slowest_part\n"
-    "7,q at,q,quadratic,published,,1,20,64,48,k,690,2e5,1e6,5,1e6,1e6,1.2e6,hardware,8,9,10,135.0,\n"
-    "7,s at,s,spherical,exact,,1,20,64,48,k,690,3e6,1e6,5,1e6,3e6,4e6,host,5,9,10,105.0,\n"
-    "7,a at,a,adaptive,exact,,1,20,64,48,k,690,1e6,1e6,5,2e6,2e6,3e6,hardware,2,3,4,105.0,\n"
+    "perceived_pixels,clock_mhz,slowest_part,device\n"
+    "7,q at,q,quadratic,published,,1,20,64,48,k,690,2e5,1e6,5,1e6,1e6,1.2e6,hardware,8,9,10,135.0,,FPGA 1\n"
+    "7,s at,s,spherical,exact,,1,20,64,48,k,690,3e6,1e6,5,1e6,3e6,4e6,host,5,9,10,105.0,,FPGA 1\n"
+    "7,a at,a,adaptive,exact,,1,20,64,48,k,690,1e6,1e6,5,2e6,2e6,3e6,hardware,2,3,4,105.0,,FPGA 1\n"
     "7,v "
-    "at,v,processors-2,exact,folded,1,20,64,48,k,690,3e5,1e6,5,1.5e6,1.5e6,1.8e6,hardware,1,3,4,40.9,dot\n"
-    "7,p at,phong,phong,,,1,20,64,48,,690,1e7,,,,1e7,1e7,host,0,0,0,,\n"
-    "7,m at,phong-mesa,phong-mesa,,,1,20,64,48,,690,6e6,,,,6e6,6e6,host,3,3,4,,\n"
-    "7,q large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10,135.0,\n";
+    "at,v,processors-2,exact,folded,1,20,64,48,k,690,3e5,1e6,5,1.5e6,1.5e6,1.8e6,hardware,1,3,4,40.9,dot,"
+    "FPGA 1\n"
+    "7,p at,phong,phong,,,1,20,64,48,,690,1e7,,,,1e7,1e7,host,0,0,0,,,\n"
+    "7,m at,phong-mesa,phong-mesa,,,1,20,64,48,,690,6e6,,,,6e6,6e6,host,3,3,4,,,\n"
+    "7,q large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10,135.0,,FPGA "
+    "1\n";
 
 using TimesTest = TableTest;
 
@@ -51,6 +53,7 @@ TEST_F(TimesTest, SentencesAreOfTheFront) {
             HasSubstr(
                 "- The rms error of a is 4 times smaller than that of q. Its frame takes 2 times as long.\n"),
             HasSubstr("- phong takes 5 times as long as a overlapped, and 3.3 times in sequence.\n"),
+            HasSubstr("the hardware at its clock on an FPGA 1."), HasSubstr("An arrow: at least this time"),
             HasSubstr("| phong-mesa | 6 | host | 6 | 3 | 3 |\n| phong | 10 |"),
             HasSubstr("- phong-mesa takes 3 times as long as a overlapped, and 2 times in sequence.\n"),
             Not(HasSubstr("| s |")), Not(HasSubstr("| v |"))));

@@ -50,7 +50,8 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
           {"clock_mhz", time.mhz ? fmt::format("{:.1f}", *time.mhz) : ""},
           {"slowest_part", time.slowest_part},
           {"highlight_test", p.method == Method::adaptive ? to_string(p.test) : ""},
-          {"span_ends", p.has_ends() ? to_string(p.ends) : ""}};
+          {"span_ends", p.has_ends() ? to_string(p.ends) : ""},
+          {"device", time.device}};
 }
 
 constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";
@@ -79,9 +80,13 @@ std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const 
     FrameTime time{.record = at, .host_ns = measured.host_time->ns};
     if (in_hardware(point.method)) {
       time.mhz = mhz_of(measured.hardware, hardware, clock);
-      if (const auto found = hardware.find(measured.hardware); !time.mhz && found != hardware.end()) {
-        time.mhz = found->second.part_mhz;
-        time.slowest_part = found->second.slowest_part;
+      if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
+        const synth::Cost& cost = found->second;
+        time.device = cost.device;
+        if (!time.mhz) {
+          time.mhz = cost.part_mhz;
+          time.slowest_part = cost.slowest_part;
+        }
       }
       if (!time.mhz) {
         ++picture->without_clock;

@@ -20,6 +20,7 @@ struct FrameTime {
   std::size_t record = 0;             ///< index of the record
   double host_ns = 0;                 ///< one core of the machine that measured it
   std::optional<double> hardware_ns;  ///< the frame's cycles at the hardware's clock; std::nullopt: software
+  std::string device{};               ///< Cost::device
   std::optional<double> mhz{};        ///< the hardware's clock
   std::string slowest_part{};         ///< the part with that clock; empty: it is the clock of the whole
   /// True if the hardware, and so the frame, takes this time or more.

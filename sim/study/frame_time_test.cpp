@@ -112,6 +112,7 @@ TEST_F(FrameTimes, FrontIsByOverlappedTimeAndError) {
 TEST_F(FrameTimes, TableHasEveryKnownTime) {
   hardware_["p"].slowest_part = "dot_product_exact";
   hardware_["p"].part_mhz = 40.0;
+  for (auto& [name, cost] : hardware_) cost.device = "FPGA 1";
   add(Method::quadratic, "q", 1e5, 20'000, 4);
   add(Method::phong, "", 5e6, 0, 0);
   add(Method::processors_2, "p", 1e5, 20'000, 0);
@@ -121,6 +122,8 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
   const auto table = must(read_csv(file));
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(table.text(0, "slowest_part"), "");
+  EXPECT_EQ(table.text(0, "device"), "FPGA 1");
+  EXPECT_EQ(table.text(1, "device"), "");
   EXPECT_EQ(table.text(1, "clock_mhz"), "");
   EXPECT_EQ(table.text(2, "clock_mhz"), "40.0");
   EXPECT_EQ(table.text(2, "slowest_part"), "dot_product_exact");

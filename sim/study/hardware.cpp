@@ -92,7 +92,7 @@ HardwareTable hardware_figures(const std::string& scene, std::span<const Record>
     if (in_hardware(record.point.method) && table.try_emplace(record.measured.hardware).second)
       points.push_back(record.point);
   const std::vector<synth::Design> designs = hardware_of_space(scene, points, folders);
-  const synth::Costing costing(folders);
+  const synth::Costing costing(folders, *options.family);
   std::size_t done = 0;
   std::mutex mutex;
   must_for_each(options.threads, designs.size(), [&](std::size_t at) {
@@ -105,13 +105,13 @@ HardwareTable hardware_figures(const std::string& scene, std::span<const Record>
 }
 
 Placements::Placements(const std::string& scene, std::span<const DesignPoint> points,
-                       const SimulatorFolders& folders, const std::string& rtl)
+                       const SimulatorFolders& folders, const std::string& rtl, const synth::Family& family)
     : hardware_(hardware_of_space(scene, points, folders)),
-      costing_(folders),
-      cache_(folders.cache),
+      costing_(folders, family),
+      synthesizer_(synth::Synthesizer::open(folders.cache, true, family)),
       marks_(folders.cache / "placed") {
   ContentHash made_by;
-  made_by.add("placed 2").add(rtl).add(synth::Synthesizer::open(folders.cache, true).versions());
+  made_by.add("placed 2").add(rtl).add(synthesizer_.versions());
   for (const auto& [name, clock] : costing_.clocks()) made_by.add(clock.netlist);
   made_by_ = made_by.hex();
   must(make_folders(marks_));
@@ -132,10 +132,8 @@ bool Placements::is_done(std::size_t number) const {
 void Placements::make(std::size_t number) const {
   const synth::Design& design = design_of(number);
   const synth::Cost cost = costing_.of(design, false);
-  if (!cost.mhz && cost.fits) {
-    const synth::Synthesizer synthesizer = synth::Synthesizer::open(cache_, true);
-    if (synthesizer.no_room(design).empty()) synthesizer.place(design, seed_of(number));
-  }
+  if (!cost.mhz && cost.fits && synthesizer_.no_room(design).empty())
+    synthesizer_.place(design, seed_of(number));
   must(write_file(mark(number), ""));
 }
 

@@ -47,6 +47,7 @@ struct FiguresOptions {
   unsigned threads = 1;
   /// Synthesize and place hardware without a stored clock (minutes each). false: such clocks stay unknown.
   bool place = false;
+  const synth::Family* family = &synth::c_default_family;  ///< whose device is placed
   std::function<void(const std::string&)> on_progress = [](const std::string&) {};
 };
 
@@ -66,7 +67,7 @@ class Placements {
   /// `points`: one for each hardware. `rtl`: the hash of all RTL. If a tool is missing, the error names the
   /// package to install.
   Placements(const std::string& scene, std::span<const DesignPoint> points, const SimulatorFolders& folders,
-             const std::string& rtl);
+             const std::string& rtl, const synth::Family& family);
 
   std::size_t count() const { return hardware_.size() * synth::c_seeds; }
   bool is_done(std::size_t number) const;
@@ -82,7 +83,7 @@ class Placements {
 
   std::vector<synth::Design> hardware_;
   synth::Costing costing_;
-  std::filesystem::path cache_;
+  synth::Synthesizer synthesizer_;
   std::filesystem::path marks_;
   std::string made_by_;  ///< hash of all that a placement depends on, except the hardware's name and the seed
 };

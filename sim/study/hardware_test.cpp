@@ -33,7 +33,9 @@ echo >mapped.il
 echo '{"modules": {"wrapped": {"ports": {"clk": {"bits": [2]}}, "cells": {}, "netnames": {}}}}' >wrapped.json
 case "$*" in
   *synth_ice40*) echo '{"design": {"num_cells_by_type": {"SB_LUT4": '$LUTS', "SB_DFF": 4}}}' >cells.json ;;
-  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": '$FLIP_FLOPS'}}}' >cells.json ;;
+  *) echo '{"design": {"num_cells_by_type": {"$lut": 20, "$_DFF_P_": '$FLIP_FLOPS$PRODUCT'}}}' >cells.json
+     echo '{"modules": {"m": {"cells": {"c": {"type": "multiplier_cell", "connections": {"A": [2, 3],
+       "B": [4, 5], "Y": [6, 7]}, "parameters": {"A_SIGNED": "0", "B_SIGNED": "0"}}}}}}' >multipliers.json ;;
 esac
 )";
 constexpr const char* c_nextpnr = R"(#!/bin/sh
@@ -66,6 +68,7 @@ class HardwareFiguresTest : public ::testing::Test {
     put_program(bin / "nextpnr-ice40", c_nextpnr);
     ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
     ::setenv("LOG", log().c_str(), 1);
+    ::unsetenv("PRODUCT");
     set_results("4", "30", "6912");  // as full as can be placed
     key_ = hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_)).key;
     Record record{point_, {}};
@@ -75,7 +78,7 @@ class HardwareFiguresTest : public ::testing::Test {
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
   void store(const synth::ClockStore& clocks) const {
-    ASSERT_TRUE(synth::write_clocks(folders_.source, clocks));
+    ASSERT_TRUE(synth::write_clocks(folders_.source, *family_, clocks));
   }
   std::string netlist_of(const std::string& entity,
                          const std::vector<std::pair<std::string, std::string>>& generics) const {
@@ -93,13 +96,15 @@ class HardwareFiguresTest : public ::testing::Test {
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
   }
   synth::Cost figures(bool place) const {
-    return hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place}).at(key_.name());
+    return hardware_figures(scene_, records_, folders_, {.threads = 2, .place = place, .family = family_})
+        .at(key_.name());
   }
 
   const std::string path_ = std::getenv("PATH");
   const std::string scene_ = c_source_folder / "sim/study/spaces/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
   const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
+  const synth::Family* family_ = &synth::c_ice40;
   SimulatorFolders folders_;
   HardwareKey key_;
   std::vector<Record> records_;
@@ -137,7 +142,7 @@ TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlFo
   const synth::Cost stored = figures(true);
   EXPECT_EQ(stored.mhz, 87.5);
   EXPECT_EQ(stored.clock, synth::c_stored);
-  EXPECT_EQ(stored.ice40, (Cells{1, 2, 3, 4}));
+  EXPECT_EQ(stored.device_cells, (Cells{1, 2, 3, 4}));
   EXPECT_EQ(stored.tools, "placed with Placer 1, cells by Yosys 0.23");
   EXPECT_EQ(placements(), 0U);
   store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist + "0"}}});
@@ -168,7 +173,7 @@ TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsCached) {
   EXPECT_EQ(placed.mhz, 102.0);
   EXPECT_EQ(placed.clock, "placed");
   EXPECT_TRUE(placed.fits);
-  EXPECT_EQ(placed.ice40, (Cells{.luts = 30, .flip_flops = 4}));
+  EXPECT_EQ(placed.device_cells, (Cells{.luts = 30, .flip_flops = 4}));
   EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
                                 "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
   EXPECT_EQ(placements(), synth::c_seeds);
@@ -192,23 +197,60 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
   EXPECT_EQ(placements(), 0U);
 }
 
+// Each device has its own clocks, cells and limits, for the same netlist.
+TEST_F(HardwareFiguresTest, CostsAreThoseOfTheDevice) {
+  const std::string netlist = netlist_of(key_.entity(), key_.generics());
+  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist}}});
+  EXPECT_EQ(figures(false).device, "iCE40 HX8K");
+  family_ = &synth::c_ecp5;
+  EXPECT_FALSE(figures(false).mhz);
+  set_results("7681", "30", "40");
+  EXPECT_TRUE(figures(false).fits);
+  store({{"any", {{.luts = 5, .multipliers = 6}, 120.5, 3, "Placer 2", netlist}}});
+  const synth::Cost stored = figures(true);
+  EXPECT_EQ(stored.device, "ECP5 LFE5U-85F");
+  EXPECT_EQ(stored.mhz, 120.5);
+  EXPECT_EQ(stored.device_cells, (Cells{.luts = 5, .multipliers = 6}));
+  store({{"any", {{.multipliers = 157}, 0, 0, "Placer 2", netlist}}});
+  EXPECT_EQ(figures(false).clock, "does not fit the LFE5U-85F: 157 multipliers of 156");
+}
+
+// Where a device has multipliers, products in LUTs say nothing about its room.
+TEST_F(HardwareFiguresTest, ProductsFillOnlyADeviceWithoutMultipliers) {
+  const auto fits = [&](const synth::Family& family) {
+    family_ = &family;
+    return figures(false).fits;
+  };
+  set_results("83641", "30", "40");
+  EXPECT_FALSE(fits(synth::c_ecp5));
+  set_results("4", "7681", "40");
+  ::setenv("PRODUCT", ", \"multiplier_cell\": 1", 1);
+  std::filesystem::remove_all(folders_.cache / "synth");
+  EXPECT_FALSE(fits(synth::c_ice40));
+  EXPECT_TRUE(fits(synth::c_ecp5));
+}
+
 // The stored clocks must be of the netlists of the current RTL, by the GHDL that they were placed with.
 TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
   auto points = read_space(c_source_folder / "sim/study/spaces/small.toml");
   std::erase_if(points, [](const DesignPoint& point) {
     return point.method == Method::processors_1 || point.method == Method::processors_2;
   });
-  std::size_t clocks = 0;
   const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   const std::string scene = c_source_folder / "sim/study/spaces/sphere.toml";
-  const synth::Costing costing(folders);
-  for (const synth::Design& design : hardware_of_space(scene, points, folders)) {
-    const synth::Cost cost = costing.stored(design);
-    EXPECT_EQ(cost.clock == synth::c_stored, cost.mhz.has_value());
-    EXPECT_NE(cost.clock, synth::c_not_placed) << design.name << ": make evidence PAGE=clocks places it";
-    clocks += cost.mhz ? 1 : 0;
+  const std::vector<synth::Design> hardware = hardware_of_space(scene, points, folders);
+  for (const synth::Family& family : synth::c_families) {
+    const synth::Costing costing(folders, family);
+    std::size_t clocks = 0;
+    for (const synth::Design& design : hardware) {
+      const synth::Cost cost = costing.stored(design);
+      EXPECT_EQ(cost.clock == synth::c_stored, cost.mhz.has_value());
+      EXPECT_NE(cost.clock, synth::c_not_placed)
+          << design.name << ", " << cost.device << ": make evidence PAGE=clocks places it";
+      clocks += cost.mhz ? 1 : 0;
+    }
+    EXPECT_GT(clocks, 18U) << family.device->title;
   }
-  EXPECT_GT(clocks, 18U);
 }
 
 // Placements as pieces of a study: the cache entries of all parts suffice for the table.
@@ -218,7 +260,8 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
                          .out = folder_.path() / "out",
                          .parts = synth::c_seeds,
                          .folders = folders_,
-                         .placed = {point_}};
+                         .placed = {point_},
+                         .family = family_};
   EXPECT_EQ(most_parts(settings), synth::c_seeds);
   const auto open = [&] { return open_parts(settings); };
   const auto run = [&](std::size_t part) {
@@ -246,8 +289,11 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
 
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   set_results("4", "7681", "40");
-  const StudySettings settings{
-      .scene = scene_, .out = folder_.path() / "out", .folders = folders_, .placed = {point_}};
+  const StudySettings settings{.scene = scene_,
+                               .out = folder_.path() / "out",
+                               .folders = folders_,
+                               .placed = {point_},
+                               .family = family_};
   EXPECT_EQ(run_study(settings).placements, synth::c_seeds);
   EXPECT_EQ(placements(), 0U);
   EXPECT_TRUE(open_parts(settings).empty());

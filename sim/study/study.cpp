@@ -65,7 +65,8 @@ class Bench {
         shelf_(settings.scene, scenes()) {
     must(make_folders(points()));
     if (!settings.placed.empty())
-      placements_.emplace(settings.scene, settings.placed, settings.folders, provenance_.rtl);
+      placements_.emplace(settings.scene, settings.placed, settings.folders, provenance_.rtl,
+                          *settings.family);
   }
 
   const Provenance& provenance() const { return provenance_; }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cost/families.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/record.hpp"
@@ -24,6 +25,7 @@ struct StudySettings {
   /// Drawable::hardware, if its placements are pieces of the study too. They are cut into parts separately,
   /// because each takes as long as many points.
   std::vector<DesignPoint> placed;
+  const synth::Family* family = &synth::c_default_family;  ///< of the device for these placements
   /// The worker for host_instructions. Empty: do not count instructions.
   std::vector<std::string> set_up;
   bool host_times = false;  ///< also measure Measurement::host_time; only in a run of all parts

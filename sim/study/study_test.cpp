@@ -400,17 +400,18 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
       lines[0],
       EndsWith(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
                "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
-               "frame_ns,fragment_ns,ice40_luts,ice40_carries,ice40_flip_flops,ice40_rams,"
+               "frame_ns,fragment_ns,device,device_luts,device_carries,device_flip_flops,device_rams,"
+               "device_multipliers,"
                "angle_bits,fraction_bits,seed_bits,newton,tiles,highlight_test,span_ends,own_tables"));
   EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
-                                 ",,,,,,,,,,,,,,1,,,"));
+                                 ",,,,,,,,,,,,,,,,1,,,"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
   // The line names the tools that made its figures.
   EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
   EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
              fragments = static_cast<double>(made.records[2].measured.fragments);
-  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"stored\",{:.6g},{:.6g},,,,,,,,,1,,,", 12.5 * cycles,
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"stored\",{:.6g},{:.6g},,,,,,,,,,,1,,,", 12.5 * cycles,
                                              12.5 * cycles / fragments)));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {

@@ -61,7 +61,7 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
   const auto& [p, m] = record;
   const synth::Cost hardware = known != nullptr ? *known : synth::Cost{};
   const std::optional<Cells>& cells = hardware.cells;
-  const std::optional<Cells>& ice40 = hardware.ice40;
+  const std::optional<Cells>& on_device = hardware.device_cells;
   const auto cycles = static_cast<double>(m.cycles);
   std::optional<double> frame_ns, fragment_ns;
   if (hardware.mhz) frame_ns = 1e3 * cycles / *hardware.mhz;
@@ -97,10 +97,12 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
                      {"clock", known != nullptr ? quoted(hardware.clock) : ""},
                      {"frame_ns", text_of(frame_ns, "{:.6g}")},
                      {"fragment_ns", text_of(fragment_ns, "{:.6g}")},
-                     {"ice40_luts", text_of(ice40, &Cells::luts)},
-                     {"ice40_carries", text_of(ice40, &Cells::carries)},
-                     {"ice40_flip_flops", text_of(ice40, &Cells::flip_flops)},
-                     {"ice40_rams", text_of(ice40, &Cells::rams)},
+                     {"device", hardware.device},
+                     {"device_luts", text_of(on_device, &Cells::luts)},
+                     {"device_carries", text_of(on_device, &Cells::carries)},
+                     {"device_flip_flops", text_of(on_device, &Cells::flip_flops)},
+                     {"device_rams", text_of(on_device, &Cells::rams)},
+                     {"device_multipliers", text_of(on_device, &Cells::multipliers)},
                      knob_of(p, "angle_bits"),
                      knob_of(p, "fraction_bits"),
                      knob_of(p, "seed_bits"),

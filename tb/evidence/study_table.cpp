@@ -23,8 +23,8 @@ constexpr std::pair<const char*, const char*> c_columns[] = {
     {"line_records", "line records"},
     {"cycles", "cycles"},
     {"cells", "cells"},
-    {"ice40_luts", "LUTs of an iCE40"},
-    {"ice40_rams", "RAMs"},
+    {"device_luts", "device's LUTs"},
+    {"device_rams", "device's RAMs"},
     {"clock_mhz", "clock, MHz"},
     {"frame_ns", "ns per frame"}};
 

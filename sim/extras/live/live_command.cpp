@@ -16,6 +16,7 @@ struct LiveCommand {
   std::vector<std::string> scenes;
   std::string out = "build/live/index.html";
   unsigned threads = 0;
+  const synth::Family* family = nullptr;
 };
 
 void run(const Folders& folders, const LiveCommand& command) {
@@ -25,6 +26,7 @@ void run(const Folders& folders, const LiveCommand& command) {
        .scenes = command.scenes.empty() ? builtin_scenes(folders) : command.scenes,
        .meshes = command.scenes.empty(),
        .folders = {folders.source, folders.cache()},
+       .family = command.family,
        .threads = command.threads != 0 ? command.threads : std::max(1U, std::thread::hardware_concurrency()),
        .on_progress = [&](const std::string& what) { progress.show(what); }});
   progress.clear();
@@ -42,6 +44,7 @@ void add_live(CLI::App& app, const Folders& folders, int&) {
   sub->add_option("--out", command->out, "file to write")->capture_default_str();
   sub->add_option("--threads", command->threads, "threads for building (0: all cores)")
       ->capture_default_str();
+  add_device(*sub, command->family);
   sub->callback([&folders, command] { run(folders, *command); });
 }
 

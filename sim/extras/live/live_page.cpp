@@ -74,8 +74,8 @@ std::map<std::string, Hardware> build_hardware(const std::vector<HardwareKey>& k
       settings.on_progress(fmt::format("hardware {} of {}: {}", ++begun, keys.size(), name));
     }
     std::string text = packed(build_hardware_module(keys[i], settings.folders));
-    const synth::Cost cost =
-        synth::Costing(settings.folders).stored(synth::design_of(keys[i], settings.folders.source));
+    const synth::Cost cost = synth::Costing(settings.folders, *settings.family)
+                                 .stored(synth::design_of(keys[i], settings.folders.source));
     const std::lock_guard lock(mutex);
     built.emplace(name, Hardware{std::move(text), cost.mhz});
   });
@@ -113,7 +113,8 @@ LivePage write_live(const LiveSettings& settings) {
   const auto hardware = build_hardware(keys, settings);
 
   // Collect the page's data.
-  Json data = {{"clocks", Json::object()},
+  Json data = {{"device", settings.family->device->title},
+               {"clocks", Json::object()},
                {"names",
                 {{"settings", c_setting_names},
                  {"figures", c_figure_names},

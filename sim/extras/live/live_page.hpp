@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/cost/families.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 
 namespace halfway::live {
@@ -19,6 +20,7 @@ struct LiveSettings {
   std::vector<std::string> scenes;  ///< names of the built-in scenes
   bool meshes = true;               ///< with the hardware of mesh files
   SimulatorFolders folders;
+  const synth::Family* family = &synth::c_default_family;  ///< whose clocks the page shows
   unsigned threads = 1;
   std::function<void(const std::string& what)> on_progress = [](const std::string&) {};
 };

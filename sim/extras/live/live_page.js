@@ -209,8 +209,8 @@ function showFigures({ figures, key, milliseconds }) {
     ["fragments", number(figures.fragments)],
     ["error against the reference", known(figures.rms, (rms) => `${number(rms, 2)} rms, ${number(figures.largest)} at most, in steps of 1/255`)],
     ["clocks per fragment", known(figures.clocks, (clocks) => number(clocks / Math.max(1, figures.fragments), 3))],
-    ["hardware on an FPGA", clock && figures.clocks >= 0 ?
-      `${number(figures.clocks / clock / 1000, 2)} ms at ${number(clock, 1)} MHz` : "not placed"],
+    [`hardware on an ${data.device}`, clock && figures.clocks >= 0 ?
+      `${number(figures.clocks / clock / 1000, 2)} ms at ${number(clock, 1)} MHz` : "no stored clock"],
     ["set-up here", `${number(figures.setup, 1)} ms`],
     ["simulated hardware here", `${number(figures.hardware, 1)} ms, ` +
       `${number(1e6 * figures.hardware / Math.max(1, figures.fragments), 0)} ns per fragment`],

@@ -16,10 +16,14 @@
 namespace halfway::synth {
 namespace {
 
-constexpr const char* c_clocks_section = "Clocks";
-// Without thresholds.
-constexpr const char* c_studies_section = "Clocks of the hardware of studies";
-constexpr const char* c_ecp5_section = "Clocks on the ECP5 LFE5U-85F";
+// The sections of clocks with thresholds, and of the others.
+struct Sections {
+  const Family& family;
+  const char *judged, *others, *thresholds;
+};
+constexpr Sections c_sections[] = {
+    {c_ice40, "Clocks", "Clocks of the hardware of studies", "clocks"},
+    {c_ecp5, "Clocks on the ECP5 LFE5U-85F", "Other clocks on the ECP5 LFE5U-85F", "clocks_ecp5"}};
 
 // The spaces whose hardware has stored clocks, and their scene.
 constexpr const char* c_spaces[] = {"sim/study/spaces/small.toml", "sim/study/spaces/times.toml",
@@ -29,6 +33,14 @@ constexpr const char* c_space_scene = "sim/study/spaces/sphere.toml";
 struct Placed {
   Design design;
   const char* section;
+};
+
+// The hardware that is placed on a family's device, and its stored clocks.
+struct Bench {
+  const Family& family;
+  Synthesizer synthesizer;
+  std::vector<Placed> hardware;
+  ClockStore stored;
 };
 
 std::string path_text(const CriticalPath& path) {
@@ -42,11 +54,18 @@ void add_cells(const Cells& cells, const Family& family, page::Row& row) {
     row.fields.emplace_back(column.title, std::to_string(cells.*column.number));
 }
 
-page::Row clock_row(const Placed& placed, const Clock& clock) {
+std::string row_name(const Placed& placed, const Bench& bench) {
+  return fmt::format("{} {}", placed.design.name, bench.family.device->option);
+}
+
+page::Row clock_row(const Placed& placed, const Bench& bench, const Clock& clock, const Options& options) {
   const std::string& name = placed.design.name;
   const Placement* median = clock.median();
   const auto published = published_ns(name);
-  page::Row row{.name = name, .section = placed.section, .fields = {{"design", quoted(placed.design)}}};
+  page::Row row{.name = row_name(placed, bench),
+                .section = placed.section,
+                .fields = {{"design", quoted(placed.design)}},
+                .details = name};
   const auto add = [&](const char* column, const std::string& text) {
     row.fields.emplace_back(column, text);
   };
@@ -60,43 +79,44 @@ page::Row clock_row(const Placed& placed, const Clock& clock) {
   add("ns per pixel", median != nullptr ? fmt::format("{:.1f}", 1000 / median->mhz) : c_none);
   add("paper, ns", published ? std::to_string(*published) : c_none);
   add("critical path", median != nullptr ? path_text(median->path) : "not placed: " + clock.none);
+  // The page has the cells of the listed designs on both devices in another section.
+  if (!options.page || &bench.family == &c_ecp5)
+    add_cells(bench.synthesizer.cells(placed.design, bench.family), bench.family, row);
   return row;
 }
 
 std::vector<page::Value> values(std::span<const page::Row> rows) {
   std::vector<page::Value> values;
-  for (const page::Row& row : rows)
-    if (row.section == c_clocks_section && row.field("clock, MHz") != c_none)
-      values.push_back({"clocks", row.name, {std::stod(row.field("clock, MHz"))}});
+  for (const Sections& sections : c_sections)
+    for (const page::Row& row : rows)
+      if (row.section == sections.judged && row.field("clock, MHz") != c_none)
+        values.push_back({sections.thresholds, row.details, {std::stod(row.field("clock, MHz"))}});
   return values;
-}
-
-bool is_on_ecp5(const Options& options) {
-  return options.device == c_ecp5.name;
-}
-
-std::vector<Placed> hardware_of(const Options& options) {
-  std::vector<Placed> hardware;
-  for (const ListedDesign& listed : selected(options))
-    if (is_on_ecp5(options))
-      hardware.push_back({listed.design, c_ecp5_section});
-    else if (listed.ice40)
-      hardware.push_back({listed.design, c_clocks_section});
-  return hardware;
 }
 
 std::string identity_of(const Design& design, const Options& options) {
   return netlist_identity(netlist_of(design, options.folders.cache));
 }
 
+std::vector<Placed> listed_hardware(const Options& options, const Sections& sections) {
+  std::vector<Placed> hardware;
+  for (const ListedDesign& listed : selected(options))
+    if (&sections.family == &c_ice40 ? listed.ice40 : listed.ecp5)
+      hardware.push_back({listed.design, sections.judged});
+    else if (&sections.family == &c_ecp5 && !options.page)
+      hardware.push_back({listed.design, sections.others});
+  return hardware;
+}
+
 // Add the hardware of the spaces whose netlist no listed design has.
-void add_hardware_of_spaces(const Options& options, std::vector<Placed>& hardware) {
+void add_hardware_of_spaces(const Options& options, const Sections& sections, std::vector<Placed>& hardware) {
   const SimulatorFolders& folders = options.folders;
   std::set<std::string> netlists;
   for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, options));
   for (const char* space : c_spaces) {
     auto points = study::read_space(folders.source / space);
-    // Pipelines of preset exact are much too large for the device and slow to synthesize.
+    // Pipelines of preset exact are much too large for the HX8K, and on the ECP5 a seed takes over ten
+    // minutes.
     std::erase_if(points, [](const study::DesignPoint& point) {
       return point.preset == Preset::exact &&
              (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
@@ -104,8 +124,18 @@ void add_hardware_of_spaces(const Options& options, std::vector<Placed>& hardwar
     for (Design& design :
          study::hardware_of_space((folders.source / c_space_scene).string(), points, folders))
       if (netlists.insert(identity_of(design, options)).second)
-        hardware.push_back({std::move(design), c_studies_section});
+        hardware.push_back({std::move(design), sections.others});
   }
+}
+
+Bench bench_of(const Options& options, const Sections& sections) {
+  const Family& family = sections.family;
+  Bench bench{.family = family,
+              .synthesizer = Synthesizer::open(options.folders.cache, true, family),
+              .hardware = listed_hardware(options, sections),
+              .stored = must(read_clocks(options.folders.source, family))};
+  if (options.page) add_hardware_of_spaces(options, sections, bench.hardware);
+  return bench;
 }
 
 // If the command line gives no number: that of the stored clock.
@@ -115,54 +145,56 @@ unsigned seeds_of(const Options& options, const ClockStore& clocks, const std::s
   return stored != clocks.end() && stored->second.seeds > 0 ? stored->second.seeds : c_seeds;
 }
 
-StoredClock to_store(const Synthesizer& synthesizer, const Design& design, const Clock& clock,
-                     const Options& options) {
+StoredClock to_store(const Bench& bench, const Design& design, const Clock& clock, const Options& options) {
   const Placement* median = clock.median();
-  return {.cells = synthesizer.cells(design, c_ice40),
+  return {.cells = bench.synthesizer.cells(design, bench.family),
           .mhz = median != nullptr ? median->mhz : 0,
           .seeds = static_cast<unsigned>(clock.placements.size()),
-          .tools = synthesizer.versions(),
+          .tools = bench.synthesizer.versions(),
           .netlist = identity_of(design, options),
           .hardware = hardware_text(design)};
 }
 
-// Remove clocks of other hardware, and write what the pages show of the rest.
-void finish(const Options& options, const std::vector<Placed>& hardware, ClockStore& clocks) {
+// Remove clocks of other hardware.
+void finish(const Options& options, Bench& bench) {
   std::set<std::string> names;
-  for (const Placed& placed : hardware) names.insert(placed.design.name);
-  std::erase_if(clocks, [&](const auto& clock) { return !names.contains(clock.first); });
-  must(write_clocks(options.folders.source, clocks));
-  must(rewrite_page(options.folders.source / "docs/performance.md", [&](const std::string& page) {
-    return with_page_part(page, "clocks", performance_table(clocks));
-  }));
+  for (const Placed& placed : bench.hardware) names.insert(placed.design.name);
+  std::erase_if(bench.stored, [&](const auto& clock) { return !names.contains(clock.first); });
+  must(write_clocks(options.folders.source, bench.family, bench.stored));
 }
 
 }  // namespace
 
 ExitCode clocks(const Options& options) {
-  std::vector<Placed> hardware = hardware_of(options);
-  if (options.page) add_hardware_of_spaces(options, hardware);
-  const Family& family = is_on_ecp5(options) ? c_ecp5 : c_ice40;
-  const Synthesizer synthesizer = Synthesizer::open(options.folders.cache, true, family);
-  ClockStore stored = must(read_clocks(options.folders.source));
+  std::vector<Bench> benches;
+  for (const Sections& sections : c_sections)
+    if (options.page || options.device == sections.family.device->option)
+      benches.push_back(bench_of(options, sections));
   std::mutex mutex;
   std::vector<Item> items;
-  for (const Placed& placed : hardware)
-    items.push_back({placed.design.name, [&, seeds = seeds_of(options, stored, placed.design.name)] {
-                       const Clock clock = synthesizer.clock(placed.design, seeds);
-                       if (options.page) {
-                         StoredClock measured = to_store(synthesizer, placed.design, clock, options);
-                         const std::lock_guard lock(mutex);
-                         stored[placed.design.name] = std::move(measured);
-                         must(write_clocks(options.folders.source, stored));
-                       }
-                       page::Row row = clock_row(placed, clock);
-                       if (!options.page) add_cells(synthesizer.cells(placed.design, family), family, row);
-                       return row;
-                     }});
-  const ExitCode end =
-      measure(options, {"clocks", {"ghdl", "yosys", "nextpnr-ice40"}, values}, std::move(items));
-  if (options.page) finish(options, hardware, stored);
+  std::vector<std::string_view> tools = {"ghdl", "yosys"};
+  for (Bench& bench : benches) {
+    tools.push_back(bench.family.device->placer);
+    for (const Placed& placed : bench.hardware) {
+      const Design& design = placed.design;
+      items.push_back({row_name(placed, bench), [&, seeds = seeds_of(options, bench.stored, design.name)] {
+                         const Clock clock = bench.synthesizer.clock(design, seeds);
+                         if (options.page) {
+                           StoredClock measured = to_store(bench, design, clock, options);
+                           const std::lock_guard lock(mutex);
+                           bench.stored[design.name] = std::move(measured);
+                           must(write_clocks(options.folders.source, bench.family, bench.stored));
+                         }
+                         return clock_row(placed, bench, clock, options);
+                       }});
+    }
+  }
+  const ExitCode end = measure(options, {"clocks", std::move(tools), values}, std::move(items));
+  if (!options.page) return end;
+  for (Bench& bench : benches) finish(options, bench);
+  must(rewrite_page(options.folders.source / "docs/performance.md", [&](const std::string& page) {
+    return with_page_part(page, "clocks", performance_table(benches.front().stored, benches.back().stored));
+  }));
   return end;
 }
 

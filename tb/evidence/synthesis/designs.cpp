@@ -16,7 +16,7 @@ using Generics = std::vector<std::pair<std::string, std::string>>;
 ListedDesign shader(const std::string& name, const HardwareKey& key) {
   Design design = design_of(key, {});
   design.name = name;
-  return {.design = std::move(design)};
+  return {.design = std::move(design), .ecp5 = true};
 }
 
 // The shader with AXI4-Stream ports.
@@ -99,7 +99,7 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
-      all.back().ice40 = !exact;
+      all.back().ice40 = all.back().ecp5 = !exact;
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);

@@ -16,8 +16,8 @@ inline constexpr const char* c_accumulator = "tb/evidence/synthesis/accumulator.
 struct ListedDesign {
   Design design;       ///< its name in pages and thresholds
   bool quick = false;  ///< one or two seconds of Yosys: also in `make test`
-  bool ice40 = true;  ///< false: much too large for the device and slow to synthesize; only for ECP5, without
-                      ///< thresholds
+  bool ice40 = true;   ///< false: much too large for the device and slow to synthesize; only for ECP5
+  bool ecp5 = false;   ///< its clock on the ECP5 is stored, and has a threshold
 };
 
 /// All designs, in the order of the page. `root`: the project's.

@@ -59,6 +59,7 @@ TEST(SynthDesigns, HaveThresholds) {
   for (const ListedDesign& listed : all_designs(c_root)) {
     const std::string& name = listed.design.name;
     EXPECT_TRUE(names.insert(name).second) << name << ": a second design of this name";
+    EXPECT_EQ(thresholds.numbers("clocks_ecp5", name).empty(), !listed.ecp5) << name;
     if (!listed.ice40) continue;
     EXPECT_FALSE(thresholds.numbers("cells", name).empty()) << name;
     values.push_back({"cells", name, {}});
@@ -74,18 +75,21 @@ TEST(SynthDesigns, HaveThePapersTimes) {
 }
 
 TEST(SynthDesigns, HaveTheHardwareOfTheirStoredClocks) {
-  const ClockStore clocks = must(read_clocks(c_root));
-  for (const ListedDesign& listed : all_designs(c_root))
-    if (listed.ice40) {
-      EXPECT_EQ(clocks.at(listed.design.name).hardware, hardware_text(listed.design));
-    }
+  const ClockStore hx8k = must(read_clocks(c_root, c_ice40)), ecp5 = must(read_clocks(c_root, c_ecp5));
+  for (const ListedDesign& listed : all_designs(c_root)) {
+    const std::string &name = listed.design.name, hardware = hardware_text(listed.design);
+    if (listed.ice40) EXPECT_EQ(hx8k.at(name).hardware, hardware);
+    if (listed.ecp5) EXPECT_EQ(ecp5.at(name).hardware, hardware);
+  }
 }
 
 TEST(SynthDesigns, HaveTheClocksOfThePage) {
-  ClockStore clocks = must(read_clocks(c_root));
-  EXPECT_THAT(performance_table(clocks), ::testing::HasSubstr("\n| `quadratic_shader_grey_exact` | "));
-  clocks.at("accumulator_40").mhz = 0;
-  EXPECT_THROW(performance_table(clocks), Failure);
+  ClockStore hx8k = must(read_clocks(c_root, c_ice40));
+  const ClockStore ecp5 = must(read_clocks(c_root, c_ecp5));
+  EXPECT_THAT(performance_table(hx8k, ecp5), ::testing::HasSubstr("\n| `quadratic_shader_grey_exact` | "));
+  EXPECT_THROW(performance_table(hx8k, {}), Failure);
+  hx8k.at("accumulator_40").mhz = 0;
+  EXPECT_THROW(performance_table(hx8k, ecp5), Failure);
 }
 
 }  // namespace

@@ -37,11 +37,12 @@ int main(int argc, char** argv) {
     return command;
   };
   add_designs(add("cells", "cells on iCE40 and ECP5", synth::cells));
-  CLI::App* clocks =
-      add_designs(add("clocks", "clocks on an iCE40 HX8K or ECP5: minutes for each design", synth::clocks));
+  CLI::App* clocks = add_designs(
+      add("clocks", "clocks on an iCE40 HX8K and an ECP5 LFE5U-85F: minutes for each design", synth::clocks));
   clocks->add_option("--seeds", options.seeds, "of placement (as stored, or 3)")->check(CLI::Range(1, 999));
   auto* device =
-      clocks->add_option("--device", options.device, "hx8k, or ecp5: LFE5U-85F, without thresholds")
+      clocks
+          ->add_option("--device", options.device, "hx8k, or ecp5, with thresholds for complete shaders only")
           ->check(CLI::IsMember(std::vector<std::string>{"hx8k", "ecp5"}));
   clocks->get_option("--page")->excludes(device);
   add("board", "the board's bitstream and its figures", synth::board);

@@ -20,15 +20,15 @@ inline constexpr const char* c_none = "–";  ///< in a column without a value
 
 struct Options {
   SimulatorFolders folders{".", {}};
-  std::string part{}, device = "hx8k";
+  std::string part{}, device{c_hx8k.option};
   bool quick = false, page = false;
   unsigned jobs = 2, seeds = 0;
 };
 
 /// Cells of the listed designs that the options select, on all families.
 ExitCode cells(const Options& options);
-/// Their clocks on an iCE40 HX8K, or on an ECP5. With --page also those of the hardware of studies; writes
-/// the stored clocks and docs/performance.md.
+/// Their clocks on the device. With --page on both: on the ECP5 only of the complete shaders, and on each
+/// also of the hardware of studies; writes the stored clocks and docs/performance.md.
 ExitCode clocks(const Options& options);
 /// Makes the board's bitstream. With --page, writes its figures into docs/board.md.
 ExitCode board(const Options& options);
@@ -49,8 +49,8 @@ ExitCode measure(const Options& options, const Evidence& evidence, std::vector<I
 /// The papers' time in ns for a design on an XCV300: per pixel of the quadratic and the spherical shader, per
 /// clock of a shading processor.
 std::optional<int> published_ns(std::string_view design);
-/// The clocks of docs/performance.md: cells and clocks of the shaders. Throws Failure if one of its designs
-/// has no clock.
-std::string performance_table(const ClockStore& clocks);
+/// The clocks of docs/performance.md: cells and clocks of the shaders on the HX8K, and their clocks on the
+/// ECP5. Throws Failure if one of its designs has no clock.
+std::string performance_table(const ClockStore& hx8k, const ClockStore& ecp5);
 
 }  // namespace halfway::synth

@@ -72,7 +72,8 @@ class SynthProgram : public ::testing::Test {
                     "[cells]\ncolumns = [\"LUTs\", \"flip-flops\", \"RAMs\"]\n"
                     "rules = [\"within 3 % or 3\", \"equal\", \"equal\"]\naccumulator_24 = [21, 24, 0]\n"
                     "accumulator_32 = [20, 24, 0]\n[clocks]\nrule = \"within 8 %\"\n"
-                    "accumulator_24 = 97.0\naccumulator_32 = 98.0\n"));
+                    "accumulator_24 = 97.0\naccumulator_32 = 98.0\n"
+                    "[clocks_ecp5]\nrule = \"within 8 %\"\nquadratic_shader_grey_published = 100\n"));
   }
   fs::path root() const { return folder_.path(); }
   void put(const char* name, const std::string& text) const {
@@ -112,8 +113,11 @@ TEST_F(SynthProgram, ComparesClocksWithThresholds) {
   EXPECT_THAT(run(1, {"clocks", "--seeds", "1", "accumulator_32"}), HasSubstr("accumulator_32: "));
 }
 
-TEST_F(SynthProgram, PlacesOnAnEcp5WithoutThresholds) {
+TEST_F(SynthProgram, PlacesOnAnEcp5) {
   put("nextpnr-ecp5", c_nextpnr_ecp5);
+  EXPECT_THAT(run(1, {"clocks", "--device", "ecp5", "quadratic_shader_grey_published"}),
+              HasSubstr("clocks_ecp5: quadratic_shader_grey_published: it is 130; the threshold is 100"));
+  // Entities have no threshold there.
   EXPECT_THAT(run(0, {"clocks", "--device", "ecp5", "--seeds", "2", "accumulator_24"}),
               ::testing::ContainsRegex(
                   "[|] `accumulator_24` [|] 130.0 [|] 130 to 130 of 2 .* 25 [|] 24 [|] 0 [|] 0 [|]"));

@@ -256,7 +256,7 @@ cat >"$scratch/placed.toml" <<END
 method = ["gouraud", "quadratic"]
 size = "160x120"
 END
-study=(study --space "$scratch/placed.toml" --place)
+study=(study --space "$scratch/placed.toml" --place --device hx8k)
 path=$PATH
 export PATH=$scratch/bin:$PATH PLACED
 for name in placed-local placed-array; do checkout_without_clocks $name; done
