@@ -79,14 +79,14 @@ TEST_F(ReportCommand, RefusesWhatIsDamaged) {
 
 // A picture of five hardware designs, one without a clock, and two software points.
 constexpr const char* c_study =
-    R"(scene,scene_hash,tools,point,method,preset,tessellation,exponent,width,height,hardware,cells,cycles,clock_mhz,clock,frame_ns,rms,largest_error,error_99,psnr_db,highlight_rms,perceived_pixels,mach_rms,host_evaluations,host_instructions,front,record
-"ball",77,"GHDL 9, Verilator 8",P,phong,,1,5,320,240,,,0,,,,0,0,0,inf,0,0,0,0,,,a
-"ball",77,"GHDL 9, Verilator 8",G,gouraud,,1,5,320,240,,,0,,,,4.5,9,8,33.1,7,31,1,0,,,b
-"ball",77,"GHDL 9, Verilator 8",Q,quadratic,exact,1,5,320,240,q,5334,32813,112.1,"stored",292712,0.5,4,3,50.9,1,0,0.5,1452,5417130,1,c
-"ball",77,"GHDL 9, Verilator 8",R,quadratic,exact,1,5,320,240,q,5334,33813,112.1,"stored",301633,0.4,3,2,51.9,1,12,0.4,1474,78705437,0,d
-"ball",77,"GHDL 9, Verilator 8",S,spherical,exact,1,5,320,240,s,5985,33100,,"not placed",,0.3,2,1,57,0.4,0,0.3,31283,6417130,1,e
-"ball",77,"GHDL 9, Verilator 8",V,processors-1,exact,1,5,320,240,v,12214,31460,,"does not fit the HX8K: 9578 LUTs of 7680",,5.7,39,25,33,10,61,0.8,0,0,1,f
-"ball",77,"GHDL 9, Verilator 8",W,processors-2,exact,1,5,320,240,w,14214,31460,,"",,5.8,39,25,33,10,61,0.8,0,,0,g
+    R"(scene,scene_hash,tools,point,method,preset,tessellation,exponent,width,height,hardware,cells,cycles,clock_mhz,clock,frame_ns,rms,largest_error,error_99,psnr_db,highlight_rms,perceived_pixels,mach_rms,host_evaluations,host_instructions,front,record,device
+"ball",77,"GHDL 9, Verilator 8",P,phong,,1,5,320,240,,,0,,,,0,0,0,inf,0,0,0,0,,,a,
+"ball",77,"GHDL 9, Verilator 8",G,gouraud,,1,5,320,240,,,0,,,,4.5,9,8,33.1,7,31,1,0,,,b,
+"ball",77,"GHDL 9, Verilator 8",Q,quadratic,exact,1,5,320,240,q,5334,32813,112.1,"stored",292712,0.5,4,3,50.9,1,0,0.5,1452,5417130,1,c,iCE40 HX8K
+"ball",77,"GHDL 9, Verilator 8",R,quadratic,exact,1,5,320,240,q,5334,33813,112.1,"stored",301633,0.4,3,2,51.9,1,12,0.4,1474,78705437,0,d,iCE40 HX8K
+"ball",77,"GHDL 9, Verilator 8",S,spherical,exact,1,5,320,240,s,5985,33100,,"not placed",,0.3,2,1,57,0.4,0,0.3,31283,6417130,1,e,iCE40 HX8K
+"ball",77,"GHDL 9, Verilator 8",V,processors-1,exact,1,5,320,240,v,12214,31460,,"does not fit the HX8K: 9578 LUTs of 7680",,5.7,39,25,33,10,61,0.8,0,0,1,f,iCE40 HX8K
+"ball",77,"GHDL 9, Verilator 8",W,processors-2,exact,1,5,320,240,w,14214,31460,,"",,5.8,39,25,33,10,61,0.8,0,,0,g,iCE40 HX8K
 )";
 
 TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
@@ -139,7 +139,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
   EXPECT_THAT(page(), HasSubstr(other));
   EXPECT_THAT(outcome.output, HasSubstr(other));
   // A point's panel gives the reason for a missing clock.
-  EXPECT_THAT(page(), AllOf(HasSubstr("[\"origin of that clock\",\"not placed\"]"),
+  EXPECT_THAT(page(), AllOf(HasSubstr("[\"origin of that clock\",\"not placed\"]"), HasSubstr("[\"FPGA\",\"iCE40 HX8K\"]"),
                             HasSubstr("[\"99th percentile of errors, /255\",\"25\"]"),
                             HasSubstr("[\"on the front\",\"no\"]")));
 }

@@ -61,6 +61,7 @@ constexpr std::array c_told = {
     std::pair{"multiplier_luts", "LUTs of the multipliers"},
     std::pair{"cells", "cells in all"},
     std::pair{"clock_mhz", "clock, MHz"},
+    std::pair{"device", "FPGA"},
     std::pair{"clock", "origin of that clock"},
     std::pair{"frame_ns", "ns per frame"},
     std::pair{"fragment_ns", "ns a fragment"},

@@ -207,7 +207,7 @@ TEST_F(HardwareFiguresTest, CostsAreThoseOfTheDevice) {
   set_results("7681", "30", "40");
   EXPECT_TRUE(figures(false).fits);
   store({{"any", {{.luts = 5, .multipliers = 6}, 120.5, 3, "Placer 2", netlist}}});
-  const synth::Cost stored = figures(true);
+  const synth::Cost stored = figures(false);
   EXPECT_EQ(stored.device, "ECP5 LFE5U-85F");
   EXPECT_EQ(stored.mhz, 120.5);
   EXPECT_EQ(stored.device_cells, (Cells{.luts = 5, .multipliers = 6}));
