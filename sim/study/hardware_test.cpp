@@ -223,7 +223,7 @@ TEST_F(HardwareFiguresTest, ProductsFillOnlyADeviceWithoutMultipliers) {
   };
   set_results("83641", "30", "40");
   EXPECT_FALSE(fits(synth::c_ecp5));
-  set_results("4", "7681", "40");
+  set_results("4", "83641", "40");
   ::setenv("PRODUCT", ", \"multiplier_cell\": 1", 1);
   std::filesystem::remove_all(folders_.cache / "synth");
   EXPECT_FALSE(fits(synth::c_ice40));
