@@ -181,8 +181,8 @@ std::string clocks_text(const synth::Family& family, const study::HardwareTable&
     return std::ranges::count_if(hardware, [&](const auto& of) { return of.second.clock == origin; });
   };
   const auto stored = count(synth::c_stored), placed = count(synth::c_placed);
-  return fmt::format("clocks on an {}: {} stored, {} placed, {} not known\n",
-                     family.device->title, stored, placed, std::ssize(hardware) - stored - placed);
+  return fmt::format("clocks on an {}: {} stored, {} placed, {} not known\n", family.device->title, stored,
+                     placed, std::ssize(hardware) - stored - placed);
 }
 
 // Write the table. Print the answer for each picture, or without a demand the front of the main picture.

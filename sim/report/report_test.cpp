@@ -139,7 +139,8 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
   EXPECT_THAT(page(), HasSubstr(other));
   EXPECT_THAT(outcome.output, HasSubstr(other));
   // A point's panel gives the reason for a missing clock.
-  EXPECT_THAT(page(), AllOf(HasSubstr("[\"origin of that clock\",\"not placed\"]"), HasSubstr("[\"FPGA\",\"iCE40 HX8K\"]"),
+  EXPECT_THAT(page(), AllOf(HasSubstr("[\"origin of that clock\",\"not placed\"]"),
+                            HasSubstr("[\"FPGA\",\"iCE40 HX8K\"]"),
                             HasSubstr("[\"99th percentile of errors, /255\",\"25\"]"),
                             HasSubstr("[\"on the front\",\"no\"]")));
 }
