@@ -28,17 +28,17 @@ struct ProcessorClocks {
 
 inline constexpr std::array<ProcessorClocks, 11> c_processor_clocks = {{
     {"load, shadow polygon, unlit", std::nullopt, std::nullopt, false, false, 2, 2, 2},
-    {"ambient", words::Term::ambient, std::nullopt, false, false, 4, 4, 4},
-    {"ambient, N normalized", words::Term::ambient, std::nullopt, true, false, 6, 9, 6},
-    {"ambient, view vector", words::Term::ambient, std::nullopt, false, true, std::nullopt, 10, std::nullopt},
-    {"ambient, N normalized, view vector", words::Term::ambient, std::nullopt, true, true, std::nullopt, 15,
+    {"ambient", words::Term::ambient, std::nullopt, false, false, 4, 5, 4},
+    {"ambient, N normalized", words::Term::ambient, std::nullopt, true, false, 6, 15, 6},
+    {"ambient, view vector", words::Term::ambient, std::nullopt, false, true, std::nullopt, 16, std::nullopt},
+    {"ambient, N normalized, view vector", words::Term::ambient, std::nullopt, true, true, std::nullopt, 26,
      std::nullopt},
-    {"directional diffuse", words::Term::diffuse, LightKind::directional, false, false, 6, 6, 6},
-    {"directional specular", words::Term::specular, LightKind::directional, false, false, 7, 20, 7},
-    {"positional diffuse", words::Term::diffuse, LightKind::positional, false, false, 12, 16, 12},
-    {"positional specular", words::Term::specular, LightKind::positional, false, false, 13, 30, 13},
-    {"spot diffuse", words::Term::diffuse, LightKind::spot, false, false, std::nullopt, 22, 18},
-    {"spot specular", words::Term::specular, LightKind::spot, false, false, std::nullopt, 32, 24},
+    {"directional diffuse", words::Term::diffuse, LightKind::directional, false, false, 6, 9, 6},
+    {"directional specular", words::Term::specular, LightKind::directional, false, false, 7, 34, 7},
+    {"positional diffuse", words::Term::diffuse, LightKind::positional, false, false, 12, 26, 12},
+    {"positional specular", words::Term::specular, LightKind::positional, false, false, 13, 51, 13},
+    {"spot diffuse", words::Term::diffuse, LightKind::spot, false, false, std::nullopt, 37, 22},
+    {"spot specular", words::Term::specular, LightKind::spot, false, false, std::nullopt, 54, 28},
 }};
 
 /// The slowest operation in the pipeline of a processors shader's key. It determines the throughput.

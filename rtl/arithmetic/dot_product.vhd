@@ -1,8 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     Dot product of two vectors of three components.
+--               g_clocks = 1  products and their sum
+--               otherwise     the products, in g_clocks - 1 clocks; then their sum
 -- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, 2 g_bits + 1
--- Latency     1 clock with enable (shading_pkg)
+-- Latency     g_clocks clocks with enable: dot_product_latency of shading_pkg
 -- Throughput  1 vector per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2
@@ -16,7 +18,8 @@ use work.shading_pkg.all;
 
 entity dot_product is
   generic (
-    g_bits : positive
+    g_bits   : positive;
+    g_clocks : positive range 1 to 3
   );
   port (
     clk    : in  std_logic;
@@ -29,7 +32,39 @@ end entity;
 
 architecture rtl of dot_product is
 
+  subtype product_t is std_logic_vector(2 * g_bits - 1 downto 0);
+
+  type products_t is array (0 to c_axes - 1) of product_t;
+
+  signal products : products_t;
+
 begin
+
+  axes : for axis in 0 to c_axes - 1 generate
+
+    at_once : if g_clocks = 1 generate
+
+      products(axis) <= std_logic_vector(axis_of(a, axis) * axis_of(b, axis));
+
+    else generate
+
+      multiply : entity work.signed_multiplier
+        generic map (
+          g_a_bits => g_bits,
+          g_b_bits => g_bits,
+          g_clocks => g_clocks - 1
+          )
+        port map (
+          clk     => clk,
+          enable  => enable,
+          a       => std_logic_vector(axis_of(a, axis)),
+          b       => std_logic_vector(axis_of(b, axis)),
+          product => products(axis)
+          );
+
+    end generate;
+
+  end generate;
 
   registers : process (clk)
     variable whole : signed(sum'range);
@@ -38,7 +73,7 @@ begin
       if enable = '1' then
         whole := (others => '0');
         for axis in 0 to c_axes - 1 loop
-          whole := whole + axis_of(a, axis) * axis_of(b, axis);
+          whole := whole + signed(products(axis));
         end loop;
         sum <= std_logic_vector(whole);
       end if;

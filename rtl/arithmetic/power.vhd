@@ -5,7 +5,7 @@
 --             second table gives for its fraction. Preset exact interpolates in both tables. Preset published reads the
 --             value at the middle of a cell, and gives 1 for base 1.
 -- Formats     base: 0 to 1, one whole bit and direction's fraction bits; exponent: format exponent; result: weight
--- Latency     power_latency of shading_pkg, in clocks with enable: 6, in preset published 2
+-- Latency     power_latency of shading_pkg, in clocks with enable: 11; in preset published 7, without g_pipelined 2
 -- Throughput  1 per clock
 -- Error       exact 2**-15 + exponent * 2**-23; published, in steps of 1/255: 2.0 at exponent 1, 9.8 at 10, 45 at 50,
 --             83 at 100, because a cell of the logarithm is 1/64 wide
@@ -22,7 +22,8 @@ use work.shading_pkg.all;
 
 entity power is
   generic (
-    g_exact : boolean := true
+    g_exact     : boolean := true;
+    g_pipelined : boolean := true -- preset published: with registers between the steps
   );
   port (
     clk      : in  std_logic;
@@ -63,8 +64,8 @@ architecture rtl of power is
   -- Widths of -log2(base), and of its product with the exponent.
   constant c_loss_bits      : positive := stages + c_log.fraction_bits;
   constant c_decay_fraction : positive := smaller(c_log.fraction_bits, 20);
-  constant c_cut            : natural  := c_log.fraction_bits + c_formats.exponent.fraction - c_decay_fraction;
-  constant c_product_bits   : positive := c_loss_bits + c_exponent - c_cut;
+  constant c_cut_bits       : natural  := c_log.fraction_bits + c_formats.exponent.fraction - c_decay_fraction;
+  constant c_product_bits   : positive := c_loss_bits + c_exponent - c_cut_bits;
   constant c_whole_bits     : positive := c_product_bits - c_decay_fraction;
   -- The decay before the shift: one whole bit, and guard bits below a weight.
   constant c_guard      : positive := 2;
@@ -120,8 +121,38 @@ architecture rtl of power is
     return std_logic_vector(shifted(c_decay_bits - 1 downto c_guard) + shifted(c_guard - 1 downto c_guard - 1));
   end function;
 
-  signal is_zero       : std_logic;
-  signal split         : normalized_t;
+  -- Clocks for each cut between two steps.
+  constant c_cut : natural := boolean'pos(g_exact or g_pipelined);
+
+  type split_t is record
+    zero     : std_logic; -- the base is 0
+    one      : std_logic; -- the base is 1
+    lead     : lead_t;
+    exponent : exponent_t;
+  end record;
+
+  constant c_split_bits : positive := 2 + stages + c_exponent;
+
+  function flat (split : split_t) return std_logic_vector is
+  begin
+    return std_logic_vector(split.exponent & split.lead) & split.one & split.zero;
+  end function;
+
+  function split_of (word : std_logic_vector(c_split_bits - 1 downto 0)) return split_t is
+  begin
+    return (word(0), word(1), unsigned(word(stages + 1 downto 2)), unsigned(word(c_split_bits - 1 downto stages + 2)));
+  end function;
+
+  -- The base and the exponent, after the first cut.
+  signal operands    : std_logic_vector(c_exponent + c_fraction downto 0);
+  signal cut_base    : std_logic_vector(base'range);
+  signal normal      : normalized_t;
+  signal split       : split_t;
+  signal normal_cut  : std_logic_vector(c_fraction + c_split_bits - 1 downto 0); -- after the second cut
+  signal mantissa    : std_logic_vector(c_fraction - 1 downto 0);
+  signal split_q     : std_logic_vector(c_split_bits - 1 downto 0);
+  signal with_sample : split_t; -- of the base of log_sample
+
   signal log_sample    : std_logic_vector(sample_bits(g_exact, c_logarithm) - 1 downto 0);
   signal decay_address : std_logic_vector(c_dec.address_bits - 1 downto 0);
   signal decay_sample  : std_logic_vector(sample_bits(g_exact, c_decay) - 1 downto 0);
@@ -133,8 +164,39 @@ begin
     & " bits to zero"
     severity failure;
 
-  is_zero <= '1' when base = (base'range => '0') else '0';
-  split   <= normalize(base);
+  first_cut : entity work.delay_line
+    generic map (
+      g_bits  => operands'length,
+      g_depth => c_cut
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      word    => exponent & base,
+      delayed => operands
+      );
+
+  cut_base <= operands(base'range);
+  normal   <= normalize(cut_base);
+  split    <= (
+    zero     => not (or cut_base),
+    one      => cut_base(c_fraction),
+    lead     => normal.lead,
+    exponent => unsigned(operands(operands'high downto c_fraction + 1)));
+
+  second_cut : entity work.delay_line
+    generic map (
+      g_bits  => c_split_bits + c_fraction,
+      g_depth => c_cut
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      word    => normal.mantissa & flat(split),
+      delayed => normal_cut
+      );
+
+  mantissa <= normal_cut(normal_cut'high downto c_split_bits);
 
   logarithms : entity work.function_rom
     generic map (
@@ -144,9 +206,23 @@ begin
     port map (
       clk     => clk,
       enable  => enable,
-      address => split.mantissa(c_fraction - 1 downto c_fraction - c_log.address_bits),
+      address => mantissa(c_fraction - 1 downto c_fraction - c_log.address_bits),
       sample  => log_sample
       );
+
+  align_split : entity work.delay_line
+    generic map (
+      g_bits  => c_split_bits,
+      g_depth => 1
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      word    => normal_cut(c_split_bits - 1 downto 0),
+      delayed => split_q
+      );
+
+  with_sample <= split_of(split_q);
 
   decays : entity work.function_rom
     generic map (
@@ -165,89 +241,138 @@ begin
     constant c_log_rest : positive := c_fraction - c_log.address_bits;
     constant c_dec_rest : positive := c_decay_fraction - c_dec.address_bits;
 
+    subtype log_value_t is unsigned(c_log.value_bits - 1 downto 0);
+    subtype dec_value_t is unsigned(c_dec.value_bits - 1 downto 0);
+
+    type wholes_t is array (natural range <>) of unsigned(c_whole_bits - 1 downto 0);
+
+    type exponents_t is array (natural range <>) of exponent_t;
+
+    -- Fields without a number belong to the result of their clock. Numbers count clocks, the first cut is clock 1.
     type reg_t is record
-      zeros         : std_logic_vector(1 to 5);
-      log_lead      : lead_t;
-      log_rest      : unsigned(c_log_rest - 1 downto 0);
-      log_exponent  : exponent_t;
-      loss          : loss_t;
-      loss_exponent : exponent_t;
-      product       : product_t;
-      decay_whole   : unsigned(c_whole_bits - 1 downto 0);
-      decay_rest    : unsigned(c_dec_rest - 1 downto 0);
-      decay         : decay_t;
-      whole         : unsigned(c_whole_bits - 1 downto 0);
-      result        : weight_t;
+      log_rest  : std_logic_vector(c_log_rest - 1 downto 0);
+      lead      : lead_t;
+      log_value : log_value_t;
+      loss      : loss_t;
+      exponents : exponents_t(4 to 5);
+      zeros     : std_logic_vector(4 to 10);
+      dec_rest  : std_logic_vector(c_dec_rest - 1 downto 0);
+      dec_value : dec_value_t;
+      wholes    : wholes_t(8 to 10);
+      decay     : decay_t;
+      result    : weight_t;
     end record;
 
     signal r : reg_t;
 
+    signal log_part : std_logic_vector(c_log_rest + c_log.slope_bits + 1 downto 0);
+    signal wide     : std_logic_vector(c_loss_bits + c_exponent + 1 downto 0);
+    signal product  : product_t;
+    signal dec_part : std_logic_vector(c_dec_rest + c_dec.slope_bits + 1 downto 0);
+
   begin
 
+    multiply_slope : entity work.signed_multiplier
+      generic map (
+        g_a_bits => c_log.slope_bits + 1,
+        g_b_bits => c_log_rest + 1,
+        g_clocks => 1
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => '0' & log_sample(log_sample'high downto c_log.value_bits),
+        b       => '0' & r.log_rest,
+        product => log_part
+        );
+
+    multiply_loss : entity work.signed_multiplier
+      generic map (
+        g_a_bits => c_loss_bits + 1,
+        g_b_bits => c_exponent + 1,
+        g_clocks => 2
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => '0' & std_logic_vector(r.loss),
+        b       => '0' & std_logic_vector(r.exponents(5)),
+        product => wide
+        );
+
+    product       <= unsigned(wide(c_loss_bits + c_exponent - 1 downto c_cut_bits));
+    decay_address <= std_logic_vector(product(c_decay_fraction - 1 downto c_dec_rest));
+
+    multiply_decay : entity work.signed_multiplier
+      generic map (
+        g_a_bits => c_dec.slope_bits + 1,
+        g_b_bits => c_dec_rest + 1,
+        g_clocks => 1
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => '0' & decay_sample(decay_sample'high downto c_dec.value_bits),
+        b       => '0' & r.dec_rest,
+        product => dec_part
+        );
+
     registers : process (clk)
-      variable log_part   : unsigned(c_log_rest + c_log.slope_bits - 1 downto 0);
-      variable decay_part : unsigned(c_dec_rest + c_dec.slope_bits - 1 downto 0);
-      variable logarithm  : unsigned(c_log.value_bits - 1 downto 0);
-      variable lead       : loss_t;
-      variable wide       : unsigned(c_loss_bits + c_exponent - 1 downto 0);
+      variable lead : loss_t;
     begin
       if rising_edge(clk) then
         if enable = '1' then
-          r.zeros <= is_zero & r.zeros(1 to 4);
+          r.zeros     <= with_sample.zero & r.zeros(4 to 9);
+          r.exponents <= with_sample.exponent & r.exponents(4);
 
-          r.log_lead     <= split.lead;
-          r.log_rest     <= unsigned(split.mantissa(c_log_rest - 1 downto 0));
-          r.log_exponent <= unsigned(exponent);
+          r.wholes(9 to 10) <= r.wholes(8 to 9);
+          r.wholes(8)       <= product(c_product_bits - 1 downto c_decay_fraction);
 
-          log_part  := unsigned(log_sample(log_sample'high downto c_log.value_bits)) * r.log_rest;
-          logarithm := unsigned(log_sample(c_log.value_bits - 1 downto 0))
-            + log_part(log_part'high downto c_log_rest);
-          lead                                        := (others => '0');
-          lead(lead'high downto c_log.fraction_bits)  := r.log_lead;
-          r.loss                                      <= lead - logarithm;
-          r.loss_exponent                             <= r.log_exponent;
+          r.log_rest  <= mantissa(r.log_rest'range);
+          r.lead      <= with_sample.lead;
+          r.log_value <= unsigned(log_sample(c_log.value_bits - 1 downto 0));
 
-          wide      := r.loss * r.loss_exponent;
-          r.product <= wide(wide'high downto c_cut);
+          lead                                       := (others => '0');
+          lead(lead'high downto c_log.fraction_bits) := r.lead;
+          r.loss                                     <= lead
+            - (r.log_value + unsigned(log_part(c_log_rest + c_log.slope_bits - 1 downto c_log_rest)));
 
-          r.decay_whole <= r.product(c_product_bits - 1 downto c_decay_fraction);
-          r.decay_rest  <= r.product(c_dec_rest - 1 downto 0);
+          r.dec_rest  <= std_logic_vector(product(c_dec_rest - 1 downto 0));
+          r.dec_value <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0));
+          r.decay     <= r.dec_value - unsigned(dec_part(c_dec_rest + c_dec.slope_bits - 1 downto c_dec_rest));
 
-          decay_part := unsigned(decay_sample(decay_sample'high downto c_dec.value_bits)) * r.decay_rest;
-          r.decay    <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0))
-            - decay_part(decay_part'high downto c_dec_rest);
-          r.whole    <= r.decay_whole;
-
-          r.result <= shifted_weight(r.decay, r.whole);
-          if r.zeros(5) = '1' then
+          r.result <= shifted_weight(r.decay, r.wholes(10));
+          if r.zeros(10) = '1' then
             r.result <= (others => '0');
           end if;
         end if;
       end if;
     end process;
 
-    decay_address <= std_logic_vector(r.product(c_decay_fraction - 1 downto c_dec_rest));
-    result        <= r.result;
+    result <= r.result;
 
   else generate
 
     -- Under the decay's lowest bit.
     constant c_low : positive := c_formats.weight.fraction + c_guard - c_dec.fraction_bits;
 
+    subtype loss_word_t is std_logic_vector(c_loss_bits + c_exponent downto 0);
+    subtype raised_word_t is std_logic_vector(c_product_bits downto 0);
+
     type reg_t is record
-      log_zero     : std_logic;
-      log_one      : std_logic;
-      log_lead     : lead_t;
-      log_exponent : exponent_t;
-      zero         : std_logic;
-      one          : std_logic;
-      whole        : unsigned(c_whole_bits - 1 downto 0);
+      zero  : std_logic;
+      one   : std_logic;
+      whole : unsigned(c_whole_bits - 1 downto 0);
     end record;
 
-    signal r       : reg_t;
-    signal loss    : loss_t;
-    signal raised  : product_t;
-    signal shifted : weight_t;
+    signal r : reg_t;
+
+    signal loss        : loss_t;
+    signal loss_cut    : loss_word_t;   -- base is 0, exponent, loss
+    signal raised      : product_t;
+    signal raised_cut  : raised_word_t; -- base is 0, product
+    signal raised_now  : product_t;
+    signal weight      : weight_t;
 
   begin
 
@@ -255,46 +380,79 @@ begin
       variable lead : loss_t;
     begin
       lead                                       := (others => '0');
-      lead(lead'high downto c_log.fraction_bits) := r.log_lead;
+      lead(lead'high downto c_log.fraction_bits) := with_sample.lead;
       loss                                       <= lead - unsigned(log_sample);
-      if r.log_one = '1' then
+      if with_sample.one = '1' then
         loss <= (others => '0');
       end if;
     end process;
 
-    raised        <= loss * r.log_exponent;
-    decay_address <= std_logic_vector(raised(c_decay_fraction - 1 downto c_decay_fraction - c_dec.address_bits));
+    third_cut : entity work.delay_line
+      generic map (
+        g_bits  => loss_cut'length,
+        g_depth => c_cut
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => with_sample.zero & std_logic_vector(with_sample.exponent & loss),
+        delayed => loss_cut
+        );
+
+    raised <= unsigned(loss_cut(c_loss_bits - 1 downto 0))
+      * unsigned(loss_cut(c_loss_bits + c_exponent - 1 downto c_loss_bits));
+
+    fourth_cut : entity work.delay_line
+      generic map (
+        g_bits  => raised_cut'length,
+        g_depth => c_cut
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => loss_cut(loss_cut'high) & std_logic_vector(raised),
+        delayed => raised_cut
+        );
+
+    raised_now    <= unsigned(raised_cut(product_t'range));
+    decay_address <= std_logic_vector(raised_now(c_decay_fraction - 1 downto c_decay_fraction - c_dec.address_bits));
 
     registers : process (clk)
     begin
       if rising_edge(clk) then
         if enable = '1' then
-          r.log_zero     <= is_zero;
-          r.log_one      <= base(c_fraction);
-          r.log_lead     <= split.lead;
-          r.log_exponent <= unsigned(exponent);
-          r.zero         <= r.log_zero;
-          r.one          <= '0';
-          if raised = (raised'range => '0') then
+          r.zero  <= raised_cut(raised_cut'high);
+          r.one   <= '0';
+          if raised_now = (raised_now'range => '0') then
             r.one <= '1';
           end if;
-          r.whole <= raised(c_product_bits - 1 downto c_decay_fraction);
+          r.whole <= raised_now(c_product_bits - 1 downto c_decay_fraction);
         end if;
       end if;
     end process;
 
-    shifted <= shifted_weight('0' & unsigned(decay_sample) & (c_low - 1 downto 0 => '0'), r.whole);
-
     choose : process (all)
     begin
-      result <= shifted;
+      weight <= shifted_weight('0' & unsigned(decay_sample) & (c_low - 1 downto 0 => '0'), r.whole);
       if r.zero = '1' then
-        result <= (others => '0');
+        weight <= (others => '0');
       elsif r.one = '1' then
-        result           <= (others => '0');
-        result(c_weight - 1) <= '1';
+        weight               <= (others => '0');
+        weight(c_weight - 1) <= '1';
       end if;
     end process;
+
+    last_cut : entity work.delay_line
+      generic map (
+        g_bits  => weight'length,
+        g_depth => c_cut
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => weight,
+        delayed => result
+        );
 
   end generate;
 

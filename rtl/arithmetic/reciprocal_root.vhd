@@ -4,7 +4,8 @@
 --             the value at the middle of each cell, with as many cells from 1 to 2 as from 2 to 4. Preset exact adds a
 --             Newton step, y = T (3 - x T**2) / 2. Below 1 the result is twice that for 4 square.
 -- Formats     square: format square, 1/4 to 4 (0 also gives a number); reciprocal: format root with one more whole bit
--- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 4, in preset published 1
+-- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 7, in preset published 1. The clocks of the
+--             Newton step: T; T**2; two for x T**2; 3 - x T**2; two for the last product
 -- Throughput  1 per clock
 -- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.4, or
 --             2**-6.86, of 1
@@ -78,51 +79,108 @@ begin
     -- The lowest bit of the root in T (3 - x T**2), which is twice the root.
     constant c_root_low : natural := c_entry_bits + c_rest_fraction + 1 - c_formats.root.fraction;
 
-    subtype entry_t is unsigned(c_entry_bits - 1 downto 0);
-    subtype x_t is unsigned(c_x_bits - 1 downto 0);
-
-    type reg_t is record
-      table_below_one  : std_logic;
-      table_x          : x_t;
-      square_below_one : std_logic;
-      square_x         : x_t;
-      square_entry     : entry_t;
-      entry_square     : unsigned(c_square_bits - 1 downto 0);
-      rest_below_one   : std_logic;
-      rest_entry       : entry_t;
-      rest             : unsigned(c_rest_bits - 1 downto 0);
-      below_one        : std_logic;
-      root             : std_logic_vector(c_formats.root.bits - 1 downto 0);
-    end record;
-
-    signal r : reg_t;
+    signal waiting_x     : std_logic_vector(c_x_bits - 1 downto 0);     -- with T**2
+    signal waiting_entry : std_logic_vector(c_entry_bits - 1 downto 0); -- with the rest
+    signal entry_square  : std_logic_vector(c_square_bits + 1 downto 0);
+    signal x_square      : std_logic_vector(c_x_bits + c_square_bits + 1 downto 0);
+    signal rest          : std_logic_vector(c_rest_bits - 1 downto 0);
+    signal twice         : std_logic_vector(c_entry_bits + c_rest_bits + 1 downto 0);
+    signal root_below    : std_logic;
+    signal root          : std_logic_vector(c_formats.root.bits - 1 downto 0);
 
   begin
 
-    registers : process (clk)
+    align_x : entity work.delay_line
+      generic map (
+        g_bits  => c_x_bits,
+        g_depth => 2
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => x(c_high downto c_high - c_x_bits + 1),
+        delayed => waiting_x
+        );
+
+    square_entry : entity work.signed_multiplier
+      generic map (
+        g_a_bits => c_entry_bits + 1,
+        g_b_bits => c_entry_bits + 1,
+        g_clocks => 1
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => '0' & entry,
+        b       => '0' & entry,
+        product => entry_square
+        );
+
+    multiply_x : entity work.signed_multiplier
+      generic map (
+        g_a_bits => c_x_bits + 1,
+        g_b_bits => c_square_bits + 1,
+        g_clocks => 2
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => '0' & waiting_x,
+        b       => entry_square(c_square_bits downto 0),
+        product => x_square
+        );
+
+    subtract : process (clk)
       variable difference : unsigned(c_x_bits + c_square_bits - 1 downto 0);
-      variable twice      : unsigned(c_entry_bits + c_rest_bits - 1 downto 0);
     begin
       if rising_edge(clk) then
         if enable = '1' then
-          r.table_below_one  <= below_one;
-          r.table_x          <= unsigned(x(c_high downto c_high - c_x_bits + 1));
-          r.square_below_one <= r.table_below_one;
-          r.square_x         <= r.table_x;
-          r.square_entry     <= unsigned(entry);
-          r.entry_square     <= unsigned(entry) * unsigned(entry);
-          r.rest_below_one   <= r.square_below_one;
-          r.rest_entry       <= r.square_entry;
-          difference         := (c_three & (c_cut - 1 downto 0 => '0')) - r.square_x * r.entry_square;
-          r.rest             <= difference(difference'high downto c_cut);
-          r.below_one        <= r.rest_below_one;
-          twice              := r.rest_entry * r.rest;
-          r.root             <= std_logic_vector(twice(c_root_low + c_formats.root.bits - 1 downto c_root_low));
+          difference := (c_three & (c_cut - 1 downto 0 => '0')) - unsigned(x_square(difference'range));
+          rest       <= std_logic_vector(difference(difference'high downto c_cut));
         end if;
       end if;
     end process;
 
-    reciprocal <= r.root & '0' when r.below_one = '1' else '0' & r.root;
+    align_entry : entity work.delay_line
+      generic map (
+        g_bits  => c_entry_bits,
+        g_depth => 4
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        word    => entry,
+        delayed => waiting_entry
+        );
+
+    multiply_entry : entity work.signed_multiplier
+      generic map (
+        g_a_bits => c_entry_bits + 1,
+        g_b_bits => c_rest_bits + 1,
+        g_clocks => 2
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => '0' & waiting_entry,
+        b       => '0' & rest,
+        product => twice
+        );
+
+    align_below : entity work.delay_line
+      generic map (
+        g_bits  => 1,
+        g_depth => reciprocal_root_latency(g_exact)
+        )
+      port map (
+        clk        => clk,
+        enable     => enable,
+        word(0)    => below_one,
+        delayed(0) => root_below
+        );
+
+    root       <= twice(c_root_low + root'high downto c_root_low);
+    reciprocal <= root & '0' when root_below = '1' else '0' & root;
 
   else generate
 

@@ -12,15 +12,19 @@ use work.processors_pkg.all;
 
 package shading_pkg is
 
-  -- Clocks with enable from an entity's inputs to its result.
-  constant c_vector_shift_latency    : positive := 1;
-  constant c_dot_product_latency     : positive := 1;
-  constant c_vector_multiply_latency : positive := 1;
-  constant c_spot_cone_latency       : positive := 4;
+  -- Clocks with enable from an entity's inputs to its result. The unrolled form is pipelined, the folded one is not: in
+  -- preset published it has the clocks of table 4.
+  constant c_spot_cone_latency : positive := 8;
+
+  function vector_shift_latency (pipelined : boolean) return positive;
+
+  function dot_product_latency (exact, pipelined : boolean) return positive;
+
+  function vector_multiply_latency (exact : boolean) return positive;
 
   function reciprocal_root_latency (exact : boolean) return positive;
 
-  function power_latency (exact : boolean) return positive;
+  function power_latency (exact, pipelined : boolean) return positive;
 
   -- Drop the lowest `bits` bits and round to the nearest, halves up. The result has one more bit than the others.
   function round_half_up (value : signed; bits : natural) return signed;
@@ -46,18 +50,43 @@ end package;
 
 package body shading_pkg is
 
-  function reciprocal_root_latency (exact : boolean) return positive is
+  function vector_shift_latency (pipelined : boolean) return positive is
   begin
-    if formats(exact).root.fraction > formats(exact).root_entry.fraction then
-      return 4;
+    return 1 + boolean'pos(pipelined);
+  end function;
+
+  function dot_product_latency (exact, pipelined : boolean) return positive is
+  begin
+    if exact then
+      return 3;
+    elsif pipelined then
+      return 2;
     end if;
     return 1;
   end function;
 
-  function power_latency (exact : boolean) return positive is
+  function vector_multiply_latency (exact : boolean) return positive is
   begin
     if exact then
-      return 6;
+      return 2;
+    end if;
+    return 1;
+  end function;
+
+  function reciprocal_root_latency (exact : boolean) return positive is
+  begin
+    if formats(exact).root.fraction > formats(exact).root_entry.fraction then
+      return 7;
+    end if;
+    return 1;
+  end function;
+
+  function power_latency (exact, pipelined : boolean) return positive is
+  begin
+    if exact then
+      return 11;
+    elsif pipelined then
+      return 7;
     end if;
     return 2;
   end function;

@@ -51,7 +51,8 @@ begin
   block_shift : entity work.vector_shift
     generic map (
       g_vector_bits => g_vector_bits,
-      g_result_bits => c_bits
+      g_result_bits => c_bits,
+      g_clocks      => vector_shift_latency(true)
       )
     port map (
       clk        => clk,
@@ -62,7 +63,8 @@ begin
 
   length : entity work.dot_product
     generic map (
-      g_bits => c_bits
+      g_bits   => c_bits,
+      g_clocks => dot_product_latency(g_exact, true)
       )
     port map (
       clk    => clk,
@@ -88,7 +90,7 @@ begin
   align_shifted : entity work.delay_line
     generic map (
       g_bits  => shifted'length,
-      g_depth => c_dot_product_latency + reciprocal_root_latency(g_exact)
+      g_depth => dot_product_latency(g_exact, true) + reciprocal_root_latency(g_exact)
       )
     port map (
       clk     => clk,
@@ -102,7 +104,8 @@ begin
   scale : entity work.vector_multiply
     generic map (
       g_a_bits => c_bits,
-      g_b_bits => c_root + 1
+      g_b_bits => c_root + 1,
+      g_clocks => vector_multiply_latency(g_exact)
       )
     port map (
       clk      => clk,

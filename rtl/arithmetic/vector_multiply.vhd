@@ -3,7 +3,7 @@
 -- Purpose     Multiplies two vectors of three components component by component: a vector by a scalar, a colour by a
 --             colour.
 -- Formats     a: components of g_a_bits, b: of g_b_bits, products: of g_a_bits + g_b_bits; signed, x lowest
--- Latency     1 clock with enable (shading_pkg)
+-- Latency     g_clocks clocks with enable: vector_multiply_latency of shading_pkg
 -- Throughput  1 vector per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2
@@ -18,7 +18,8 @@ use work.shading_pkg.all;
 entity vector_multiply is
   generic (
     g_a_bits : positive;
-    g_b_bits : positive
+    g_b_bits : positive;
+    g_clocks : positive range 1 to 2
   );
   port (
     clk      : in  std_logic;
@@ -35,16 +36,22 @@ architecture rtl of vector_multiply is
 
 begin
 
-  registers : process (clk)
-  begin
-    if rising_edge(clk) then
-      if enable = '1' then
-        for axis in 0 to c_axes - 1 loop
-          products((axis + 1) * c_bits - 1 downto axis * c_bits) <=
-            std_logic_vector(axis_of(a, axis) * axis_of(b, axis));
-        end loop;
-      end if;
-    end if;
-  end process;
+  axes : for axis in 0 to c_axes - 1 generate
+
+    multiply : entity work.signed_multiplier
+      generic map (
+        g_a_bits => g_a_bits,
+        g_b_bits => g_b_bits,
+        g_clocks => g_clocks
+        )
+      port map (
+        clk     => clk,
+        enable  => enable,
+        a       => std_logic_vector(axis_of(a, axis)),
+        b       => std_logic_vector(axis_of(b, axis)),
+        product => products((axis + 1) * c_bits - 1 downto axis * c_bits)
+        );
+
+  end generate;
 
 end architecture;

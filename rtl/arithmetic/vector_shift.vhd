@@ -5,7 +5,7 @@
 --             normalization need not handle other lengths. A zero vector stays zero.
 -- Formats     components: g_vector_bits each, signed, of any scale, x lowest; shifted: g_result_bits each, signed, all
 --             bits except the sign are fraction
--- Latency     1 clock with enable (shading_pkg)
+-- Latency     g_clocks clocks with enable. With 2 the first one finds the number of bits, the second one shifts.
 -- Throughput  1 vector per clock
 -- Error       (-1, 0] of the result's last bit: lower bits are dropped
 -- Source      ours: the processors paper's text gives no word lengths
@@ -18,7 +18,8 @@ use work.processors_pkg.all;
 entity vector_shift is
   generic (
     g_vector_bits : positive;
-    g_result_bits : positive
+    g_result_bits : positive;
+    g_clocks      : positive range 1 to 2
   );
   port (
     clk        : in  std_logic;
@@ -44,36 +45,50 @@ architecture rtl of vector_shift is
   constant c_zeros : std_logic_vector(c_high downto 0) := (others => '0');
 
   subtype word_t is std_logic_vector(c_high downto 0);
-  type words_t is array (0 to c_axes - 1) of word_t;
   subtype result_t is std_logic_vector(c_axes * g_result_bits - 1 downto 0);
 
-  function shift_all (flat : std_logic_vector(c_axes * g_vector_bits - 1 downto 0)) return result_t is
-    variable words  : words_t;
+  subtype flat_t is std_logic_vector(c_axes * g_vector_bits - 1 downto 0);
+  subtype amount_t is std_logic_vector(stages - 1 downto 0);
+
+  -- The number of bits by which the vector can be shifted.
+  function amount_of (flat : flat_t) return amount_t is
+    variable word   : word_t;
     variable signs  : word_t;
-    variable moving : word_t := c_zeros;
-    variable result : result_t := (others => '0');
+    variable moving : word_t   := c_zeros;
+    variable amount : amount_t := (others => '0');
   begin
     -- Mark the bits in which some component differs from its sign. The lowest bit is always marked: it ends the search.
-    for axis in words'range loop
-      words(axis) := flat((axis + 1) * g_vector_bits - 1 downto axis * g_vector_bits);
-      signs       := (others => words(axis)(c_high));
-      moving      := moving or (words(axis) xor signs);
+    for axis in 0 to c_axes - 1 loop
+      word   := flat((axis + 1) * g_vector_bits - 1 downto axis * g_vector_bits);
+      signs  := (others => word(c_high));
+      moving := moving or (word xor signs);
     end loop;
     moving := moving(c_high - 1 downto 0) & '1';
-    for stage in stages - 1 downto 0 loop
+    for stage in amount'range loop
       if moving(c_high downto c_high - 2 ** stage + 1) = c_zeros(2 ** stage - 1 downto 0) then
-        moving := moving(c_high - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
-        for axis in words'range loop
-          words(axis) := words(axis)(c_high - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
-        end loop;
+        moving        := moving(c_high - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
+        amount(stage) := '1';
       end if;
     end loop;
-    for axis in words'range loop
+    return amount;
+  end function;
+
+  function shift_all (flat : flat_t; amount : amount_t) return result_t is
+    variable word   : word_t;
+    variable result : result_t := (others => '0');
+  begin
+    for axis in 0 to c_axes - 1 loop
+      word := flat((axis + 1) * g_vector_bits - 1 downto axis * g_vector_bits);
+      for stage in amount'range loop
+        if amount(stage) = '1' then
+          word := word(c_high - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
+        end if;
+      end loop;
       if g_vector_bits >= g_result_bits then
         result((axis + 1) * g_result_bits - 1 downto axis * g_result_bits) :=
-          words(axis)(c_high downto g_vector_bits - g_result_bits);
+          word(c_high downto g_vector_bits - g_result_bits);
       else
-        result((axis + 1) * g_result_bits - 1 downto (axis + 1) * g_result_bits - g_vector_bits) := words(axis);
+        result((axis + 1) * g_result_bits - 1 downto (axis + 1) * g_result_bits - g_vector_bits) := word;
       end if;
     end loop;
     return result;
@@ -81,13 +96,42 @@ architecture rtl of vector_shift is
 
 begin
 
-  registers : process (clk)
-  begin
-    if rising_edge(clk) then
-      if enable = '1' then
-        shifted <= shift_all(components);
+  at_once : if g_clocks = 1 generate
+
+    registers : process (clk)
+    begin
+      if rising_edge(clk) then
+        if enable = '1' then
+          shifted <= shift_all(components, amount_of(components));
+        end if;
       end if;
-    end if;
-  end process;
+    end process;
+
+  else generate
+
+    type reg_t is record
+      flat    : flat_t;
+      amount  : amount_t;
+      shifted : result_t;
+    end record;
+
+    signal r : reg_t;
+
+  begin
+
+    registers : process (clk)
+    begin
+      if rising_edge(clk) then
+        if enable = '1' then
+          r.flat    <= components;
+          r.amount  <= amount_of(components);
+          r.shifted <= shift_all(r.flat, r.amount);
+        end if;
+      end if;
+    end process;
+
+    shifted <= r.shifted;
+
+  end generate;
 
 end architecture;

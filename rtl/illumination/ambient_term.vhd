@@ -4,15 +4,13 @@
 --             after it need.
 --
 --               clock                  1 .. unit_vector_latency
---               N                      unit_vector             | with normalize; else N in fewer bits
+--               N                      unit_vector
 --               V = -(view ray)        unit_vector
 --               k_a I_a                wait                    reflected_term, in the last clock
 --
 --             unit_vector exists only for the vectors that config needs. Without any the term takes one clock.
--- Contract    light must not change while a token is in the stages. delayed is token, `term` of times clocks with enable
---             later; its flag normalize selects the unit vector or the plain N.
--- Formats     token, light: token_pkg; delayed: the token that leaves; terms: reflected_term; normal, view: direction,
---             three components, x lowest
+-- Contract    light must not change while a token is in the stages
+-- Formats     token, light: token_pkg; terms: reflected_term; normal, view: direction, three components, x lowest
 -- Latency     times of terms_pkg: term
 -- Throughput  1 token per clock
 -- Source      processors paper, equation 1; table 4 (it also normalizes N); section 3.2 (the first processor computes the
@@ -38,7 +36,6 @@ entity ambient_term is
     enable  : in  std_logic;
     light   : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token   : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
-    delayed : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
     terms   : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
     normal  : out std_logic_vector(c_axes * formats(g_config.exact).direction.bits - 1 downto 0);
     view    : out std_logic_vector(c_axes * formats(g_config.exact).direction.bits - 1 downto 0)
@@ -51,20 +48,11 @@ architecture rtl of ambient_term is
   constant c_formats : formats_t := formats(c_exact);
   constant c_at      : times_t   := times(g_config, c_ambient, 0);
 
-  subtype directions_t is std_logic_vector(normal'range);
-
-  signal plain        : directions_t; -- N, not normalized, in fewer bits
   signal coefficients : std_logic_vector(g_config.channels * c_formats.coefficient.bits - 1 downto 0);
 
 begin
 
-  plain <= plain_directions(c_exact, normal_of(g_config, delayed));
-
   normals : if g_config.normalize generate
-
-    signal unit : directions_t;
-
-  begin
 
     unit_normal : entity work.unit_vector
       generic map (
@@ -75,14 +63,12 @@ begin
         clk        => clk,
         enable     => enable,
         components => normal_of(g_config, token),
-        unit       => unit
+        unit       => normal
         );
-
-    normal <= unit when delayed(pixel_header(c_exact).normalize.low) = '1' else plain;
 
   else generate
 
-    normal <= plain;
+    normal <= (others => '0');
 
   end generate;
 
@@ -109,7 +95,7 @@ begin
   align_coefficients : entity work.delay_line
     generic map (
       g_bits  => coefficients'length,
-      g_depth => c_at.weight - c_vector_multiply_latency
+      g_depth => c_at.weight - reflection_latency(c_exact)
       )
     port map (
       clk     => clk,

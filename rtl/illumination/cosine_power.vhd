@@ -3,15 +3,15 @@
 -- Purpose     (N.A)**x: the cosine of the angle between two directions, 0 if it is negative, to the power of the
 --             highlight's exponent. Of a diffuse term, the cosine itself.
 --
---               clock 1  N.A                                   dot_product
---                        clamped to 0 to 1
---               then     cosine**exponent                      power, power_latency of shading_pkg
---                        or the cosine, rounded half up        1 clock
+--                                                            | clocks
+--               N.A, clamped to 0 to 1           dot_product | 2, exact 3
+--               cosine**exponent                 power       | power_latency of shading_pkg
+--                 or the cosine, rounded half up             | 1
 --
 -- Formats     normal, direction: direction, three components, x lowest; exponent: exponent (not used without
 --             g_highlight); result: weight
--- Latency     cosine_power_latency of terms_pkg, clocks with enable: 2 without g_highlight, otherwise 3 in preset
---             published and 7 in preset exact
+-- Latency     cosine_power_latency of terms_pkg, clocks with enable (published, exact): 3, 4 without g_highlight, otherwise
+--             9, 14
 -- Throughput  1 per clock
 -- Error       that of power; without g_highlight half a step of weight
 -- Source      processors paper, equation 5 and figure 1: (N.A)**x
@@ -51,7 +51,8 @@ begin
 
   dot_product : entity work.dot_product
     generic map (
-      g_bits => c_direction
+      g_bits   => c_direction,
+      g_clocks => dot_product_latency(g_exact, true)
       )
     port map (
       clk    => clk,
@@ -72,7 +73,7 @@ begin
     align_exponent : entity work.delay_line
       generic map (
         g_bits  => exponent'length,
-        g_depth => c_dot_product_latency
+        g_depth => dot_product_latency(g_exact, true)
         )
       port map (
         clk     => clk,

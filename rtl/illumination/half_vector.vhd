@@ -12,8 +12,8 @@
 -- Contract    preset published: positional and to_eye must not change while a vector is in the stages
 -- Formats     to_light: direction in preset exact, offset in preset published; to_eye, half: direction. A vector is
 --             three components, x lowest.
--- Latency     half_vector_latency of terms_pkg, clocks with enable: 0 without g_normalize, otherwise 6 in preset
---             published and 9 in preset exact
+-- Latency     half_vector_latency of terms_pkg, clocks with enable: 0 without g_normalize, otherwise 8 in preset
+--             published and 16 in preset exact
 -- Throughput  1 vector per clock
 -- Error       that of unit_vector; the sum is exact, and wraps in preset published
 -- Source      processors paper, equation 3 and figure 2 (the second vector adder)

@@ -16,19 +16,19 @@
 --
 --               published   directional        positional         spot
 --                           diffuse specular   diffuse specular   diffuse specular
---               L           0       -          6       -          6       6
---               H           -       0          -       6          -       6
---               (N.A)**x    2       3          8       9          8       9
---               weight      2       3          8       9          12      12
---               terms       3       4          9       10         13      13
+--               L           0       -          8       -          8       8
+--               H           -       0          -       8          -       8
+--               (N.A)**x    3       9          11      17         11      17
+--               weight      3       9          11      17         19      19
+--               terms       4       10         12      18         20      20
 --
 --               exact       directional        positional         spot
 --                           diffuse specular   diffuse specular   diffuse specular
---               L           0       0          10      10         10      10
---               H           -       9          -       19         -       19
---               (N.A)**x    2       16         12      26         12      26
---               weight      2       16         12      26         16      27
---               terms       3       17         13      27         17      28
+--               L           0       0          18      18         18      18
+--               H           -       16         -       34         -       34
+--               (N.A)**x    4       30         22      48         22      48
+--               weight      4       30         22      48         30      49
+--               terms       6       32         24      50         32      51
 --
 --             Preset exact has no highlight below the light's horizon: `above` is '1' where N.L > 0.
 -- Contract    light must not change while a token is in the stages
@@ -143,7 +143,8 @@ begin
 
       horizon : entity work.dot_product
         generic map (
-          g_bits => c_formats.direction.bits
+          g_bits   => c_formats.direction.bits,
+          g_clocks => dot_product_latency(c_exact, true)
           )
         port map (
           clk    => clk,
@@ -158,7 +159,7 @@ begin
       align_horizon : entity work.delay_line
         generic map (
           g_bits  => 1,
-          g_depth => c_at.term - c_at.to_light - c_dot_product_latency
+          g_depth => c_at.term - c_at.to_light - dot_product_latency(c_exact, true)
           )
         port map (
           clk        => clk,
@@ -246,7 +247,7 @@ begin
   align_coefficients : entity work.delay_line
     generic map (
       g_bits  => coefficients'length,
-      g_depth => c_at.weight - c_vector_multiply_latency
+      g_depth => c_at.weight - reflection_latency(c_exact)
       )
     port map (
       clk     => clk,

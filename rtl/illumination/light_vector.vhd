@@ -5,14 +5,14 @@
 --
 --                                                              | clocks
 --               place * distance      position of the light, on the scale of the point (preset exact)
---                 - point             vector to the light        | 1, exact 2
+--                 - point             vector to the light        | 1, exact 3
 --                 / length            unit_vector                | unit_vector_latency
 --
 -- Contract    positional, place and shift must not change while a point is in the stages
 -- Formats     place: light_place, a vector or a direction; shift: light_shift; point: vector, distance: vector (not
 --             used by preset published); to_light: direction. A vector is three components, x lowest.
--- Latency     light_vector_latency of terms_pkg, clocks with enable: 0 without g_positional, otherwise 6 in
---             preset published and 10 in preset exact
+-- Latency     light_vector_latency of terms_pkg, clocks with enable: 0 without g_positional, otherwise 8 in
+--             preset published and 18 in preset exact
 -- Throughput  1 vector per clock
 -- Error       that of unit_vector, and half a step of offset in each component of the vector to the light
 -- Source      processors paper, equation 3 and figure 2
@@ -73,7 +73,8 @@ begin
       scale : entity work.vector_multiply
         generic map (
           g_a_bits => c_place,
-          g_b_bits => c_vector
+          g_b_bits => c_vector,
+          g_clocks => vector_multiply_latency(g_exact)
           )
         port map (
           clk      => clk,
@@ -86,7 +87,7 @@ begin
       align_points : entity work.delay_line
         generic map (
           g_bits  => point'length,
-          g_depth => c_vector_multiply_latency
+          g_depth => vector_multiply_latency(g_exact)
           )
         port map (
           clk     => clk,

@@ -3,8 +3,8 @@
 -- Purpose     The weight of a light at a point: (N.A)**x; for a spot, times the share of its cone.
 --
 --                                                              | clocks
---               L . axis              dot_product                | 1
---               share of the cone     spot_cone                  | 4
+--               L . axis              dot_product                | 2, exact 3
+--               share of the cone     spot_cone                  | 8
 --                 * (N.A)**x          product, cut               | 1
 --
 --             g_lead is the number of clocks from to_light to its cosine. The earlier one of cosine and share is delayed
@@ -48,7 +48,7 @@ end entity;
 architecture rtl of light_weight is
 
   constant c_direction : positive := formats(g_exact).direction.bits;
-  constant c_share     : positive := c_dot_product_latency + c_spot_cone_latency;
+  constant c_share     : positive := dot_product_latency(g_exact, true) + c_spot_cone_latency;
   constant c_both      : positive := larger(c_share, g_lead); -- clocks from to_light until both are valid
 
   subtype weight_t is std_logic_vector(weight'range);
@@ -66,7 +66,8 @@ begin
 
     axis_product : entity work.dot_product
       generic map (
-        g_bits => c_direction
+        g_bits   => c_direction,
+        g_clocks => dot_product_latency(g_exact, true)
         )
       port map (
         clk    => clk,

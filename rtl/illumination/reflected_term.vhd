@@ -2,16 +2,18 @@
 --
 -- Purpose     k I (N.A)**x: the light that a surface reflects, one product per channel.
 --
---               clock 1  k * I                    vector_multiply
---                        rounded half up, clamped to the largest value of the format reflected
---               clock 2  (k I) * weight           vector_multiply, only with g_weighted
+--                                                                                  | clocks
+--               k * I                    vector_multiply                             | 1, exact 2
+--               k I                      rounded half up, clamped to reflected       | 1
+--               (k I) * weight           vector_multiply, only with g_weighted       | 1, exact 2
 --
 --             Without g_weighted the weight is 1: the ambient term, where x is 0.
 -- Contract    intensities must not change while a point is in the stages
 -- Formats     coefficients: coefficient, intensities: light_intensity, a word per channel, the first lowest; weight:
---             weight, a clock after its coefficients; terms: product_bits of terms_pkg per channel, with the fraction
+--             weight, reflection_latency of terms_pkg after its coefficients; terms: product_bits of terms_pkg per channel, with the fraction
 --             bits of reflected and weight
--- Latency     clocks with enable to terms: 2 from coefficients, 1 from weight; without g_weighted 1 from coefficients
+-- Latency     clocks with enable to terms: vector_multiply_latency of shading_pkg from weight; without g_weighted
+--             reflection_latency from coefficients
 -- Throughput  1 term per clock
 -- Error       half a step of reflected
 -- Source      processors paper, equation 5 and figure 1: the vector multiplications
@@ -22,6 +24,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
+use work.shading_pkg.all;
 use work.terms_pkg.all;
 use work.vector_pkg.all;
 
@@ -62,7 +65,8 @@ begin
   reflect : entity work.vector_multiply
     generic map (
       g_a_bits => c_k,
-      g_b_bits => c_intensity
+      g_b_bits => c_intensity,
+      g_clocks => vector_multiply_latency(g_exact)
       )
     port map (
       clk      => clk,
@@ -72,14 +76,18 @@ begin
       products => k_i
       );
 
-  round : process (all)
+  round : process (clk)
   begin
-    reflections <= (others => '0');
-    for channel in 0 to g_channels - 1 loop
-      reflections((channel + 1) * c_reflected - 2 downto channel * c_reflected) <=
-        reflected(g_exact, unsigned(k_i((channel + 1) * (c_k + c_intensity) - 3
-        downto channel * (c_k + c_intensity))));
-    end loop;
+    if rising_edge(clk) then
+      if enable = '1' then
+        reflections <= (others => '0');
+        for channel in 0 to g_channels - 1 loop
+          reflections((channel + 1) * c_reflected - 2 downto channel * c_reflected) <=
+            reflected(g_exact, unsigned(k_i((channel + 1) * (c_k + c_intensity) - 3
+            downto channel * (c_k + c_intensity))));
+        end loop;
+      end if;
+    end if;
   end process;
 
   weighted : if g_weighted generate
@@ -96,7 +104,8 @@ begin
     weigh : entity work.vector_multiply
       generic map (
         g_a_bits => c_reflected,
-        g_b_bits => c_weight
+        g_b_bits => c_weight,
+        g_clocks => vector_multiply_latency(g_exact)
         )
       port map (
         clk      => clk,

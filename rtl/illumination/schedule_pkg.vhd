@@ -6,12 +6,12 @@
 --
 --                   published       exact
 --   P_p / w                  -       1               shared_multiplier
---   P_p - P                  1       2               shared_adder
---   shift                    2       3               shared_normalizer
---   square                   3       4               shared_dot_product with itself
---   1/sqrt                   4       5               shared_normalizer
---   scale                    5       9               shared_multiplier
---   round                    6      10               shared_normalizer: L
+--   P_p - P                  1       3               shared_adder
+--   shift                    2       4               shared_normalizer
+--   square                   3       5               shared_dot_product with itself
+--   1/sqrt                   4       8               shared_normalizer
+--   scale                    5      15               shared_multiplier
+--   round                    6      17               shared_normalizer: L
 --   L + V, ... H          (all again, from the sum on)
 --   N.A                                              shared_dot_product
 --   power                                            shared_weight
@@ -76,11 +76,11 @@ package body schedule_pkg is
 
   function schedule (c : config_t; kind, light : natural) return schedule_t is
     constant c_shape        : shape_t  := shape(c, kind, light);
-    constant c_shift_clocks : positive := c_vector_shift_latency;
-    constant c_dot_clocks   : positive := c_dot_product_latency;
-    constant c_mul_clocks   : positive := c_vector_multiply_latency;
+    constant c_shift_clocks : positive := vector_shift_latency(false);
+    constant c_dot_clocks   : positive := dot_product_latency(c.exact, false);
+    constant c_mul_clocks   : positive := vector_multiply_latency(c.exact);
     constant c_root_clocks  : positive := reciprocal_root_latency(c.exact);
-    constant c_power_clocks : positive := power_latency(c.exact);
+    constant c_power_clocks : positive := power_latency(c.exact, false);
     constant c_cone_clocks  : positive := c_spot_cone_latency;
 
     variable s : schedule_t := (others => 0);

@@ -23,9 +23,9 @@
 --             the units: terms_pkg
 -- Latency     the clocks of Throughput, minus 1
 -- Throughput  1 token per this number of clocks, the clock of the input and of the output included (published, exact):
---             load, delete, shadow polygon, object without a light 2, 2; object in a shadow 3, 3; ambient 4, 4; with N
---             normalized 6, 9; with the view vector too -, 15 (without N 10); directional diffuse 6, 6, specular 7, 20;
---             positional diffuse 12, 16, specular 13, 30; spot diffuse 18, 22, specular 24, 32. A step waits only while
+--             load, delete, shadow polygon, object without a light 2, 2; object in a shadow 3, 3; ambient 4, 5; with N
+--             normalized 6, 15; with the view vector too -, 26 (without N 16); directional diffuse 6, 9, specular 7, 34;
+--             positional diffuse 12, 26, specular 13, 51; spot diffuse 22, 37, specular 28, 54. A step waits only while
 --             its unit is busy.
 -- Source      processors paper, figures 1 and 2 and table 4: preset published has its clocks. Ours: spots, perspective,
 --             the view vector.

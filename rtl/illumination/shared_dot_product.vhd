@@ -7,7 +7,7 @@
 --               others        N times A: L, or H of a highlight
 --             The ambient processor computes only squares.
 -- Formats     directions: direction, three components, x lowest; dot: dot_product
--- Latency     1 clock
+-- Latency     dot_product_latency of shading_pkg: 1 clock, in preset exact 3
 -- Throughput  1 product per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2: the dot product with its multiplexers
@@ -18,6 +18,7 @@ use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.schedule_pkg.all;
+use work.shading_pkg.all;
 use work.terms_pkg.all;
 
 entity shared_dot_product is
@@ -66,7 +67,8 @@ begin
 
   multiply : entity work.dot_product
     generic map (
-      g_bits => formats(g_config.exact).direction.bits
+      g_bits   => formats(g_config.exact).direction.bits,
+      g_clocks => dot_product_latency(g_config.exact, false)
       )
     port map (
       clk    => clk,

@@ -8,7 +8,7 @@
 --               others        k I
 -- Formats     factors: factor_a_bits and factor_b_bits of schedule_pkg; products: shared_product_bits, three components or
 --             channels, the first lowest; others: formats_pkg
--- Latency     1 clock
+-- Latency     vector_multiply_latency of shading_pkg: 1 clock, in preset exact 2
 -- Throughput  1 product per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2: the vector multiplication with its multiplexers
@@ -20,6 +20,7 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.schedule_pkg.all;
+use work.shading_pkg.all;
 use work.terms_pkg.all;
 use work.token_pkg.all;
 use work.vector_pkg.all;
@@ -94,7 +95,8 @@ begin
   multiply : entity work.vector_multiply
     generic map (
       g_a_bits => c_a,
-      g_b_bits => c_b
+      g_b_bits => c_b,
+      g_clocks => vector_multiply_latency(c_exact)
       )
     port map (
       clk      => clk,

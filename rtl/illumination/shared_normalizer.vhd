@@ -18,6 +18,7 @@ use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
 use work.schedule_pkg.all;
+use work.shading_pkg.all;
 use work.terms_pkg.all;
 
 entity shared_normalizer is
@@ -58,7 +59,8 @@ begin
   block_shift : entity work.vector_shift
     generic map (
       g_vector_bits => normalized_bits(g_config, g_kind, g_light),
-      g_result_bits => c_direction
+      g_result_bits => c_direction,
+      g_clocks      => vector_shift_latency(false)
       )
     port map (
       clk        => clk,

@@ -63,7 +63,8 @@ begin
 
     power : entity work.power
       generic map (
-        g_exact => c_exact
+        g_exact     => c_exact,
+        g_pipelined => false
         )
       port map (
         clk      => clk,

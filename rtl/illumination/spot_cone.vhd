@@ -2,13 +2,15 @@
 --
 -- Purpose     The factor of a spot light's cone, from the cosine of the angle to the cone's axis: 0 outside the outer
 --             edge, 1 inside the inner edge, t**2 (3 - 2 t) between them, where t is linear in the cosine.
---               clock 1  over = -axis_sum - outer, cut to 28 fraction bits; 0 if negative
---               clock 2  t = over * slope, at most 1, cut to weight's fraction bits
---               clock 3  t**2
---               clock 4  t**2 (3 - 2 t), rounded half up
+--               clock 1     over = -axis_sum - outer, cut to 28 fraction bits; 0 if negative
+--               clock 2, 3  over * slope
+--               clock 4     t, at most 1, cut to weight's fraction bits
+--               clock 5     t**2
+--               clock 6, 7  t**2 (3 - 2 t)
+--               clock 8     rounded half up
 -- Formats     axis_sum: exact dot product of the direction *to* the light and the axis; outer: direction; slope:
 --             spot_slope; factor: weight
--- Latency     4 clocks with enable (shading_pkg)
+-- Latency     8 clocks with enable (shading_pkg)
 -- Throughput  1 factor per clock
 -- Error       3.5 * 2**-16 exact, 2 * 2**-8 published, for slopes up to 2**12: the cuts of over and t, and rounding.
 --             1.5 * 2**-28 * slope more for steeper slopes, where the errors of the directions are larger
@@ -56,28 +58,76 @@ architecture rtl of spot_cone is
     slope    : unsigned(c_slope - 1 downto 0);
     t        : weight_t;
     square_t : weight_t;
-    square   : unsigned(2 * c_weight - 1 downto 0);
     factor   : std_logic_vector(c_weight - 1 downto 0);
   end record;
 
   signal r : reg_t;
 
+  signal wide_t : std_logic_vector(c_over_bits + c_slope + 1 downto 0);
+  signal square : std_logic_vector(2 * c_weight + 1 downto 0);
+  signal rest   : unsigned(c_weight downto 0); -- 3 - 2 t
+  signal cubic  : std_logic_vector(3 * c_weight + 2 downto 0);
+
+  function one return weight_t is
+    variable word : weight_t := (others => '0');
+  begin
+    word(word'high) := '1';
+    return word;
+  end function;
+
 begin
 
+  multiply_slope : entity work.signed_multiplier
+    generic map (
+      g_a_bits => c_over_bits + 1,
+      g_b_bits => c_slope + 1,
+      g_clocks => 2
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      a       => '0' & std_logic_vector(r.over),
+      b       => '0' & std_logic_vector(r.slope),
+      product => wide_t
+      );
+
+  square_t : entity work.signed_multiplier
+    generic map (
+      g_a_bits => c_weight + 1,
+      g_b_bits => c_weight + 1,
+      g_clocks => 1
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      a       => '0' & std_logic_vector(r.t),
+      b       => '0' & std_logic_vector(r.t),
+      product => square
+      );
+
+  rest <= (one & '0') + one - (r.square_t & '0');
+
+  multiply_rest : entity work.signed_multiplier
+    generic map (
+      g_a_bits => 2 * c_weight + 1,
+      g_b_bits => c_weight + 2,
+      g_clocks => 2
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      a       => square(2 * c_weight downto 0),
+      b       => '0' & std_logic_vector(rest),
+      product => cubic
+      );
+
   registers : process (clk)
-    variable over   : signed(c_sum_high downto 0);
-    variable wide_t : unsigned(c_over_bits + c_slope - 1 downto 0);
-    variable t      : unsigned(c_over_bits + c_slope - c_t_low - 1 downto 0);
-    variable one    : weight_t;
-    variable rest   : unsigned(c_weight downto 0);
-    variable cubic  : unsigned(3 * c_weight downto 0);
-    variable share  : unsigned(3 * c_weight + 1 - 2 * c_formats.weight.fraction downto 0);
+    variable over  : signed(c_sum_high downto 0);
+    variable t     : unsigned(c_over_bits + c_slope - c_t_low - 1 downto 0);
+    variable share : unsigned(3 * c_weight + 1 - 2 * c_formats.weight.fraction downto 0);
   begin
     if rising_edge(clk) then
       if enable = '1' then
-        one           := (others => '0');
-        one(one'high) := '1';
-
         over   := resize(-resize(signed(axis_sum), c_sum_high + 1)
           - (signed(outer) & (c_fraction - 1 downto 0 => '0')), c_sum_high + 1);
         r.over <= (others => '0');
@@ -86,20 +136,15 @@ begin
         end if;
         r.slope <= unsigned(slope);
 
-        wide_t := r.over * r.slope;
-        t      := wide_t(wide_t'high downto c_t_low);
-        r.t    <= one;
+        t   := unsigned(wide_t(c_over_bits + c_slope - 1 downto c_t_low));
+        r.t <= one;
         if t(t'high downto c_weight - 1) = (t'high downto c_weight - 1 => '0') then
           r.t <= t(c_weight - 1 downto 0);
         end if;
 
         r.square_t <= r.t;
-        r.square   <= r.t * r.t;
 
-        -- 3 - 2 t
-        rest     := (one & '0') + one - (r.square_t & '0');
-        cubic    := r.square * rest;
-        share    := round_half_up(cubic, 2 * c_formats.weight.fraction);
+        share    := round_half_up(unsigned(cubic(3 * c_weight downto 0)), 2 * c_formats.weight.fraction);
         r.factor <= std_logic_vector(share(c_weight - 1 downto 0));
       end if;
     end if;

@@ -26,6 +26,9 @@ package terms_pkg is
 
   function larger (a, b : natural) return natural;
 
+  -- Bits of an index of that many places.
+  function index_bits (places : positive) return positive;
+
   -- Bits of the vector that half_vector adds to the direction to the eye, and of the sum.
   function half_light_bits (exact : boolean) return positive;
 
@@ -43,7 +46,10 @@ package terms_pkg is
 
   function cosine_power_latency (exact, highlight : boolean) return positive;
 
-  function light_weight_latency (spot : boolean; lead : natural) return natural;
+  function light_weight_latency (exact, spot : boolean; lead : natural) return natural;
+
+  -- From k to k I, rounded; from a weight to its term.
+  function reflection_latency (exact : boolean) return positive;
 
   -- Unrolled form: clocks from the clock in which the token is taken to the clock in which a result is valid.
   type times_t is record
@@ -128,6 +134,15 @@ package body terms_pkg is
     return b;
   end function;
 
+  function index_bits (places : positive) return positive is
+    variable bits : positive := 1;
+  begin
+    while 2 ** bits < places loop
+      bits := bits + 1;
+    end loop;
+    return bits;
+  end function;
+
   function half_light_bits (exact : boolean) return positive is
   begin
     if exact then
@@ -151,8 +166,8 @@ package body terms_pkg is
 
   function unit_vector_latency (exact : boolean) return positive is
   begin
-    return c_vector_shift_latency + c_dot_product_latency + reciprocal_root_latency(exact) + c_vector_multiply_latency
-      + 1;
+    return vector_shift_latency(true) + dot_product_latency(exact, true) + reciprocal_root_latency(exact)
+      + vector_multiply_latency(exact) + 1;
   end function;
 
   function light_vector_latency (exact, positional : boolean) return natural is
@@ -160,7 +175,7 @@ package body terms_pkg is
     if not positional then
       return 0;
     elsif exact then
-      return c_vector_multiply_latency + 1 + unit_vector_latency(exact);
+      return vector_multiply_latency(exact) + 1 + unit_vector_latency(exact);
     end if;
     return 1 + unit_vector_latency(exact);
   end function;
@@ -176,17 +191,22 @@ package body terms_pkg is
   function cosine_power_latency (exact, highlight : boolean) return positive is
   begin
     if highlight then
-      return c_dot_product_latency + power_latency(exact);
+      return dot_product_latency(exact, true) + power_latency(exact, true);
     end if;
-    return c_dot_product_latency + 1;
+    return dot_product_latency(exact, true) + 1;
   end function;
 
-  function light_weight_latency (spot : boolean; lead : natural) return natural is
+  function reflection_latency (exact : boolean) return positive is
+  begin
+    return vector_multiply_latency(exact) + 1;
+  end function;
+
+  function light_weight_latency (exact, spot : boolean; lead : natural) return natural is
   begin
     if not spot then
       return 0;
     end if;
-    return larger(c_dot_product_latency + c_spot_cone_latency, lead) - lead + 1;
+    return larger(dot_product_latency(exact, true) + c_spot_cone_latency, lead) - lead + 1;
   end function;
 
   function times (c : config_t; kind, light : natural) return times_t is
@@ -195,7 +215,7 @@ package body terms_pkg is
     variable t : times_t := (others => 0);
   begin
     if kind = c_ambient then
-      t.weight := c_vector_multiply_latency;
+      t.weight := reflection_latency(c.exact);
       if c_shape.first or c_shape.second then
         t.weight := larger(unit_vector_latency(c.exact), t.weight);
       end if;
@@ -210,10 +230,10 @@ package body terms_pkg is
         t.cosine := half_vector_latency(c.exact, c_shape.second);
       end if;
       t.raised := t.cosine + cosine_power_latency(c.exact, kind = c_specular);
-      t.weight := t.raised + light_weight_latency(c_shape.spots, t.raised - t.to_light);
-      t.term   := t.weight + c_vector_multiply_latency;
+      t.weight := t.raised + light_weight_latency(c.exact, c_shape.spots, t.raised - t.to_light);
+      t.term   := t.weight + vector_multiply_latency(c.exact);
     end if;
-    t.leave := t.term + 1;
+    t.leave := t.term + 3; -- two clocks in the queues, one in the sum
     return t;
   end function;
 

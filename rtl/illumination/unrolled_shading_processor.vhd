@@ -7,20 +7,20 @@
 --                          |
 --                          +-- ambient_term     k_a I_a, unit vectors N and V  | or
 --                          +-- light_term       k I (N.A)**x of one light      | (drawings of the steps there)
---                          |                                          |
---                          +-- delay_line       the token             v
---                                                 +------------- radiance_sum -- out_token
+--                          |                                          | stream_queue: the term
+--                          |                                          v
+--                          +-- stream_queue     the token ------ radiance_sum -- out_token
 --
---             A token is taken in clock 0. After n clocks it is in stage n. Its term is valid in stage c_at.term, its
---             sum in stage c_at.leave = c_at.term + 1.
--- Contract    as shading_processor, except for latency and throughput. All stages stall together while out_token waits.
---             A token that defines, changes or deletes the light is taken only when the stages are empty. fault stays
---             '1', at the latest from the clock after the counting token has left.
+--             A token is taken in clock 0. After n clocks it is in stage n. Its term is valid in stage c_at.term. The
+--             stages never stall: a token is taken only if the queues have a place for it.
+-- Contract    as shading_processor, except for latency and throughput. in_ready does not depend on out_ready in the same
+--             clock. A token that defines, changes or deletes the light is taken only when the stages and the queues are
+--             empty. fault stays '1', at the latest from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between the steps: terms_pkg
--- Latency     times of terms_pkg: leave (published, exact): ambient 2, 2; with N normalized or the view vector 6, 9;
---             directional diffuse 4, 4, specular 5, 18; positional diffuse 10, 14, specular 11, 28; spot diffuse 14, 18,
---             specular 14, 29
--- Throughput  1 token per clock; a token that changes the light waits until the stages are empty
+-- Latency     times of terms_pkg: leave (published, exact): ambient 5, 6; with N normalized or the view vector 10, 18;
+--             directional diffuse 7, 9, specular 13, 35; positional diffuse 15, 27, specular 21, 53; spot diffuse 23, 35,
+--             specular 23, 54
+-- Throughput  1 token per clock; a token that changes the light waits until the stages and the queues are empty
 -- Source      processors paper, figures 1 and 2, unrolled; ours
 -- Golden twin model/golden/shading_processor.hpp
 
@@ -68,19 +68,32 @@ architecture rtl of unrolled_shading_processor is
     g_specular, g_normalize, g_shadows);
   constant c_at     : times_t  := times(c_config, g_kind, g_light);
 
+  -- A place in the queues is claimed for c_at.leave - 1 clocks. With two places more a token is taken in every clock.
+  constant c_index_bits : positive := index_bits(c_at.leave + 1);
+
+  constant c_terms : positive := g_channels * product_bits(g_exact);
+  -- Only the ambient processor has unit vectors.
+  constant c_vector : natural := boolean'pos(g_kind = c_ambient) * c_axes * formats(g_exact).direction.bits;
+
   subtype token_t is std_logic_vector(in_token'range);
   subtype radiance_t is std_logic_vector(g_channels * formats(g_exact).radiance.bits - 1 downto 0);
-  subtype directions_t is std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
+  subtype directions_t is std_logic_vector(c_vector - 1 downto 0);
+  subtype terms_t is std_logic_vector(c_terms - 1 downto 0);
+
+  -- What the steps compute for a token, the first lowest.
+  subtype result_t is std_logic_vector(1 + c_terms + 2 * c_vector - 1 downto 0);
 
   type reg_t is record
-    filled : std_logic_vector(c_at.leave downto 1); -- stages that hold a token
+    filled : std_logic_vector(c_at.term downto 1); -- stages that hold a token
+    full   : std_logic; -- a token is at the output
   end record;
 
   signal r, r_next : reg_t;
 
-  signal enable  : std_logic; -- of all stages
   signal free    : std_logic;
   signal take    : std_logic;
+  signal room    : std_logic; -- in the queues
+  signal pending : std_logic; -- a token is in the stages or in the queues
   signal ready   : std_logic; -- of the light's state
   signal changes : std_logic; -- the token offered changes the light
   signal light   : std_logic_vector(light_bits(c_config) - 1 downto 0);
@@ -88,35 +101,39 @@ architecture rtl of unrolled_shading_processor is
   signal lit     : std_logic; -- the token in stage 1
 
   -- Of the token in stage c_at.term.
-  signal term_token : token_t;
-  signal object     : std_logic;
-  signal terms      : std_logic_vector(g_channels * product_bits(g_exact) - 1 downto 0);
-  signal reached    : std_logic; -- by the light
-  signal ready_token : token_t;  -- output token without its new colour
+  signal terms   : terms_t;
+  signal reached : std_logic;    -- by the light
+  signal normal  : directions_t; -- unit vectors, of the ambient processor
+  signal view    : directions_t;
+
+  -- Of the first token in the queues.
+  signal complete : std_logic; -- its steps are done
+  signal leave    : std_logic; -- it moves to the output
+  signal waiting  : token_t;
+  signal result   : result_t;
+  signal renewed  : token_t;   -- the token without its new colour
+  signal object   : std_logic;
 
   signal leaving  : token_t;
   signal radiance : radiance_t;
 
 begin
 
-  enable <= out_ready or not r.filled(c_at.leave);
-  free   <= enable and ready and not (in_valid and changes and (or r.filled));
-  take   <= in_valid and free;
+  free <= room and ready and not (in_valid and changes and (pending or r.full));
+  take <= in_valid and free;
 
   in_ready  <= free;
-  out_valid <= r.filled(c_at.leave);
+  out_valid <= r.full;
   out_token <= with_radiance(c_config, leaving, radiance);
-  busy      <= or r.filled;
+  busy      <= pending or r.full;
 
   combinational : process (all)
     variable v : reg_t;
   begin
-    v := r;
-    if enable = '1' then
-      v.filled := r.filled(c_at.leave - 1 downto 1) & take;
-    end if;
+    v.filled := r.filled(c_at.term - 1 downto 1) & take;
+    v.full   := complete or (r.full and not out_ready);
     if reset = '1' then
-      v.filled := (others => '0');
+      v := (filled => (others => '0'), full => '0');
     end if;
     r_next <= v;
   end process;
@@ -144,56 +161,23 @@ begin
       fault   => fault
       );
 
-  align_token : entity work.delay_line
-    generic map (
-      g_bits  => in_token'length,
-      g_depth => c_at.term
-      )
-    port map (
-      clk     => clk,
-      enable  => enable,
-      word    => in_token,
-      delayed => term_token
-      );
-
-  object <= is_object(command_of(g_exact, term_token));
-
   kind : if g_kind = c_ambient generate
-
-    signal normal : directions_t;
-    signal view   : directions_t;
-
-  begin
 
     ambient_term : entity work.ambient_term
       generic map (
         g_config => c_config
         )
       port map (
-        clk     => clk,
-        enable  => enable,
-        light   => light,
-        token   => in_token,
-        delayed => term_token,
-        terms   => terms,
-        normal  => normal,
-        view    => view
+        clk    => clk,
+        enable => '1',
+        light  => light,
+        token  => in_token,
+        terms  => terms,
+        normal => normal,
+        view   => view
         );
 
     reached <= '1';
-
-    renew : process (all)
-      variable v : token_t;
-    begin
-      v := term_token;
-      if object = '1' then
-        v := with_direction(c_config, v, normal);
-        if has_view(c_config) then
-          v := with_view(c_config, v, view);
-        end if;
-      end if;
-      ready_token <= v;
-    end process;
 
   else generate
 
@@ -206,7 +190,7 @@ begin
       generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
       port map (
         clk    => clk,
-        enable => enable,
+        enable => '1',
         light  => light,
         token  => in_token,
         terms  => terms,
@@ -220,15 +204,73 @@ begin
         )
       port map (
         clk        => clk,
-        enable     => enable,
+        enable     => '1',
         word(0)    => lit,
         delayed(0) => lit_term
         );
 
-    reached     <= lit_term and above;
-    ready_token <= term_token;
+    reached <= lit_term and above;
+    normal  <= (others => '0');
+    view    <= (others => '0');
 
   end generate;
+
+  tokens : entity work.stream_queue
+    generic map (
+      g_bits       => token_t'length,
+      g_index_bits => c_index_bits
+      )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      claim     => take,
+      room      => room,
+      pending   => pending,
+      in_valid  => take,
+      in_data   => in_token,
+      out_valid => open,
+      out_ready => leave,
+      out_data  => waiting
+      );
+
+  -- A token waits at the head of its queue until its result comes.
+  results : entity work.stream_queue
+    generic map (
+      g_bits       => result_t'length,
+      g_index_bits => c_index_bits
+      )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      claim     => take,
+      room      => open,
+      pending   => open,
+      in_valid  => r.filled(c_at.term),
+      in_data   => view & normal & terms & reached,
+      out_valid => complete,
+      out_ready => leave,
+      out_data  => result
+      );
+
+  leave  <= complete and (out_ready or not r.full);
+  object <= is_object(command_of(g_exact, waiting));
+
+  -- The ambient processor renews the vectors of an object
+  renew : process (all)
+    variable v : token_t;
+  begin
+    v := waiting;
+    if g_kind = c_ambient and object = '1' then
+      v := with_direction(c_config, v, plain_directions(g_exact, normal_of(c_config, waiting)));
+      if g_normalize and waiting(pixel_header(g_exact).normalize.low) = '1' then
+        v := with_direction(c_config, v, result(c_terms + c_vector downto c_terms + 1));
+      end if;
+      if has_view(c_config) then
+        v := with_view(c_config, v, result(result'high downto c_terms + c_vector + 1));
+      end if;
+    end if;
+    renewed <= v;
+  end process;
 
   radiance_sum : entity work.radiance_sum
     generic map (
@@ -237,18 +279,18 @@ begin
       )
     port map (
       clk      => clk,
-      enable   => enable,
-      add      => object and defined and reached,
-      radiance => radiance_of(c_config, term_token),
-      terms    => terms,
+      enable   => leave,
+      add      => object and defined and result(0),
+      radiance => radiance_of(c_config, waiting),
+      terms    => result(c_terms downto 1),
       result   => radiance
       );
 
-  leave : process (clk)
+  output : process (clk)
   begin
     if rising_edge(clk) then
-      if enable = '1' then
-        leaving <= ready_token;
+      if leave = '1' then
+        leaving <= renewed;
       end if;
     end if;
   end process;

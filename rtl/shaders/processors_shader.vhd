@@ -15,13 +15,13 @@
 --             one channel (g_channels = 1) red, green and blue are equal.
 --             fault stays '1' once a shadow counter has left its range. On a fault, discard all fragments.
 -- Formats     formats_pkg: depth, colour; processors_pkg gives the positions of the blocks of a vector
--- Latency     4 clocks from a vector taken to its first object at the pipeline, if its first line covers a pixel, 1
+-- Latency     6 clocks from a vector taken to its first object at the pipeline, if its first line covers a pixel, 1
 --             more with shadows; then that of shading_pipeline, and 1
 -- Throughput  that of shading_pipeline: in the unrolled form 1 fragment per clock, with no bubble between spans, lines
 --             and triangles. Exceptions: a triangle takes at least 2 clocks; a line without a pixel takes 1 clock if no
 --             span is drawn meanwhile; the first load after a triangle takes 4 clocks, each further load 1. In the
---             unrolled form define, redefine and delete also wait, in each processor of their light, until its stages
---             are empty. With shadows, objects after new_frame wait until the columns are cleared
+--             unrolled form define, redefine and delete also wait, in each processor of their light, until it is empty.
+--             With shadows, objects after new_frame wait until the columns are cleared
 -- Error       see plane_sum in formats_pkg, shading_processor; the colour is rounded once
 -- Source      processors paper, sections 3 and 4
 -- Golden twin model/golden/processors_shader.hpp
@@ -99,6 +99,11 @@ architecture rtl of processors_shader is
   signal token_valid  : std_logic;
   signal token_ready  : std_logic;
   signal token        : token_t;
+  signal token_taken  : std_logic;
+  signal queued       : std_logic; -- a token waits for the pipeline
+  signal next_valid   : std_logic;
+  signal next_ready   : std_logic;
+  signal next_token   : token_t;
   signal shading      : std_logic;
   signal shaded_valid : std_logic;
   signal shaded_ready : std_logic;
@@ -220,6 +225,27 @@ begin
       frame_start  => frame_start
       );
 
+  -- Keep the multiplexers of loads and objects from the first step of the pipeline, and its ready from the rasterizer.
+  token_taken <= token_valid and token_ready;
+
+  token_queue : entity work.stream_queue
+    generic map (
+      g_bits       => token_t'length,
+      g_index_bits => 2
+      )
+    port map (
+      clk       => clk,
+      reset     => reset,
+      claim     => token_taken,
+      room      => token_ready,
+      pending   => queued,
+      in_valid  => token_taken,
+      in_data   => token,
+      out_valid => next_valid,
+      out_ready => next_ready,
+      out_data  => next_token
+      );
+
   pipeline : entity work.shading_pipeline
     generic map (
       g_exact       => g_exact,
@@ -236,9 +262,9 @@ begin
     port map (
       clk       => clk,
       reset     => reset,
-      in_valid  => token_valid,
-      in_ready  => token_ready,
-      in_token  => token,
+      in_valid  => next_valid,
+      in_ready  => next_ready,
+      in_token  => next_token,
       out_valid => shaded_valid,
       out_ready => shaded_ready,
       out_token => shaded,
@@ -267,6 +293,6 @@ begin
       fragment_blue     => fragment_blue
       );
 
-  busy <= waiting or drawing or objects_busy or shading or fragment_valid;
+  busy <= waiting or drawing or objects_busy or queued or shading or fragment_valid;
 
 end architecture;

@@ -3,7 +3,7 @@
 -- Purpose     The end of a pipeline that never stalls: a place for every word that is in the pipeline. The start of the
 --             pipeline claims a place for each word. One registered signal, `room`, stalls the start.
 -- Contract    A place is claimed where claim = '1' at a rising edge. Assert claim only while room = '1'. The word of
---             the place comes in a later clock: in_valid = '1'. Words come in the order of their claims. A word leaves
+--             the place comes in that clock or a later one: in_valid = '1'. Words come in the order of their claims. A word leaves
 --             where out_valid and out_ready are both '1'; out_data does not change while out_valid = '1' and
 --             out_ready = '0'. pending: a place is claimed or a word is in the queue.
 -- Formats     g_bits of any format

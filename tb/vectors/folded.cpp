@@ -135,9 +135,9 @@ Path lit_path(const Abilities<Preset>& can, const Object& o) {
     path.clocks += row_clocks<Preset>(can.term, LightKind::spot) -
                    row_clocks<Preset>(can.term, LightKind::positional) -
                    (printed_highlight && !positional ? to_light : 0);
-  // N.L is known in the second clock of the work on H.
+  // N.L is known in the fourth clock of the work on H.
   if (can.term == Term::specular && Abilities<Preset>::c_exact && !o.above) {
-    path.clocks = 4 + (positional ? to_light : 0);
+    path.clocks = 6 + (positional ? to_light : 0);
     path.complete = false;
   }
   return path;
@@ -340,13 +340,13 @@ void write_shared_adder(const Folder& folder) {
 }
 
 // A line: operands (0 N and A, 1 and 2 the shifted vector, 3 L and the axis, 4 N and L), shifted vector, N,
-// L, H, axis; whether the last product is known, and the last product.
+// L, H, axis; whether the product that is due is known, and this product.
 void write_shared_dot_product(const Folder& folder) {
   const auto has = [](const auto& can) { return can.of_light() || can.normalizes(); };
   write_units(
       folder, has,
       []<class Preset>(const Processor&, const Abilities<Preset>& can, Random& random, VectorFile& file) {
-        std::optional<std::int64_t> last;
+        golden::DelayLine<std::int64_t> dots(Abilities<Preset>::c_exact ? 3 : 1);
         for (int i = 0; i < c_lines; ++i) {
           const auto [normal, to_light] = random_directions<Preset>(random);
           const auto [half, axis] = random_directions<Preset>(random);
@@ -358,40 +358,44 @@ void write_shared_dot_product(const Folder& folder) {
           file.word(operands, 32);
           for (const Axes& v : {shifted, normal, to_light, half, axis})
             add(file, v, Preset::c_direction_bits);
-          file.flag(last.has_value());
-          file.word(last.value_or(0), 2 * Preset::c_direction_bits + 1).end_vector();
+          file.flag(dots.full());
+          file.word(dots.full() ? dots.delayed() : 0, 2 * Preset::c_direction_bits + 1).end_vector();
           const bool highlight = can.term == Term::specular;
           const Axes& a = operands == 1 || operands == 2 ? shifted : operands == 3 ? to_light : normal;
           const Axes& b = operands == 1 || operands == 2 ? shifted
                           : operands == 3                ? axis
                           : operands == 0 && highlight   ? half
                                                          : to_light;
-          last = golden::dot_product(a, b);
+          dots.step(golden::dot_product(a, b));
         }
       });
 }
 
 // A line: product (0 k I, 1 and 2 vector times 1/sqrt, 3 place times distance, 4 weight times factor, 5 k I
 // times weight), token, light, shifted vector, 1/sqrt, weight, factor; the number of known components of the
-// last product, and its components in 64 bits.
+// product that is due, and its components in 64 bits.
 void write_shared_multiplier(const Folder& folder) {
   write_units(
       folder, c_all,
       []<class Preset>(const Processor& p, const Abilities<Preset>& can, Random& random, VectorFile& file) {
         TokenMaker<Preset> maker(p.config, random.bits(32));
-        Axes last{};
-        int known = 0;  // components of the last product
-        std::int64_t last_step = -1;
-        std::optional<Words<Preset>> last_words;
+        struct Product {
+          std::int64_t step = -1;
+          Axes components{};
+          int known = 0;  // components
+          std::optional<Words<Preset>> words{};
+        };
+        golden::DelayLine<Product> products(Abilities<Preset>::c_exact ? 2 : 1);
         for (int i = 0; i < c_lines; ++i) {
           const Words<Preset> w(maker, p);
           const Axes shifted = random_axes(random, Preset::c_direction_bits);
           const auto root = static_cast<std::int64_t>(random.word(Preset::c_root_bits + 1));
           const auto weight = static_cast<std::uint32_t>(random.word(Preset::c_weight_bits));
           const auto factor = static_cast<std::uint32_t>(random.word(Preset::c_weight_bits));
+          const Product due = products.full() ? products.delayed() : Product{};
           const bool can_do[] = {true,       can.first,
                                  can.second, can.positional && Abilities<Preset>::c_exact,
-                                 can.spots,  can.of_light() && last_step == 0};
+                                 can.spots,  can.of_light() && due.step == 0};
           auto step = random.between(0, 5);
           while (!can_do[step]) step = random.between(0, 5);
           file.word(step, 32);
@@ -400,34 +404,33 @@ void write_shared_multiplier(const Folder& folder) {
           add(file, shifted, Preset::c_direction_bits);
           file.word(root, Preset::c_root_bits + 1);
           file.word(weight, Preset::c_weight_bits).word(factor, Preset::c_weight_bits);
-          file.word(known, 32);
-          for (const std::int64_t product : last) file.word(product, 64);
+          file.word(due.known, 32);
+          for (const std::int64_t component : due.components) file.word(component, 64);
           file.end_vector();
-          known = step >= 1 && step <= 3 ? 3 : step == 4 ? 1 : p.config.channels;
+          Product now{step, {}, step >= 1 && step <= 3 ? 3 : step == 4 ? 1 : p.config.channels, w};
           switch (step) {
             case 1:
             case 2:
-              last = golden::vector_multiply(shifted, root);
+              now.components = golden::vector_multiply(shifted, root);
               break;
             case 3:
-              last = golden::vector_multiply(w.light.place, w.token.distance);
+              now.components = golden::vector_multiply(w.light.place, w.token.distance);
               break;
             case 4:
-              last = {std::int64_t{weight} * factor, 0, 0};
+              now.components = {std::int64_t{weight} * factor, 0, 0};
               break;
             case 5:
-              for (std::size_t c = 0; c < static_cast<std::size_t>(known); ++c) {
+              for (std::size_t c = 0; c < static_cast<std::size_t>(now.known); ++c) {
                 const auto& k =
-                    p.term == Term::diffuse ? last_words->token.diffuse : last_words->token.specular;
-                last[c] = static_cast<std::int64_t>(
-                    golden::reflected_term<Preset>(k[c], last_words->light.intensity[c], weight));
+                    p.term == Term::diffuse ? due.words->token.diffuse : due.words->token.specular;
+                now.components[c] = static_cast<std::int64_t>(
+                    golden::reflected_term<Preset>(k[c], due.words->light.intensity[c], weight));
               }
               break;
             default:
-              last = reflections(p, w);
+              now.components = reflections(p, w);
           }
-          last_step = step;
-          last_words = w;
+          products.step(now);
         }
       });
 }
@@ -441,7 +444,7 @@ void write_shared_normalizer(const Folder& folder) {
         constexpr int c_scaled_bits = Preset::c_direction_bits + Preset::c_root_bits + 2;
         const int bits = normalized_bits(can);
         std::optional<Axes> shifted;
-        golden::DelayLine<std::uint32_t> roots(Abilities<Preset>::c_exact ? 4 : 1);
+        golden::DelayLine<std::uint32_t> roots(Abilities<Preset>::c_exact ? 7 : 1);
         for (int i = 0; i < c_lines; ++i) {
           const auto step = random.one_in(2) ? 0 : can.first && (!can.second || random.one_in(2)) ? 1 : 2;
           const Axes vector = random_axes(random, bits);

@@ -89,14 +89,14 @@ Flat flat_terms(const golden::Terms& terms) {
   return all;
 }
 
-// Inputs: light, token; of the output token: terms, N, view vector (published: 0).
+// Inputs: light, token; terms, the unit vector of N, the view vector (published: 0).
 template <class Preset>
 void write_ambient_term_of(const Folder& folder) {
   constexpr bool c_exact = words::ProcessorsLayout<Preset>::c_exact;
   const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), 5);
   const golden::AmbientTerm<Preset> twin(part_config());
-  Pipeline pipeline(c_exact ? 8 : 5);
+  Pipeline pipeline(c_exact ? 15 : 7);
   golden::ShadingLight light;
   Flat light_bits;
   for (int done = 0; done < c_lights * c_light_tokens; ++done) {
@@ -108,6 +108,7 @@ void write_ambient_term_of(const Folder& folder) {
     auto token = maker.object();
     const auto words = maker.words(token, bits);
     Flat result = flat_terms<Preset>(twin.terms(token, light));
+    token.normalize = true;
     twin.ready_vectors(token);
     for (const Axes& v : {token.normal, c_exact ? token.view : Axes{}})
       for (const std::int64_t component : v) result.add(component, Preset::c_direction_bits);
@@ -210,9 +211,9 @@ void write_light_term(const Folder& folder) {
     int light, exact, published;  // clocks
   };
   // A directional light, a positional light, a spot. The list of tb/vectors/rows.toml.
-  constexpr Case c_cases[] = {{Term::diffuse, 1, 3, 3},   {Term::specular, 1, 17, 4},
-                              {Term::diffuse, 2, 13, 9},  {Term::specular, 2, 27, 10},
-                              {Term::diffuse, 3, 17, 13}, {Term::specular, 3, 28, 13}};
+  constexpr Case c_cases[] = {{Term::diffuse, 1, 6, 4},   {Term::specular, 1, 32, 10},
+                              {Term::diffuse, 2, 24, 12}, {Term::specular, 2, 50, 18},
+                              {Term::diffuse, 3, 32, 20}, {Term::specular, 3, 51, 20}};
   for (const Case& c : c_cases) {
     write_light_term_of<Exact>(folder, c.term, c.light, c.exact);
     write_light_term_of<Published>(folder, c.term, c.light, c.published);

@@ -45,27 +45,45 @@ void write_function_rom(const Folder& folder, words::Function function) {
 }
 
 // Inputs: a, b.
-void write_dot_product_of(const Folder& folder, int bits) {
+void write_dot_product_of(const Folder& folder, int bits, int clocks) {
   Random random(bits);
-  Pipeline pipeline(1);
+  Pipeline pipeline(clocks);
   run(random, [&](bool enable) {
     const Axes a = random_axes(random, bits), b = random.one_in(4) ? a : random_axes(random, bits);
     const auto sum = static_cast<std::uint64_t>(golden::dot_product(a, b));
     pipeline.clock(enable, {flat(a, bits), flat(b, bits)}, {sum, 2 * bits + 1});
   });
-  pipeline.write(folder / fmt::format("{}.txt", bits));
+  pipeline.write(folder / fmt::format("{}_{}.txt", bits, clocks));
+}
+
+// Inputs: a, b. All of small widths, then random and extreme ones.
+void write_signed_multiplier_of(const Folder& folder, int a_bits, int b_bits, int clocks) {
+  Random random(a_bits + b_bits);
+  Pipeline pipeline(clocks);
+  const auto add = [&](bool enable, std::int64_t a, std::int64_t b) {
+    pipeline.clock(enable,
+                   {{static_cast<std::uint64_t>(a), a_bits}, {static_cast<std::uint64_t>(b), b_bits}},
+                   {static_cast<std::uint64_t>(a * b), a_bits + b_bits});
+  };
+  if (a_bits + b_bits <= 16) {
+    const std::int64_t a_half = std::int64_t{1} << (a_bits - 1), b_half = std::int64_t{1} << (b_bits - 1);
+    for (std::int64_t a = -a_half; a < a_half; ++a)
+      for (std::int64_t b = -b_half; b < b_half; ++b) add(true, a, b);
+  }
+  run(random, [&](bool enable) { add(enable, signed_word(random, a_bits), signed_word(random, b_bits)); });
+  pipeline.write(folder / fmt::format("{}_{}_{}.txt", a_bits, b_bits, clocks));
 }
 
 // Inputs: a, b.
-void write_vector_multiply_of(const Folder& folder, int a_bits, int b_bits) {
+void write_vector_multiply_of(const Folder& folder, int a_bits, int b_bits, int clocks) {
   Random random(a_bits + b_bits);
-  Pipeline pipeline(1);
+  Pipeline pipeline(clocks);
   run(random, [&](bool enable) {
     const Axes a = random_axes(random, a_bits), b = random_axes(random, b_bits);
     pipeline.clock(enable, {flat(a, a_bits), flat(b, b_bits)},
                    flat(golden::vector_multiply(a, b), a_bits + b_bits));
   });
-  pipeline.write(folder / fmt::format("{}_{}.txt", a_bits, b_bits));
+  pipeline.write(folder / fmt::format("{}_{}_{}.txt", a_bits, b_bits, clocks));
 }
 
 // Each shift, for each component and both signs; then vectors of any kind.
@@ -84,9 +102,9 @@ void run_axes(Random& random, const Add& add) {
 
 // Inputs: components.
 template <int VectorBits, int ResultBits>
-void write_vector_shift_of(const Folder& folder) {
+void write_vector_shift_of(const Folder& folder, int clocks) {
   Random random(VectorBits + ResultBits);
-  Pipeline pipeline(1);
+  Pipeline pipeline(clocks);
   const auto add = [&](bool enable, const Axes& v) {
     pipeline.clock(enable, {flat(v, VectorBits)},
                    flat(golden::vector_shift<VectorBits, ResultBits>(v), ResultBits));
@@ -98,14 +116,14 @@ void write_vector_shift_of(const Folder& folder) {
         for (std::int64_t z = -c_half; z < c_half; ++z) add(true, {x, y, z});
   }
   run_axes<VectorBits>(random, add);
-  pipeline.write(folder / fmt::format("{}_{}.txt", VectorBits, ResultBits));
+  pipeline.write(folder / fmt::format("{}_{}_{}.txt", VectorBits, ResultBits, clocks));
 }
 
 // Inputs: components.
 template <class Preset, int VectorBits>
 void write_unit_vector_of(const Folder& folder) {
   Random random(VectorBits);
-  Pipeline pipeline(std::is_same_v<Preset, Exact> ? 8 : 5);
+  Pipeline pipeline(std::is_same_v<Preset, Exact> ? 15 : 7);
   run_axes<VectorBits>(random, [&](bool enable, const Axes& v) {
     pipeline.clock(enable, {flat(v, VectorBits)},
                    flat(golden::normalized<Preset, VectorBits>(v), Preset::c_direction_bits));
@@ -139,7 +157,7 @@ void write_reciprocal_root_of(const Folder& folder, int latency) {
 
 // Inputs: base, exponent.
 template <class Preset>
-void write_power_of(const Folder& folder, int latency) {
+void write_power_of(const Folder& folder, bool pipelined, int latency) {
   using Power = golden::Power<Preset>;
   Random random(Preset::c_exponent_bits);
   Pipeline pipeline(latency);
@@ -174,7 +192,7 @@ void write_power_of(const Folder& folder, int latency) {
     }
   for (int i = 0; i < c_running; ++i) any(true);
   run(random, any);
-  pipeline.write(folder / file_of<Preset>());
+  pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, pipelined));
 }
 
 // Inputs: axis_sum, outer, slope.
@@ -183,7 +201,7 @@ void write_spot_cone_of(const Folder& folder) {
   constexpr int c_sum_bits = 2 * Preset::c_direction_bits + 1, c_slope_bits = Preset::c_spot_slope_bits;
   constexpr int c_fraction = Preset::c_direction_fraction_bits;
   Random random(c_sum_bits);
-  Pipeline pipeline(4);
+  Pipeline pipeline(8);
   const auto add = [&](bool enable, std::int64_t sum, std::int64_t outer, std::uint64_t slope) {
     pipeline.clock(enable,
                    {{static_cast<std::uint64_t>(sum), c_sum_bits},
@@ -256,16 +274,22 @@ std::vector<Entity> shading_entities() {
               {words::Function::reciprocal_root, words::Function::logarithm, words::Function::decay})
            write_function_rom<P>(f, function);
        })},
-      {"dot_product", of_sizes(write_dot_product_of, {4, 16, 24, 30})},
+      {"signed_multiplier",
+       of_sizes(write_signed_multiplier_of,
+                {{1, 1, 1}, {8, 8, 1}, {5, 9, 2}, {18, 18, 1}, {19, 18, 2}, {21, 19, 2}, {25, 25, 1},
+                 {24, 26, 2}, {30, 22, 2}, {28, 30, 2}, {36, 27, 2}})},
+      {"dot_product", of_sizes(write_dot_product_of, {{4, 1}, {16, 1}, {16, 2}, {24, 3}, {30, 3}})},
       {"vector_multiply",
-       of_sizes(write_vector_multiply_of, {{2, 5}, {16, 11}, {24, 26}, {28, 30}, {13, 26}})},
+       of_sizes(write_vector_multiply_of, {{2, 5, 1}, {16, 11, 1}, {24, 26, 2}, {28, 30, 2}, {13, 26, 2}})},
       {"vector_shift",
        [](const Folder& folder) {
-         write_vector_shift_of<5, 5>(folder);
-         write_vector_shift_of<30, 24>(folder);
-         write_vector_shift_of<25, 24>(folder);
-         write_vector_shift_of<17, 16>(folder);
-         write_vector_shift_of<16, 24>(folder);
+         for (const int clocks : {1, 2}) {
+           write_vector_shift_of<5, 5>(folder, clocks);
+           write_vector_shift_of<17, 16>(folder, clocks);
+         }
+         write_vector_shift_of<25, 24>(folder, 1);
+         write_vector_shift_of<30, 24>(folder, 2);
+         write_vector_shift_of<16, 24>(folder, 2);
        }},
       {"unit_vector",
        [](const Folder& folder) {
@@ -277,13 +301,14 @@ std::vector<Entity> shading_entities() {
        }},
       {"reciprocal_root",
        [](const Folder& folder) {
-         write_reciprocal_root_of<Exact>(folder, 4);
+         write_reciprocal_root_of<Exact>(folder, 7);
          write_reciprocal_root_of<Published>(folder, 1);
        }},
       {"power",
        [](const Folder& folder) {
-         write_power_of<Exact>(folder, 6);
-         write_power_of<Published>(folder, 2);
+         write_power_of<Exact>(folder, true, 11);
+         write_power_of<Published>(folder, true, 7);
+         write_power_of<Published>(folder, false, 2);
        }},
       {"spot_cone", in_both_presets([]<class P>(const Folder& f) { write_spot_cone_of<P>(f); })},
       {"delay_line", of_sizes(write_delay_line_of, {{8, 0}, {8, 1}, {70, 2}, {1, 3}, {33, 4}, {100, 13}})},

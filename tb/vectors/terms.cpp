@@ -29,7 +29,7 @@ void run_lights(Random& random, const Add& add) {
 }
 
 template <class Preset>
-constexpr int c_unit_latency = Preset::c_light_shift_bits > 0 ? 8 : 5;
+constexpr int c_unit_latency = Preset::c_light_shift_bits > 0 ? 15 : 7;
 template <class Preset>
 constexpr int c_shift_bits = std::max(1, Preset::c_light_shift_bits);
 
@@ -42,7 +42,7 @@ template <class Preset>
 void write_light_vector_of(const Folder& folder, bool can) {
   constexpr bool c_exact = Preset::c_light_shift_bits > 0;
   Random random(Preset::c_light_place_bits + can);
-  Pipeline pipeline(can ? 1 + c_exact + c_unit_latency<Preset> : 0);
+  Pipeline pipeline(can ? 1 + 2 * c_exact + c_unit_latency<Preset> : 0);
   bool positional = false;
   Axes place{};
   std::uint32_t shift = 0;
@@ -95,8 +95,9 @@ void write_half_vector_of(const Folder& folder, bool depends) {
 // Inputs: normal, direction, exponent.
 template <class Preset>
 void write_cosine_power_of(const Folder& folder, bool highlight) {
+  constexpr bool c_exact = Preset::c_light_shift_bits > 0;
   Random random(Preset::c_exponent_bits + highlight);
-  Pipeline pipeline(!highlight ? 2 : Preset::c_light_shift_bits > 0 ? 7 : 3);
+  Pipeline pipeline((c_exact ? 3 : 2) + (!highlight ? 1 : c_exact ? 11 : 7));
   run(random, [&](bool enable) {
     const auto [normal, direction] = random_directions<Preset>(random);
     const std::uint32_t exponent = unsigned_word(random, Preset::c_exponent_bits);
@@ -115,7 +116,7 @@ void write_cosine_power_of(const Folder& folder, bool highlight) {
 template <class Preset>
 void write_light_weight_of(const Folder& folder, int lead) {
   Random random(Preset::c_spot_slope_bits + lead);
-  Pipeline pipeline(std::max(5, lead) + 1);
+  Pipeline pipeline(std::max(Preset::c_light_shift_bits > 0 ? 11 : 10, lead) + 1);
   bool spot = false;
   Axes axis{};
   std::int64_t outer = 0;
@@ -153,11 +154,12 @@ void write_light_weight_of(const Folder& folder, int lead) {
   pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, lead));
 }
 
-// Inputs: coefficients, intensities, weight. The weight follows its coefficients after one clock.
+// Inputs: coefficients, intensities, weight. The weight follows when k I is rounded.
 template <class Preset>
 void write_reflected_term_of(const Folder& folder, int channels, bool weighted) {
+  constexpr int c_multiply = Preset::c_light_shift_bits > 0 ? 2 : 1;
   Random random(Preset::c_coefficient_bits + channels);
-  Pipeline pipeline(weighted ? 2 : 1);
+  Pipeline pipeline(c_multiply + 1 + weighted * c_multiply);
   golden::Axes intensities{};
   run_lights(random, [&](bool first, bool enable) {
     if (first) {

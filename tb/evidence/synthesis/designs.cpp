@@ -151,9 +151,12 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     if (exact) add("axi_adapter", {}, true);
     if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
     add("function_rom", {is_exact, {"g_which", "0"}}, true);
-    add("dot_product", {{"g_bits", of("direction")}});
-    add("vector_multiply", {{"g_a_bits", of("direction")}, {"g_b_bits", of("direction")}});
-    add("vector_shift", {{"g_vector_bits", of("offset")}, {"g_result_bits", of("direction")}});
+    const std::pair<std::string, std::string> clocks{"g_clocks", exact ? "2" : "1"};
+    const Generics product = {{"g_a_bits", of("direction")}, {"g_b_bits", of("direction")}, clocks};
+    add("signed_multiplier", product);
+    add("vector_multiply", product);
+    add("dot_product", {{"g_bits", of("direction")}, {"g_clocks", exact ? "3" : "2"}});
+    add("vector_shift", {{"g_vector_bits", of("offset")}, {"g_result_bits", of("direction")}, {"g_clocks", "2"}});
     add("reciprocal_root", {is_exact});
     add("power", {is_exact});
     add("unit_vector", {is_exact, {"g_vector_bits", of("vector")}});

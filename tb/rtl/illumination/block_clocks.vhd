@@ -105,6 +105,8 @@ architecture sim of block_clocks is
   -- then those of H.
   function unrolled (exact : boolean; b : block_t) return string is
     constant c_at   : times_t  := times(of_preset(exact), c_specular, c_positional);
+    constant c_move : positive := vector_shift_latency(true);
+    constant c_dot  : positive := dot_product_latency(exact, true);
     constant c_root : positive := reciprocal_root_latency(exact);
     -- The clocks in which unit_vector reads L and H. Preset published does not normalize L.
     constant c_l    : integer  := c_at.to_light - unit_vector_latency(exact);
@@ -121,32 +123,32 @@ architecture sim of block_clocks is
   begin
     case b is
       when term           => return from_to(0, c_at.leave);
-      when dot_product    => return from_to(c_at.cosine, c_dot_product_latency);
-      when power          => return from_to(c_at.cosine + c_dot_product_latency, power_latency(exact));
-      when reflection     => return from_to(c_at.weight - c_vector_multiply_latency, c_vector_multiply_latency);
+      when dot_product    => return from_to(c_at.cosine, c_dot);
+      when power          => return from_to(c_at.cosine + c_dot, power_latency(exact, true));
+      when reflection     => return from_to(c_at.weight - reflection_latency(exact), reflection_latency(exact));
       when multiplication => return from_to(c_at.weight, c_at.term - c_at.weight);
-      when addition       => return from_to(c_at.term, c_at.leave - c_at.term);
+      when addition       => return from_to(c_at.leave - 1, 1);
       when adder          =>
         if exact then
           return from_to(c_l - 1, 1) & ", " & from_to(c_h - 1, 1);
         end if;
         return from_to(c_h - 1, 1);
-      when shift          => return both(0, c_vector_shift_latency);
-      when square         => return both(c_vector_shift_latency, c_dot_product_latency);
-      when root           => return both(c_vector_shift_latency + c_dot_product_latency, c_root);
+      when shift          => return both(0, c_move);
+      when square         => return both(c_move, c_dot);
+      when root           => return both(c_move + c_dot, c_root);
       when scale          =>
-        return both(c_vector_shift_latency + c_dot_product_latency + c_root, unit_vector_latency(exact)
-          - c_vector_shift_latency - c_dot_product_latency - c_root);
+        return both(c_move + c_dot + c_root, unit_vector_latency(exact)
+          - c_move - c_dot - c_root);
       when horizon        =>
         if exact then
-          return from_to(c_at.to_light, c_dot_product_latency);
+          return from_to(c_at.to_light, c_dot);
         end if;
         return "-";
       when cone           =>
-        return from_to(times(of_preset(exact), c_specular, c_spot).to_light + c_dot_product_latency, c_spot_cone_latency);
+        return from_to(times(of_preset(exact), c_specular, c_spot).to_light + c_dot, c_spot_cone_latency);
       when distance       =>
         if exact then
-          return from_to(c_l - 1 - c_vector_multiply_latency, c_vector_multiply_latency);
+          return from_to(c_l - 1 - vector_multiply_latency(exact), vector_multiply_latency(exact));
         end if;
         return "-";
     end case;
@@ -170,7 +172,7 @@ architecture sim of block_clocks is
       when term           => return from_to(0, c_at.leave);
       when dot_product    => return from_to(c_at.cosine, c_at.angle - c_at.cosine);
       when power          => return from_to(c_at.angle, c_at.weigh_in - c_at.angle);
-      when reflection     => return from_to(c_at.weigh - c_vector_multiply_latency, c_vector_multiply_latency);
+      when reflection     => return from_to(c_at.weigh - vector_multiply_latency(exact), vector_multiply_latency(exact));
       when multiplication => return from_to(c_at.weigh, c_at.add - c_at.weigh);
       when addition       => return from_to(c_at.add, c_at.leave - c_at.add);
       when adder          => return both(c_at.sum_1, c_at.shift_1, c_at.sum_2, c_at.shift_2);
@@ -180,13 +182,13 @@ architecture sim of block_clocks is
       when scale          => return both(c_at.scale_1, c_at.round_1 + 1, c_at.scale_2, c_at.round_2 + 1);
       when horizon        =>
         if exact then
-          return from_to(c_at.horizon - c_dot_product_latency, c_dot_product_latency);
+          return from_to(c_at.horizon - dot_product_latency(exact, false), dot_product_latency(exact, false));
         end if;
         return "-";
       when cone           => return from_to(c_far.cone, c_far.factor - c_far.cone);
       when distance       =>
         if exact then
-          return from_to(c_at.sum_1 - c_vector_multiply_latency, c_vector_multiply_latency);
+          return from_to(c_at.sum_1 - vector_multiply_latency(exact), vector_multiply_latency(exact));
         end if;
         return "-";
     end case;

@@ -25,14 +25,14 @@ architecture sim of unrolled_shading_processor_tb is
 
   -- With specular, the ambient processor of preset exact computes the view vector.
   constant c_promises : promises_t := (
-    (0, 0, 0, false, false, c_ambient, (2, 2)),
-    (0, 0, 0, false, true, c_ambient, (6, 9)),
-    (1, 0, 0, true, false, c_diffuse, (4, 4)),
-    (1, 0, 0, true, false, c_specular, (5, 18)),
-    (0, 1, 0, true, false, c_diffuse, (10, 14)),
-    (0, 1, 0, true, false, c_specular, (11, 28)),
-    (0, 0, 1, true, false, c_diffuse, (14, 18)),
-    (0, 0, 1, true, false, c_specular, (14, 29)));
+    (0, 0, 0, false, false, c_ambient, (5, 6)),
+    (0, 0, 0, false, true, c_ambient, (10, 18)),
+    (1, 0, 0, true, false, c_diffuse, (7, 9)),
+    (1, 0, 0, true, false, c_specular, (13, 35)),
+    (0, 1, 0, true, false, c_diffuse, (15, 27)),
+    (0, 1, 0, true, false, c_specular, (21, 53)),
+    (0, 0, 1, true, false, c_diffuse, (23, 35)),
+    (0, 0, 1, true, false, c_specular, (23, 54)));
 begin
   checker : entity work.processor_checker
     generic map (g_unrolled => true, g_folder => g_folder);
