@@ -104,7 +104,7 @@ NetlistResult run_netlist(const Options& options, const Design& design, const Gh
   for (std::uint32_t number = 1; number <= netlist.faults.size(); ++number) {
     const Fault& fault = netlist.faults[number - 1];
     // Skip faults of clocks: a replay has no time between edges, in which an inverted clock would be visible.
-    if (fault.port == "CLK" || (options.one != 0 && number != options.one)) continue;
+    if (fault.port == "CLK" || !fault.changes || (options.one != 0 && number != options.one)) continue;
     if (number % result.step != 0) continue;
     const auto difference = replay(design, vectors, model, number);
     result.outcomes.push_back(

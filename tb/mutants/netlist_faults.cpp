@@ -31,6 +31,7 @@ constexpr const char* c_mutate =
     "hierarchy -top {0}\n"
     "proc\n{3}flatten\nopt -full\nwreduce\nopt_dff\nopt_clean -purge\nmemory -nomap\nopt_clean "
     "-purge\n"
+    "write_rtlil before.il\n"
     "mutate -list {1} -seed {2} -ctrl mutsel 16 1 -o faults.ys c:* a:tested %d\n"
     "script faults.ys\n"
     "opt_clean\n"
@@ -70,12 +71,36 @@ bool is_of(const std::string& module, const std::string& entity) {
   return module == entity || module.starts_with(entity + "_");
 }
 
+/// The constants at the ports of cells, by "cell port", in Yosys's text of a netlist.
+std::map<std::string, std::string> constants_of(const std::string& text) {
+  std::map<std::string, std::string> constants;
+  std::string cell;
+  for (const std::string& line : lines_of(text)) {
+    std::istringstream stream(line);
+    std::string key, first, second;
+    stream >> key >> first >> second;
+    if (key == "cell") cell = second + ' ';
+    const auto quote = second.find('\'');
+    if (key == "connect" && quote != std::string::npos)
+      constants.emplace(cell + first.substr(1), second.substr(quote + 1));
+  }
+  return constants;
+}
+
+/// `constants` are those of the netlist without faults.
 Fault read_fault(const std::string& line, const std::vector<std::string>& netlist_lines,
-                 const std::vector<std::string>& places) {
+                 const std::vector<std::string>& places,
+                 const std::map<std::string, std::string>& constants) {
   Fault fault{option(line, "mode"),
               option(line, "port"),
               fmt::format("{}[{}]", option(line, "wire"), option(line, "wirebit")),
               {}};
+  const auto constant = constants.find(option(line, "cell") + ' ' + fault.port);
+  if (constant != constants.end()) {
+    const std::string& bits = constant->second;
+    const std::size_t bit = std::stoul(option(line, "portbit"));
+    fault.changes = bit >= bits.size() || fault.kind != fmt::format("const{}", bits[bits.size() - 1 - bit]);
+  }
   // The line of the statement itself, or of the instance that contains it.
   static const std::regex c_source(R"( -src netlist\.v:(\d+)\.)");
   for (auto at = std::sregex_iterator(line.begin(), line.end(), c_source); at != std::sregex_iterator();
@@ -225,8 +250,9 @@ FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& libra
   if (places.size() != netlist_lines.size())
     throw Failure{tool_failed(fmt::format("{}: {} lines of the netlist have {} places; correct vhdl_places",
                                           design.name, netlist_lines.size(), places.size()))};
+  const auto constants = constants_of(must(read_file(netlist.folder / "before.il")));
   for (const std::string& line : lines_of(must(read_file(netlist.folder / "faults.ys"))))
-    netlist.faults.push_back(read_fault(line, netlist_lines, places));
+    netlist.faults.push_back(read_fault(line, netlist_lines, places, constants));
   static const std::regex c_declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
   for (const std::string& line : lines_of(must(read_file(netlist.folder / "mutated.v"))))
     if (std::smatch found; std::regex_match(line, found, c_declaration) && found[3] != "mutsel")
