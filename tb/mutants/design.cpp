@@ -15,7 +15,8 @@ namespace {
 
 Stream read_stream(const toml::table& table) {
   return {table["port"].value_or(std::string()), table["file"].value_or(std::string()),
-          table["columns"].value_or(std::string()), table["prompt"].value_or(false)};
+          table["columns"].value_or(std::string()), table["prompt"].value_or(false),
+          table["with"].value_or(std::string())};
 }
 
 std::vector<std::string> words_of(const toml::table& table, const char* name) {

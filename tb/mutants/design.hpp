@@ -18,6 +18,7 @@ struct Stream {
   std::string file;     ///< the file is called <set><this name>
   std::string columns;  ///< names of ports, in the order of the file's words
   bool prompt = false;  ///< at full speed every vector is accepted immediately
+  std::string with;     ///< of a strobe: it comes only while this input is 1
 };
 
 struct Design {

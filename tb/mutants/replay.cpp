@@ -274,7 +274,7 @@ struct Lane {
   const Stream& stream;
   const VectorFile& file;
   Columns columns;
-  const ModelPort *valid, *ready;
+  const ModelPort *valid, *ready, *with;
   std::size_t next = 0;  ///< the row that is offered, or expected next
   bool waiting = false;
 
@@ -283,7 +283,8 @@ struct Lane {
         file(its_file),
         columns(model, its_stream.columns),
         valid(model.find(its_stream.port + "_valid")),
-        ready(model.find(its_stream.port + "_ready")) {
+        ready(model.find(its_stream.port + "_ready")),
+        with(model.find(its_stream.with)) {
     if (valid == nullptr) valid = model.find(its_stream.port);
   }
   bool at_end() const { return next == file.rows.size(); }
@@ -364,12 +365,17 @@ class StreamPass {
 
   Difference check() {
     const bool ready = Model::is_set(input_.ready);
+    if (taken_ && busy_ != nullptr && !Model::is_set(busy_))
+      return input_.differs("follows one that is taken, but busy is '0'");
+    if (Model::is_set(idle_) && !ready) return input_.differs("is not ready, but idle is '1'");
     taken_ = input_.waiting && ready;
     if (clock_ >= 0 || taken_) ++clock_;
     if (!faulty_ && !fault_at_end_ && Model::is_set(fault_)) return fmt::format("clock {}: fault", clock_);
     for (Lane& lane : outputs_) {
       const bool valid = Model::is_set(lane.valid);
       if (lane.waiting && !valid) return lane.differs("is withdrawn");
+      if (valid && lane.with != nullptr && !Model::is_set(lane.with))
+        return lane.differs("comes without " + lane.stream.with);
       if (valid) {
         if (busy_ != nullptr && !Model::is_set(busy_)) return lane.differs("comes, but busy is '0'");
         if (lane.at_end()) return lane.differs("comes after all that are expected");

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -24,14 +23,44 @@ using golden::Axes, words::Command, words::Exact, words::ProcessorsConfig, words
 // More shadow polygons of one column than its count can represent.
 constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
 
-// A line: token; the output token, fault afterwards.
+// The clocks in which an unrolled processor takes its tokens at full speed. Clock 0 takes the first one.
+class TakeClock {
+ public:
+  TakeClock(const Processor& processor, int latency) : processor_(processor), latency_(latency) {}
+
+  template <class Token>
+  std::int64_t take(const Token& token) {
+    const bool own = token.light_number == static_cast<std::uint32_t>(processor_.light);
+    // A token that changes the light waits until the stages are empty.
+    if (own && (token.is_define() || token.command == Command::remove) && taken_ >= 0)
+      next_ = std::max(next_, taken_ + latency_ + 1);
+    taken_ = next_++;
+    if (!processor_.config.shadows || processor_.term == Term::ambient) return taken_;
+    if (own && token.command == Command::shadow) last_ = std::max(last_, token.x);
+    if (token.command == Command::new_frame) {
+      next_ += last_ + 1;  // the counter clears its columns
+      last_ = 0;
+    }
+    return taken_;
+  }
+
+ private:
+  Processor processor_;
+  int latency_;
+  std::int64_t taken_ = -1, next_ = 0;
+  std::uint32_t last_ = 0;  ///< the highest column that was counted
+};
+
+// A line: token; the output token, fault afterwards, the clock in which an unrolled processor takes the
+// token.
 template <class Preset>
 void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults,
-                     const char* suffix = "") {
+                     const char* suffix = "", int latency = 0) {
   const auto& [config, term, light] = processor;
   const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits * 8 + static_cast<int>(term) * 3 + light);
   golden::ShadingProcessor<Preset> twin(config, term, light);
+  TakeClock clock(processor, latency);
   VectorFile file;
   // At the end, with faults: more volumes than the counter can count.
   const int last = tokens + (faults ? c_too_many : 0);
@@ -45,12 +74,15 @@ void write_processor(const Folder& folder, const Processor& processor, int token
     auto words = maker.words(token, bits);
     // The bits of x in a load sometimes name a column with shadow polygons. In a definition they are slope.
     const bool loads = !token.is_object() && token.command != Command::shadow;
-    if (loads && maker.random().one_in(token.is_define() ? 8 : 2))
+    const bool own = token.light_number == static_cast<std::uint32_t>(light);
+    if (loads && maker.random().one_in(own && token.is_define() ? 8 : 2))
       words::set_bits(words, Preset::pixel_header_at::x,
                       static_cast<std::uint64_t>(maker.random().between(40, 42)));
     const auto before = words;
     twin.process(words);
-    file.words_of(before, bits).words_of(words, bits).flag(twin.fault()).end_vector();
+    file.words_of(before, bits).words_of(words, bits).flag(twin.fault());
+    if (latency > 0) file.word(clock.take(token), 32);
+    file.end_vector();
   }
   if (faults && config.shadows && !twin.fault())
     throw Failure{tool_failed(name_of<Preset>(processor) + ": the shadow counter did not overflow")};
@@ -68,11 +100,18 @@ void write_processors(const Folder& folder, int tokens) {
 // More tokens, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
 template <class Preset>
 void write_long(const Folder& folder) {
-  constexpr std::string_view c_names[] = {"exact_31111111_00", "exact_31111111_13", "published_30101110_21",
-                                          "published_31001100_21"};
+  struct Long {
+    std::string_view name;
+    int latency;  ///< of the unrolled form
+  };
+  constexpr Long c_sets[] = {{"exact_31111111_00", 9},
+                             {"exact_31111111_13", 18},
+                             {"published_30101110_21", 11},
+                             {"published_31001100_21", 5}};
   for (const Processor& processor : processors())
-    if (std::ranges::find(c_names, name_of<Preset>(processor)) != std::end(c_names))
-      write_processor<Preset>(folder, processor, 5600, false, "_long");
+    for (const Long& set : c_sets)
+      if (name_of<Preset>(processor) == set.name)
+        write_processor<Preset>(folder, processor, 8000, false, "_long", set.latency);
 }
 
 // Tokens for the parts of a processor: one configuration with several lights.

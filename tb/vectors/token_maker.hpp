@@ -36,7 +36,8 @@ class TokenMaker {
     if (choice <= 2) return load(words::Command::redefine, number);
     if (choice <= 4) return load(words::Command::define, number);
     if (choice == 5 && random_.one_in(3)) return load(words::Command::new_frame, number);
-    if (config_.shadows && choice <= 14) return shadow(number);
+    // Hardware without shadows passes shadow polygons on.
+    if (choice <= (config_.shadows ? 14 : 6)) return shadow(number);
     return object();
   }
   Token load(words::Command command, std::uint32_t light) {
@@ -80,7 +81,8 @@ class TokenMaker {
     token.normalize = !random_.one_in(3);
     token.normal = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, 1);
     token.place = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, random_.one_in(2) ? -0.6 : 0.3);
-    token.distance = static_cast<std::int64_t>(random_.bits(Preset::c_vector_fraction_bits));
+    if (!random_.one_in(8))
+      token.distance = static_cast<std::int64_t>(random_.bits(Preset::c_vector_fraction_bits));
     token.view = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
     if (random_.one_in(2))
       token.exponent = static_cast<std::uint32_t>(random_.word(Preset::c_exponent_bits));
