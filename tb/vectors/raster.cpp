@@ -63,22 +63,36 @@ struct WalkFiles {
 template <class Preset>
 std::vector<InitVector> walker_triangles(Random& random, Mix mix) {
   using At = typename Preset::init_header_at;
-  auto set = random_triangles<Preset>(random, mix, Preset::c_init_header_bits, 5000);
+  auto set = random_triangles<Preset>(random, mix, Preset::c_init_header_bits, 8000);
   if (mix != Mix::mixed) return set;
   // A count of 0 upper lines means as many lines as the counter can count; here these lines are empty.
-  InitVector none = set.front();
-  set_bits(none, At::upper_lines, 0);
+  std::vector<InitVector> more{set.front(), set.front()};
+  set_bits(more[0], At::upper_lines, 0);
   if constexpr (std::is_same_v<Preset, Exact>) {
     Walk walk;
     walk.start.pixel = walk.upper.pixel = 9;
-    put_walk(none, walk);
+    put_walk(more[0], walk);
+    // The longest span.
+    constexpr std::int64_t c_half = std::int64_t{1} << (Preset::c_span_x_bits - 1);
+    walk.upper_lines = 1;
+    walk.start.pixel = -c_half;
+    walk.upper.pixel = c_half - 1;
+    put_walk(more[1], walk);
   } else {
-    set_bits(none, At::start_x, 9u << Published::c_edge_x_fraction_bits);
-    set_bits(none, At::upper_x, 2u << Published::c_edge_x_fraction_bits);
-    set_bits(none, At::start_slope, 0);
-    set_bits(none, At::upper_slope, 0);
+    constexpr std::int64_t c_one = std::int64_t{1} << Published::c_edge_x_fraction_bits;
+    set_bits(more[0], At::start_x, 9 * c_one);
+    set_bits(more[0], At::upper_x, 2 * c_one);
+    set_bits(more[0], At::start_slope, 0);
+    set_bits(more[0], At::upper_slope, 0);
+    // So many narrow lines at so many fractions of a pixel that the lowest bits of the slopes count.
+    constexpr std::int64_t c_slope = c_one * 610 / 1597;
+    set_bits(more[1], At::upper_lines, 2045);
+    set_bits(more[1], At::start_x, 2000 * c_one);
+    set_bits(more[1], At::start_slope, c_slope);
+    set_bits(more[1], At::upper_x, 2001 * c_one);
+    set_bits(more[1], At::upper_slope, c_slope + 1);
   }
-  set.insert(set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2), none);
+  set.insert(set.begin() + static_cast<std::ptrdiff_t>(set.size() / 2), more.begin(), more.end());
   return set;
 }
 
@@ -326,12 +340,13 @@ void write_slope_walker(const Folder& folder) {
   bool waits = false;  // a load waits for its step
   bool taken = false;
   EdgeX x, slope;
-  for (int i = 0; i < 6000; ++i) {
+  for (int i = 0; i < 12000; ++i) {
     if (!waits) {
       x = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
       slope = EdgeX::from_bits(random.word(Published::c_edge_x_bits));
     }
-    const bool load = !taken || waits || random.one_in(12);
+    // In most of the file edges have so many lines that the lowest bits count.
+    const bool load = !taken || waits || random.one_in(i < 3000 ? 12 : 2000);
     const bool step = !taken || !random.one_in(5);
     waits = load && !step;
     file.flag(taken).flag(load).word(x).word(slope).flag(step).word(twin.x()).end_vector();
