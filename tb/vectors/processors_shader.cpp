@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files for each configuration of the processors shader and set of vectors: init and fragments as in
-// shaders.cpp. The clocks are 0; they only keep the format. After a set no light and no object is left.
+// shaders.cpp. The clocks are 0; they only keep the format. After a set no light is left.
 #include "golden/processors_shader.hpp"
 
 #include <fmt/format.h>
@@ -112,6 +112,26 @@ class Host {
     if (random_.one_in(8)) some_load();
     for (const InitVector& object : objects) draw(object);
   }
+  // Objects of random words for the parts, often on the line or in the column of the one before.
+  void any_objects() {
+    using At = typename Preset::pixel_header_at;
+    std::uint64_t y = 0, x = 0;
+    for (int i = 0; i < 200; ++i) {
+      std::vector<std::uint32_t> words = random_vector(random_, layout_.token_bits());
+      set_bits(words, At::command, static_cast<std::uint32_t>(Command::new_pixel));
+      if (random_.one_in(2)) set_bits(words, At::y, y);
+      if (random_.one_in(2)) set_bits(words, At::x, x);
+      y = words::get_bits(words, At::y);
+      x = words::get_bits(words, At::x);
+      const auto before = words;
+      const Command command = order_.place(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(x));
+      set_bits(words, At::command, static_cast<std::uint32_t>(command));
+      order_row({.object = true, .ready = true}, before, words);
+      const auto token = golden::ShadingToken<Preset>::decode(p_.config, words);
+      shaded_.words_of(words, layout_.token_bits());
+      add_fragment<Preset>(shaded_, golden::fragment_output(token, p_.config.channels)).end_vector();
+    }
+  }
   // More volumes in front of an object than a counter can count.
   void go_wrong() {
     define_all();
@@ -125,6 +145,8 @@ class Host {
   void finish() {
     for (int light = 0; light <= p_.config.lights(); ++light) load(Command::remove, light);
     load(Command::new_frame, 0);
+    // The last vector draws, so that the processors hold the last token of an object.
+    if (!p_.config.shadows) draw(line_walk(9, 30, 31, 1 << 20, 5));
   }
   bool fault() const { return twin_.fault(); }
 
@@ -357,11 +379,13 @@ void write_parts(const Write& write) {
     Host<Exact> host(c_exact_processors[i]);
     draw_set(host, c_exact_processors[i], Mix::mixed);
     host.draw_again();
+    host.any_objects();
     write(host);
   }
   Host<Published> host(c_published_processors[0]);
   draw_set(host, c_published_processors[0], Mix::mixed);
   host.draw_again();
+  host.any_objects();
   write(host);
 }
 
