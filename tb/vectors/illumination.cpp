@@ -90,7 +90,7 @@ void write_diffuse(const Folder& folder, const SliceSize& size) {
   VectorFile file;
   golden::DiffuseSlice<Preset> twin(size.channels, size.table);
   Multiplier<Products> multiplier{};
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 9000; ++i) {
     InitVector part = random_vector(random, bits);
     put_diffuse_part<Preset>(part, random, size.channels, 1, 0);
     const SpanStrobes s = random_span_strobes(random, i);
@@ -113,7 +113,7 @@ void write_specular(const Folder& folder, const SliceSize& size) {
   VectorFile file;
   golden::SpecularSlice<Preset> twin(size.channels, size.powers, size.table);
   Multiplier<Products> multiplier{};
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 9000; ++i) {
     InitVector part = random_vector(random, bits);
     put_specular_part<Preset>(part, random, size.channels, 1, 0);
     const SpanStrobes s = random_span_strobes(random, i);
@@ -163,7 +163,7 @@ void write_light(const Folder& folder, const LightWords& light) {
     return groups;
   };
   Multiplier<Groups> multiplier{terms()};
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 9000; ++i) {
     InitVector part = random_vector(random, bits);
     if (layout.has_diffuse_part())
       put_diffuse_part<Preset>(part, random, layout.diffuse_channels(), 1, layout.diffuse_low(0));
@@ -207,15 +207,24 @@ void write_colour_sum_of(const Folder& folder, int channels, int terms, int data
   const std::int64_t white = std::int64_t{300} << (Preset::c_factor_fraction_bits + data_bits);
   Random random(channels * terms + bits);
   Pipeline pipeline(1);
-  for (int i = 0; i < 3000; ++i) {
+  for (int i = 0; i < 20000; ++i) {
     golden::ColourSum<Preset> sum(channels, data_bits);
     Flat words;
+    ColourTerms total{};
+    const bool full = random.one_in(40);  // all terms but the last
+    const std::uint64_t step = std::uint64_t{1} << (Preset::c_factor_fraction_bits + data_bits);
     for (int term = 0; term < terms; ++term) {
       ColourTerms group{};
       for (int c = 0; c < channels; ++c) {
-        // Sums around white, few of them far above.
-        group[c] = random.one_in(16) ? random.word(bits)
-                                     : words::low_bits(random.between(0, 2 * white / terms), bits);
+        // Sums around white; few of them far above, some only by one high bit.
+        group[c] = full                ? words::low_bits(~std::uint64_t{0}, bits)
+                   : random.one_in(12) ? random.word(bits)
+                   : random.one_in(16) ? std::uint64_t{1} << random.between(0, bits - 1)
+                                       : words::low_bits(random.between(0, 2 * white / terms), bits);
+        // On a step of the colour, or just below: a lower bit that is wrong changes the colour.
+        if (term > 0 && term == terms - 1 && random.one_in(3))
+          group[c] = 2 * step - total[c] % step - random.bits(1);
+        total[c] += group[c];
         words.add(group[c], bits);
       }
       sum.add(group);

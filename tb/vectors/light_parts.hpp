@@ -29,7 +29,11 @@ void put_angle(InitVector& vector, Random& random, int low) {
     return;
   }
   const std::int64_t one = std::int64_t{1} << At::angle.fraction_bits;
-  const auto angle = random.between(-one * 5 / 4, one * 5 / 4), slope = random.between(-one / 12, one / 12);
+  const auto angle = random.between(-one * 5 / 4, one * 5 / 4);
+  // Sometimes the second pixel is at the end of a table's cell: a wrong low bit changes its sample.
+  const std::int64_t cell = one / 16, next = (angle / cell + random.between(0, 1)) * cell;
+  const std::int64_t slope =
+      random.one_in(8) ? next - angle - random.between(0, 1) : random.between(-one / 12, one / 12);
   set_bits(vector, At::angle, angle, low);
   set_bits(vector, At::slope, slope, low);
 }

@@ -124,10 +124,13 @@ template <class Preset, int VectorBits>
 void write_unit_vector_of(const Folder& folder) {
   Random random(VectorBits);
   Pipeline pipeline(std::is_same_v<Preset, Exact> ? 15 : 7);
-  run_axes<VectorBits>(random, [&](bool enable, const Axes& v) {
+  const auto add = [&](bool enable, const Axes& v) {
     pipeline.clock(enable, {flat(v, VectorBits)},
                    flat(golden::normalized<Preset, VectorBits>(v), Preset::c_direction_bits));
-  });
+  };
+  run_axes<VectorBits>(random, add);
+  // Few vectors show a wrong low bit of the square.
+  for (int i = 0; i < 36000; ++i) add(true, random_axes(random, VectorBits));
   pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, VectorBits));
 }
 

@@ -50,12 +50,13 @@ void write_light_vector_of(const Folder& folder, bool can) {
     if (first) {
       positional = random.one_in(2);
       place = random_axes(random, Preset::c_light_place_bits);
-      if (c_exact && random.one_in(2)) shift = static_cast<std::uint32_t>(random.bits(5));
+      if (c_exact) shift = random.one_in(2) ? 0 : static_cast<std::uint32_t>(random.bits(5));
       pipeline.restart();
     }
     const Axes point = random_axes(random, Preset::c_vector_bits);
+    // Often 0: L is then as short as P, and the lowest bits of P count.
     const std::int64_t distance =
-        c_exact ? static_cast<std::int64_t>(random.word(Preset::c_vector_bits - 1)) : 0;
+        c_exact && !random.one_in(4) ? static_cast<std::int64_t>(random.word(Preset::c_vector_bits - 1)) : 0;
     pipeline.clock(enable,
                    {{positional, 1},
                     flat(place, Preset::c_light_place_bits),
