@@ -59,6 +59,7 @@ std::string Reasons::line_at(const std::string& place) const {
 }
 
 std::string Reasons::of(std::string_view line) const {
+  if (line.empty()) line = "not known:";
   for (const Survivor& survivor : listed_)
     if (line.starts_with(survivor.file + ":") && line.find(survivor.text) != std::string_view::npos)
       return survivor.reason;
