@@ -181,10 +181,11 @@ TEST(Rows, BecomeThePage) {
 TEST(Survivors, NameLinesOfTheSources) {
   const auto survivors = read_survivors(c_source / "tb/mutants/survivors.toml");
   for (const Survivor& survivor : survivors) {
+    EXPECT_FALSE(survivor.reason.empty()) << survivor.file;
+    if (survivor.file == "not known") continue;
     EXPECT_THAT(must(read_file(c_source / "rtl" / survivor.file)), testing::HasSubstr(survivor.text))
         << survivor.file;
     EXPECT_FALSE(survivor.text.empty()) << survivor.file;
-    EXPECT_FALSE(survivor.reason.empty()) << survivor.file;
   }
 }
 
