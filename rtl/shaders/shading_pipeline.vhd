@@ -5,8 +5,7 @@
 -- Contract    A token is transferred if valid and ready are both '1' at a rising edge; out_token does not change while
 --             it waits. Tokens stay in order. Loads and shadow polygons are dropped after the last processor. busy: a
 --             processor holds a token. fault stays '1', as in shading_processor.
---             In the unrolled form in_ready depends on out_ready in the same clock, through all processors. A
---             stream_register does not cut this chain, because its in_ready depends on out_ready too.
+--             In either form in_ready does not depend on out_ready in the same clock.
 -- Formats     processors_pkg
 -- Latency     the sum of the processors' latencies
 -- Throughput  that of the slowest processor; in the unrolled form 1 token per clock
