@@ -248,7 +248,8 @@ begin
 
     type exponents_t is array (natural range <>) of exponent_t;
 
-    -- Fields without a number belong to the result of their clock. Numbers count clocks, the first cut is clock 1.
+    -- Element i of an array is valid i clocks after the inputs. The other fields are valid in the clock in which they are
+    -- read.
     type reg_t is record
       log_rest  : std_logic_vector(c_log_rest - 1 downto 0);
       lead      : lead_t;

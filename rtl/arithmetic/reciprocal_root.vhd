@@ -4,8 +4,8 @@
 --             the value at the middle of each cell, with as many cells from 1 to 2 as from 2 to 4. Preset exact adds a
 --             Newton step, y = T (3 - x T**2) / 2. Below 1 the result is twice that for 4 square.
 -- Formats     square: format square, 1/4 to 4 (0 also gives a number); reciprocal: format root with one more whole bit
--- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 7, in preset published 1. The clocks of the
---             Newton step: T; T**2; two for x T**2; 3 - x T**2; two for the last product
+-- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 7 with the Newton step, otherwise 1. The
+--             clocks: T; T**2; two for x T**2; 3 - x T**2; two for the last product
 -- Throughput  1 per clock
 -- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.4, or
 --             2**-6.86, of 1

@@ -12,8 +12,9 @@ use work.processors_pkg.all;
 
 package shading_pkg is
 
-  -- Clocks with enable from an entity's inputs to its result. The unrolled form is pipelined, the folded one is not: in
-  -- preset published it has the clocks of table 4.
+  -- Clocks with enable from an entity's inputs to its result. Preset exact is always pipelined, but for
+  -- the folded form's block shift. Preset published is pipelined in the unrolled form; folded, it has the clocks of
+  -- table 4, except for spots.
   constant c_spot_cone_latency : positive := 8;
 
   function vector_shift_latency (pipelined : boolean) return positive;

@@ -34,8 +34,8 @@ end entity;
 architecture rtl of signed_multiplier is
 
   constant c_piece : positive := 17; -- bits of a piece without sign
-  constant c_small : positive := 16; -- a product of at most this many bits, or of a factor of at most
-  constant c_few   : positive := 4;  -- this many bits, is a sum of rows
+  constant c_small : positive := 16; -- bits of a product that is a sum of rows
+  constant c_few   : positive := 4;  -- bits of a factor whose product is a sum of rows
 
   function pieces (bits : positive) return positive is
   begin
@@ -60,6 +60,7 @@ architecture rtl of signed_multiplier is
     return signed('0' & word(c_low + c_piece - 1 downto c_low));
   end function;
 
+  -- A row for each bit of `right`: rows of the shorter factor make three products of one vector larger (measured).
   function product_of (left, right : signed) return part_t is
     alias digits : signed(right'length - 1 downto 0) is right;
 

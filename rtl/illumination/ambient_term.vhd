@@ -6,9 +6,9 @@
 --               clock                  1 .. unit_vector_latency
 --               N                      unit_vector
 --               V = -(view ray)        unit_vector
---               k_a I_a                wait                    reflected_term, in the last clock
+--               k_a I_a                wait                    reflected_term, in the last clocks
 --
---             unit_vector exists only for the vectors that config needs. Without any the term takes one clock.
+--             unit_vector exists only for the vectors that config needs. Without any the term takes reflection_latency clocks.
 -- Contract    light must not change while a token is in the stages
 -- Formats     token, light: token_pkg; terms: reflected_term; normal, view: direction, three components, x lowest
 -- Latency     times of terms_pkg: term

@@ -3,7 +3,7 @@
 -- Purpose     The folded processor's only dot product and its operands. In these clocks of schedule_pkg it computes
 --               square_1, _2  the shifted vector times itself
 --               axis          L times the axis of a spot's cone
---               horizon - 1   N times L, for a highlight in preset exact
+--               sum_2         N times L, for a highlight in preset exact
 --               others        N times A: L, or H of a highlight
 --             The ambient processor computes only squares.
 -- Formats     directions: direction, three components, x lowest; dot: dot_product

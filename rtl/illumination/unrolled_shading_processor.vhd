@@ -14,13 +14,13 @@
 --             A token is taken in clock 0. After n clocks it is in stage n. Its term is valid in stage c_at.term. The
 --             stages never stall: a token is taken only if the queues have a place for it.
 -- Contract    as shading_processor, except for latency and throughput. in_ready does not depend on out_ready in the same
---             clock. A token that defines, changes or deletes the light is taken only when the stages and the queues are
---             empty. fault stays '1', at the latest from the clock after the counting token has left.
+--             clock. A token that defines, changes or deletes the light is taken only when the stages, the queues and
+--             the output are empty. fault stays '1', at the latest from the clock after the counting token has left.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between the steps: terms_pkg
 -- Latency     times of terms_pkg: leave (published, exact): ambient 5, 6; with N normalized or the view vector 10, 18;
 --             directional diffuse 7, 9, specular 13, 35; positional diffuse 15, 27, specular 21, 53; spot diffuse 23, 35,
 --             specular 23, 54
--- Throughput  1 token per clock; a token that changes the light waits until the stages and the queues are empty
+-- Throughput  1 token per clock; a token that changes the light waits until all of these are empty
 -- Source      processors paper, figures 1 and 2, unrolled; ours
 -- Golden twin model/golden/shading_processor.hpp
 
@@ -68,7 +68,7 @@ architecture rtl of unrolled_shading_processor is
     g_specular, g_normalize, g_shadows);
   constant c_at     : times_t  := times(c_config, g_kind, g_light);
 
-  -- A place in the queues is claimed for c_at.leave - 1 clocks. With two places more a token is taken in every clock.
+  -- At full throughput c_at.leave - 1 places are claimed. One more keeps `room` at '1', and one is never claimed.
   constant c_index_bits : positive := index_bits(c_at.leave + 1);
 
   constant c_terms : positive := g_channels * product_bits(g_exact);
@@ -84,7 +84,7 @@ architecture rtl of unrolled_shading_processor is
   subtype result_t is std_logic_vector(1 + c_terms + 2 * c_vector - 1 downto 0);
 
   type reg_t is record
-    filled : std_logic_vector(c_at.term downto 1); -- stages that hold a token
+    filled : std_logic_vector(c_at.term downto 1); -- bit i: stage i computes for a token
     full   : std_logic; -- a token is at the output
   end record;
 

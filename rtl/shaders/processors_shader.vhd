@@ -7,8 +7,8 @@
 --                                          +------ loads ---------------------------+      fragment_output <---+
 --
 -- Contract    Both streams are valid/ready; a fragment does not change while it waits. A vector is a triangle or a load
---             (define, redefine, delete, new_frame). A load waits until the objects before it are in the pipeline, so
---             that all reach the processors in order. With shadows, the host sends the triangles line by line, and each
+--             (define, redefine, delete, new_frame). A load waits until the rasterizer and the object stage are empty,
+--             so that all reach the processors in order. With shadows, the host sends the triangles line by line, and each
 --             line in the rounds of object_stage. Without shadows it sends neither depth nor shadow: depth would be
 --             drawn like a triangle, shadow would draw nothing, and fault would stay '0'. A load of a light that does
 --             not exist changes nothing, and fault stays '0'. A command with an unknown bit stops the simulation. With
@@ -225,7 +225,7 @@ begin
       frame_start  => frame_start
       );
 
-  -- Keep the multiplexers of loads and objects from the first step of the pipeline, and its ready from the rasterizer.
+  -- Separate the multiplexers of token_order from the pipeline's first step, and the pipeline's ready from the rasterizer.
   token_taken <= token_valid and token_ready;
 
   token_queue : entity work.stream_queue

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     The end of a pipeline that never stalls: a place for every word that is in the pipeline. The start of the
---             pipeline claims a place for each word. One registered signal, `room`, stalls the start.
+--             pipeline claims a place for each word. One registered signal, `room`, stalls the start. With claim =
+--             in_valid it is a buffer whose in_ready is `room`.
 -- Contract    A place is claimed where claim = '1' at a rising edge. Assert claim only while room = '1'. The word of
 --             the place comes in that clock or a later one: in_valid = '1'. Words come in the order of their claims. A word leaves
 --             where out_valid and out_ready are both '1'; out_data does not change while out_valid = '1' and
