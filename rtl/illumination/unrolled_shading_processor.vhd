@@ -12,7 +12,8 @@
 --                          +-- stream_queue     the token ------ radiance_sum -- out_token
 --
 --             A token is taken in clock 0. After n clocks it is in stage n. Its term is valid in stage c_at.term. The
---             stages never stall: a token is taken only if the queues have a place for it.
+--             stages never stall: a token is taken only if the queues have a place for it. It waits at the head of its
+--             queue until its term comes.
 -- Contract    as shading_processor, except for latency and throughput. in_ready does not depend on out_ready in the same
 --             clock. A token that defines, changes or deletes the light is taken only when the stages, the queues and
 --             the output are empty. fault stays '1', at the latest from the clock after the counting token has left.
@@ -233,7 +234,6 @@ begin
       out_data  => waiting
       );
 
-  -- A token waits at the head of its queue until its result comes.
   results : entity work.stream_queue
     generic map (
       g_bits       => result_t'length,

@@ -6,6 +6,9 @@
 --                                          |     triangles         (with shadows)   |                          |
 --                                          +------ loads ---------------------------+      fragment_output <---+
 --
+--             A stream_queue before the pipeline separates the multiplexers of token_order from its first step, and its
+--             ready from the rasterizer.
+--
 -- Contract    Both streams are valid/ready; a fragment does not change while it waits. A vector is a triangle or a load
 --             (define, redefine, delete, new_frame). A load waits until the rasterizer and the object stage are empty,
 --             so that all reach the processors in order. With shadows, the host sends the triangles line by line, and each
@@ -225,7 +228,6 @@ begin
       frame_start  => frame_start
       );
 
-  -- Separate the multiplexers of token_order from the pipeline's first step, and the pipeline's ready from the rasterizer.
   token_taken <= token_valid and token_ready;
 
   token_queue : entity work.stream_queue

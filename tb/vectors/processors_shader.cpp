@@ -142,11 +142,11 @@ class Host {
     for (int i = 0; i < 1 << (Exact::c_shadow_count_bits - 1); ++i) send(shadow_vector(1, true, entry));
     draw(object);
   }
-  void finish() {
+  /// `object`: the last vector draws, so that the processors hold the last token of an object.
+  void finish(bool object) {
     for (int light = 0; light <= p_.config.lights(); ++light) load(Command::remove, light);
     load(Command::new_frame, 0);
-    // The last vector draws, so that the processors hold the last token of an object.
-    if (!p_.config.shadows) draw(line_walk(9, 30, 31, 1 << 20, 5));
+    if (object) draw(line_walk(9, 30, 31, 1 << 20, 5));
   }
   bool fault() const { return twin_.fault(); }
 
@@ -368,7 +368,8 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
     for (std::int64_t line = 0; line < processors.pixels / 8; ++line) host.draw_line();
   else
     host.draw_triangles(mix);
-  host.finish();
+  // A dense set has no gap between fragments, as before an object after a load.
+  host.finish(!processors.config.shadows && mix != Mix::dense);
 }
 
 // The parts of the shader with all words of tokens and with shadows, in both presets.

@@ -61,8 +61,7 @@ void write_signed_multiplier_of(const Folder& folder, int a_bits, int b_bits, in
   Random random(a_bits + b_bits);
   Pipeline pipeline(clocks);
   const auto add = [&](bool enable, std::int64_t a, std::int64_t b) {
-    pipeline.clock(enable,
-                   {{static_cast<std::uint64_t>(a), a_bits}, {static_cast<std::uint64_t>(b), b_bits}},
+    pipeline.clock(enable, {{static_cast<std::uint64_t>(a), a_bits}, {static_cast<std::uint64_t>(b), b_bits}},
                    {static_cast<std::uint64_t>(a * b), a_bits + b_bits});
   };
   if (a_bits + b_bits <= 16) {
@@ -278,10 +277,17 @@ std::vector<Entity> shading_entities() {
               {words::Function::reciprocal_root, words::Function::logarithm, words::Function::decay})
            write_function_rom<P>(f, function);
        })},
-      {"signed_multiplier",
-       of_sizes(write_signed_multiplier_of,
-                {{1, 1, 1}, {8, 8, 1}, {5, 9, 2}, {18, 18, 1}, {19, 18, 2}, {21, 19, 2}, {25, 25, 1},
-                 {24, 26, 2}, {30, 22, 2}, {28, 30, 2}, {36, 27, 2}})},
+      {"signed_multiplier", of_sizes(write_signed_multiplier_of, {{1, 1, 1},
+                                                                  {8, 8, 1},
+                                                                  {5, 9, 2},
+                                                                  {18, 18, 1},
+                                                                  {19, 18, 2},
+                                                                  {21, 19, 2},
+                                                                  {25, 25, 1},
+                                                                  {24, 26, 2},
+                                                                  {30, 22, 2},
+                                                                  {28, 30, 2},
+                                                                  {36, 27, 2}})},
       {"dot_product", of_sizes(write_dot_product_of, {{4, 1}, {16, 1}, {16, 2}, {24, 3}, {30, 3}})},
       {"vector_multiply",
        of_sizes(write_vector_multiply_of, {{2, 5, 1}, {16, 11, 1}, {24, 26, 2}, {28, 30, 2}, {13, 26, 2}})},

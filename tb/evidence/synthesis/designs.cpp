@@ -156,7 +156,8 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     add("signed_multiplier", product);
     add("vector_multiply", product);
     add("dot_product", {{"g_bits", of("direction")}, {"g_clocks", exact ? "3" : "2"}});
-    add("vector_shift", {{"g_vector_bits", of("offset")}, {"g_result_bits", of("direction")}, {"g_clocks", "2"}});
+    add("vector_shift",
+        {{"g_vector_bits", of("offset")}, {"g_result_bits", of("direction")}, {"g_clocks", "2"}});
     add("reciprocal_root", {is_exact});
     add("power", {is_exact});
     add("unit_vector", {is_exact, {"g_vector_bits", of("vector")}});
