@@ -38,7 +38,7 @@ struct ShownSignal {
 // In the order of the data flow: inputs at the top, outputs at the bottom.
 std::vector<ShownSignal> signals_of(Shader shader) {
   const bool stalls =
-      // stages after the walker stall too; in the other shaders only the walker stalls
+      // stages of the rasterizer stall, too; in the other shaders only the walker stalls
       shader == Shader::processors;
   const std::string front = stalls ? "dut/rasterizer/" : "dut/";
   const std::string walking = stalls ? "dut/drawing" : "dut/walking";
