@@ -223,7 +223,7 @@ TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
              "span stage (quadratic_interpolator, or quadratic_shader around it)"},
         Case{"spherical", "lights(0)/light/diffuse/slice/along_line/r(31 downto 0)", 20,
              "span stage (line_interpolator, or diffuse_slice around it)"},
-        Case{"processors", "pipeline/chain(1)/form/unrolled/radiance_sum/result(43 downto 22)", 18,
+        Case{"processors", "pipeline/chain(1)/form/unrolled/radiance_sum/result(65 downto 44)", 18,
              "diffuse 1 stage (unrolled_shading_processor)"}}) {
     SCOPED_TRACE(c.name);
     ASSERT_NO_FATAL_FAILURE(open(fmt::format("scene=spheres.toml&size=320x240&shader={}", c.shader)));
