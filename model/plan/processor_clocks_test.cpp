@@ -118,9 +118,9 @@ TEST(Table5, WorkedExampleAsMeasured) {
   EXPECT_EQ(count().pipelines, paper.pipelines);
   EXPECT_EQ(count().processors(), paper.processors());
   key.preset = Preset::exact;
-  EXPECT_EQ(count().pipeline_ns, 4500U);
-  EXPECT_EQ(count().pipelines, 135U);
-  EXPECT_EQ(count().processors(), 2835U);
+  EXPECT_EQ(count().pipeline_ns, 7650U);
+  EXPECT_EQ(count().pipelines, 230U);
+  EXPECT_EQ(count().processors(), 4830U);
 }
 
 }  // namespace

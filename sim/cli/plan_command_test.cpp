@@ -117,7 +117,7 @@ TEST_F(PlanCommand, Table5OfTheLights) {
                 "published +folded +positional specular +13 +59 \\(58.50\\) +1239 \\(21 a pipeline\\)\n"),
             ContainsRegex("published +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n"),
             ContainsRegex(
-                "exact +folded +positional specular +30 +135 \\(135.00\\) +2835 \\(21 a pipeline\\)\n"),
+                "exact +folded +positional specular +51 +230 \\(229.50\\) +4830 \\(21 a pipeline\\)\n"),
             ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n")));
   // Either option suffices.
   EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
