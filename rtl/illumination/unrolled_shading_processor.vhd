@@ -286,7 +286,7 @@ begin
       result   => radiance
       );
 
-  output : process (clk)
+  leave_register : process (clk)
   begin
     if rising_edge(clk) then
       if leave = '1' then

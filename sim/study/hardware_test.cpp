@@ -122,7 +122,8 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
         clock("saturate", {{"g_value_bits", "32"}, {"g_fraction_bits", "20"}, {"g_result_bits", "8"}}, 90)},
        {"inside", clock("quadratic_interpolator", {{"g_exact", "false"}, {"g_parts", "2"}}, 80)},
        {"exact", clock("quadratic_interpolator", {{"g_exact", "true"}, {"g_parts", "2"}}, 20)},  // not inside
-       {"dot", clock("dot_product", {{"g_bits", "16"}}, 10)}});                                  // not inside
+       // Not inside either.
+       {"dot", clock("dot_product", {{"g_bits", "16"}, {"g_clocks", "1"}}, 10)}});
   set_results("9000", "30", "40");
   const synth::Cost bounded = figures(false);
   EXPECT_FALSE(bounded.fits);
