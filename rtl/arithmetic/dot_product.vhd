@@ -4,7 +4,7 @@
 --               g_clocks = 1  products and their sum
 --               otherwise     the products, in g_clocks - 1 clocks; then their sum
 -- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, 2 g_bits + 1
--- Latency     g_clocks clocks with enable: dot_product_latency of shading_pkg
+-- Latency     g_clocks clocks: dot_product_latency of shading_pkg
 -- Throughput  1 vector per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2
@@ -23,7 +23,6 @@ entity dot_product is
   );
   port (
     clk    : in  std_logic;
-    enable : in  std_logic;
     a      : in  std_logic_vector(c_axes * g_bits - 1 downto 0);
     b      : in  std_logic_vector(c_axes * g_bits - 1 downto 0);
     sum    : out std_logic_vector(2 * g_bits downto 0)
@@ -56,7 +55,6 @@ begin
           )
         port map (
           clk     => clk,
-          enable  => enable,
           a       => std_logic_vector(axis_of(a, axis)),
           b       => std_logic_vector(axis_of(b, axis)),
           product => products(axis)
@@ -70,13 +68,11 @@ begin
     variable whole : signed(sum'range);
   begin
     if rising_edge(clk) then
-      if enable = '1' then
-        whole := (others => '0');
-        for axis in 0 to c_axes - 1 loop
-          whole := whole + signed(products(axis));
-        end loop;
-        sum <= std_logic_vector(whole);
-      end if;
+      whole := (others => '0');
+      for axis in 0 to c_axes - 1 loop
+        whole := whole + signed(products(axis));
+      end loop;
+      sum <= std_logic_vector(whole);
     end if;
   end process;
 

@@ -5,7 +5,7 @@
 --             second table gives for its fraction. Preset exact interpolates in both tables. Preset published reads the
 --             value at the middle of a cell, and gives 1 for base 1.
 -- Formats     base: 0 to 1, one whole bit and direction's fraction bits; exponent: format exponent; result: weight
--- Latency     power_latency of shading_pkg, in clocks with enable: 11; in preset published 7, without g_pipelined 2
+-- Latency     power_latency of shading_pkg, in clocks: 11; in preset published 7, without g_pipelined 2
 -- Throughput  1 per clock
 -- Error       exact 2**-15 + exponent * 2**-23; published, in steps of 1/255: 2.0 at exponent 1, 9.8 at 10, 45 at 50,
 --             83 at 100, because a cell of the logarithm is 1/64 wide
@@ -27,7 +27,6 @@ entity power is
   );
   port (
     clk      : in  std_logic;
-    enable   : in  std_logic;
     base     : in  std_logic_vector(formats(g_exact).direction.fraction downto 0);
     exponent : in  std_logic_vector(formats(g_exact).exponent.bits - 1 downto 0);
     result   : out std_logic_vector(formats(g_exact).weight.bits - 1 downto 0)
@@ -44,14 +43,7 @@ architecture rtl of power is
   constant c_weight    : positive          := c_formats.weight.bits;
 
   -- Stages that count leading zeros. Stage i removes 2**i zeros.
-  function stages return positive is
-    variable count : positive := 1;
-  begin
-    while 2 ** count <= c_fraction loop
-      count := count + 1;
-    end loop;
-    return count;
-  end function;
+  constant c_stages : positive := index_bits(c_fraction + 1);
 
   function smaller (a, b : natural) return natural is
   begin
@@ -62,7 +54,7 @@ architecture rtl of power is
   end function;
 
   -- Widths of -log2(base), and of its product with the exponent.
-  constant c_loss_bits      : positive := stages + c_log.fraction_bits;
+  constant c_loss_bits      : positive := c_stages + c_log.fraction_bits;
   constant c_decay_fraction : positive := smaller(c_log.fraction_bits, 20);
   constant c_cut_bits       : natural  := c_log.fraction_bits + c_formats.exponent.fraction - c_decay_fraction;
   constant c_product_bits   : positive := c_loss_bits + c_exponent - c_cut_bits;
@@ -72,7 +64,7 @@ architecture rtl of power is
   constant c_decay_bits : positive := c_formats.weight.fraction + c_guard + 1;
   constant c_shifts     : positive := 5;
 
-  subtype lead_t is unsigned(stages - 1 downto 0);
+  subtype lead_t is unsigned(c_stages - 1 downto 0);
   subtype loss_t is unsigned(c_loss_bits - 1 downto 0);
   subtype product_t is unsigned(c_product_bits - 1 downto 0);
   subtype decay_t is unsigned(c_decay_bits - 1 downto 0);
@@ -91,7 +83,7 @@ architecture rtl of power is
     variable shifted : std_logic_vector(c_fraction downto 0) := word;
     variable lead    : lead_t                                := (others => '0');
   begin
-    for stage in stages - 1 downto 0 loop
+    for stage in lead_t'range loop
       if shifted(c_fraction downto c_fraction - 2 ** stage + 1) = c_zeros(2 ** stage - 1 downto 0) then
         shifted     := shifted(c_fraction - 2 ** stage downto 0) & c_zeros(2 ** stage - 1 downto 0);
         lead(stage) := '1';
@@ -124,34 +116,16 @@ architecture rtl of power is
   -- Clocks for each cut between two steps.
   constant c_cut : natural := boolean'pos(g_exact or g_pipelined);
 
-  type split_t is record
-    zero     : std_logic; -- the base is 0
-    one      : std_logic; -- the base is 1
-    lead     : lead_t;
-    exponent : exponent_t;
-  end record;
+  -- A base of 1 has no leading zero. A base of 0 is marked.
+  signal cut_base : std_logic_vector(base'range);
+  signal normal   : normalized_t;
+  signal split    : std_logic_vector(c_fraction + c_stages downto 0); -- from the lowest: mantissa, zeros, mark
+  signal marked   : std_logic_vector(c_stages downto 0);              -- zeros, mark
 
-  constant c_split_bits : positive := 2 + stages + c_exponent;
-
-  function flat (split : split_t) return std_logic_vector is
-  begin
-    return std_logic_vector(split.exponent & split.lead) & split.one & split.zero;
-  end function;
-
-  function split_of (word : std_logic_vector(c_split_bits - 1 downto 0)) return split_t is
-  begin
-    return (word(0), word(1), unsigned(word(stages + 1 downto 2)), unsigned(word(c_split_bits - 1 downto stages + 2)));
-  end function;
-
-  -- The base and the exponent, after the first cut.
-  signal operands    : std_logic_vector(c_exponent + c_fraction downto 0);
-  signal cut_base    : std_logic_vector(base'range);
-  signal normal      : normalized_t;
-  signal split       : split_t;
-  signal normal_cut  : std_logic_vector(c_fraction + c_split_bits - 1 downto 0); -- after the second cut
-  signal mantissa    : std_logic_vector(c_fraction - 1 downto 0);
-  signal split_q     : std_logic_vector(c_split_bits - 1 downto 0);
-  signal with_sample : split_t; -- of the base of log_sample
+  -- Of the base of log_sample.
+  signal lead  : lead_t;
+  signal zero  : std_logic;
+  signal waiting_exponent : std_logic_vector(exponent'range);
 
   signal log_sample    : std_logic_vector(sample_bits(g_exact, c_logarithm) - 1 downto 0);
   signal decay_address : std_logic_vector(c_dec.address_bits - 1 downto 0);
@@ -166,37 +140,29 @@ begin
 
   first_cut : entity work.delay_line
     generic map (
-      g_bits  => operands'length,
+      g_bits  => base'length,
       g_depth => c_cut
       )
     port map (
       clk     => clk,
-      enable  => enable,
-      word    => exponent & base,
-      delayed => operands
+      enable  => '1',
+      word    => base,
+      delayed => cut_base
       );
 
-  cut_base <= operands(base'range);
-  normal   <= normalize(cut_base);
-  split    <= (
-    zero     => not (or cut_base),
-    one      => cut_base(c_fraction),
-    lead     => normal.lead,
-    exponent => unsigned(operands(operands'high downto c_fraction + 1)));
+  normal <= normalize(cut_base);
 
   second_cut : entity work.delay_line
     generic map (
-      g_bits  => c_split_bits + c_fraction,
+      g_bits  => split'length,
       g_depth => c_cut
       )
     port map (
       clk     => clk,
-      enable  => enable,
-      word    => normal.mantissa & flat(split),
-      delayed => normal_cut
+      enable  => '1',
+      word    => not (or cut_base) & std_logic_vector(normal.lead) & normal.mantissa,
+      delayed => split
       );
-
-  mantissa <= normal_cut(normal_cut'high downto c_split_bits);
 
   logarithms : entity work.function_rom
     generic map (
@@ -205,24 +171,37 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
-      address => mantissa(c_fraction - 1 downto c_fraction - c_log.address_bits),
+      enable  => '1',
+      address => split(c_fraction - 1 downto c_fraction - c_log.address_bits),
       sample  => log_sample
       );
 
-  align_split : entity work.delay_line
+  align_zeros : entity work.delay_line
     generic map (
-      g_bits  => c_split_bits,
+      g_bits  => marked'length,
       g_depth => 1
       )
     port map (
       clk     => clk,
-      enable  => enable,
-      word    => normal_cut(c_split_bits - 1 downto 0),
-      delayed => split_q
+      enable  => '1',
+      word    => split(split'high downto c_fraction),
+      delayed => marked
       );
 
-  with_sample <= split_of(split_q);
+  lead <= unsigned(marked(lead'range));
+  zero <= marked(marked'high);
+
+  align_exponent : entity work.delay_line
+    generic map (
+      g_bits  => exponent'length,
+      g_depth => 2 * c_cut + 1
+      )
+    port map (
+      clk     => clk,
+      enable  => '1',
+      word    => exponent,
+      delayed => waiting_exponent
+      );
 
   decays : entity work.function_rom
     generic map (
@@ -231,7 +210,7 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
+      enable  => '1',
       address => decay_address,
       sample  => decay_sample
       );
@@ -281,7 +260,6 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => '0' & log_sample(log_sample'high downto c_log.value_bits),
         b       => '0' & r.log_rest,
         product => log_part
@@ -295,7 +273,6 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => '0' & std_logic_vector(r.loss),
         b       => '0' & std_logic_vector(r.exponents(5)),
         product => wide
@@ -312,40 +289,37 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => '0' & decay_sample(decay_sample'high downto c_dec.value_bits),
         b       => '0' & r.dec_rest,
         product => dec_part
         );
 
     registers : process (clk)
-      variable lead : loss_t;
+      variable leading : loss_t; -- the number of leading zeros
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          r.zeros     <= with_sample.zero & r.zeros(4 to 9);
-          r.exponents <= with_sample.exponent & r.exponents(4);
+        r.zeros     <= zero & r.zeros(4 to 9);
+        r.exponents <= unsigned(waiting_exponent) & r.exponents(4);
 
-          r.wholes(9 to 10) <= r.wholes(8 to 9);
-          r.wholes(8)       <= product(c_product_bits - 1 downto c_decay_fraction);
+        r.wholes(9 to 10) <= r.wholes(8 to 9);
+        r.wholes(8)       <= product(c_product_bits - 1 downto c_decay_fraction);
 
-          r.log_rest  <= mantissa(r.log_rest'range);
-          r.lead      <= with_sample.lead;
-          r.log_value <= unsigned(log_sample(c_log.value_bits - 1 downto 0));
+        r.log_rest  <= split(r.log_rest'range);
+        r.lead      <= lead;
+        r.log_value <= unsigned(log_sample(c_log.value_bits - 1 downto 0));
 
-          lead                                       := (others => '0');
-          lead(lead'high downto c_log.fraction_bits) := r.lead;
-          r.loss                                     <= lead
-            - (r.log_value + unsigned(log_part(c_log_rest + c_log.slope_bits - 1 downto c_log_rest)));
+        leading                                          := (others => '0');
+        leading(leading'high downto c_log.fraction_bits) := r.lead;
+        r.loss                                           <= leading
+          - (r.log_value + unsigned(log_part(c_log_rest + c_log.slope_bits - 1 downto c_log_rest)));
 
-          r.dec_rest  <= std_logic_vector(product(c_dec_rest - 1 downto 0));
-          r.dec_value <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0));
-          r.decay     <= r.dec_value - unsigned(dec_part(c_dec_rest + c_dec.slope_bits - 1 downto c_dec_rest));
+        r.dec_rest  <= std_logic_vector(product(c_dec_rest - 1 downto 0));
+        r.dec_value <= unsigned(decay_sample(c_dec.value_bits - 1 downto 0));
+        r.decay     <= r.dec_value - unsigned(dec_part(c_dec_rest + c_dec.slope_bits - 1 downto c_dec_rest));
 
-          r.result <= shifted_weight(r.decay, r.wholes(10));
-          if r.zeros(10) = '1' then
-            r.result <= (others => '0');
-          end if;
+        r.result <= shifted_weight(r.decay, r.wholes(10));
+        if r.zeros(10) = '1' then
+          r.result <= (others => '0');
         end if;
       end if;
     end process;
@@ -378,12 +352,12 @@ begin
   begin
 
     lessen : process (all)
-      variable lead : loss_t;
+      variable leading : loss_t; -- the number of leading zeros
     begin
-      lead                                       := (others => '0');
-      lead(lead'high downto c_log.fraction_bits) := with_sample.lead;
-      loss                                       <= lead - unsigned(log_sample);
-      if with_sample.one = '1' then
+      leading                                          := (others => '0');
+      leading(leading'high downto c_log.fraction_bits) := lead;
+      loss                                             <= leading - unsigned(log_sample);
+      if lead = 0 then
         loss <= (others => '0');
       end if;
     end process;
@@ -395,8 +369,8 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
-        word    => with_sample.zero & std_logic_vector(with_sample.exponent & loss),
+        enable  => '1',
+        word    => zero & waiting_exponent & std_logic_vector(loss),
         delayed => loss_cut
         );
 
@@ -410,7 +384,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => loss_cut(loss_cut'high) & std_logic_vector(raised),
         delayed => raised_cut
         );
@@ -421,14 +395,12 @@ begin
     registers : process (clk)
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          r.zero  <= raised_cut(raised_cut'high);
-          r.one   <= '0';
-          if raised_now = (raised_now'range => '0') then
-            r.one <= '1';
-          end if;
-          r.whole <= raised_now(c_product_bits - 1 downto c_decay_fraction);
+        r.zero  <= raised_cut(raised_cut'high);
+        r.one   <= '0';
+        if raised_now = (raised_now'range => '0') then
+          r.one <= '1';
         end if;
+        r.whole <= raised_now(c_product_bits - 1 downto c_decay_fraction);
       end if;
     end process;
 
@@ -450,7 +422,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => weight,
         delayed => result
         );

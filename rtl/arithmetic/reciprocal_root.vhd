@@ -4,7 +4,7 @@
 --             the value at the middle of each cell, with as many cells from 1 to 2 as from 2 to 4. Preset exact adds a
 --             Newton step, y = T (3 - x T**2) / 2. Below 1 the result is twice that for 4 square.
 -- Formats     square: format square, 1/4 to 4 (0 also gives a number); reciprocal: format root with one more whole bit
--- Latency     reciprocal_root_latency of shading_pkg, in clocks with enable: 7 with the Newton step, otherwise 1. The
+-- Latency     reciprocal_root_latency of shading_pkg, in clocks: 7 with the Newton step, otherwise 1. The
 --             clocks: T; T**2; two for x T**2; 3 - x T**2; two for the last product
 -- Throughput  1 per clock
 -- Error       relative: 2**-19.7 exact, 2**-6.89 published. The length of a unit vector is within 2**-19.4, or
@@ -25,7 +25,6 @@ entity reciprocal_root is
   );
   port (
     clk        : in  std_logic;
-    enable     : in  std_logic;
     square     : in  std_logic_vector(formats(g_exact).square.bits - 1 downto 0);
     reciprocal : out std_logic_vector(formats(g_exact).root.bits downto 0)
   );
@@ -38,10 +37,12 @@ architecture rtl of reciprocal_root is
   constant c_fraction : natural   := c_formats.square.fraction;
   constant c_address  : natural   := function_format(g_exact, c_reciprocal_root).address_bits;
 
-  signal below_one   : std_logic;
-  signal x       : std_logic_vector(square'range);
-  signal address : std_logic_vector(c_address - 1 downto 0);
-  signal entry   : std_logic_vector(sample_bits(g_exact, c_reciprocal_root) - 1 downto 0);
+  signal below_one  : std_logic;
+  signal x          : std_logic_vector(square'range);
+  signal address    : std_logic_vector(c_address - 1 downto 0);
+  signal entry      : std_logic_vector(sample_bits(g_exact, c_reciprocal_root) - 1 downto 0);
+  signal root       : std_logic_vector(c_formats.root.bits - 1 downto 0); -- of x
+  signal root_below : std_logic; -- below_one, with the root
 
 begin
 
@@ -59,10 +60,24 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
+      enable  => '1',
       address => address,
       sample  => entry
       );
+
+  align_below : entity work.delay_line
+    generic map (
+      g_bits  => 1,
+      g_depth => reciprocal_root_latency(g_exact)
+      )
+    port map (
+      clk        => clk,
+      enable     => '1',
+      word(0)    => below_one,
+      delayed(0) => root_below
+      );
+
+  reciprocal <= root & '0' when root_below = '1' else '0' & root;
 
   newton : if c_formats.root.fraction > c_formats.root_entry.fraction generate
 
@@ -85,8 +100,6 @@ begin
     signal x_square      : std_logic_vector(c_x_bits + c_square_bits + 1 downto 0);
     signal rest          : std_logic_vector(c_rest_bits - 1 downto 0);
     signal twice         : std_logic_vector(c_entry_bits + c_rest_bits + 1 downto 0);
-    signal root_below    : std_logic;
-    signal root          : std_logic_vector(c_formats.root.bits - 1 downto 0);
 
   begin
 
@@ -97,7 +110,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => x(c_high downto c_high - c_x_bits + 1),
         delayed => waiting_x
         );
@@ -110,7 +123,6 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => '0' & entry,
         b       => '0' & entry,
         product => entry_square
@@ -124,7 +136,6 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => '0' & waiting_x,
         b       => entry_square(c_square_bits downto 0),
         product => x_square
@@ -134,10 +145,8 @@ begin
       variable difference : unsigned(c_x_bits + c_square_bits - 1 downto 0);
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          difference := (c_three & (c_cut - 1 downto 0 => '0')) - unsigned(x_square(difference'range));
-          rest       <= std_logic_vector(difference(difference'high downto c_cut));
-        end if;
+        difference := (c_three & (c_cut - 1 downto 0 => '0')) - unsigned(x_square(difference'range));
+        rest       <= std_logic_vector(difference(difference'high downto c_cut));
       end if;
     end process;
 
@@ -148,7 +157,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => entry,
         delayed => waiting_entry
         );
@@ -161,47 +170,16 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => '0' & waiting_entry,
         b       => '0' & rest,
         product => twice
         );
 
-    align_below : entity work.delay_line
-      generic map (
-        g_bits  => 1,
-        g_depth => reciprocal_root_latency(g_exact)
-        )
-      port map (
-        clk        => clk,
-        enable     => enable,
-        word(0)    => below_one,
-        delayed(0) => root_below
-        );
-
-    root       <= twice(c_root_low + root'high downto c_root_low);
-    reciprocal <= root & '0' when root_below = '1' else '0' & root;
+    root <= twice(c_root_low + root'high downto c_root_low);
 
   else generate
 
-    type reg_t is record
-      below_one : std_logic;
-    end record;
-
-    signal r : reg_t;
-
-  begin
-
-    registers : process (clk)
-    begin
-      if rising_edge(clk) then
-        if enable = '1' then
-          r.below_one <= below_one;
-        end if;
-      end if;
-    end process;
-
-    reciprocal <= entry & '0' when r.below_one = '1' else '0' & entry;
+    root <= entry;
 
   end generate;
 

@@ -12,7 +12,7 @@ use work.processors_pkg.all;
 
 package shading_pkg is
 
-  -- Clocks with enable from an entity's inputs to its result. Preset exact is always pipelined, but for
+  -- Clocks from an entity's inputs to its result. Preset exact is always pipelined, but for
   -- the folded form's block shift. Preset published is pipelined in the unrolled form; folded, it has the clocks of
   -- table 4, except for spots.
   constant c_spot_cone_latency : positive := 8;
@@ -43,6 +43,9 @@ package shading_pkg is
   function cosine (exact : boolean; dot : signed) return unsigned;
 
   function is_positive (dot : signed) return std_logic;
+
+  -- Bits of an index of that many places, at least 1.
+  function index_bits (places : positive) return positive;
 
   -- The width of function_rom's words: the value is lowest, the slope, if there is one, above it.
   function sample_bits (exact : boolean; which : natural) return positive;
@@ -158,6 +161,15 @@ package body shading_pkg is
       return '1';
     end if;
     return '0';
+  end function;
+
+  function index_bits (places : positive) return positive is
+    variable bits : positive := 1;
+  begin
+    while 2 ** bits < places loop
+      bits := bits + 1;
+    end loop;
+    return bits;
   end function;
 
   function sample_bits (exact : boolean; which : natural) return positive is

@@ -6,7 +6,7 @@
 --               clock 2  their sum, with g_clocks = 2
 --             Products of small pieces are sums of rows, in lookup tables.
 -- Formats     a: g_a_bits, b: g_b_bits, product: g_a_bits + g_b_bits; signed
--- Latency     g_clocks clocks with enable
+-- Latency     g_clocks clocks
 -- Throughput  1 product per clock
 -- Error       none
 -- Source      ours: the papers have no multipliers of a given width
@@ -24,7 +24,6 @@ entity signed_multiplier is
   );
   port (
     clk     : in  std_logic;
-    enable  : in  std_logic;
     a       : in  std_logic_vector(g_a_bits - 1 downto 0);
     b       : in  std_logic_vector(g_b_bits - 1 downto 0);
     product : out std_logic_vector(g_a_bits + g_b_bits - 1 downto 0)
@@ -45,8 +44,8 @@ architecture rtl of signed_multiplier is
   constant c_a_pieces : positive := pieces(g_a_bits);
   constant c_b_pieces : positive := pieces(g_b_bits);
 
-  subtype whole_t is signed(g_a_bits + g_b_bits - 1 downto 0);
   subtype part_t is signed(2 * c_piece + 1 downto 0);
+  subtype sum_t is signed(part_t'length + g_a_bits + g_b_bits - 1 downto 0); -- no part is made narrower
 
   type parts_t is array (0 to c_a_pieces * c_b_pieces - 1) of part_t;
 
@@ -95,59 +94,49 @@ architecture rtl of signed_multiplier is
     return parts;
   end function;
 
-  function sum_of (parts : parts_t) return whole_t is
-    variable sum  : whole_t := (others => '0');
-    variable part : whole_t;
+  function sum_of (parts : parts_t) return sum_t is
+    variable sum  : sum_t := (others => '0');
+    variable part : part_t;
   begin
     for i in 0 to c_a_pieces - 1 loop
       for j in 0 to c_b_pieces - 1 loop
-        part := resize(parts(i * c_b_pieces + j), whole_t'length);
+        part := parts(i * c_b_pieces + j);
         if i < c_a_pieces - 1 and j < c_b_pieces - 1 then
-          -- Show the synthesizer that no sign is left
-          part := resize(signed('0' & parts(i * c_b_pieces + j)(2 * c_piece - 1 downto 0)), whole_t'length);
+          -- Show the synthesizer that the product of two pieces without sign has none
+          part(part_t'high downto 2 * c_piece) := (others => '0');
         end if;
-        sum := sum + shift_left(part, (i + j) * c_piece);
+        sum := sum + shift_left(resize(part, sum_t'length), (i + j) * c_piece);
       end loop;
     end loop;
     return sum;
   end function;
 
+  signal parts : parts_t;
+
 begin
 
   at_once : if g_clocks = 1 generate
 
-    registers : process (clk)
-    begin
-      if rising_edge(clk) then
-        if enable = '1' then
-          product <= std_logic_vector(sum_of(products_of(a, b)));
-        end if;
-      end if;
-    end process;
+    parts <= products_of(a, b);
 
   else generate
 
-    type reg_t is record
-      parts   : parts_t;
-      product : whole_t;
-    end record;
-
-    signal r : reg_t;
-
-  begin
-
-    registers : process (clk)
+    split : process (clk)
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          r.parts   <= products_of(a, b);
-          r.product <= sum_of(r.parts);
-        end if;
+        parts <= products_of(a, b);
       end if;
     end process;
 
-    product <= std_logic_vector(r.product);
-
   end generate;
+
+  add : process (clk)
+    variable sum : sum_t;
+  begin
+    if rising_edge(clk) then
+      sum     := sum_of(parts);
+      product <= std_logic_vector(sum(product'range));
+    end if;
+  end process;
 
 end architecture;

@@ -3,7 +3,7 @@
 -- Purpose     The unit vector in the direction of a vector: block shift, dot product with itself, 1/sqrt,
 --             multiplication, rounding.
 -- Formats     components: g_vector_bits each, signed, of any scale, x lowest; unit: format direction
--- Latency     unit_vector_latency of terms_pkg, in clocks with enable
+-- Latency     unit_vector_latency of terms_pkg, in clocks
 -- Throughput  1 vector per clock
 -- Error       of the length: see reciprocal_root; of the direction: 2**-20.7 exact, 2**-13.2 published, see direction
 --             in formats_pkg
@@ -25,7 +25,6 @@ entity unit_vector is
   );
   port (
     clk        : in  std_logic;
-    enable     : in  std_logic;
     components : in  std_logic_vector(c_axes * g_vector_bits - 1 downto 0);
     unit       : out std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0)
   );
@@ -56,7 +55,7 @@ begin
       )
     port map (
       clk        => clk,
-      enable     => enable,
+      enable     => '1',
       components => components,
       shifted    => shifted
       );
@@ -68,7 +67,6 @@ begin
       )
     port map (
       clk    => clk,
-      enable => enable,
       a      => shifted,
       b      => shifted,
       sum    => dot
@@ -82,7 +80,6 @@ begin
       )
     port map (
       clk        => clk,
-      enable     => enable,
       square     => square,
       reciprocal => root
       );
@@ -94,7 +91,7 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
+      enable  => '1',
       word    => shifted,
       delayed => waited
       );
@@ -109,7 +106,6 @@ begin
       )
     port map (
       clk      => clk,
-      enable   => enable,
       a        => waited,
       b        => factor & factor & factor,
       products => products
@@ -118,11 +114,9 @@ begin
   to_direction : process (clk)
   begin
     if rising_edge(clk) then
-      if enable = '1' then
-        for axis in 0 to c_axes - 1 loop
-          unit((axis + 1) * c_bits - 1 downto axis * c_bits) <= unit_direction(g_exact, axis_of(products, axis));
-        end loop;
-      end if;
+      for axis in 0 to c_axes - 1 loop
+        unit((axis + 1) * c_bits - 1 downto axis * c_bits) <= unit_direction(g_exact, axis_of(products, axis));
+      end loop;
     end if;
   end process;
 

@@ -3,7 +3,7 @@
 -- Purpose     Multiplies two vectors of three components component by component: a vector by a scalar, a colour by a
 --             colour.
 -- Formats     a: components of g_a_bits, b: of g_b_bits, products: of g_a_bits + g_b_bits; signed, x lowest
--- Latency     g_clocks clocks with enable: vector_multiply_latency of shading_pkg
+-- Latency     g_clocks clocks: vector_multiply_latency of shading_pkg
 -- Throughput  1 vector per clock
 -- Error       none
 -- Source      processors paper, figures 1 and 2
@@ -23,7 +23,6 @@ entity vector_multiply is
   );
   port (
     clk      : in  std_logic;
-    enable   : in  std_logic;
     a        : in  std_logic_vector(c_axes * g_a_bits - 1 downto 0);
     b        : in  std_logic_vector(c_axes * g_b_bits - 1 downto 0);
     products : out std_logic_vector(c_axes * (g_a_bits + g_b_bits) - 1 downto 0)
@@ -46,7 +45,6 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
         a       => std_logic_vector(axis_of(a, axis)),
         b       => std_logic_vector(axis_of(b, axis)),
         product => products((axis + 1) * c_bits - 1 downto axis * c_bits)

@@ -14,6 +14,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use work.processors_pkg.all;
+use work.shading_pkg.all;
 
 entity vector_shift is
   generic (
@@ -31,15 +32,8 @@ end entity;
 
 architecture rtl of vector_shift is
 
-  -- Stages that shift by 2**0, 2**1 and so on, up to the length of a word.
-  function stages return positive is
-    variable count : positive := 1;
-  begin
-    while 2 ** count < g_vector_bits loop
-      count := count + 1;
-    end loop;
-    return count;
-  end function;
+  -- A stage for each bit of the number: it shifts by 2**stage.
+  constant c_stages : positive := index_bits(g_vector_bits);
 
   constant c_high  : natural                           := g_vector_bits - 1;
   constant c_zeros : std_logic_vector(c_high downto 0) := (others => '0');
@@ -48,7 +42,7 @@ architecture rtl of vector_shift is
   subtype result_t is std_logic_vector(c_axes * g_result_bits - 1 downto 0);
 
   subtype flat_t is std_logic_vector(c_axes * g_vector_bits - 1 downto 0);
-  subtype amount_t is std_logic_vector(stages - 1 downto 0);
+  subtype amount_t is std_logic_vector(c_stages - 1 downto 0);
 
   -- The number of bits by which the vector can be shifted.
   function amount_of (flat : flat_t) return amount_t is
@@ -94,44 +88,31 @@ architecture rtl of vector_shift is
     return result;
   end function;
 
+  signal found, searched : std_logic_vector(c_stages + flat_t'length - 1 downto 0); -- the vector, above it the number
+
 begin
 
-  at_once : if g_clocks = 1 generate
+  found <= amount_of(components) & components;
 
-    registers : process (clk)
-    begin
-      if rising_edge(clk) then
-        if enable = '1' then
-          shifted <= shift_all(components, amount_of(components));
-        end if;
-      end if;
-    end process;
+  between : entity work.delay_line
+    generic map (
+      g_bits  => found'length,
+      g_depth => g_clocks - 1
+      )
+    port map (
+      clk     => clk,
+      enable  => enable,
+      word    => found,
+      delayed => searched
+      );
 
-  else generate
-
-    type reg_t is record
-      flat    : flat_t;
-      amount  : amount_t;
-      shifted : result_t;
-    end record;
-
-    signal r : reg_t;
-
+  shift : process (clk)
   begin
-
-    registers : process (clk)
-    begin
-      if rising_edge(clk) then
-        if enable = '1' then
-          r.flat    <= components;
-          r.amount  <= amount_of(components);
-          r.shifted <= shift_all(r.flat, r.amount);
-        end if;
+    if rising_edge(clk) then
+      if enable = '1' then
+        shifted <= shift_all(searched(flat_t'range), searched(searched'high downto flat_t'length));
       end if;
-    end process;
-
-    shifted <= r.shifted;
-
-  end generate;
+    end if;
+  end process;
 
 end architecture;

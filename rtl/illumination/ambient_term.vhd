@@ -33,7 +33,6 @@ entity ambient_term is
   );
   port (
     clk     : in  std_logic;
-    enable  : in  std_logic;
     light   : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token   : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
     terms   : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
@@ -61,7 +60,6 @@ begin
         )
       port map (
         clk        => clk,
-        enable     => enable,
         components => normal_of(g_config, token),
         unit       => normal
         );
@@ -81,7 +79,6 @@ begin
         )
       port map (
         clk        => clk,
-        enable     => enable,
         components => negated(place_of(g_config, token)),
         unit       => view
         );
@@ -99,7 +96,7 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
+      enable  => '1',
       word    => coefficients_of(g_config, c_ambient, token),
       delayed => coefficients
       );
@@ -112,7 +109,6 @@ begin
       )
     port map (
       clk          => clk,
-      enable       => enable,
       coefficients => coefficients,
       intensities  => intensities_of(g_config, light),
       weight       => (others => '0'),

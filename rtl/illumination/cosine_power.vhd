@@ -10,7 +10,7 @@
 --
 -- Formats     normal, direction: direction, three components, x lowest; exponent: exponent (not used without
 --             g_highlight); result: weight
--- Latency     cosine_power_latency of terms_pkg, clocks with enable (published, exact): 3, 4 without g_highlight, otherwise
+-- Latency     cosine_power_latency of terms_pkg, clocks (published, exact): 3, 4 without g_highlight, otherwise
 --             9, 14
 -- Throughput  1 per clock
 -- Error       that of power; without g_highlight half a step of weight
@@ -32,7 +32,6 @@ entity cosine_power is
   );
   port (
     clk       : in  std_logic;
-    enable    : in  std_logic;
     normal    : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
     direction : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
     exponent  : in  std_logic_vector(formats(g_exact).exponent.bits - 1 downto 0);
@@ -56,7 +55,6 @@ begin
       )
     port map (
       clk    => clk,
-      enable => enable,
       a      => normal,
       b      => direction,
       sum    => dot
@@ -77,7 +75,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => exponent,
         delayed => exponent_q
         );
@@ -88,7 +86,6 @@ begin
         )
       port map (
         clk      => clk,
-        enable   => enable,
         base     => std_logic_vector(angle),
         exponent => exponent_q,
         result   => result
@@ -99,9 +96,7 @@ begin
     round : process (clk)
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          result <= cosine_weight(g_exact, angle);
-        end if;
+        result <= cosine_weight(g_exact, angle);
       end if;
     end process;
 

@@ -12,7 +12,7 @@
 -- Contract    preset published: positional and to_eye must not change while a vector is in the stages
 -- Formats     to_light: direction in preset exact, offset in preset published; to_eye, half: direction. A vector is
 --             three components, x lowest.
--- Latency     half_vector_latency of terms_pkg, clocks with enable: 0 without g_normalize, otherwise 8 in preset
+-- Latency     half_vector_latency of terms_pkg, clocks: 0 without g_normalize, otherwise 8 in preset
 --             published and 16 in preset exact
 -- Throughput  1 vector per clock
 -- Error       that of unit_vector; the sum is exact, and wraps in preset published
@@ -33,7 +33,6 @@ entity half_vector is
   );
   port (
     clk        : in  std_logic;
-    enable     : in  std_logic;
     positional : in  std_logic; -- preset published: the light has a position; otherwise to_eye is H
     to_light   : in  std_logic_vector(c_axes * half_light_bits(g_exact) - 1 downto 0);
     to_eye     : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
@@ -57,9 +56,7 @@ begin
     add : process (clk)
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          sum <= sums(to_light, to_eye, c_sum);
-        end if;
+        sum <= sums(to_light, to_eye, c_sum);
       end if;
     end process;
 
@@ -70,7 +67,6 @@ begin
         )
       port map (
         clk        => clk,
-        enable     => enable,
         components => sum,
         unit       => unit
         );

@@ -56,7 +56,6 @@ entity light_term is
   );
   port (
     clk    : in  std_logic;
-    enable : in  std_logic;
     light  : in  std_logic_vector(light_bits(g_config) - 1 downto 0);
     token  : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
     terms  : out std_logic_vector(g_config.channels * product_bits(g_config.exact) - 1 downto 0);
@@ -99,7 +98,6 @@ begin
       )
     port map (
       clk        => clk,
-      enable     => enable,
       positional => positional,
       place      => light_place(c_exact, light),
       shift      => light_shift(c_exact, light),
@@ -133,7 +131,7 @@ begin
           )
         port map (
           clk     => clk,
-          enable  => enable,
+          enable  => '1',
           word    => view_of(g_config, token) & direction_of(g_config, token),
           delayed => vectors
           );
@@ -148,7 +146,6 @@ begin
           )
         port map (
           clk    => clk,
-          enable => enable,
           a      => normal_now,
           b      => to_light,
           sum    => horizon_dot
@@ -163,7 +160,7 @@ begin
           )
         port map (
           clk        => clk,
-          enable     => enable,
+          enable     => '1',
           word(0)    => above_now,
           delayed(0) => above
           );
@@ -183,7 +180,6 @@ begin
         )
       port map (
         clk        => clk,
-        enable     => enable,
         positional => positional,
         to_light   => way,
         to_eye     => to_eye,
@@ -204,7 +200,7 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
+      enable  => '1',
       word    => direction_of(g_config, token) & exponent_of(g_config, token),
       delayed => aligned
       );
@@ -219,7 +215,6 @@ begin
       )
     port map (
       clk       => clk,
-      enable    => enable,
       normal    => normal,
       direction => direction,
       exponent  => exponent,
@@ -234,7 +229,6 @@ begin
       )
     port map (
       clk      => clk,
-      enable   => enable,
       spot     => spot,
       axis     => light_axis(c_exact, light),
       outer    => field_of(light, c_header.outer),
@@ -251,7 +245,7 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
+      enable  => '1',
       word    => coefficients_of(g_config, g_kind, token),
       delayed => coefficients
       );
@@ -263,7 +257,6 @@ begin
       )
     port map (
       clk          => clk,
-      enable       => enable,
       coefficients => coefficients,
       intensities  => intensities_of(g_config, light),
       weight       => weight,

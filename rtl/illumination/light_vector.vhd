@@ -11,7 +11,7 @@
 -- Contract    positional, place and shift must not change while a point is in the stages
 -- Formats     place: light_place, a vector or a direction; shift: light_shift; point: vector, distance: vector (not
 --             used by preset published); to_light: direction. A vector is three components, x lowest.
--- Latency     light_vector_latency of terms_pkg, clocks with enable: 0 without g_positional, otherwise 8 in
+-- Latency     light_vector_latency of terms_pkg, clocks: 0 without g_positional, otherwise 8 in
 --             preset published and 18 in preset exact
 -- Throughput  1 vector per clock
 -- Error       that of unit_vector, and half a step of offset in each component of the vector to the light
@@ -34,7 +34,6 @@ entity light_vector is
   );
   port (
     clk        : in  std_logic;
-    enable     : in  std_logic;
     positional : in  std_logic; -- the light has a position
     place      : in  std_logic_vector(c_axes * formats(g_exact).light_place.bits - 1 downto 0);
     shift      : in  std_logic_vector(shift_bits(g_exact) - 1 downto 0);
@@ -78,7 +77,6 @@ begin
           )
         port map (
           clk      => clk,
-          enable   => enable,
           a        => place,
           b        => distance & distance & distance,
           products => places
@@ -91,7 +89,7 @@ begin
           )
         port map (
           clk     => clk,
-          enable  => enable,
+          enable  => '1',
           word    => point,
           delayed => points
           );
@@ -99,9 +97,7 @@ begin
       subtract : process (clk)
       begin
         if rising_edge(clk) then
-          if enable = '1' then
-            way <= offsets(g_exact, places, points, shift);
-          end if;
+          way <= offsets(g_exact, places, points, shift);
         end if;
       end process;
 
@@ -110,9 +106,7 @@ begin
       subtract : process (clk)
       begin
         if rising_edge(clk) then
-          if enable = '1' then
-            way <= offsets(g_exact, place, point, shift);
-          end if;
+          way <= offsets(g_exact, place, point, shift);
         end if;
       end process;
 
@@ -125,7 +119,6 @@ begin
         )
       port map (
         clk        => clk,
-        enable     => enable,
         components => way,
         unit       => unit
         );

@@ -12,7 +12,7 @@
 -- Contract    spot, axis, outer and slope must not change while a point is in the stages
 -- Formats     to_light, axis: direction, three components, x lowest; outer: direction; slope: spot_slope; cosine,
 --             weight: weight
--- Latency     0 without g_spot, otherwise light_weight_latency of terms_pkg, from cosine, in clocks with enable
+-- Latency     0 without g_spot, otherwise light_weight_latency of terms_pkg, from cosine, in clocks
 -- Throughput  1 per clock
 -- Error       that of spot_cone, and (-1, 0] steps of weight: the product is cut
 -- Source      ours: the processors paper has no spot lights
@@ -34,7 +34,6 @@ entity light_weight is
   );
   port (
     clk      : in  std_logic;
-    enable   : in  std_logic;
     spot     : in  std_logic; -- the light is one
     axis     : in  std_logic_vector(c_axes * formats(g_exact).direction.bits - 1 downto 0);
     outer    : in  std_logic_vector(formats(g_exact).direction.bits - 1 downto 0);
@@ -71,7 +70,6 @@ begin
         )
       port map (
         clk    => clk,
-        enable => enable,
         a      => to_light,
         b      => axis,
         sum    => dot
@@ -83,7 +81,6 @@ begin
         )
       port map (
         clk      => clk,
-        enable   => enable,
         axis_sum => dot,
         outer    => outer,
         slope    => slope,
@@ -97,7 +94,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => share,
         delayed => share_both
         );
@@ -109,7 +106,7 @@ begin
         )
       port map (
         clk     => clk,
-        enable  => enable,
+        enable  => '1',
         word    => cosine,
         delayed => cosine_both
         );
@@ -117,11 +114,9 @@ begin
     narrow : process (clk)
     begin
       if rising_edge(clk) then
-        if enable = '1' then
-          weight <= cosine_both;
-          if spot = '1' then
-            weight <= coned_weight(g_exact, unsigned(cosine_both) * unsigned(share_both));
-          end if;
+        weight <= cosine_both;
+        if spot = '1' then
+          weight <= coned_weight(g_exact, unsigned(cosine_both) * unsigned(share_both));
         end if;
       end if;
     end process;

@@ -12,7 +12,7 @@
 -- Formats     coefficients: coefficient, intensities: light_intensity, a word per channel, the first lowest; weight:
 --             weight, reflection_latency of terms_pkg after its coefficients; terms: product_bits of terms_pkg per channel, with the fraction
 --             bits of reflected and weight
--- Latency     clocks with enable to terms: vector_multiply_latency of shading_pkg from weight; without g_weighted
+-- Latency     clocks to terms: vector_multiply_latency of shading_pkg from weight; without g_weighted
 --             reflection_latency from coefficients
 -- Throughput  1 term per clock
 -- Error       half a step of reflected
@@ -36,7 +36,6 @@ entity reflected_term is
   );
   port (
     clk          : in  std_logic;
-    enable       : in  std_logic;
     coefficients : in  std_logic_vector(g_channels * formats(g_exact).coefficient.bits - 1 downto 0);
     intensities  : in  std_logic_vector(g_channels * formats(g_exact).light_intensity.bits - 1 downto 0);
     weight       : in  std_logic_vector(formats(g_exact).weight.bits - 1 downto 0);
@@ -70,7 +69,6 @@ begin
       )
     port map (
       clk      => clk,
-      enable   => enable,
       a        => k,
       b        => intensity,
       products => k_i
@@ -79,14 +77,12 @@ begin
   round : process (clk)
   begin
     if rising_edge(clk) then
-      if enable = '1' then
-        reflections <= (others => '0');
-        for channel in 0 to g_channels - 1 loop
-          reflections((channel + 1) * c_reflected - 2 downto channel * c_reflected) <=
-            reflected(g_exact, unsigned(k_i((channel + 1) * (c_k + c_intensity) - 3
-            downto channel * (c_k + c_intensity))));
-        end loop;
-      end if;
+      reflections <= (others => '0');
+      for channel in 0 to g_channels - 1 loop
+        reflections((channel + 1) * c_reflected - 2 downto channel * c_reflected) <=
+          reflected(g_exact, unsigned(k_i((channel + 1) * (c_k + c_intensity) - 3
+          downto channel * (c_k + c_intensity))));
+      end loop;
     end if;
   end process;
 
@@ -109,7 +105,6 @@ begin
         )
       port map (
         clk      => clk,
-        enable   => enable,
         a        => reflections,
         b        => factor & factor & factor,
         products => products

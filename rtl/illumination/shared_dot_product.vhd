@@ -72,7 +72,6 @@ begin
       )
     port map (
       clk    => clk,
-      enable => '1',
       a      => a,
       b      => b,
       sum    => dot

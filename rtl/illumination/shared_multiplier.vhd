@@ -100,7 +100,6 @@ begin
       )
     port map (
       clk      => clk,
-      enable   => '1',
       a        => a,
       b        => b,
       products => products

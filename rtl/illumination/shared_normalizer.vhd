@@ -75,7 +75,6 @@ begin
       )
     port map (
       clk        => clk,
-      enable     => '1',
       square     => dot(c_square_low + c_formats.square.bits - 1 downto c_square_low),
       reciprocal => root
       );

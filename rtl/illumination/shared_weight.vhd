@@ -68,7 +68,6 @@ begin
         )
       port map (
         clk      => clk,
-        enable   => '1',
         base     => std_logic_vector(angle),
         exponent => exponent,
         result   => weight_now
@@ -108,7 +107,6 @@ begin
         )
       port map (
         clk      => clk,
-        enable   => '1',
         axis_sum => dot,
         outer    => outer,
         slope    => slope,

@@ -10,7 +10,7 @@
 --               clock 8     rounded half up
 -- Formats     axis_sum: exact dot product of the direction *to* the light and the axis; outer: direction; slope:
 --             spot_slope; factor: weight
--- Latency     8 clocks with enable (shading_pkg)
+-- Latency     8 clocks (shading_pkg)
 -- Throughput  1 factor per clock
 -- Error       3.5 * 2**-16 exact, 2 * 2**-8 published, for slopes up to 2**12: the cuts of over and t, and rounding.
 --             1.5 * 2**-28 * slope more for steeper slopes, where the errors of the directions are larger
@@ -29,7 +29,6 @@ entity spot_cone is
   );
   port (
     clk      : in  std_logic;
-    enable   : in  std_logic;
     axis_sum : in  std_logic_vector(2 * formats(g_exact).direction.bits downto 0);
     outer    : in  std_logic_vector(formats(g_exact).direction.bits - 1 downto 0);
     slope    : in  std_logic_vector(formats(g_exact).spot_slope.bits - 1 downto 0);
@@ -85,7 +84,6 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
       a       => '0' & std_logic_vector(r.over),
       b       => '0' & std_logic_vector(r.slope),
       product => wide_t
@@ -99,7 +97,6 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
       a       => '0' & std_logic_vector(r.t),
       b       => '0' & std_logic_vector(r.t),
       product => square
@@ -115,7 +112,6 @@ begin
       )
     port map (
       clk     => clk,
-      enable  => enable,
       a       => square(2 * c_weight downto 0),
       b       => '0' & std_logic_vector(rest),
       product => cubic
@@ -127,26 +123,24 @@ begin
     variable share : unsigned(3 * c_weight + 1 - 2 * c_formats.weight.fraction downto 0);
   begin
     if rising_edge(clk) then
-      if enable = '1' then
-        over   := resize(-resize(signed(axis_sum), c_sum_high + 1)
-          - (signed(outer) & (c_fraction - 1 downto 0 => '0')), c_sum_high + 1);
-        r.over <= (others => '0');
-        if over(over'high) = '0' then
-          r.over <= unsigned(over(c_sum_high - 1 downto c_over_low));
-        end if;
-        r.slope <= unsigned(slope);
-
-        t   := unsigned(wide_t(c_over_bits + c_slope - 1 downto c_t_low));
-        r.t <= one;
-        if t(t'high downto c_weight - 1) = (t'high downto c_weight - 1 => '0') then
-          r.t <= t(c_weight - 1 downto 0);
-        end if;
-
-        r.square_t <= r.t;
-
-        share    := round_half_up(unsigned(cubic(3 * c_weight downto 0)), 2 * c_formats.weight.fraction);
-        r.factor <= std_logic_vector(share(c_weight - 1 downto 0));
+      over   := resize(-resize(signed(axis_sum), c_sum_high + 1)
+        - (signed(outer) & (c_fraction - 1 downto 0 => '0')), c_sum_high + 1);
+      r.over <= (others => '0');
+      if over(over'high) = '0' then
+        r.over <= unsigned(over(c_sum_high - 1 downto c_over_low));
       end if;
+      r.slope <= unsigned(slope);
+
+      t   := unsigned(wide_t(c_over_bits + c_slope - 1 downto c_t_low));
+      r.t <= one;
+      if t(t'high downto c_weight - 1) = (t'high downto c_weight - 1 => '0') then
+        r.t <= t(c_weight - 1 downto 0);
+      end if;
+
+      r.square_t <= r.t;
+
+      share    := round_half_up(unsigned(cubic(3 * c_weight downto 0)), 2 * c_formats.weight.fraction);
+      r.factor <= std_logic_vector(share(c_weight - 1 downto 0));
     end if;
   end process;
 

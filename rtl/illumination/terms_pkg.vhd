@@ -26,9 +26,6 @@ package terms_pkg is
 
   function larger (a, b : natural) return natural;
 
-  -- Bits of an index of that many places.
-  function index_bits (places : positive) return positive;
-
   -- Bits of the vector that half_vector adds to the direction to the eye, and of the sum.
   function half_light_bits (exact : boolean) return positive;
 
@@ -37,7 +34,7 @@ package terms_pkg is
   -- Bits of k I times a weight.
   function product_bits (exact : boolean) return positive;
 
-  -- Clocks with enable of the steps of a term.
+  -- Clocks of the steps of a term.
   function unit_vector_latency (exact : boolean) return positive;
 
   function light_vector_latency (exact, positional : boolean) return natural;
@@ -132,15 +129,6 @@ package body terms_pkg is
       return a;
     end if;
     return b;
-  end function;
-
-  function index_bits (places : positive) return positive is
-    variable bits : positive := 1;
-  begin
-    while 2 ** bits < places loop
-      bits := bits + 1;
-    end loop;
-    return bits;
   end function;
 
   function half_light_bits (exact : boolean) return positive is

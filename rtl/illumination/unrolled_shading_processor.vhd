@@ -30,6 +30,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
+use work.shading_pkg.all;
 use work.terms_pkg.all;
 use work.token_pkg.all;
 
@@ -109,7 +110,7 @@ architecture rtl of unrolled_shading_processor is
 
   -- Of the first token in the queues.
   signal complete : std_logic; -- its steps are done
-  signal leave    : std_logic; -- it moves to the output
+  signal advance  : std_logic; -- it becomes the token at the output
   signal waiting  : token_t;
   signal result   : result_t;
   signal renewed  : token_t;   -- the token without its new colour
@@ -170,7 +171,6 @@ begin
         )
       port map (
         clk    => clk,
-        enable => '1',
         light  => light,
         token  => in_token,
         terms  => terms,
@@ -191,7 +191,6 @@ begin
       generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
       port map (
         clk    => clk,
-        enable => '1',
         light  => light,
         token  => in_token,
         terms  => terms,
@@ -230,7 +229,7 @@ begin
       in_valid  => take,
       in_data   => in_token,
       out_valid => open,
-      out_ready => leave,
+      out_ready => advance,
       out_data  => waiting
       );
 
@@ -248,11 +247,11 @@ begin
       in_valid  => r.filled(c_at.term),
       in_data   => view & normal & terms & reached,
       out_valid => complete,
-      out_ready => leave,
+      out_ready => advance,
       out_data  => result
       );
 
-  leave  <= complete and (out_ready or not r.full);
+  advance <= complete and (out_ready or not r.full);
   object <= is_object(command_of(g_exact, waiting));
 
   -- The ambient processor renews the vectors of an object
@@ -279,7 +278,7 @@ begin
       )
     port map (
       clk      => clk,
-      enable   => leave,
+      enable   => advance,
       add      => object and defined and result(0),
       radiance => radiance_of(c_config, waiting),
       terms    => result(c_terms downto 1),
@@ -289,7 +288,7 @@ begin
   leave_register : process (clk)
   begin
     if rising_edge(clk) then
-      if leave = '1' then
+      if advance = '1' then
         leaving <= renewed;
       end if;
     end if;

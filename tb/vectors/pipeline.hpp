@@ -40,15 +40,19 @@ inline Flat flat(const std::vector<std::uint32_t>& words, int bits) {
   return all;
 }
 
-/// First line: latency. Then one line per clock: checked, enable, inputs; the result, before the edge.
+/// First line: latency. Then one line per clock: checked, enable if the entity has it, inputs; the result,
+/// before the edge.
 class Pipeline {
  public:
   explicit Pipeline(int latency) : latency_(latency), due_(latency) { file_.word(latency, 32).end_vector(); }
+  void clock(std::initializer_list<Flat> inputs, const Flat& result) {
+    file_.flag(due_.full());
+    add(inputs, result);
+    if (latency_ > 0) due_.step(result);
+  }
   void clock(bool enable, std::initializer_list<Flat> inputs, const Flat& result) {
     file_.flag(due_.full()).flag(enable);
-    for (const Flat& input : inputs) file_.words_of(input.words, input.bits);
-    const Flat& shown = latency_ > 0 && due_.full() ? due_.delayed() : result;
-    file_.words_of(shown.words, shown.bits).end_vector();
+    add(inputs, result);
     if (enable && latency_ > 0) due_.step(result);
   }
   /// An input changes that must be stable while words are in the stages: the words in the stages are not
@@ -57,6 +61,12 @@ class Pipeline {
   void write(const std::filesystem::path& path) const { return file_.write(path); }
 
  private:
+  void add(std::initializer_list<Flat> inputs, const Flat& result) {
+    for (const Flat& input : inputs) file_.words_of(input.words, input.bits);
+    const Flat& shown = latency_ > 0 && due_.full() ? due_.delayed() : result;
+    file_.words_of(shown.words, shown.bits).end_vector();
+  }
+
   VectorFile file_;
   int latency_;
   golden::DelayLine<Flat> due_;

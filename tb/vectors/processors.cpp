@@ -151,7 +151,7 @@ void write_ambient_term_of(const Folder& folder) {
     twin.ready_vectors(token);
     for (const Axes& v : {token.normal, c_exact ? token.view : Axes{}})
       for (const std::int64_t component : v) result.add(component, Preset::c_direction_bits);
-    pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
+    pipeline.clock({light_bits, flat(words, bits)}, result);
   }
   pipeline.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
@@ -177,7 +177,7 @@ void write_light_term_of(const Folder& folder, Term term, int light_number, int 
     Flat result(terms.has_value(), 1);
     for (const std::uint64_t t : terms.value_or(golden::Terms{}))
       result.add(t, Preset::c_reflected_bits + Preset::c_weight_bits);
-    pipeline.clock(done % 3 > 0 || maker.random().one_in(2), {light_bits, flat(words, bits)}, result);
+    pipeline.clock({light_bits, flat(words, bits)}, result);
   }
   pipeline.write(folder / fmt::format("{}_{}{}.txt", Preset::c_name, static_cast<int>(term), light_number));
 }

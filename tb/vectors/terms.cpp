@@ -21,11 +21,11 @@ using golden::Axes, words::Exact, words::Published;
 // Number of points for which a light is constant; number of lights.
 constexpr int c_points = 100, c_lights = 40;
 
-// add(first of a light, enable)
+// add(first of a light)
 template <class Add>
-void run_lights(Random& random, const Add& add) {
+void run_lights(const Add& add) {
   for (int light = 0; light < c_lights; ++light)
-    for (int point = 0; point < c_points; ++point) add(point == 0, light < c_lights / 2 || random.one_in(2));
+    for (int point = 0; point < c_points; ++point) add(point == 0);
 }
 
 template <class Preset>
@@ -46,7 +46,7 @@ void write_light_vector_of(const Folder& folder, bool can) {
   bool positional = false;
   Axes place{};
   std::uint32_t shift = 0;
-  run_lights(random, [&](bool first, bool enable) {
+  run_lights([&](bool first) {
     if (first) {
       positional = random.one_in(2);
       place = random_axes(random, Preset::c_light_place_bits);
@@ -57,8 +57,7 @@ void write_light_vector_of(const Folder& folder, bool can) {
     // Often 0: L is then as short as P, and the lowest bits of P count.
     const std::int64_t distance =
         c_exact && !random.one_in(4) ? static_cast<std::int64_t>(random.word(Preset::c_vector_bits - 1)) : 0;
-    pipeline.clock(enable,
-                   {{positional, 1},
+    pipeline.clock({{positional, 1},
                     flat(place, Preset::c_light_place_bits),
                     {shift, c_shift_bits<Preset>},
                     flat(point, Preset::c_vector_bits),
@@ -78,7 +77,7 @@ void write_half_vector_of(const Folder& folder, bool depends) {
   Pipeline pipeline(depends ? 1 + c_unit_latency<Preset> : 0);
   bool positional = false;
   Axes to_eye{};
-  run_lights(random, [&](bool first, bool enable) {
+  run_lights([&](bool first) {
     auto [a, b] = random_directions<Preset>(random);
     if (first || c_exact) to_eye = b;
     if (first) {
@@ -87,7 +86,7 @@ void write_half_vector_of(const Folder& folder, bool depends) {
     }
     if (!c_exact) a = random_axes(random, c_light_bits);
     const bool sum = depends && (c_exact || positional);
-    pipeline.clock(enable, {{positional, 1}, flat(a, c_light_bits), flat(to_eye, Preset::c_direction_bits)},
+    pipeline.clock({{positional, 1}, flat(a, c_light_bits), flat(to_eye, Preset::c_direction_bits)},
                    flat(sum ? golden::half_vector<Preset>(a, to_eye) : to_eye, Preset::c_direction_bits));
   });
   pipeline.write(folder / fmt::format("{}_{:d}.txt", Preset::c_name, depends));
@@ -99,13 +98,12 @@ void write_cosine_power_of(const Folder& folder, bool highlight) {
   constexpr bool c_exact = Preset::c_light_shift_bits > 0;
   Random random(Preset::c_exponent_bits + highlight);
   Pipeline pipeline((c_exact ? 3 : 2) + (!highlight ? 1 : c_exact ? 11 : 7));
-  run(random, [&](bool enable) {
+  run(random, [&](bool) {
     const auto [normal, direction] = random_directions<Preset>(random);
     const std::uint32_t exponent = unsigned_word(random, Preset::c_exponent_bits);
     const std::uint32_t result = highlight ? golden::cosine_power<Preset>(normal, direction, exponent)
                                            : golden::cosine_weight<Preset>(normal, direction);
-    pipeline.clock(enable,
-                   {flat(normal, Preset::c_direction_bits),
+    pipeline.clock({flat(normal, Preset::c_direction_bits),
                     flat(direction, Preset::c_direction_bits),
                     {exponent, Preset::c_exponent_bits}},
                    {result, Preset::c_weight_bits});
@@ -122,7 +120,7 @@ void write_light_weight_of(const Folder& folder, int lead) {
   Axes axis{};
   std::int64_t outer = 0;
   std::uint32_t slope = 0;
-  run_lights(random, [&](bool first, bool enable) {
+  run_lights([&](bool first) {
     auto [to_light, from_light] = random_directions<Preset>(random);
     if (first) {
       spot = !random.one_in(4);
@@ -143,8 +141,7 @@ void write_light_weight_of(const Folder& folder, int lead) {
         static_cast<std::uint32_t>(random.between(0, std::int64_t{1} << Preset::c_weight_fraction_bits));
     const std::uint32_t weight =
         spot ? golden::light_weight<Preset>(cosine, to_light, axis, outer, slope) : cosine;
-    pipeline.clock(enable,
-                   {{spot, 1},
+    pipeline.clock({{spot, 1},
                     flat(axis, Preset::c_direction_bits),
                     {static_cast<std::uint64_t>(outer), Preset::c_direction_bits},
                     {slope, Preset::c_spot_slope_bits},
@@ -162,7 +159,7 @@ void write_reflected_term_of(const Folder& folder, int channels, bool weighted) 
   Random random(Preset::c_coefficient_bits + channels);
   Pipeline pipeline(c_multiply + 1 + weighted * c_multiply);
   golden::Axes intensities{};
-  run_lights(random, [&](bool first, bool enable) {
+  run_lights([&](bool first) {
     if (first) {
       for (std::int64_t& intensity : intensities)
         intensity = unsigned_word(random, Preset::c_light_intensity_bits);
@@ -181,7 +178,7 @@ void write_reflected_term_of(const Folder& folder, int channels, bool weighted) 
       terms.add(golden::reflected_term<Preset>(coefficient, intensity, weight),
                 Preset::c_reflected_bits + Preset::c_weight_bits);
     }
-    pipeline.clock(enable, {k, i, {weight, Preset::c_weight_bits}}, terms);
+    pipeline.clock({k, i, {weight, Preset::c_weight_bits}}, terms);
   });
   pipeline.write(folder / fmt::format("{}_{}_{:d}.txt", Preset::c_name, channels, weighted));
 }
