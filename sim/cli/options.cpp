@@ -299,16 +299,15 @@ std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names
   return chosen;
 }
 
-void add_device(CLI::App& command, const synth::Family*& family) {
-  family = &synth::c_default_family;
-  command
+CLI::Option* add_device(CLI::App& command, const synth::Family*& family) {
+  return command
       .add_option_function<std::string>(
           "--device",
           [&family](const std::string& name) {
             family = synth::family_of(name);
             if (family == nullptr)
-              throw Failure{
-                  bad_input(fmt::format("--device: '{}' is not a device; take hx8k or ecp5", name))};
+              throw Failure{bad_input(fmt::format("--device: '{}' is not a device; take {}", name,
+                                                  fmt::join(synth::device_options(), " or ")))};
           },
           "the FPGA whose clocks and cells count: hx8k (iCE40 HX8K) or ecp5 (ECP5 LFE5U-85F)")
       ->default_str(std::string(family->device->option));

@@ -58,8 +58,8 @@ Shader checked_shader(const std::string& name);
 /// The message for an option that belongs to another shader; `owners`: such as "the quadratic shader".
 std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
-/// Adds --device. Its value after parsing is the family of the device.
-void add_device(CLI::App& command, const synth::Family*& family);
+/// Adds --device. Its value is the family of the device; before, that of the default.
+CLI::Option* add_device(CLI::App& command, const synth::Family*& family);
 
 /// Finds simulators by name. All must be in `known`; the result has its order. Default: GHDL and Verilator.
 std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names,

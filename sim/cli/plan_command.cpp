@@ -43,7 +43,7 @@ struct PlanCommand {
   std::vector<std::string> simulators;
   std::optional<std::uint64_t> objects, rate;
   std::string netlist;  // file to write; empty: none
-  const synth::Family* family = nullptr;
+  const synth::Family* family = &synth::c_default_family;
 };
 
 constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;

@@ -39,7 +39,7 @@ struct StudyCommand {
   std::string error, psnr, time;
   std::optional<double> clock_mhz;
   bool place = false;
-  const synth::Family* family = nullptr;
+  const synth::Family* family = &synth::c_default_family;
   std::string out = "build/study";
   unsigned threads = 0;
   std::string executor = "local";

@@ -5,7 +5,9 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/result.hpp"
 #include "sim/cost/global_buffers.hpp"
@@ -162,6 +164,13 @@ inline constexpr const Family& c_ice40 = c_families[0];
 inline constexpr const Family& c_ecp5 = c_families[1];
 /// Whose clocks and cells the commands show, if no device is given.
 inline constexpr const Family& c_default_family = c_ecp5;
+
+/// The options of all devices.
+inline std::vector<std::string> device_options() {
+  std::vector<std::string> options;
+  for (const Family& family : c_families) options.emplace_back(family.device->option);
+  return options;
+}
 
 /// The family of the device with this option; nullptr: there is none.
 constexpr const Family* family_of(std::string_view option) {

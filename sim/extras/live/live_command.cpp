@@ -16,7 +16,7 @@ struct LiveCommand {
   std::vector<std::string> scenes;
   std::string out = "build/live/index.html";
   unsigned threads = 0;
-  const synth::Family* family = nullptr;
+  const synth::Family* family = &synth::c_default_family;
 };
 
 void run(const Folders& folders, const LiveCommand& command) {

@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
   auto* device =
       clocks
           ->add_option("--device", options.device, "hx8k, or ecp5, with thresholds for complete shaders only")
-          ->check(CLI::IsMember(std::vector<std::string>{"hx8k", "ecp5"}));
+          ->check(CLI::IsMember(synth::device_options()));
   clocks->get_option("--page")->excludes(device);
   add("board", "the board's bitstream and its figures", synth::board);
   return cli::run_program(app, argc, argv, exit_code);
