@@ -77,7 +77,7 @@ const workers = [];
 let requested = 0, shown = 0;  // numbers of frames
 let dirty = true;  // the state is not drawn yet
 let exactly = false;  // the state has been still: the frame is drawn with its error
-let needsRegisters = true;
+let registersFrom = 1;  // frames from this number on list the hardware's registers, until one of them is shown
 const frameTimes = [];
 
 function startWorker() {
@@ -151,8 +151,7 @@ function request(free) {
   free.busy = true;
   const reference = exactly || state.kind === "reference" || state.kind === "difference";
   const kinds = ["hardware", ...(state.kind === "hardware" ? [] : [state.kind])];
-  free.worker.postMessage({ kind: "draw", id: ++requested, state: requestOf(), kinds, reference, exactly, registers: needsRegisters });
-  needsRegisters = false;
+  free.worker.postMessage({ kind: "draw", id: ++requested, state: requestOf(), kinds, reference, exactly, registers: requested >= registersFrom });
   clearTimeout(stillTimer);
   if (!exactly)
     stillTimer = setTimeout(() => { if (!dirty && !at("turning").checked) { exactly = dirty = true; schedule(); } }, 250);
@@ -185,7 +184,10 @@ function showFrame(frame) {
   paint(at("left"), pictures.hardware, drawn);
   if (pictures[state.kind]) paint(at("right"), pictures[state.kind], drawn);
   at("key").textContent = frame.key;
-  if (frame.registers) showRegisters(frame.registers);
+  if (frame.registers) {
+    showRegisters(frame.registers);
+    if (frame.id >= registersFrom) registersFrom = Infinity;
+  }
   const equal = figures.mismatches === 0 && frame.difference === "";
   at("verdict").className = equal ? "agrees" : "differs";
   at("verdict").textContent = equal ? `${number(figures.fragments)} fragments: 0 differ from the golden model` :
@@ -367,7 +369,7 @@ function showRegisters(registers) {
 }
 function forgetFault() {
   fault = null;
-  needsRegisters = true;
+  registersFrom = requested + 1;
 }
 function listenToFaults() {
   at("break").onclick = () => {
