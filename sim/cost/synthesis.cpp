@@ -44,6 +44,20 @@ struct Port {
   unsigned bits = 1;
 };
 
+// A model of the ECP5's multiplier as Yosys's dsp_map.v connects it: without registers. Yosys has none.
+std::string multiplier_model() {
+  const auto list = [](char letter, int bits) {
+    std::string text;
+    for (int bit = bits - 1; bit >= 0; --bit) text += fmt::format("{}{}{}", letter, bit, bit > 0 ? ", " : "");
+    return text;
+  };
+  return fmt::format(
+      "module MULT18X18D (input {0}, {1}, {2}, SIGNEDA, SIGNEDB, SOURCEA, SOURCEB, output {3});\n"
+      "  wire signed [18:0] a = {{SIGNEDA & A17, {0}}};\n  wire signed [18:0] b = {{SIGNEDB & B17, {1}}};\n"
+      "  assign {{{3}}} = a * b;\nendmodule\n",
+      list('A', 18), list('B', 18), list('C', 18), list('P', 36));
+}
+
 std::vector<Port> ports_of(std::string_view netlist, std::string_view top) {
   const std::size_t at = netlist.find(fmt::format("module {}\n", top));
   const std::size_t end = at == std::string_view::npos ? at : netlist.find(';', at);
@@ -163,11 +177,11 @@ std::string Synthesizer::from_mapped(const Design& design, const std::string& sc
 std::string Synthesizer::simulated(const Design& design) const {
   return from_mapped(
       design,
-      fmt::format(
-          "read_rtlil mapped.il; delete =A:blackbox; read_verilog -defer {}; "
-          "hierarchy -top {}; proc; flatten; opt_clean -purge; splitnets; write_verilog -noattr simulated.v",
-          family_->models, design.entity),
-      "simulated.v", "");
+      fmt::format("read_rtlil mapped.il; delete =A:blackbox; read_verilog -defer {}; "
+                  "read_verilog wrapper.v; hierarchy -top {}; proc; flatten; opt_clean -purge; splitnets; "
+                  "write_verilog -noattr simulated.v",
+                  family_->models, design.entity),
+      "simulated.v", family_->multiplier_bits > 0 ? multiplier_model() : "");
 }
 
 // Synthesize the wrapper separately and then insert the already synthesized design, so that no optimization
