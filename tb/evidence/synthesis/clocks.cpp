@@ -115,12 +115,12 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
   for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, options));
   for (const char* space : c_spaces) {
     auto points = study::read_space(folders.source / space);
-    // Pipelines of preset exact are much too large for the HX8K, and on the ECP5 a seed takes over ten
-    // minutes.
-    std::erase_if(points, [](const study::DesignPoint& point) {
-      return point.preset == Preset::exact &&
-             (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
-    });
+    // Pipelines of preset exact are much too large for the HX8K.
+    if (&sections.family == &c_ice40)
+      std::erase_if(points, [](const study::DesignPoint& point) {
+        return point.preset == Preset::exact &&
+               (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
+      });
     for (Design& design :
          study::hardware_of_space((folders.source / c_space_scene).string(), points, folders))
       if (netlists.insert(identity_of(design, options)).second)

@@ -99,7 +99,7 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
-      all.back().ice40 = all.back().ecp5 = !exact;
+      all.back().ice40 = !exact;
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
