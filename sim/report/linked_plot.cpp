@@ -22,11 +22,15 @@ constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10, 3, 14, 
 // A long legend takes more room.
 std::string style_of(const Plot& plot) {
   constexpr std::size_t c_lines = 12, c_line = 35;
+  if (!plot.ring_legend.empty())
+    return plot_style(440, 420) + "set key below center vertical maxrows 4 width -3 samplen 1 Left reverse\n";
   if (plot.legend.empty()) return plot_style(520, 390) + "unset key\n";
   const bool is_long = plot.legend.size() > c_lines;
   return plot_style(is_long ? 920 : 800, is_long ? static_cast<double>(c_line * plot.legend.size()) : 420) +
          "set key outside right center Left reverse spacing 1.4\n";
 }
+
+constexpr const char* c_ring = "pointtype 6 pointsize 1.5 linecolor rgb \"#8a8a8a\"";
 
 // Length of the arrow of a least value, as a factor on the logarithmic axis.
 constexpr double c_arrow = 1.2;
@@ -131,21 +135,30 @@ std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
   std::string blocks = "$front << END\n";
   for (const auto& [at_x, at_y] : plot.front) blocks += fmt::format("{} {}\n", x.place(at_x), y.place(at_y));
   blocks += plot.front.empty() ? "NaN NaN\nEND\n$points << END\n" : "END\n$points << END\n";
-  std::string legend;
+  std::string legend, rings;
   for (std::size_t at = 0; at < points.size(); ++at) {
-    const auto& [point_x, point_y, series, number, name, aside, least_x] = points[at];
-    const PointLook look = look_of(series);
-    if (least_x)
+    const PlotPoint& point = points[at];
+    const std::size_t series = point.series;
+    const double at_x = x.place(point.x), at_y = y.place(point.y);
+    const PointLook look = plot.looks.empty() ? look_of(series) : plot.looks.at(series);
+    if (point.ring) rings += fmt::format("{} {}\n", at_x, at_y);
+    if (!point.label.empty())
+      script += fmt::format("set label {} at {},{} left offset 0.7,0.4 font ',11'\n",
+                            gnuplot_text(point.label), at_x, at_y);
+    if (point.least_x)
       script += fmt::format(
           "set arrow from {0},{1} to {2},{1} head size screen 0.008,25 linecolor rgb \"{3}\" linewidth 1.2\n",
-          x.place(point_x), y.place(point_y), c_arrow * x.place(point_x), look.colour);
-    blocks += fmt::format("{} {} {} 0x{}\n", x.place(point_x), y.place(point_y), look.shape, look.colour + 1);
+          at_x, at_y, c_arrow * at_x, look.colour);
+    blocks += fmt::format("{} {} {} 0x{}\n", at_x, at_y, look.shape, look.colour + 1);
     if (series < plot.legend.size() && (at == 0 || points[at - 1].series != series))
       legend += fmt::format(", NaN with points pointtype {} pointsize 0.8 linecolor rgb \"{}\" title {}",
                             look.shape, look.colour, gnuplot_text(plot.legend[series]));
   }
+  if (!plot.ring_legend.empty())
+    legend +=
+        fmt::format(", $rings using 1:2 with points {} title {}", c_ring, gnuplot_text(plot.ring_legend));
   const auto svg = run_gnuplot(
-      script + blocks +
+      script + blocks + "END\n$rings << END\n" + (rings.empty() ? "NaN NaN\n" : rings) +
           "END\nplot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2, $points using "
           "1:2:3:4 with points pointtype variable pointsize 0.8 linecolor rgb variable" +
           legend + "\n",

@@ -17,11 +17,18 @@ struct PlotPoint {
   std::string name;        ///< for screen readers and tooltips
   bool aside = false;      ///< has class `aside`: not part of the front's comparison
   bool least_x = false;    ///< x is a least value: the mark has an arrow to the right
+  bool ring = false;       ///< a grey ring is around the mark
+  std::string label{};     ///< drawn beside the mark
 };
 /// A horizontal line across the plot.
 struct PlotLevel {
   double y = 0.0;
   std::string name;
+};
+/// Appearance of a series: colour and gnuplot's point type.
+struct PointLook {
+  const char* colour;
+  int shape;  ///< the SVG contains it as an element called gpPt<shape - 1>
 };
 struct Plot {
   std::string x_label, y_label;
@@ -29,17 +36,14 @@ struct Plot {
   std::vector<std::pair<double, double>> front;  ///< points joined by a line; may be empty
   std::vector<PlotLevel> levels;    ///< such as those of a reference method, which has no x value
   std::vector<std::string> legend;  ///< one entry per series, on the right; empty: no legend
+  std::vector<PointLook> looks{};   ///< of the series; empty: look_of
+  std::string ring_legend{};        ///< what a ring means; then the legend is below, for a narrow screen
 };
 
 /// Number of the series with this name in the legend. Adds a series that is not in it.
 std::size_t series_number(Plot& plot, const std::string& name);
 
-/// Appearance of a series: colour and gnuplot's point type. The first twelve differ in both, the first sixty
-/// in one of them.
-struct PointLook {
-  const char* colour;
-  int shape;  ///< the SVG contains it as an element called gpPt<shape - 1>
-};
+/// The first twelve differ in colour and shape, the first sixty in one of them.
 PointLook look_of(std::size_t series);
 
 /// A complete SVG. Each point is an `a` element with a name, in the order of `points`. `scratch` is a folder

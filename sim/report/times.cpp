@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <set>
 
+#include "sim/files/gnuplot.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/report/front_plot.hpp"
@@ -50,21 +53,51 @@ bool is_phong(const Table& table, std::size_t row) {
   return table.text(row, "method").starts_with("phong");
 }
 
+// The marks of the plot: a colour and a shape for each shader, filled for preset exact and hollow for
+// published.
+struct Mark {
+  const char* name;
+  PointLook look;
+};
+constexpr Mark c_marks[] = {
+    {"quadratic exact", {c_plot_colours[2], 7}},  {"quadratic published", {c_plot_colours[2], 6}},
+    {"spherical exact", {c_plot_colours[9], 5}},  {"spherical published", {c_plot_colours[9], 4}},
+    {"processors exact", {c_plot_colours[4], 9}}, {"processors published", {c_plot_colours[4], 8}},
+    {"software", {c_plot_colours[0], 2}}};
+
+std::size_t mark_of(const Table& table, std::size_t row) {
+  if (!is_hardware(table, row)) return std::size(c_marks) - 1;
+  const std::string& method = table.text(row, "method");
+  const std::size_t shader = method == "spherical" ? 1 : method.starts_with("processors") ? 2 : 0;
+  return 2 * shader + (table.text(row, "preset") == "exact" ? 0 : 1);
+}
+
 Plot times_plot(const Table& picture) {
-  Plot plot{.x_label = "milliseconds per frame: host and hardware, overlapped",
-            .y_label = "rms error, steps of 1/255"};
+  Plot plot{.x_label = "ms per frame, host and hardware overlapped",
+            .y_label = "rms error, steps of 1/255",
+            .ring_legend = "the host takes longer"};
+  for (const Mark& mark : c_marks) {
+    plot.legend.emplace_back(mark.name);
+    plot.looks.push_back(mark.look);
+  }
   for (std::size_t row = 0; row < picture.rows.size(); ++row) {
     const bool least = is_least(picture, row);
-    const std::size_t series = series_number(plot, series_of(picture, row) + (least ? " ≥" : ""));
     plot.points.push_back({.x = ms(picture, row, "overlapped_ns"),
                            .y = rms(picture, row),
-                           .series = series,
+                           .series = mark_of(picture, row),
                            .number = row,
                            .name = picture.text(row, "point") + (least ? ", at least" : ""),
                            .aside = least,
-                           .least_x = least});
+                           .least_x = least,
+                           .ring = is_hardware(picture, row) && picture.text(row, "bound") == "host"});
   }
+  // Name the points of the front; of equal ones the first.
   plot.front = lower_left(plot.points);
+  for (const std::pair<double, double>& corner : plot.front) {
+    const auto at = std::ranges::find(plot.points, corner,
+                                      [](const PlotPoint& point) { return std::pair(point.x, point.y); });
+    at->label = picture.text(at->number, "design");
+  }
   return plot;
 }
 
@@ -120,12 +153,23 @@ std::string device_of(const Table& picture) {
   return "FPGA";
 }
 
-// The rows of the README: those of the front, and Phong shading in software whether a design beats it or not.
+// The rows of the README: those of the front; Phong shading in software, and the most accurate planes,
+// spherical shader and processors of preset exact, whether a design beats them or not.
 std::vector<std::size_t> short_rows(const Table& picture, const std::vector<std::size_t>& front) {
-  std::vector<std::size_t> rows = by_time(picture);
-  std::erase_if(rows, [&](std::size_t row) {
-    return std::ranges::find(front, row) == front.end() && !is_phong(picture, row);
-  });
+  const std::vector<std::size_t> all = by_time(picture);
+  std::set<std::size_t> chosen(front.begin(), front.end());
+  for (const std::size_t row : all)
+    if (is_phong(picture, row)) chosen.insert(row);
+  for (const char* method : {"planes", "spherical", "processors-2"}) {
+    std::optional<std::size_t> best;
+    for (const std::size_t row : all)
+      if (picture.text(row, "method") == method && picture.text(row, "preset") == "exact" &&
+          (!best || rms(picture, row) < rms(picture, *best)))
+        best = row;
+    if (best) chosen.insert(*best);
+  }
+  std::vector<std::size_t> rows;
+  std::ranges::copy_if(all, std::back_inserter(rows), [&](std::size_t row) { return chosen.contains(row); });
   return rows;
 }
 
@@ -201,8 +245,8 @@ std::string readme_times(const Table& times) {
   const std::vector<std::size_t> rows = short_rows(picture, front);
   for (const std::size_t row : rows)
     text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", picture.text(row, "design"),
-                        ms_text(picture, row, "overlapped_ns"), picture.text(row, "bound"),
-                        ms_text(picture, row, "sequential_ns"), rms(picture, row),
+                        least_ms_text(picture, row, "overlapped_ns"), picture.text(row, "bound"),
+                        least_ms_text(picture, row, "sequential_ns"), rms(picture, row),
                         picture.text(row, "largest_error"));
   return text + "\n" + sentences(picture, rows, hardware);
 }
