@@ -68,17 +68,6 @@ Cost Costing::stored(const Design& design) const {
   return cost;
 }
 
-void Costing::add_slowest_part(const Design& design, Cost& cost) const {
-  for (const std::string& part : part_identities(netlist_of(design, cache_))) {
-    const auto found = clock_of(clocks_, part);
-    if (found == clocks_.end()) continue;
-    const auto& [name, stored] = *found;
-    if (stored.mhz <= 0 || (cost.part_mhz && *cost.part_mhz <= stored.mhz)) continue;
-    cost.part_mhz = stored.mhz;
-    cost.slowest_part = name;
-  }
-}
-
 Cost Costing::of(const Design& design, bool place) const {
   Cost cost = stored(design);
   if (!find_program("yosys").empty()) {
@@ -88,7 +77,6 @@ Cost Costing::of(const Design& design, bool place) const {
     take_size(cost);
     if (place && !cost.mhz && cost.fits) add_placement(synthesizer, design, cost);
   }
-  if (!cost.fits) add_slowest_part(design, cost);
   return cost;
 }
 

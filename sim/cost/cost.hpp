@@ -29,10 +29,6 @@ struct Cost {
   std::optional<Cells> device_cells;
   /// False: the hardware is larger than the device, so it has no clock.
   bool fits = true;
-  /// Of hardware that does not fit: the slowest of its parts whose clock is stored, and that clock. The clock
-  /// of the whole is not higher. Empty: no part's clock is stored.
-  std::string slowest_part{};
-  std::optional<double> part_mhz{};
   /// Tool versions for all values, such as `placed with nextpnr-ecp5 0.7, cells by Yosys 0.52`.
   std::string tools{};
 };
@@ -54,14 +50,13 @@ class Costing {
   const ClockStore& clocks() const { return clocks_; }
   /// The stored clock and cells, if there are any. Needs only GHDL.
   Cost stored(const Design& design) const;
-  /// Also the generic cells, without Yosys none, and the slowest part of hardware that does not fit. `place`:
+  /// Also the generic cells, without Yosys none. `place`:
   /// synthesize and place hardware without a stored clock (minutes). Thread-safe.
   Cost of(const Design& design, bool place) const;
 
  private:
   void take_size(Cost& cost) const;
   void add_placement(const Synthesizer& synthesizer, const Design& design, Cost& cost) const;
-  void add_slowest_part(const Design& design, Cost& cost) const;
   const Family& family_;
   std::filesystem::path cache_;
   ClockStore clocks_;

@@ -5,11 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <sstream>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "sim/os/file.hpp"
 
@@ -67,56 +63,10 @@ std::string numbered(std::string_view netlist) {
   return text;
 }
 
-struct Module {
-  std::string text;
-  std::vector<std::string> instances{};  // names of their modules
-};
-
-// In the order of the netlist. GHDL writes an instance as `  MODULE LABEL (`. Text before the first module is
-// dropped.
-std::vector<std::pair<std::string, Module>> modules_of(std::string_view netlist) {
-  std::vector<std::pair<std::string, Module>> modules;
-  std::istringstream lines{std::string(netlist)};
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(c_module_head)) modules.push_back({line.substr(c_module_head.size()), {}});
-    if (modules.empty()) continue;
-    Module& module = modules.back().second;
-    module.text += line + '\n';
-    std::istringstream words(line);
-    std::string name, label, bracket;
-    words >> name >> label >> bracket;
-    if (bracket == "(") module.instances.push_back(name);
-  }
-  return modules;
-}
-
-// Add the module and all that it contains.
-void add_part(const std::string& name, const std::map<std::string, Module>& modules,
-              std::set<std::string>& part) {
-  const auto module = modules.find(name);
-  if (module == modules.end() || !part.insert(name).second) return;
-  for (const std::string& instance : module->second.instances) add_part(instance, modules, part);
-}
-
 }  // namespace
 
 std::string netlist_identity(std::string_view netlist) {
   return ContentHash().add(numbered(netlist)).hex();
-}
-
-std::set<std::string> part_identities(std::string_view netlist) {
-  const auto in_order = modules_of(netlist);
-  const std::map<std::string, Module> modules(in_order.begin(), in_order.end());
-  std::set<std::string> identities;
-  for (const auto& [top, top_module] : in_order) {
-    std::set<std::string> part;
-    add_part(top, modules, part);
-    std::string text;
-    for (const auto& [name, module] : in_order)
-      if (part.contains(name)) text += module.text;
-    identities.insert(netlist_identity(text));
-  }
-  return identities;
 }
 
 }  // namespace halfway::synth

@@ -40,13 +40,5 @@ TEST(NetlistIdentity, DistinguishesHardware) {
     EXPECT_NE(netlist_identity(with(netlist, from, to)), identity) << from << " -> " << to;
 }
 
-TEST(NetlistIdentity, OfAPartIsThatOfThePartByItself) {
-  const auto parts = part_identities(c_middle + c_leaf + c_other + c_top);
-  EXPECT_EQ(parts,
-            (std::set{netlist_identity(c_leaf), netlist_identity(c_middle + c_leaf),
-                      netlist_identity(c_other), netlist_identity(c_middle + c_leaf + c_other + c_top)}));
-  EXPECT_TRUE(parts.contains(netlist_identity(with(c_middle + c_leaf, "leaf_4_0a", "leaf_1"))));
-}
-
 }  // namespace
 }  // namespace halfway::synth

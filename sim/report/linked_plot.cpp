@@ -32,9 +32,6 @@ std::string style_of(const Plot& plot) {
 
 constexpr const char* c_ring = "pointtype 6 pointsize 1.5 linecolor rgb \"#8a8a8a\"";
 
-// Length of the arrow of a least value, as a factor on the logarithmic axis.
-constexpr double c_arrow = 1.2;
-
 std::string tick_label(double tick) {
   return tick < 1e6 ? fmt::format("{:g}", tick) : fmt::format("{:g} M", tick / 1e6);
 }
@@ -106,7 +103,7 @@ PointLook look_of(std::size_t series) {
 std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
   Axis x, y;
   for (const PlotPoint& point : plot.points) {
-    x.add(point.x * (point.least_x ? c_arrow : 1.0));
+    x.add(point.x);
     y.add(point.y);
   }
   for (const PlotLevel& level : plot.levels) y.add(level.y);
@@ -145,10 +142,6 @@ std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
     if (!point.label.empty())
       script += fmt::format("set label {} at {},{} left offset 0.7,0.4 font ',11'\n",
                             gnuplot_text(point.label), at_x, at_y);
-    if (point.least_x)
-      script += fmt::format(
-          "set arrow from {0},{1} to {2},{1} head size screen 0.008,25 linecolor rgb \"{3}\" linewidth 1.2\n",
-          at_x, at_y, c_arrow * at_x, look.colour);
     blocks += fmt::format("{} {} {} 0x{}\n", at_x, at_y, look.shape, look.colour + 1);
     if (series < plot.legend.size() && (at == 0 || points[at - 1].series != series))
       legend += fmt::format(", NaN with points pointtype {} pointsize 0.8 linecolor rgb \"{}\" title {}",

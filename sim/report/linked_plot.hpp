@@ -16,7 +16,6 @@ struct PlotPoint {
   std::size_t number = 0;  ///< the point links to #point-<number>
   std::string name;        ///< for screen readers and tooltips
   bool aside = false;      ///< has class `aside`: not part of the front's comparison
-  bool least_x = false;    ///< x is a least value: the mark has an arrow to the right
   bool ring = false;       ///< a grey ring is around the mark
   std::string label{};     ///< drawn beside the mark
 };

@@ -64,21 +64,24 @@ TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
   EXPECT_NEAR(between.second, (below.second + above.second) / 2, 1.0);
 }
 
-// An arrow to the right inside the plot, and none at an exact value.
-TEST_F(PlotTest, LeastValuesHaveAnArrow) {
-  Plot plot{.x_label = "ms", .y_label = "error"};
-  plot.points = {{1, 1, 0, 0, "exact"}, {10, 2, 1, 1, "least", true, true}};
-  const std::string svg = draw_plot(plot, folder_.path());
-  plot.points[1].least_x = false;
+TEST_F(PlotTest, PointsHaveLabelsAndRings) {
+  Plot plot{.x_label = "ms", .y_label = "error", .legend = {"one"}, .looks = {{"#123456", 7}}};
+  plot.points = {{1, 1, 0, 0, "first"}, {10, 2, 0, 1, "second"}};
   const std::string plain = draw_plot(plot, folder_.path());
-  const auto strokes = [](const std::string& text) {
+  EXPECT_THAT(plain, HasSubstr("rgb( 18,  52,  86)"));
+  plot.ring_legend = "it waits";
+  plot.points[0].label = "named";
+  plot.points[1].ring = true;
+  const std::string svg = draw_plot(plot, folder_.path());
+  const auto marks = [](const std::string& text) {
     std::size_t count = 0;
-    for (std::size_t at = 0; (at = text.find("<path", at)) != std::string::npos; ++at) ++count;
+    for (std::size_t at = 0; (at = text.find("<use", at)) != std::string::npos; ++at) ++count;
     return count;
   };
-  EXPECT_GT(strokes(svg), strokes(plain));
-  // The range contains the arrow, so the mark is farther from the right border.
-  EXPECT_LT(places_in(svg).at("#point-1 least").first, places_in(plain).at("#point-1 least").first - 10);
+  EXPECT_EQ(marks(svg), marks(plain) + 2);  // one around the point, one in the legend
+  EXPECT_THAT(svg, HasSubstr("named"));
+  EXPECT_THAT(svg, HasSubstr("it waits"));
+  EXPECT_EQ(places_in(svg).size(), 2U);
 }
 
 TEST(PlotLooks, AreDistinct) {

@@ -19,26 +19,14 @@ namespace halfway::report {
 namespace {
 
 constexpr double c_ms = 1e-6;  // ns to ms
-constexpr const char* c_arrow_text =
-    "An arrow: at least this time, by the clock of the slowest placed part; the design does not fit this "
-    "FPGA. ";
-
 double ms(const Table& table, std::size_t row, const char* column) {
   return c_ms * table.number(row, column).value_or(0.0);
-}
-// The clock is that of a part, an upper bound: the times of the hardware and the frame are lower bounds.
-bool is_least(const Table& table, std::size_t row) {
-  return !table.text(row, "slowest_part").empty();
 }
 std::string ms_text(const Table& table, std::size_t row, const char* column) {
   return table.text(row, column).empty() ? "–" : fmt::format("{:.3g}", ms(table, row, column));
 }
-std::string least_ms_text(const Table& table, std::size_t row, const char* column) {
-  return (is_least(table, row) ? "≥ " : "") + ms_text(table, row, column);
-}
 std::string clock_text(const Table& table, std::size_t row) {
   const std::string& mhz = table.text(row, "clock_mhz");
-  if (is_least(table, row)) return fmt::format("≤ {} (`{}`)", mhz, table.text(row, "slowest_part"));
   return mhz.empty() ? "–" : mhz;
 }
 std::string millions(const Table& table, std::size_t row, const char* column) {
@@ -81,14 +69,11 @@ Plot times_plot(const Table& picture) {
     plot.looks.push_back(mark.look);
   }
   for (std::size_t row = 0; row < picture.rows.size(); ++row) {
-    const bool least = is_least(picture, row);
     plot.points.push_back({.x = ms(picture, row, "overlapped_ns"),
                            .y = rms(picture, row),
                            .series = mark_of(picture, row),
                            .number = row,
-                           .name = picture.text(row, "point") + (least ? ", at least" : ""),
-                           .aside = least,
-                           .least_x = least,
+                           .name = picture.text(row, "point"),
                            .ring = is_hardware(picture, row) && picture.text(row, "bound") == "host"});
   }
   // Name the points of the front; of equal ones the first.
@@ -111,18 +96,13 @@ std::vector<std::size_t> by_time(const Table& picture) {
   return rows;
 }
 
-// The rows that no other row beats in time and error, from the quickest. Least times are not compared.
+// The rows that no other row beats in time and error, from the quickest.
 std::vector<std::size_t> front_rows(const Table& picture) {
-  std::vector<std::size_t> known;
   std::vector<study::Costs> costs;
-  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
-    if (is_least(picture, row)) continue;
-    known.push_back(row);
+  for (std::size_t row = 0; row < picture.rows.size(); ++row)
     costs.push_back({ms(picture, row, "overlapped_ns"), rms(picture, row)});
-  }
   std::vector<std::size_t> rows = study::front_of(costs);
-  std::ranges::stable_sort(rows, {}, [&](std::size_t at) { return costs[at]; });
-  for (std::size_t& row : rows) row = known[row];
+  std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return costs[row]; });
   return rows;
 }
 
@@ -133,9 +113,9 @@ std::string table_of(const Table& picture, const std::vector<std::size_t>& rows)
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const std::size_t row : rows)
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} | {} | {} |\n",
-                        picture.text(row, "design"), least_ms_text(picture, row, "overlapped_ns"),
-                        picture.text(row, "bound"), least_ms_text(picture, row, "sequential_ns"),
-                        ms_text(picture, row, "host_ns"), least_ms_text(picture, row, "hardware_ns"),
+                        picture.text(row, "design"), ms_text(picture, row, "overlapped_ns"),
+                        picture.text(row, "bound"), ms_text(picture, row, "sequential_ns"),
+                        ms_text(picture, row, "host_ns"), ms_text(picture, row, "hardware_ns"),
                         clock_text(picture, row), millions(picture, row, "host_instructions"),
                         is_hardware(picture, row) ? picture.text(row, "words") : "–", rms(picture, row),
                         picture.text(row, "largest_error"), picture.text(row, "perceived_pixels"));
@@ -214,7 +194,8 @@ std::vector<Table> pictures_of(const Table& times) {
 }
 
 std::string plot_name(const Table& picture) {
-  return fmt::format("times-{}x{}.svg", picture.text(0, "width"), picture.text(0, "height"));
+  return fmt::format("times-{}-{}x{}.svg", picture.text(0, "scene"), picture.text(0, "width"),
+                     picture.text(0, "height"));
 }
 
 std::string readme_times(const Table& times) {
@@ -226,14 +207,12 @@ std::string readme_times(const Table& times) {
   std::ranges::copy_if(front, std::back_inserter(hardware),
                        [&](std::size_t row) { return is_hardware(picture, row); });
   if (hardware.size() < 2) throw Failure{bad_input("times: fewer than two designs of hardware to compare")};
-  bool any_least = false;
-  for (std::size_t row = 0; row < picture.rows.size(); ++row) any_least = any_least || is_least(picture, row);
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one grey sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
       "host's set-up on one core, and the hardware at its clock on an {4}. The transfer between them and "
       "the depth test after the hardware are not counted. On the dashed line, no other design is both "
-      "quicker and more accurate. {5}phong, phong-mesa: Phong shading per pixel in software on one core, by "
+      "quicker and more accurate. phong, phong-mesa: Phong shading per pixel in software on one core, by "
       "the "
       "reference in double precision and by OpenGL on Mesa's llvmpipe. planes: Gouraud's shading in "
       "hardware. adaptive: quadratic, triangles split until the estimated error is below the threshold, in "
@@ -241,12 +220,12 @@ std::string readme_times(const Table& times) {
       "| design | ms per frame, overlapped | bound by | in sequence | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",
       picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture),
-      device_of(picture), any_least ? c_arrow_text : "");
+      device_of(picture));
   const std::vector<std::size_t> rows = short_rows(picture, front);
   for (const std::size_t row : rows)
     text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", picture.text(row, "design"),
-                        least_ms_text(picture, row, "overlapped_ns"), picture.text(row, "bound"),
-                        least_ms_text(picture, row, "sequential_ns"), rms(picture, row),
+                        ms_text(picture, row, "overlapped_ns"), picture.text(row, "bound"),
+                        ms_text(picture, row, "sequential_ns"), rms(picture, row),
                         picture.text(row, "largest_error"));
   return text + "\n" + sentences(picture, rows, hardware);
 }
@@ -254,9 +233,10 @@ std::string readme_times(const Table& times) {
 std::string page_times(const Table& times) {
   std::string text;
   for (const Table& picture : pictures_of(times))
-    text += fmt::format("{0}![Rms error against milliseconds per frame at {1}](results/gallery/{2})\n\n{3}",
-                        text.empty() ? "" : "\n", size_of(picture), plot_name(picture),
-                        table_of(picture, by_time(picture)));
+    text +=
+        fmt::format("{0}![Rms error against milliseconds per frame: {4} at {1}](results/gallery/{2})\n\n{3}",
+                    text.empty() ? "" : "\n", size_of(picture), plot_name(picture),
+                    table_of(picture, by_time(picture)), picture.text(0, "scene"));
   if (text.empty()) throw Failure{bad_input("times: no design has a known time")};
   return text;
 }

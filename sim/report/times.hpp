@@ -13,7 +13,7 @@ namespace halfway::report {
 
 /// The rows of each picture of times.csv, as tables of their own, the smallest picture first.
 std::vector<Table> pictures_of(const Table& times);
-/// Name of a picture's plot, such as times-640x480.svg.
+/// Name of a picture's plot, such as times-sphere-640x480.svg.
 std::string plot_name(const Table& picture);
 
 /// README's part "times": plot, front and sentences for the first picture. Throws Failure with fewer

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <utility>
 
 #include "sim/os/csv.hpp"
@@ -48,7 +47,6 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
           {"largest_error", fmt::format("{}", m.picture.max_lsb)},
           {"perceived_pixels", fmt::format("{}", m.perceived)},
           {"clock_mhz", time.mhz ? fmt::format("{:.1f}", *time.mhz) : ""},
-          {"slowest_part", time.slowest_part},
           {"highlight_test", p.method == Method::adaptive ? to_string(p.test) : ""},
           {"span_ends", p.has_ends() ? to_string(p.ends) : ""},
           {"device", time.device}};
@@ -57,11 +55,10 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
 constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";
 
 std::string line_text(const FrameTime& time, const Record& record) {
-  const std::string least = time.is_least() ? ">=" : "";
   const auto ms = [](double ns) { return fmt::format("{:.4g}", c_ms * ns); };
   const Measurement& measured = record.measured;
-  return fmt::format(c_line, least + ms(time.overlapped_ns()), least + ms(time.sequential_ns()),
-                     ms(time.host_ns), time.hardware_ns ? least + ms(*time.hardware_ns) : "-", time.bound(),
+  return fmt::format(c_line, ms(time.overlapped_ns()), ms(time.sequential_ns()), ms(time.host_ns),
+                     time.hardware_ns ? ms(*time.hardware_ns) : "-", time.bound(),
                      fmt::format("{:.3g}", measured.picture.rms), measured.picture.max_lsb,
                      record.point.design());
 }
@@ -80,14 +77,8 @@ std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const 
     FrameTime time{.record = at, .host_ns = measured.host_time->ns};
     if (in_hardware(point.method)) {
       time.mhz = mhz_of(measured.hardware, hardware, clock);
-      if (const auto found = hardware.find(measured.hardware); found != hardware.end()) {
-        const synth::Cost& cost = found->second;
-        time.device = cost.device;
-        if (!time.mhz) {
-          time.mhz = cost.part_mhz;
-          time.slowest_part = cost.slowest_part;
-        }
-      }
+      if (const auto found = hardware.find(measured.hardware); found != hardware.end())
+        time.device = found->second.device;
       if (!time.mhz) {
         ++picture->without_clock;
         continue;
@@ -100,26 +91,19 @@ std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const 
 }
 
 std::vector<std::size_t> quickest_of(const PictureTimes& picture, std::span<const Record> records) {
-  std::vector<std::size_t> known;
   std::vector<Costs> costs;
-  for (std::size_t at = 0; at < picture.times.size(); ++at)
-    if (const FrameTime& time = picture.times[at]; !time.is_least()) {
-      known.push_back(at);
-      costs.push_back({time.overlapped_ns(), records[time.record].measured.picture.rms});
-    }
+  for (const FrameTime& time : picture.times)
+    costs.push_back({time.overlapped_ns(), records[time.record].measured.picture.rms});
   std::vector<std::size_t> front = front_of(costs);
   std::ranges::stable_sort(front, {}, [&](std::size_t at) { return costs[at]; });
-  for (std::size_t& at : front) at = known[at];
   return front;
 }
 
 std::string to_text(const PictureTimes& picture, std::span<const Record> records) {
-  std::vector<FrameTime> least;
-  std::ranges::copy_if(picture.times, std::back_inserter(least), &FrameTime::is_least);
   std::string text = fmt::format(
       "{}: time of a frame in ms, host (one core) and hardware\n  the front of {} points in overlapped time "
       "and rms error{}\n",
-      picture.picture, picture.times.size() - least.size(),
+      picture.picture, picture.times.size(),
       picture.without_clock == 0
           ? ""
           : fmt::format("; {} of hardware without a clock are left out (--clock)", picture.without_clock));
@@ -127,11 +111,6 @@ std::string to_text(const PictureTimes& picture, std::span<const Record> records
                       "design");
   for (const std::size_t at : quickest_of(picture, records))
     text += line_text(picture.times[at], records[picture.times[at].record]);
-  if (least.empty()) return text;
-  text +=
-      "  hardware that does not fit the device, at the clock of its slowest placed part, an upper bound\n";
-  std::ranges::stable_sort(least, {}, &FrameTime::overlapped_ns);
-  for (const FrameTime& time : least) text += line_text(time, records[time.record]);
   return text;
 }
 

@@ -14,39 +14,31 @@
 
 namespace halfway::study {
 
-/// A point whose times are known. In software the host draws the picture, and there is no hardware. Of
-/// hardware that does not fit the device, the least time is known: at the clock of its slowest placed part.
+/// A point whose times are known. In software the host draws the picture, and there is no hardware.
 struct FrameTime {
   std::size_t record = 0;             ///< index of the record
   double host_ns = 0;                 ///< one core of the machine that measured it
   std::optional<double> hardware_ns;  ///< the frame's cycles at the hardware's clock; std::nullopt: software
   std::string device{};               ///< Cost::device
   std::optional<double> mhz{};        ///< the hardware's clock
-  std::string slowest_part{};         ///< the part with that clock; empty: it is the clock of the whole
-  /// True if the hardware, and so the frame, takes this time or more.
-  bool is_least() const { return !slowest_part.empty(); }
   /// The host prepares one frame while the hardware draws another, as in the papers.
   double overlapped_ns() const { return std::max(host_ns, hardware_ns.value_or(0.0)); }
   /// The hardware starts when the host has finished.
   double sequential_ns() const { return host_ns + hardware_ns.value_or(0.0); }
   /// The side that limits overlapped frames.
-  const char* bound() const {
-    if (host_ns < hardware_ns.value_or(0.0)) return "hardware";
-    return is_least() ? "host or hardware" : "host";
-  }
+  const char* bound() const { return host_ns < hardware_ns.value_or(0.0) ? "hardware" : "host"; }
 };
 
 /// The points with known times of one picture, in the order of the records.
 struct PictureTimes {
   std::string picture;
   std::vector<FrameTime> times;
-  std::size_t without_clock = 0;  ///< points of hardware without a known clock, not even of a part
+  std::size_t without_clock = 0;  ///< points of hardware without a known clock
 };
 std::vector<PictureTimes> frame_times_of(std::span<const Record> records, const HardwareTable& hardware,
                                          Clock clock);
 
-/// Indices of the times that no other time beats in overlapped time and rms error, from the quickest. Least
-/// times (is_least) are not compared.
+/// Indices of the times that no other time beats in overlapped time and rms error, from the quickest.
 std::vector<std::size_t> quickest_of(const PictureTimes& picture, std::span<const Record> records);
 
 /// The front as a table for people.

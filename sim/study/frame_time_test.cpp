@@ -68,31 +68,6 @@ TEST_F(FrameTimes, HardwareWithoutAClockHasNoTime) {
   EXPECT_THAT(to_text(assumed[0], records_), HasSubstr("1 of hardware without a clock are left out"));
 }
 
-// The clock of a part is an upper bound: the time is a least time, and no other design is compared with it.
-TEST_F(FrameTimes, HardwareThatDoesNotFitHasALeastTime) {
-  hardware_["p"].slowest_part = "dot_product_exact";
-  hardware_["p"].part_mhz = 40.0;
-  add(Method::quadratic, "q", 1e5, 20'000, 2);
-  add(Method::processors_2, "p", 1e5, 20'000, 0.5);  // 0.5 ms or more
-  add(Method::processors_1, "p", 9e5, 20'000, 3);    // the hardware may take longer than the host
-  const auto pictures = frame_times_of(records_, hardware_, {});
-  ASSERT_EQ(pictures[0].times.size(), 3U);
-  EXPECT_EQ(pictures[0].without_clock, 0U);
-  const FrameTime& least = pictures[0].times[1];
-  EXPECT_TRUE(least.is_least());
-  EXPECT_DOUBLE_EQ(*least.hardware_ns, 5e5);
-  EXPECT_STREQ(least.bound(), "hardware");
-  EXPECT_STREQ(pictures[0].times[2].bound(), "host or hardware");
-  EXPECT_FALSE(pictures[0].times[0].is_least());
-  EXPECT_THAT(quickest_of(pictures[0], records_), ElementsAre(0U));
-  EXPECT_THAT(to_text(pictures[0], records_),
-              AllOf(HasSubstr("the front of 1 points"),
-                    HasSubstr("     >=0.5       >=0.6       0.1     >=0.5  hardware       0.5        0  "
-                              "processors-2 exact\n")));
-  // No clock is assumed instead of the part's.
-  EXPECT_DOUBLE_EQ(*frame_times_of(records_, hardware_, {.mhz = 50.0})[0].times[1].mhz, 40.0);
-}
-
 TEST_F(FrameTimes, FrontIsByOverlappedTimeAndError) {
   add(Method::quadratic, "q", 1e5, 20'000, 4);  // 0.2 ms, 0.3 in sequence
   add(Method::adaptive, "q", 2e5, 20'000, 2);   // 0.2 ms, 0.4 in sequence: beats the first
@@ -110,8 +85,6 @@ TEST_F(FrameTimes, FrontIsByOverlappedTimeAndError) {
 }
 
 TEST_F(FrameTimes, TableHasEveryKnownTime) {
-  hardware_["p"].slowest_part = "dot_product_exact";
-  hardware_["p"].part_mhz = 40.0;
   for (auto& [name, cost] : hardware_) cost.device = "FPGA 1";
   add(Method::quadratic, "q", 1e5, 20'000, 4);
   add(Method::phong, "", 5e6, 0, 0);
@@ -120,13 +93,11 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
   const std::filesystem::path file = folder.path() / "times.csv";
   ASSERT_TRUE(write_file(file, times_csv({}, records_, frame_times_of(records_, hardware_, {}))));
   const auto table = must(read_csv(file));
-  ASSERT_EQ(table.rows.size(), 3U);
-  EXPECT_EQ(table.text(0, "slowest_part"), "");
+  ASSERT_EQ(table.rows.size(), 2U);  // the processors do not fit
   EXPECT_EQ(table.text(0, "device"), "FPGA 1");
   EXPECT_EQ(table.text(1, "device"), "");
   EXPECT_EQ(table.text(1, "clock_mhz"), "");
-  EXPECT_EQ(table.text(2, "clock_mhz"), "40.0");
-  EXPECT_EQ(table.text(2, "slowest_part"), "dot_product_exact");
+  EXPECT_EQ(table.text(0, "clock_mhz"), "100.0");
   EXPECT_EQ(table.text(0, "design"), "quadratic exact");
   EXPECT_EQ(table.number(0, "host_ns"), 1e5);
   EXPECT_EQ(table.number(0, "hardware_ns"), 2e5);

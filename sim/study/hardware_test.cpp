@@ -110,33 +110,9 @@ class HardwareFiguresTest : public ::testing::Test {
   std::vector<Record> records_;
 };
 
-// Hardware that does not fit has the clock of the slowest stored part inside it as an upper bound. The part
-// is found by its netlist.
-TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitIsBoundedByItsSlowestPart) {
-  const auto clock = [&](const char* entity, const std::vector<std::pair<std::string, std::string>>& generics,
-                         double mhz) {
-    return synth::StoredClock{.mhz = mhz, .netlist = netlist_of(entity, generics)};
-  };
-  store(
-      {{"saturate",
-        clock("saturate", {{"g_value_bits", "32"}, {"g_fraction_bits", "20"}, {"g_result_bits", "8"}}, 90)},
-       {"inside", clock("quadratic_interpolator", {{"g_exact", "false"}, {"g_parts", "2"}}, 80)},
-       {"exact", clock("quadratic_interpolator", {{"g_exact", "true"}, {"g_parts", "2"}}, 20)},  // not inside
-       // Not inside either.
-       {"dot", clock("dot_product", {{"g_bits", "16"}, {"g_clocks", "1"}}, 10)}});
-  set_results("9000", "30", "40");
-  const synth::Cost bounded = figures(false);
-  EXPECT_FALSE(bounded.fits);
-  EXPECT_FALSE(bounded.mhz);
-  ASSERT_TRUE(bounded.part_mhz);
-  EXPECT_EQ(*bounded.part_mhz, 80.0);
-  EXPECT_EQ(bounded.slowest_part, "inside");
-}
-
 TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlForTheSameHardware) {
   const synth::Cost none = figures(false);
   EXPECT_FALSE(none.mhz);
-  EXPECT_FALSE(none.part_mhz);
   EXPECT_EQ(none.clock, synth::c_not_placed);
   const std::string netlist = netlist_of(key_.entity(), key_.generics());
   store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist}}});
