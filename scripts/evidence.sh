@@ -127,7 +127,10 @@ run() { # page, options
       build/halfway study --out build/gallery/study ${threads:+--threads "$threads"}
       build/halfway report --study build/gallery/study --front docs/results/gallery --page docs/accuracy.md
       build/halfway study --space sim/study/spaces/times.toml --out build/gallery/times ${threads:+--threads "$threads"}
-      build/halfway report --study build/gallery/times --times docs/results/gallery --page docs/accuracy.md --readme README.md
+      build/halfway study sim/study/spaces/red_sphere.toml --space sim/study/spaces/colour.toml --out build/gallery/colour \
+        ${threads:+--threads "$threads"}
+      { cat build/gallery/times/times.csv && sed 1d build/gallery/colour/times.csv; } >build/gallery/times.csv
+      build/halfway report --study build/gallery --times docs/results/gallery --page docs/accuracy.md --readme README.md
       end_page gallery verilator
       ;;
     transcripts)

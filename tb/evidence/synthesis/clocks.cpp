@@ -25,10 +25,13 @@ constexpr Sections c_sections[] = {
     {c_ice40, "Clocks", "Clocks of the hardware of studies", "clocks"},
     {c_ecp5, "Clocks on the ECP5 LFE5U-85F", "Other clocks on the ECP5 LFE5U-85F", "clocks_ecp5"}};
 
-// The spaces whose hardware has stored clocks, and their scene.
-constexpr const char* c_spaces[] = {"sim/study/spaces/small.toml", "sim/study/spaces/times.toml",
-                                    "sim/study/spaces/tables.toml", "sim/study/spaces/one_step.toml"};
-constexpr const char* c_space_scene = "sim/study/spaces/sphere.toml";
+// The spaces whose hardware has stored clocks, and their scenes.
+constexpr const char* c_spaces = "sim/study/spaces";
+constexpr std::pair<const char*, const char*> c_studies[] = {{"small.toml", "sphere.toml"},
+                                                             {"times.toml", "sphere.toml"},
+                                                             {"tables.toml", "sphere.toml"},
+                                                             {"one_step.toml", "sphere.toml"},
+                                                             {"colour.toml", "red_sphere.toml"}};
 
 struct Placed {
   Design design;
@@ -113,16 +116,16 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
   const SimulatorFolders& folders = options.folders;
   std::set<std::string> netlists;
   for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, options));
-  for (const char* space : c_spaces) {
-    auto points = study::read_space(folders.source / space);
+  const std::filesystem::path spaces = folders.source / c_spaces;
+  for (const auto& [space, scene] : c_studies) {
+    auto points = study::read_space(spaces / space);
     // Pipelines of preset exact are much too large for the HX8K.
     if (&sections.family == &c_ice40)
       std::erase_if(points, [](const study::DesignPoint& point) {
         return point.preset == Preset::exact &&
                (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
       });
-    for (Design& design :
-         study::hardware_of_space((folders.source / c_space_scene).string(), points, folders))
+    for (Design& design : study::hardware_of_space((spaces / scene).string(), points, folders))
       if (netlists.insert(identity_of(design, options)).second)
         hardware.push_back({std::move(design), sections.others});
   }
