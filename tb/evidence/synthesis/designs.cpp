@@ -100,6 +100,8 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
       all.back().ice40 = !exact;
+      // Of the unrolled form, nextpnr does not end within c_place_time.
+      all.back().ecp5 = !exact || form == ProcessorForm::folded;
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
