@@ -22,15 +22,13 @@ constexpr std::array c_shapes = {2, 1, 6, 7, 5, 9, 13, 11, 4, 8, 12, 10, 3, 14, 
 // A long legend takes more room.
 std::string style_of(const Plot& plot) {
   constexpr std::size_t c_lines = 12, c_line = 35;
-  if (!plot.ring_legend.empty())
+  if (plot.narrow)
     return plot_style(440, 420) + "set key below center vertical maxrows 4 width -3 samplen 1 Left reverse\n";
   if (plot.legend.empty()) return plot_style(520, 390) + "unset key\n";
   const bool is_long = plot.legend.size() > c_lines;
   return plot_style(is_long ? 920 : 800, is_long ? static_cast<double>(c_line * plot.legend.size()) : 420) +
          "set key outside right center Left reverse spacing 1.4\n";
 }
-
-constexpr const char* c_ring = "pointtype 6 pointsize 1.5 linecolor rgb \"#8a8a8a\"";
 
 std::string tick_label(double tick) {
   return tick < 1e6 ? fmt::format("{:g}", tick) : fmt::format("{:g} M", tick / 1e6);
@@ -148,8 +146,8 @@ std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
                             look.shape, look.colour, gnuplot_text(plot.legend[series]));
   }
   if (!plot.ring_legend.empty())
-    legend +=
-        fmt::format(", $rings using 1:2 with points {} title {}", c_ring, gnuplot_text(plot.ring_legend));
+    legend += ", $rings using 1:2 with points pointtype 6 pointsize 1.5 linecolor rgb \"#8a8a8a\" title " +
+              gnuplot_text(plot.ring_legend);
   const auto svg = run_gnuplot(
       script + blocks + "END\n$rings << END\n" + (rings.empty() ? "NaN NaN\n" : rings) +
           "END\nplot $front using 1:2 with steps linecolor rgb \"black\" dashtype 2, $points using "

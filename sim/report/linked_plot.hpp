@@ -34,9 +34,10 @@ struct Plot {
   std::vector<PlotPoint> points;                 ///< at least one
   std::vector<std::pair<double, double>> front;  ///< points joined by a line; may be empty
   std::vector<PlotLevel> levels;    ///< such as those of a reference method, which has no x value
-  std::vector<std::string> legend;  ///< one entry per series, on the right; empty: no legend
+  std::vector<std::string> legend;  ///< one entry per series; empty: no legend
   std::vector<PointLook> looks{};   ///< of the series; empty: look_of
-  std::string ring_legend{};        ///< what a ring means; then the legend is below, for a narrow screen
+  std::string ring_legend{};        ///< what a ring means; empty: none is drawn
+  bool narrow = false;              ///< for a telephone: the legend is below, otherwise on the right
 };
 
 /// Number of the series with this name in the legend. Adds a series that is not in it.

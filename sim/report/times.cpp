@@ -63,7 +63,8 @@ std::size_t mark_of(const Table& table, std::size_t row) {
 Plot times_plot(const Table& picture) {
   Plot plot{.x_label = "ms per frame, host and hardware overlapped",
             .y_label = "rms error, steps of 1/255",
-            .ring_legend = "the host takes longer"};
+            .ring_legend = "the host takes longer",
+            .narrow = true};
   for (const Mark& mark : c_marks) {
     plot.legend.emplace_back(mark.name);
     plot.looks.push_back(mark.look);
@@ -101,9 +102,7 @@ std::vector<std::size_t> front_rows(const Table& picture) {
   std::vector<study::Costs> costs;
   for (std::size_t row = 0; row < picture.rows.size(); ++row)
     costs.push_back({ms(picture, row, "overlapped_ns"), rms(picture, row)});
-  std::vector<std::size_t> rows = study::front_of(costs);
-  std::ranges::stable_sort(rows, {}, [&](std::size_t row) { return costs[row]; });
-  return rows;
+  return study::ordered_front_of(costs);
 }
 
 std::string table_of(const Table& picture, const std::vector<std::size_t>& rows) {

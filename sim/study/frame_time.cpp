@@ -94,9 +94,7 @@ std::vector<std::size_t> quickest_of(const PictureTimes& picture, std::span<cons
   std::vector<Costs> costs;
   for (const FrameTime& time : picture.times)
     costs.push_back({time.overlapped_ns(), records[time.record].measured.picture.rms});
-  std::vector<std::size_t> front = front_of(costs);
-  std::ranges::stable_sort(front, {}, [&](std::size_t at) { return costs[at]; });
-  return front;
+  return ordered_front_of(costs);
 }
 
 std::string to_text(const PictureTimes& picture, std::span<const Record> records) {

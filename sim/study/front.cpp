@@ -18,4 +18,10 @@ std::vector<std::size_t> front_of(std::span<const Costs> points) {
   return front;
 }
 
+std::vector<std::size_t> ordered_front_of(std::span<const Costs> points) {
+  std::vector<std::size_t> front = front_of(points);
+  std::ranges::stable_sort(front, {}, [&](std::size_t at) { return points[at]; });
+  return front;
+}
+
 }  // namespace halfway::study

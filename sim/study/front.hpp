@@ -18,5 +18,7 @@ bool beats(const Costs& a, const Costs& b);
 /// Indices of the points that no other point beats, in ascending order. Points with equal costs are either
 /// all on the front or all off it.
 std::vector<std::size_t> front_of(std::span<const Costs> points);
+/// The same, ordered by the first cost, then by the next ones.
+std::vector<std::size_t> ordered_front_of(std::span<const Costs> points);
 
 }  // namespace halfway::study

@@ -44,5 +44,10 @@ TEST(Front, HasThePointsThatNoOtherBeats) {
   }
 }
 
+TEST(Front, IsOrderedByTheFirstCost) {
+  const std::vector<Costs> points = {{5, 1}, {9, 9}, {2, 3}, {2, 3}, {3, 2}};
+  EXPECT_EQ(ordered_front_of(points), (std::vector<std::size_t>{2, 3, 4, 0}));
+}
+
 }  // namespace
 }  // namespace halfway::study
