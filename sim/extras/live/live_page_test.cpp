@@ -210,6 +210,14 @@ TEST_F(LiveInBrowser, ABrokenRegisterIsFound) {
   EXPECT_GT(found, 2);
 }
 
+TEST_F(LiveInBrowser, ListsRegistersIfTheFirstFrameComesTooLate) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
+  // The frame that is requested now is older than the shown one.
+  evaluate("(at('register').replaceChildren(), forgetFault(), change({}), shown = requested)");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_GT(evaluate("document.querySelectorAll('#register option').length"), 10);
+}
+
 TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
   struct Case {
     const char *shader, *name;
