@@ -123,8 +123,8 @@ architecture rtl of power is
   signal marked   : std_logic_vector(c_stages downto 0);              -- zeros, mark
 
   -- Of the base of log_sample.
-  signal lead  : lead_t;
-  signal zero  : std_logic;
+  signal lead             : lead_t;
+  signal zero             : std_logic;
   signal waiting_exponent : std_logic_vector(exponent'range);
 
   signal log_sample    : std_logic_vector(sample_bits(g_exact, c_logarithm) - 1 downto 0);

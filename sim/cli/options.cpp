@@ -299,8 +299,8 @@ std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names
   return chosen;
 }
 
-CLI::Option* add_device(CLI::App& command, const synth::Family*& family) {
-  return command
+void add_device(CLI::App& command, const synth::Family*& family) {
+  command
       .add_option_function<std::string>(
           "--device",
           [&family](const std::string& name) {

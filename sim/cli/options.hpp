@@ -59,7 +59,7 @@ Shader checked_shader(const std::string& name);
 std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
 /// Adds --device. Its value is the family of the device; before, that of the default.
-CLI::Option* add_device(CLI::App& command, const synth::Family*& family);
+void add_device(CLI::App& command, const synth::Family*& family);
 
 /// Finds simulators by name. All must be in `known`; the result has its order. Default: GHDL and Verilator.
 std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names,

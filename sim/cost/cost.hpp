@@ -50,8 +50,8 @@ class Costing {
   const ClockStore& clocks() const { return clocks_; }
   /// The stored clock and cells, if there are any. Needs only GHDL.
   Cost stored(const Design& design) const;
-  /// Also the generic cells, without Yosys none. `place`:
-  /// synthesize and place hardware without a stored clock (minutes). Thread-safe.
+  /// Also the generic cells, without Yosys none. `place`: synthesize and place hardware without a stored
+  /// clock (minutes). Thread-safe.
   Cost of(const Design& design, bool place) const;
 
  private:
