@@ -25,8 +25,9 @@ using ReadBuffer = std::function<BufferFile(std::string_view name)>;
 ///
 /// Read: the nodes of the scene that the file selects, of its first scene, or of all root nodes if there is
 /// none; their transforms; triangles, strips and fans with POSITION and NORMAL, indexed or not, interleaved
-/// or sparse; the materials that primitives use. Every index, count and length is checked, and a key with a
-/// value of another type is refused. Buffers are in the file, in base64, or files of their own.
+/// or sparse; the materials that primitives use. Every index, count and length of buffers, accessors, meshes
+/// and nodes is checked, and a value of another type is refused there. Keys that are not read are not
+/// checked. Buffers are in the file, in base64, or files of their own.
 /// Materials: the base colour is the colour; a roughness r gives the exponent 2 / r^4 - 2, at least 1, and
 /// the factor 1 - r on k_s; the highlight of a metal has its colour. Other values are those of the default
 /// material. A material that cannot be read is the default one, with a note.

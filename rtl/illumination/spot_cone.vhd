@@ -56,7 +56,7 @@ architecture rtl of spot_cone is
     over     : unsigned(c_over_bits - 1 downto 0);
     slope    : unsigned(c_slope - 1 downto 0);
     t        : weight_t;
-    square_t : weight_t;
+    t_late   : weight_t; -- in the clock of its square
     factor   : std_logic_vector(c_weight - 1 downto 0);
   end record;
 
@@ -102,7 +102,7 @@ begin
       product => square
       );
 
-  rest <= (one & '0') + one - (r.square_t & '0');
+  rest <= (one & '0') + one - (r.t_late & '0');
 
   multiply_rest : entity work.signed_multiplier
     generic map (
@@ -137,7 +137,7 @@ begin
         r.t <= t(c_weight - 1 downto 0);
       end if;
 
-      r.square_t <= r.t;
+      r.t_late <= r.t;
 
       share    := round_half_up(unsigned(cubic(3 * c_weight downto 0)), 2 * c_formats.weight.fraction);
       r.factor <= std_logic_vector(share(c_weight - 1 downto 0));
