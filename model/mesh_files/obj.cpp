@@ -297,7 +297,7 @@ class ObjReader {
       note(fmt::format("material '{}' is transparent: its faces are not drawn", name));
       return index->second = c_nothing;
     }
-    Material& material = loaded_.mesh.materials.emplace_back(found.material);
+    loaded_.mesh.materials.push_back(found.material);
     if (found.opacity() < 1.0) note(fmt::format("material '{}': transparency is left out", name));
     if (found.file_exponent < 1.0 && found.material.specular > 0.0) {
       note(fmt::format("material '{}': exponent {} raised to 1", name, found.file_exponent));
