@@ -230,13 +230,22 @@ std::uint64_t Synthesizer::pack(const Design& design) const {
 }
 
 Placement Synthesizer::place(const Design& design, unsigned seed) const {
+  Placement placement = place(design, seed, c_place_time, {});
+  // nextpnr's older router takes longer, but ends for designs with many wires.
+  if (!placement.ended) placement = place(design, seed, c_most_place_time, {"--router", "router1"});
+  return placement;
+}
+
+Placement Synthesizer::place(const Design& design, unsigned seed, std::chrono::seconds limit,
+                             const std::vector<std::string>& options) const {
   // Limit the processor time by the shell's ulimit, because elapsed time depends on the machine's load. A
   // soft limit, so that the process ends with SIGXCPU.
   std::vector<std::string> arguments = {"sh", "-c", "ulimit -c 0 && ulimit -S -t \"$0\" && exec \"$@\"",
-                                        std::to_string(c_place_time.count())};
+                                        std::to_string(limit.count())};
   for (const std::string& argument :
        command({"--seed", std::to_string(seed), "--timing-allow-fail", "--quiet", "--report", c_report}))
     arguments.push_back(argument);
+  arguments.insert(arguments.end(), options.begin(), options.end());
   const std::string netlist = wrapped(design);
   const Folder folder =
       placed(design, fmt::format("placed{}", seed), arguments, netlist, [&](const Folder& fresh) {

@@ -22,8 +22,9 @@ namespace halfway::synth {
 inline constexpr unsigned c_seeds = 3;
 
 /// Limit of nextpnr's processor time over all its threads, independent of the machine's load. A successful
-/// placement takes a tenth of it. A placement that exceeds it counts as not ended.
-inline constexpr std::chrono::seconds c_place_time{20 * 60};
+/// placement takes a tenth of it. A placement that exceeds it is repeated with nextpnr's older router within
+/// c_most_place_time; if it exceeds that too, it counts as not ended.
+inline constexpr std::chrono::seconds c_place_time{20 * 60}, c_most_place_time{40 * 60};
 
 /// The placements of a design that ended, slowest first. The clock is that of the median.
 struct Clock {
@@ -88,6 +89,9 @@ class Synthesizer {
   Folder placed(const Design& design, const std::string& kind, const std::vector<std::string>& arguments,
                 const std::string& netlist, const std::function<void(const Folder&)>& run) const;
   std::vector<std::string> command(const std::vector<std::string>& more) const;  ///< of the placer
+  /// One placement with more options of the placer, within a limit of processor time.
+  Placement place(const Design& design, unsigned seed, std::chrono::seconds limit,
+                  const std::vector<std::string>& options) const;
   const Device& device() const { return *family_->device; }
 
   const Family* family_;
