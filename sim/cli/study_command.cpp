@@ -193,19 +193,14 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
   const std::filesystem::path table =
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   must(write_file(table, csv));
-  fmt::print("{}: {} points, {} measured in this run\n{}", table.string(), made.records.size(), made.measured,
-             clocks_text(*plan.settings.family, hardware));
   const auto times = study::frame_times_of(made.records, hardware, clock);
   if (!plan.demand.any())
     must(write_file(plan.settings.out / c_times_table,
                     study::times_csv(made.provenance, made.records, times)));
-  if (plan.demand.any() && markets.empty()) {
-    fmt::print("nothing meets it: none of the points is hardware\n");
-    return static_cast<int>(ExitCode::differs);
-  }
+  if (plan.demand.any() && markets.empty()) fmt::print("nothing meets it: none of the points is hardware\n");
   // Without a demand, print the front with the most hardware only.
   const auto main = std::ranges::max_element(markets, {}, [](const auto& m) { return m.offers.size(); });
-  bool met = true;
+  bool met = !markets.empty() || !plan.demand.any();
   for (auto market = markets.begin(); market != markets.end(); ++market) {
     const study::Answer answer = study::answer(market->offers, plan.demand);
     if (plan.demand.any() || market == main)
@@ -215,6 +210,8 @@ int conclude(const StudyPlan& plan, const study::Study& made, const study::Hardw
     if (timed != times.end() && (plan.demand.any() || market == main))
       fmt::print("{}", study::to_text(*timed, made.records));
   }
+  fmt::print("{}: {} points, {} measured in this run\n{}", table.string(), made.records.size(), made.measured,
+             clocks_text(*plan.settings.family, hardware));
   if (!plan.demand.any()) fmt::print("make report draws it\n");
   return static_cast<int>(met ? ExitCode::equal : ExitCode::differs);
 }

@@ -52,12 +52,14 @@ TEST_F(StudyCommandTest, RefusesInvalidQueries) {
 }
 
 TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
-  EXPECT_THAT(study({"--error", "3"}),
-              Ends(0, AllOf(HasSubstr("3 points, 3 measured in this run"),
-                            HasSubstr("160x120: largest error at most 3/255"),
-                            HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
-                            HasSubstr("cheaper        quadratic exact: largest error"),
-                            HasSubstr("more accurate  none"))));
+  EXPECT_THAT(
+      study({"--error", "3"}),
+      Ends(0, AllOf(HasSubstr("3 points, 3 measured in this run"),
+                    HasSubstr("160x120: the quickest with largest error at most 3/255 is adaptive exact, "
+                              "threshold 2, "),
+                    HasSubstr("cheapest       adaptive exact, threshold 2: largest error"),
+                    HasSubstr("cheaper        quadratic exact: largest error"),
+                    HasSubstr("more accurate  none"))));
   EXPECT_THAT(study({"--error", "3", "--psnr", "99"}),
               Ends(1, AllOf(HasSubstr("3 points, 0 measured in this run"),
                             HasSubstr("none of 2 points of hardware meets it"),

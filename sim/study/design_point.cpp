@@ -298,6 +298,13 @@ std::string DesignPoint::name() const {
   return design() + ", " + picture();
 }
 
+std::string DesignPoint::host_work() const {
+  DesignPoint same = *this;
+  if (!own_tables) same.tables.reset();
+  same.form = ProcessorForm::unrolled;
+  return same.name();
+}
+
 PlanRequest DesignPoint::plan() const {
   PlanRequest request;
   request.preset = preset;

@@ -5,7 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +18,7 @@
 #include "sim/cost/netlist_identity.hpp"
 #include "sim/os/test/source_folder.hpp"
 #include "sim/os/test/test_files.hpp"
+#include "sim/study/host_setup.hpp"
 #include "sim/study/pictures.hpp"
 #include "sim/study/study.hpp"
 
@@ -42,6 +46,8 @@ constexpr const char* c_nextpnr = R"(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
 case "$*" in
   *--pack-only*) echo 'Info: 	 ICESTORM_LC:  '$PACKED'/ 7680    1%' ; exit ;;
+  *"--router router1"*) ;;
+  *) [ "$ENDLESS" = 1 ] && kill -XCPU $$ ;;
 esac
 seed=${*##*--seed } ; seed=${seed%% *}
 echo "$seed" >>"$LOG"
@@ -69,6 +75,7 @@ class HardwareFiguresTest : public ::testing::Test {
     ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
     ::setenv("LOG", log().c_str(), 1);
     ::unsetenv("PRODUCT");
+    ::unsetenv("ENDLESS");
     set_results("4", "30", "6912");  // as full as can be placed
     key_ = hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_)).key;
     Record record{point_, {}};
@@ -260,6 +267,12 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
 }
 
+TEST_F(HardwareFiguresTest, APlacementThatDoesNotEndIsRepeatedWithTheOlderRouter) {
+  ::setenv("ENDLESS", "1", 1);
+  EXPECT_EQ(figures(true).mhz, 102.0);
+  EXPECT_EQ(placements(), synth::c_seeds);
+}
+
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   set_results("4", "7681", "40");
   const StudySettings settings{.scene = scene_,
@@ -270,6 +283,23 @@ TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   EXPECT_EQ(run_study(settings).placements, synth::c_seeds);
   EXPECT_EQ(placements(), 0U);
   EXPECT_TRUE(open_parts(settings).empty());
+}
+
+TEST(HostWork, IsSharedOnlyIfItIsTheSame) {
+  std::map<std::string, std::array<std::uint64_t, 4>> known;
+  std::size_t points = 0;
+  for (DesignPoint point : read_space(c_source_folder / "sim/study/spaces/designs.toml")) {
+    if (!in_hardware(point.method)) continue;
+    point.size = {64, 48};
+    ++points;
+    const Scene scene = drawn_scene("spheres", c_source_folder / "sim/scenes", point);
+    const PointHardware hardware = hardware_of(point, scene);
+    const HostWork work =
+        set_up_frame(scene, point.size, hardware.key, frame_setup(point, scene), hardware.models);
+    const std::array numbers = {work.words, work.counts.leaves, work.counts.records, work.counts.shaded};
+    EXPECT_EQ(known.try_emplace(point.host_work(), numbers).first->second, numbers) << point.name();
+  }
+  EXPECT_LT(known.size(), points / 2);
 }
 
 }  // namespace

@@ -311,7 +311,13 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
   const Scales scales = scales_of(market.offers);
   const auto name = [&](std::size_t at) { return records[market.offers[at].record].point.design(); };
   if (!demand.any()) return market.picture + "\n" + front_text(market, answer, demand, records);
-  std::string text = fmt::format("{}: {}\n", market.picture, demand.text());
+  std::string text;
+  if (answer.quickest)
+    text = fmt::format("{}: the quickest with {} is {}, {} a frame with the host\n", market.picture,
+                       demand.text(), name(*answer.quickest),
+                       time_text(*market.offers[*answer.quickest].frame_seconds));
+  else
+    text = fmt::format("{}: {}\n", market.picture, demand.text());
   const auto line = [&](const char* what, std::size_t at, const std::string& more) {
     text += fmt::format("  {:<14} {}: {}{}\n", what, name(at), offer_text(market.offers[at]), more);
   };

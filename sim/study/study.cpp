@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -145,12 +146,45 @@ void place(const StudySettings& settings, const Bench& bench, Study& study) {
   });
 }
 
+// Records with the same work of the host: one measurement is valid for all of them.
+using Group = std::vector<Record*>;
+std::map<std::string, Group> by_host_work(std::vector<Record>& records) {
+  std::map<std::string, Group> groups;
+  for (Record& record : records) groups[record.point.host_work()].push_back(&record);
+  return groups;
+}
+
+// The value that a record of the group has.
+template <class Value>
+std::optional<Value> known(const Group& group, std::optional<Value> Measurement::* value) {
+  const auto found =
+      std::ranges::find_if(group, [&](const Record* r) { return (r->measured.*value).has_value(); });
+  return found == group.end() ? std::nullopt : (*found)->measured.*value;
+}
+
+// Give the records of the group the value, and store them.
+template <class Value>
+void give(const Records& kept, const Group& group, std::optional<Value> Measurement::* member,
+          const std::optional<Value>& value) {
+  for (Record* record : group) {
+    if (record->measured.*member) continue;
+    record->measured.*member = value;
+    kept.add(*record);
+  }
+}
+
 // Count the host instructions for the records that lack them.
 void count_instructions(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
-  std::vector<Record*> open;
-  for (Record& record : records)
-    if (in_hardware(record.point.method) && !record.measured.host_instructions) open.push_back(&record);
   if (settings.set_up.empty() || find_program("valgrind").empty()) return;
+  const auto groups = by_host_work(records);
+  std::vector<const Group*> open;
+  for (const auto& [work, group] : groups) {
+    if (!in_hardware(group.front()->point.method)) continue;
+    if (const auto count = known(group, &Measurement::host_instructions))
+      give(kept, group, &Measurement::host_instructions, count);
+    else
+      open.push_back(&group);
+  }
   // Batches, because starting Valgrind takes seconds.
   constexpr std::size_t c_batch = 16;
   const std::size_t batches = (open.size() + c_batch - 1) / c_batch;
@@ -160,27 +194,26 @@ void count_instructions(const StudySettings& settings, const Records& kept, std:
     const std::size_t first = number * c_batch;
     const std::span batch(open.data() + first, std::min(c_batch, open.size() - first));
     std::vector<std::string> names;
-    for (const Record* record : batch) names.push_back(record->point.name());
+    for (const Group* group : batch) names.push_back(group->front()->point.name());
     const auto counted = host_instructions(settings.set_up, names, settings.out / "points");
-    for (std::size_t i = 0; counted && i < batch.size(); ++i) {
-      batch[i]->measured.host_instructions = (*counted)[i];
-      kept.add(*batch[i]);
-    }
+    for (std::size_t i = 0; counted && i < batch.size(); ++i)
+      give(kept, *batch[i], &Measurement::host_instructions, std::optional((*counted)[i]));
     const std::scoped_lock lock(mutex);
     done += batch.size();
-    settings.on_progress(fmt::format("the host's instructions of {} of {} points", done, open.size()));
+    settings.on_progress(fmt::format("the host's instructions of {} of {} set-ups", done, open.size()));
   });
 }
 
 // Measure the host's time for the records that lack it, one after the other, so that they do not disturb each
 // other.
 void time_hosts(const StudySettings& settings, const Records& kept, std::vector<Record>& records) {
+  const auto groups = by_host_work(records);
   std::size_t done = 0;
-  for (Record& record : records) {
-    settings.on_progress(fmt::format("the host's time of {} of {} points", ++done, records.size()));
-    if (record.measured.host_time) continue;
-    record.measured.host_time = host_time(record.point, settings.scene, settings.folders);
-    kept.add(record);
+  for (const auto& [work, group] : groups) {
+    settings.on_progress(fmt::format("the host's time of {} of {} set-ups", ++done, groups.size()));
+    std::optional<HostTime> time = known(group, &Measurement::host_time);
+    if (!time) time = host_time(group.front()->point, settings.scene, settings.folders);
+    give(kept, group, &Measurement::host_time, time);
   }
 }
 

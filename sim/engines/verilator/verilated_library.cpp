@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <future>
+#include <utility>
 
 #include "sim/os/file.hpp"
 
@@ -31,6 +32,22 @@ std::vector<std::string> generated_sources(const std::filesystem::path& folder) 
     if (file.string().find("__ALL") == std::string::npos) names.push_back(file.string());
   if (names.empty()) throw Failure{tool_failed(folder.string() + ": Verilator wrote no C++ here")};
   return names;
+}
+
+struct Verilator {
+  std::string version, root;
+};
+
+// Asked once per process, in parallel, because each question takes a tenth of a second.
+const Verilator& installed_verilator() {
+  static const Verilator found = [] {
+    auto root = std::async(std::launch::async, ask,
+                           std::vector<std::string>{"verilator", "--getenv", "VERILATOR_ROOT"},
+                           std::string(c_install_verilator));
+    std::string version = must(ask({"verilator", "--version"}, c_install_verilator));
+    return Verilator{std::move(version), must(root.get())};
+  }();
+  return found;
 }
 
 /// Verilator's runtime and header, built once for all libraries. For a small shader they are most of the code
@@ -64,14 +81,8 @@ Runtime runtime_of(const std::filesystem::path& parent, const std::string& key, 
 }  // namespace
 
 Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache) try {
-  // Run these in parallel, because each takes long to start.
-  auto asked_root =
-      std::async(std::launch::async, ask, std::vector<std::string>{"verilator", "--getenv", "VERILATOR_ROOT"},
-                 std::string(c_install_verilator));
-  auto asked_compiler = std::async(std::launch::async, Compiler::find, build.compiler);
-  const std::string verilator_version = must(ask({"verilator", "--version"}, c_install_verilator));
-  const std::string verilator_root = must(asked_root.get());
-  const Compiler compiler = must(asked_compiler.get());
+  const auto& [verilator_version, verilator_root] = installed_verilator();
+  const Compiler compiler = must(Compiler::find(build.compiler));
   const std::string harness = read_own_file(build.harness);
 
   std::vector<std::string> flags = c_compiler_flags;
