@@ -283,7 +283,7 @@ void past_white(Trial& trial) {
             {.lights = static_cast<unsigned>(count)});
   };
   add_up(3, {0.32, 0.96, 0.992, 3.2, 4.16, 16.0, 1024.0});
-  // Sixteen lights need 33 processors, which take minutes to build, and GHDL a minute for each frame.
+  // Sixteen lights need 33 processors, which take minutes to build and, unrolled, in GHDL a minute a frame.
   if (!trial.quick()) add_up(16, {0.992, 1024.0});
   for (const double k : {1.0, 4.0, 16.0, 100.0})
     for (const double intensity : {1.0, 16.0, 64.0, 65.0, 1000.0}) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "golden_run/golden_run.hpp"
+#include "plan/processor_clocks.hpp"
 #include "sim/driver/limits.hpp"
 #include "sim/driver/stream_comparator.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
@@ -17,8 +18,16 @@
 namespace halfway::stability {
 namespace {
 
-// Number of fragments that GHDL draws in a few seconds.
-constexpr std::size_t c_most_for_ghdl = 4000;
+// What GHDL draws in a few minutes: fragments, and in folded processors their number of clocks times the
+// number of processors.
+constexpr std::size_t c_most_for_ghdl = 4000, c_most_processor_clocks = 200'000;
+
+bool is_for_ghdl(const HardwareKey& key, std::size_t fragments) {
+  if (key.shader != Shader::processors || key.processors.form == ProcessorForm::unrolled)
+    return fragments <= c_most_for_ghdl;
+  const std::size_t clocks = *slowest_processor(key).clocks(key.preset);
+  return fragments * clocks * processors_config(key).processors() <= c_most_processor_clocks;
+}
 
 // The shading processors keep lights between streams. These words delete them, as after a reset.
 std::vector<std::uint32_t> forget_lights(const HardwareKey& key, unsigned words_each) {
@@ -116,7 +125,7 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
   const std::size_t most = golden.size() + c_most_surplus;
   const Status verilated = run_verilator(key, init_bits, words, drawn, most);
   compare("Verilator", verilated, drawn);
-  if (quick_ || golden.size() > c_most_for_ghdl || !rtl_.through_ghdl.insert(key.name()).second) return;
+  if (quick_ || !is_for_ghdl(key, golden.size()) || !rtl_.through_ghdl.insert(key.name()).second) return;
   drawn.clear();
   const Status simulated = run_ghdl(key, init_bits, words, drawn, most);
   compare("GHDL", simulated, drawn);
