@@ -251,10 +251,15 @@ FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& libra
     throw Failure{tool_failed(fmt::format("{}: {} lines of the netlist have {} places; correct vhdl_places",
                                           design.name, netlist_lines.size(), places.size()))};
   const auto constants = constants_of(must(read_file(netlist.folder / "before.il")));
-  for (const std::string& line : lines_of(must(read_file(netlist.folder / "faults.ys"))))
-    netlist.faults.push_back(read_fault(line, netlist_lines, places, constants));
+  const std::string mutated = must(read_file(netlist.folder / "mutated.v"));
+  for (const std::string& line : lines_of(must(read_file(netlist.folder / "faults.ys")))) {
+    Fault& fault = netlist.faults.emplace_back(read_fault(line, netlist_lines, places, constants));
+    // Yosys removes a fault at an output bit of a cell that nothing reads.
+    if (mutated.find(fmt::format("mutsel == 16'h{:04x}", netlist.faults.size())) == std::string::npos)
+      fault.changes = false;
+  }
   static const std::regex c_declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
-  for (const std::string& line : lines_of(must(read_file(netlist.folder / "mutated.v"))))
+  for (const std::string& line : lines_of(mutated))
     if (std::smatch found; std::regex_match(line, found, c_declaration) && found[3] != "mutsel")
       netlist.ports.push_back({found[3],
                                found[2].matched ? static_cast<std::uint32_t>(std::stoul(found[2])) + 1 : 1,

@@ -17,11 +17,12 @@
 namespace halfway::mutants {
 
 struct Fault {
-  std::string kind;     ///< Yosys's mode: inv, const0, const1, cnot0, cnot1
-  std::string port;     ///< of a cell
-  std::string wire;     ///< connected to the port, with its bit
-  std::string place;    ///< VHDL file and line; empty if the netlist does not give them
-  bool changes = true;  ///< false: it sets a bit of a constant to the value that the bit has
+  std::string kind;   ///< Yosys's mode: inv, const0, const1, cnot0, cnot1
+  std::string port;   ///< of a cell
+  std::string wire;   ///< connected to the port, with its bit
+  std::string place;  ///< VHDL file and line; empty if the netlist does not give them
+  /// false: it sets a bit of a constant to the value that the bit has, or nothing reads the bit
+  bool changes = true;
 };
 
 struct FaultyNetlist {
