@@ -4,6 +4,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <new>
+
 #include "sim/os/file.hpp"
 
 namespace halfway {
@@ -63,8 +65,12 @@ void* SharedLibrary::symbol(const char* name) const {
 Result<SharedLibrary> SharedLibrary::load(const std::filesystem::path& file) {
   void* handle = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) {
-    return tool_failed(fmt::format("{}: cannot be loaded: {}; delete {} and try again", file.string(),
-                                   ::dlerror(), file.parent_path().string()));
+    const std::string why = ::dlerror();
+    // What the loader says if the file, or a library that it needs, finds no memory.
+    for (const char* full : {"failed to map segment", "annot allocate memory"})
+      if (why.find(full) != std::string::npos) throw std::bad_alloc();
+    return tool_failed(fmt::format("{}: cannot be loaded: {}; delete {} and try again", file.string(), why,
+                                   file.parent_path().string()));
   }
   return SharedLibrary(std::shared_ptr<void>(handle, [](void* closing) { ::dlclose(closing); }), file);
 }

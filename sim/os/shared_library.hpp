@@ -34,6 +34,7 @@ struct Compiler {
 /// A loaded shared library; unloaded when the last copy is destroyed.
 class SharedLibrary {
  public:
+  /// Throws std::bad_alloc if there is no memory for the library or for one that it needs.
   static Result<SharedLibrary> load(const std::filesystem::path& file);
 
   template <class Function>
