@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "golden_run/golden_run.hpp"
-#include "plan/processor_clocks.hpp"
 #include "sim/driver/limits.hpp"
 #include "sim/driver/stream_comparator.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
@@ -18,15 +17,13 @@
 namespace halfway::stability {
 namespace {
 
-// What GHDL draws in a few minutes: fragments, and in folded processors their number of clocks times the
-// number of processors.
-constexpr std::size_t c_most_for_ghdl = 4000, c_most_processor_clocks = 200'000;
+// What GHDL draws in minutes. A thousand fragments with sixteen lights take folded processors half an hour.
+constexpr std::size_t c_most_for_ghdl = 4000;
+constexpr unsigned c_most_folded_lights = 3;
 
 bool is_for_ghdl(const HardwareKey& key, std::size_t fragments) {
-  if (key.shader != Shader::processors || key.processors.form == ProcessorForm::unrolled)
-    return fragments <= c_most_for_ghdl;
-  const std::size_t clocks = *slowest_processor(key).clocks(key.preset);
-  return fragments * clocks * processors_config(key).processors() <= c_most_processor_clocks;
+  const bool folded = key.shader == Shader::processors && key.processors.form == ProcessorForm::folded;
+  return fragments <= c_most_for_ghdl && !(folded && key.processors.lights() > c_most_folded_lights);
 }
 
 // The shading processors keep lights between streams. These words delete them, as after a reset.
