@@ -54,6 +54,13 @@ TEST(SourceFaults, FileEndsEarly) {
   EXPECT_EQ(with_fault(fault, "1\n2\n3\n4\nend 4\n"), "1\n2\n3\n4\n");
 }
 
+TEST(SelectableFaults, AreThoseOfTheNetlistThatYosysWrites) {
+  const std::string mutated =
+      "  assign _1_ = mutsel == 16'h0001;\n  assign _2_ = mutsel == 16'h00ff;\n  assign _3_ = a == "
+      "16'h0002;\n";
+  EXPECT_THAT(selectable_faults(mutated), testing::ElementsAre(1, 255));
+}
+
 TEST(ModulesOf, AreThoseOfTheEntitiesAndWhatOnlyTheyContain) {
   const std::string netlist =
       "module half_8\n  adder_8 sum (\nendmodule\n"

@@ -206,6 +206,15 @@ std::set<std::string> modules_of(const std::string& netlist, const std::vector<s
   return marked;
 }
 
+std::set<std::size_t> selectable_faults(const std::string& mutated) {
+  static const std::regex c_selection(R"(mutsel == 16'h([0-9a-f]{4}))");
+  std::set<std::size_t> numbers;
+  for (auto at = std::sregex_iterator(mutated.begin(), mutated.end(), c_selection);
+       at != std::sregex_iterator(); ++at)
+    numbers.insert(std::stoul((*at)[1], nullptr, 16));
+  return numbers;
+}
+
 std::vector<std::string> vhdl_places(const std::string& printed) {
   static const std::regex c_place(R"(/\* (\S+\.vhd):(\d+):\d+ )");
   static const std::regex c_comment(R"(/\*.*?\*/|//.*)");
@@ -252,11 +261,10 @@ FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& libra
                                           design.name, netlist_lines.size(), places.size()))};
   const auto constants = constants_of(must(read_file(netlist.folder / "before.il")));
   const std::string mutated = must(read_file(netlist.folder / "mutated.v"));
+  const std::set<std::size_t> selectable = selectable_faults(mutated);
   for (const std::string& line : lines_of(must(read_file(netlist.folder / "faults.ys")))) {
     Fault& fault = netlist.faults.emplace_back(read_fault(line, netlist_lines, places, constants));
-    // Yosys removes a fault at an output bit of a cell that nothing reads.
-    if (mutated.find(fmt::format("mutsel == 16'h{:04x}", netlist.faults.size())) == std::string::npos)
-      fault.changes = false;
+    fault.changes = fault.changes && selectable.contains(netlist.faults.size());
   }
   static const std::regex c_declaration(R"(^  (input|output) (?:\[(\d+):0\] )?(\w+);$)");
   for (const std::string& line : lines_of(mutated))

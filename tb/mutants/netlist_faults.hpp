@@ -44,6 +44,10 @@ std::vector<std::string> vhdl_places(const std::string& printed);
 /// The modules of these entities in GHDL's netlist, and those that only such modules contain.
 std::set<std::string> modules_of(const std::string& netlist, const std::vector<std::string>& entities);
 
+/// The numbers of the faults that the netlist with faults can select. Yosys removes a fault at an output bit
+/// of a cell that nothing reads.
+std::set<std::size_t> selectable_faults(const std::string& mutated);
+
 // These functions throw Failure.
 
 /// `scratch` keeps the result. Each `seed` selects other faults.
