@@ -67,7 +67,7 @@ Result<SharedLibrary> SharedLibrary::load(const std::filesystem::path& file) {
   if (handle == nullptr) {
     const std::string why = ::dlerror();
     // What the loader says if the file, or a library that it needs, finds no memory.
-    for (const char* full : {"failed to map segment", "annot allocate memory"})
+    for (const char* full : {"failed to map segment", "Cannot allocate memory"})
       if (why.find(full) != std::string::npos) throw std::bad_alloc();
     return tool_failed(fmt::format("{}: cannot be loaded: {}; delete {} and try again", file.string(), why,
                                    file.parent_path().string()));
