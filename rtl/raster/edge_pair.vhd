@@ -10,7 +10,7 @@
 -- Latency     1 clock from step
 -- Throughput  1 line per clock
 -- Error       preset exact: none. preset published: that of slope_walker
--- Source      quadratic paper, section 5 and figure 6 (X counter)
+-- Source      quadratic paper, section 5 and figure 6 (X_start, X_end)
 -- Golden twin model/golden/edge_pair.hpp
 
 library ieee;

@@ -8,7 +8,7 @@
 -- Latency     1 clock from a step to x
 -- Throughput  1 line per clock
 -- Error       adds none; k steps add k times the slope's rounding error
--- Source      quadratic paper, section 5 and figure 6 (X counter); the split of the sum is ours
+-- Source      quadratic paper, section 5 and figure 6 (X_start, X_end); the split of the sum is ours
 -- Golden twin model/golden/slope_walker.hpp
 
 library ieee;

@@ -38,7 +38,7 @@
 --             takes 2 clocks at least, and an empty line takes 1 clock if no span is drawn meanwhile.
 -- Error       preset exact: none; a pixel belongs to the triangle by its centre, top-left rule. Preset published: x of an
 --             edge is off by at most 2**-7 pixels, see edge_x in formats_pkg
--- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter); spherical paper, section 5, figure 13
+-- Source      quadratic paper, section 5 and figure 6 (X counter, Y counter); spherical paper, section 5 (halves of a triangle)
 -- Golden twin model/golden/triangle_walker.hpp
 
 library ieee;
