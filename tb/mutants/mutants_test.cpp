@@ -45,6 +45,8 @@ TEST(SourceFaults, InvertsTheLowestBitOfAWord) {
   EXPECT_EQ(with_fault(fault, text), "1 2F\n3 4F\nend 2\n");
   fault.word = 1;
   EXPECT_EQ(with_fault(fault, text), "1 2F\n2 4E\nend 2\n");
+  fault.word = 3;  // not the first word of the next line
+  EXPECT_THROW(with_fault(fault, text), Failure);
   fault.line = 9;
   EXPECT_THROW(with_fault(fault, text), Failure);
 }
