@@ -18,7 +18,8 @@ namespace {
 class Threshold : public testing::TestWithParam<const char*> {};
 
 // Small pictures, where most triangles cover a pixel or two, and larger ones. The test of a leaf is
-// tuned to, and may exceed, twice the threshold (setup/highlight_bound.hpp); the rest is the rounding of both pictures.
+// tuned to, and may exceed, twice the threshold (setup/highlight_bound.hpp); the rest is the rounding of both
+// pictures.
 TEST_P(Threshold, EveryPixelOfABuiltInSceneIsWithinIt) {
   auto scene = must(load_scene(GetParam(), HALFWAY_SOURCE_DIR "/sim/scenes"));
   scene.shadows = false;  // the quadratic shader draws none

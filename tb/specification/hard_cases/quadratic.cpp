@@ -252,7 +252,8 @@ void between_samples(Trial& trial) {
                                       glm::normalize(s.normal_world)));
     };
     DrawOptions options{.frame = c_patch_frame};
-    // The test is tuned to, and may exceed, twice the threshold (setup/highlight_bound.hpp). The rest is rounding.
+    // The test is tuned to, and may exceed, twice the threshold (setup/highlight_bound.hpp). The rest is
+    // rounding.
     const double bound = 2 * options.setup.quadratic.threshold + colour_bound(Preset::exact, 3 * 80);
     const Drawing ours = trial.draw(patch.scene, options);
     split += ours.counts.subdivided;
