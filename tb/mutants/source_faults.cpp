@@ -61,11 +61,10 @@ std::string with_fault(const SourceFault& fault, const std::string& text) {
   // Invert the lowest bit of the word.
   std::size_t at = 0;
   for (unsigned line = 1; line < fault.line && at < text.size(); ++line) at = text.find('\n', at) + 1;
-  for (unsigned word = 0; word < fault.word && at < text.size(); ++word) {
-    if (word > 0 && text[at] == '\n') at = text.size();
-    at = text.find_first_of(" \n", at + 1);
-  }
-  if (at >= text.size()) fail(fmt::format("has no word {} in line {}", fault.word, fault.line));
+  const std::size_t end = std::min(text.find('\n', at), text.size());
+  unsigned word = 0;
+  for (; word < fault.word && at < end; ++word) at = std::min(text.find(' ', at + 1), end);
+  if (word < fault.word) fail(fmt::format("has no word {} in line {}", fault.word, fault.line));
   static const std::string c_digits = "0123456789ABCDEF";
   changed[at - 1] = c_digits[c_digits.find(text[at - 1]) ^ 1U];
   return changed;
@@ -91,20 +90,15 @@ TestEnd run_testbench(const SourceFault& fault, const std::filesystem::path& sou
   }
   // Link to the vectors, but to a faulty copy of the faulty file.
   must(make_folders(folder / "vectors"));
+  if (fault.in_vectors) {
+    const std::filesystem::path file = vectors / fault.file;
+    must(write_file(folder / "vectors" / file.filename(), with_fault(fault, must(read_file(file)))));
+  }
   std::error_code error;
-  bool found = !fault.in_vectors;
   for (const auto& entry : std::filesystem::directory_iterator(vectors / fault.test, error)) {
     const auto copy = folder / "vectors" / entry.path().filename();
-    if (fault.in_vectors && fault.test + "/" + entry.path().filename().string() == fault.file) {
-      must(write_file(copy, with_fault(fault, must(read_file(entry.path())))));
-      found = true;
-    } else {
-      std::filesystem::create_symlink(entry.path(), copy, error);
-    }
+    if (!std::filesystem::exists(copy)) std::filesystem::create_symlink(entry.path(), copy, error);
   }
-  if (!found)
-    throw Failure{bad_input(
-        fmt::format("{}: no such file of vectors; correct tb/mutants/source_faults.toml", fault.file))};
   if (error) throw Failure{tool_failed(fmt::format("{}: {}", folder.string(), error.message()))};
   const auto run = [&](const std::vector<std::string>& arguments) {
     return must(run_process({.arguments = arguments, .working_folder = folder, .timeout = c_testbench_time},
