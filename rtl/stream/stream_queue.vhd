@@ -3,10 +3,10 @@
 -- Purpose     The end of a pipeline that never stalls: a place for every word that is in the pipeline. The start of the
 --             pipeline claims a place for each word. One registered signal, `room`, stalls the start. With claim =
 --             in_valid it is a buffer whose in_ready is `room`.
--- Contract    A place is claimed where claim = '1' at a rising edge. Assert claim only while room = '1'. The word of
---             the place comes in that clock or a later one: in_valid = '1'. Words come in the order of their claims. A word leaves
---             where out_valid and out_ready are both '1'; out_data does not change while out_valid = '1' and
---             out_ready = '0'. pending: a place is claimed or a word is in the queue.
+-- Contract    A place is claimed where claim = '1' at a rising edge. Assert claim only while room = '1': a simulation
+--             stops otherwise. The word of the place comes in that clock or a later one: in_valid = '1'. Words come in
+--             the order of their claims. A word leaves where out_valid and out_ready are both '1'; out_data does not
+--             change while out_valid = '1' and out_ready = '0'. pending: a place is claimed or a word is in the queue.
 -- Formats     g_bits of any format
 -- Latency     2 clocks from in_valid to out_valid
 -- Throughput  1 word per clock, if each word comes at most 2**g_index_bits - 4 clocks after its claim
@@ -121,6 +121,16 @@ begin
   begin
     if rising_edge(clk) then
       r <= r_next;
+    end if;
+  end process;
+
+  -- Report a broken contract in the user's simulation.
+  check_claim : process (clk)
+  begin
+    if rising_edge(clk) then
+      assert claim /= '1' or r.room /= '0' or reset = '1'
+        report "stream_queue: claim while room = '0'"
+        severity failure;
     end if;
   end process;
 

@@ -2,8 +2,8 @@
 --
 -- Purpose     One place of a valid/ready stream: the buffer before the walker, which holds the next init vector while a
 --             triangle is drawn, and the output register of a shader.
--- Contract    A word moves where valid and ready are both '1' at a rising edge. out_data does not change while
---             out_valid = '1' and out_ready = '0'. in_ready depends on out_ready in the same clock.
+-- Contract    A word moves where valid and ready are both '1' at a rising edge. A word that waits does not change, at the
+--             input (a simulation stops otherwise) and at the output. in_ready depends on out_ready in the same clock.
 -- Formats     g_bits of any format
 -- Latency     1 clock
 -- Throughput  1 word per clock
@@ -63,6 +63,22 @@ begin
   begin
     if rising_edge(clk) then
       r <= r_next;
+    end if;
+  end process;
+
+  -- Report a broken contract in the user's simulation.
+  check_input : process (clk)
+    variable waits : boolean; -- the word was not taken in the clock before
+    variable word  : std_logic_vector(in_data'range);
+  begin
+    if rising_edge(clk) then
+      assert not waits or reset = '1' or (in_valid = '1' and in_data = word)
+        report "stream_register: in_valid or in_data changes while the word waits"
+        severity failure;
+      waits := in_valid = '1' and free = '0' and reset = '0';
+      if waits then
+        word := in_data;
+      end if;
     end if;
   end process;
 

@@ -42,6 +42,14 @@ TEST(FormalVerilog, StartsWithAResetAndChecksFromTheSecondClockOn) {
             top + started + "  always @* m_starts: assume (n2_o);\n" + holds);
 }
 
+TEST(FormalVerilog, DropsTheAssertionsOfTheRtl) {
+  const auto formal =
+      formal_verilog("  always @*\n    if (!n45_q)\n      $fatal(1, \"assertion failure n34\");\n", "m");
+  ASSERT_TRUE(formal) << formal.error().message;
+  EXPECT_EQ(formal->text, "");
+  EXPECT_EQ(formal->counts, (PropertyCounts{0, 0}));
+}
+
 TEST(FormalVerilog, ConnectsAFreeSignalToThatInsideTheInstance) {
   const auto formal = formal_verilog("  assign dut_edge_value = 40'bX; // (signal)\n", "m");
   ASSERT_TRUE(formal) << formal.error().message;

@@ -44,13 +44,16 @@ void write_stream(const Folder& folder) {
   VectorFile file;
   golden::StreamRegister<FlatWord<Bits>> twin;
   constexpr int c_vectors = 3000;
+  bool waits = false;  // the word was not taken
+  auto data = random_word<Bits>(random);
   for (int i = 0; i < c_vectors; ++i) {
     // Full speed, then a fast source, a fast sink, and both at random, with resets.
     const int part = i * 4 / c_vectors;
-    const bool in_valid = part < 2 || random.one_in(2),
+    const bool in_valid = waits || part < 2 || random.one_in(2),
                out_ready = part == 0 || part == 2 || random.one_in(2);
     const bool reset = i == 0 || (i > c_vectors / 8 && random.one_in(60));
-    const auto data = random_word<Bits>(random);
+    if (!waits) data = random_word<Bits>(random);
+    waits = in_valid && !twin.in_ready(out_ready) && !reset;
     file.flag(i > 0).flag(reset).flag(in_valid).words_of(data, Bits).flag(out_ready);
     file.flag(twin.in_ready(out_ready)).flag(twin.out_valid()).words_of(twin.out_data(), Bits).end_vector();
     twin.clock(reset, in_valid, data, out_ready);
