@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Writes the pixels that are nearer than the stored depth. Works on batches: the depths of up to g_places
+-- Purpose     Writes the pixels that are nearer than the stored depth. Works on batches: the depths of up to c_places
 --             neighbours are read one after the other, then their depths and colours are written. A batch costs one
 --             change of direction of the SRAM's data pins instead of one per pixel.
 --
@@ -27,9 +27,6 @@ use work.board_pkg.all;
 use work.line_pkg.flag;
 
 entity depth_test is
-  generic (
-    g_index_bits : positive := 4 -- 2**g_index_bits pixels in a batch
-  );
   port (
     clk          : in  std_logic;
     reset        : in  std_logic;
@@ -53,10 +50,11 @@ end entity;
 
 architecture rtl of depth_test is
 
-  constant c_places : positive := 2 ** g_index_bits;
+  constant c_index_bits : positive := 4;
+  constant c_places     : positive := 2 ** c_index_bits; -- pixels in a batch
 
-  subtype index_t is unsigned(g_index_bits - 1 downto 0);
-  subtype count_t is unsigned(g_index_bits downto 0);
+  subtype index_t is unsigned(c_index_bits - 1 downto 0);
+  subtype count_t is unsigned(c_index_bits downto 0);
 
   type phase_t is (
     collect,      -- take pixels and read their depths
