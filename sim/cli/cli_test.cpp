@@ -44,6 +44,16 @@ TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
   EXPECT_EQ(quiet.output, "");
 }
 
+TEST_F(CliTest, AProgramInACopiedCheckoutReadsTheCopy) {
+  const std::filesystem::path copy = folder_.path() / "copy", program = copy / "build" / "halfway";
+  write("copy/rtl/files.f", "");
+  create_directories(program.parent_path());
+  copy_file(HALFWAY_PROGRAM, program);
+  EXPECT_THAT(run_as({program, "--help"}), Ends(0, HasSubstr(copy.string())));
+  remove(copy / "rtl" / "files.f");
+  EXPECT_THAT(run_as({program, "--help"}), Ends(0, Not(HasSubstr(copy.string()))));
+}
+
 TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"simulate"}, "halfway --help"},

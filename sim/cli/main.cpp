@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <system_error>
+
 #include "sim/cli/options.hpp"
+
+namespace {
+
+/// The checkout of this program: the one it lies in, as build/halfway, or the one it was compiled in.
+std::filesystem::path own_checkout() {
+  std::error_code error;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto checkout = program.parent_path().parent_path();
+  return exists(checkout / "rtl" / "files.f", error) ? checkout : std::filesystem::path(HALFWAY_SOURCE_DIR);
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace halfway;
-  cli::Folders folders{HALFWAY_SOURCE_DIR};
+  cli::Folders folders{own_checkout()};
   CLI::App app{"Halfway: shading hardware between Gouraud and Phong, simulated and checked bit for bit.",
                "halfway"};
   app.require_subcommand(1);
