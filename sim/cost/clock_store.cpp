@@ -42,6 +42,8 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& 
     StoredClock clock{.cells = {},
                       .mhz = number("mhz"),
                       .seeds = static_cast<unsigned>(count("seeds")),
+                      .range = table->text(row, "range"),
+                      .path = table->text(row, "path"),
                       .tools = table->text(row, "tools"),
                       .netlist = table->text(row, "netlist"),
                       .hardware = table->text(row, "hardware")};
@@ -59,12 +61,12 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& 
 Status write_clocks(const std::filesystem::path& root, const Family& family, const ClockStore& clocks) {
   Table table{{"design"}, {}};
   for (const CellColumn& column : family.columns) table.columns.emplace_back(column.name);
-  table.columns.insert(table.columns.end(), {"mhz", "seeds", "tools", "netlist", "hardware"});
+  table.columns.insert(table.columns.end(), {"mhz", "seeds", "range", "path", "tools", "netlist", "hardware"});
   for (const auto& [design, clock] : clocks) {
     std::vector<std::string>& row = table.rows.emplace_back(1, design);
     for (const CellColumn& column : family.columns) row.push_back(std::to_string(clock.cells.*column.number));
-    row.insert(row.end(), {fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds), clock.tools,
-                           clock.netlist, clock.hardware});
+    row.insert(row.end(), {fmt::format("{:.1f}", clock.mhz), std::to_string(clock.seeds), clock.range,
+                           clock.path, clock.tools, clock.netlist, clock.hardware});
   }
   return write_file(root / clocks_file(family), to_csv(table));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measured clocks that are kept in the checkout, one file for each device, written by
-// `make evidence PAGE=clocks`.
+// `make evidence PAGE=clocks`, which places only hardware that is not in the file.
 #pragma once
 
 #include <filesystem>
@@ -17,7 +17,9 @@ std::string clocks_file(const Family& family);
 struct StoredClock {
   Cells cells;             ///< on the device
   double mhz = 0;          ///< median of the placements; 0: the hardware is not placed
-  unsigned seeds = 0;      ///< number of placements
+  unsigned seeds = 0;      ///< number of placements that ended
+  std::string range{};     ///< of the placements' clocks, for the page
+  std::string path{};      ///< the critical path, or why there is no clock, for the page
   std::string tools{};     ///< Synthesizer::versions
   std::string netlist{};   ///< netlist_identity
   std::string hardware{};  ///< hardware_text

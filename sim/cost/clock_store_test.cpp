@@ -19,7 +19,15 @@ TEST(ClockStore, ReadsWhatItWrites) {
   EXPECT_TRUE(read_clocks(root, c_ice40)->empty());
   ASSERT_TRUE(make_folders(file.parent_path()));
   ASSERT_TRUE(write_clocks(root, c_ice40,
-                           {{"a", {{1, 2, 3, 4}, 87.54, 3, "GHDL 2, Yosys 1", "ab", "e g_a=1"}},
+                           {{"a",
+                             {.cells = {1, 2, 3, 4},
+                              .mhz = 87.54,
+                              .seeds = 3,
+                              .range = "80 to 90 of 3",
+                              .path = "`r.x` → `r.y`, 3 LUTs",
+                              .tools = "GHDL 2, Yosys 1",
+                              .netlist = "ab",
+                              .hardware = "e g_a=1"}},
                             {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
   const auto clocks = read_clocks(root, c_ice40);
   ASSERT_TRUE(clocks) << clocks.error().message;
@@ -28,6 +36,8 @@ TEST(ClockStore, ReadsWhatItWrites) {
   EXPECT_EQ(a.cells, (Cells{1, 2, 3, 4}));
   EXPECT_EQ(a.mhz, 87.5);
   EXPECT_EQ(a.seeds, 3U);
+  EXPECT_EQ(a.range, "80 to 90 of 3");
+  EXPECT_EQ(a.path, "`r.x` → `r.y`, 3 LUTs");
   EXPECT_EQ(a.tools, "GHDL 2, Yosys 1");
   EXPECT_EQ(a.netlist, "ab");
   EXPECT_EQ(a.hardware, "e g_a=1");
@@ -43,7 +53,7 @@ TEST(ClockStore, ReadsWhatItWrites) {
   const auto text = read_file(file);
   ASSERT_TRUE(text);
   for (const char* line :
-       {"a,1,2,3,4,5,6,,ef,\n", "b,1,2,x,4,5,6,,ef,\n", "b,1,2,-3,4,5,6,,ef,\n", "b,1,2,3,4,5,6,,,\n"}) {
+       {"a,1,2,3,4,5,6,,,,ef,\n", "b,1,2,x,4,5,6,,,,ef,\n", "b,1,2,-3,4,5,6,,,,ef,\n", "b,1,2,3,4,5,6,,,,,\n"}) {
     ASSERT_TRUE(write_file(file, *text + line));
     const auto wrong = read_clocks(root, c_ice40);
     ASSERT_FALSE(wrong) << line;

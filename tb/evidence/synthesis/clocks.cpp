@@ -25,17 +25,19 @@ constexpr Sections c_sections[] = {
     {c_ice40, "Clocks", "Clocks of the hardware of studies", "clocks"},
     {c_ecp5, "Clocks on the ECP5 LFE5U-85F", "Other clocks on the ECP5 LFE5U-85F", "clocks_ecp5"}};
 
-// The spaces whose hardware has stored clocks, and their scenes.
+// The spaces whose hardware has stored clocks, and their scenes: files beside them, or built in.
 constexpr const char* c_spaces = "sim/study/spaces";
 constexpr std::pair<const char*, const char*> c_studies[] = {{"small.toml", "sphere.toml"},
                                                              {"times.toml", "sphere.toml"},
                                                              {"tables.toml", "sphere.toml"},
                                                              {"one_step.toml", "sphere.toml"},
-                                                             {"colour.toml", "red_sphere.toml"}};
+                                                             {"colour.toml", "red_sphere.toml"},
+                                                             {"designs.toml", "spheres"}};
 
 struct Placed {
   Design design;
   const char* section;
+  unsigned seeds = 0;  // 0: as stored, or c_seeds
 };
 
 // The hardware that is placed on a family's device, and its stored clocks.
@@ -52,39 +54,31 @@ std::string path_text(const CriticalPath& path) {
                      path.to, path.luts, path.carries, products, path.logic, path.routing);
 }
 
-void add_cells(const Cells& cells, const Family& family, page::Row& row) {
-  for (const CellColumn& column : family.columns)
-    row.fields.emplace_back(column.title, std::to_string(cells.*column.number));
-}
-
 std::string row_name(const Placed& placed, const Bench& bench) {
   return fmt::format("{} {}", placed.design.name, bench.family.device->option);
 }
 
-page::Row clock_row(const Placed& placed, const Bench& bench, const Clock& clock, const Options& options) {
+page::Row clock_row(const Placed& placed, const Bench& bench, const StoredClock& clock,
+                    const Options& options) {
   const std::string& name = placed.design.name;
-  const Placement* median = clock.median();
   const auto published = published_ns(name);
+  const bool has_clock = clock.mhz > 0;
   page::Row row{.name = row_name(placed, bench),
                 .section = placed.section,
                 .fields = {{"design", quoted(placed.design)}},
                 .details = name};
-  const auto add = [&](const char* column, const std::string& text) {
+  const auto add = [&](std::string_view column, const std::string& text) {
     row.fields.emplace_back(column, text);
   };
-  add("clock, MHz", median != nullptr ? fmt::format("{:.1f}", median->mhz) : c_none);
-  add("seeds, MHz",
-      median != nullptr
-          ? fmt::format("{:.0f} to {:.0f} of {}{}", clock.placements.front().mhz, clock.placements.back().mhz,
-                        clock.placements.size(),
-                        clock.endless > 0 ? fmt::format("; nextpnr does not end: {}", clock.endless) : "")
-          : c_none);
-  add("ns per pixel", median != nullptr ? fmt::format("{:.1f}", 1000 / median->mhz) : c_none);
+  add("clock, MHz", has_clock ? fmt::format("{:.1f}", clock.mhz) : c_none);
+  add("seeds, MHz", clock.range);
+  add("ns per pixel", has_clock ? fmt::format("{:.1f}", 1000 / clock.mhz) : c_none);
   add("paper, ns", published ? std::to_string(*published) : c_none);
-  add("critical path", median != nullptr ? path_text(median->path) : "not placed: " + clock.none);
+  add("critical path", clock.path);
   // The page has the cells of the listed designs on both devices in another section.
   if (!options.page || &bench.family == &c_ecp5)
-    add_cells(bench.synthesizer.cells(placed.design, bench.family), bench.family, row);
+    for (const CellColumn& column : bench.family.columns)
+      add(column.title, std::to_string(clock.cells.*column.number));
   return row;
 }
 
@@ -105,7 +99,7 @@ std::vector<Placed> listed_hardware(const Options& options, const Sections& sect
   std::vector<Placed> hardware;
   for (const ListedDesign& listed : selected(options))
     if (&sections.family == &c_ice40 ? listed.ice40 : listed.ecp5)
-      hardware.push_back({listed.design, sections.judged});
+      hardware.push_back({listed.design, sections.judged, &sections.family == &c_ecp5 ? listed.seeds : 0});
     else if (&sections.family == &c_ecp5 && !options.page)
       hardware.push_back({listed.design, sections.others});
   return hardware;
@@ -125,7 +119,9 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
         return point.preset == Preset::exact &&
                (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
       });
-    for (Design& design : study::hardware_of_space((spaces / scene).string(), points, folders))
+    const std::filesystem::path file = spaces / scene;
+    for (Design& design :
+         study::hardware_of_space(exists(file) ? file.string() : scene, points, folders))
       if (netlists.insert(identity_of(design, options)).second)
         hardware.push_back({std::move(design), sections.others});
   }
@@ -141,21 +137,52 @@ Bench bench_of(const Options& options, const Sections& sections) {
   return bench;
 }
 
-// If the command line gives no number: that of the stored clock.
-unsigned seeds_of(const Options& options, const ClockStore& clocks, const std::string& name) {
-  const auto stored = clocks.find(name);
-  if (options.seeds > 0) return options.seeds;
+// If the command line gives no number: that of the list, or of the stored clock.
+unsigned seeds_of(const Options& options, const Placed& placed, const ClockStore& clocks) {
+  if (options.seeds > 0 || placed.seeds > 0) return options.seeds > 0 ? options.seeds : placed.seeds;
+  const auto stored = clocks.find(placed.design.name);
   return stored != clocks.end() && stored->second.seeds > 0 ? stored->second.seeds : c_seeds;
 }
 
-StoredClock to_store(const Bench& bench, const Design& design, const Clock& clock, const Options& options) {
+StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seeds, const Options& options) {
+  const Clock clock = bench.synthesizer.clock(placed.design, seeds);
   const Placement* median = clock.median();
-  return {.cells = bench.synthesizer.cells(design, bench.family),
-          .mhz = median != nullptr ? median->mhz : 0,
-          .seeds = static_cast<unsigned>(clock.placements.size()),
-          .tools = bench.synthesizer.versions(),
-          .netlist = identity_of(design, options),
-          .hardware = hardware_text(design)};
+  StoredClock result{.cells = bench.synthesizer.cells(placed.design, bench.family),
+                     .range = c_none,
+                     .path = "not placed: " + clock.none,
+                     .tools = bench.synthesizer.versions(),
+                     .netlist = identity_of(placed.design, options),
+                     .hardware = hardware_text(placed.design)};
+  if (median == nullptr) return result;
+  result.mhz = median->mhz;
+  result.seeds = static_cast<unsigned>(clock.placements.size());
+  result.range =
+      fmt::format("{:.0f} to {:.0f} of {}{}", clock.placements.front().mhz, clock.placements.back().mhz,
+                  result.seeds,
+                  clock.endless > 0 ? fmt::format("; nextpnr does not end: {}", clock.endless) : "");
+  result.path = path_text(median->path);
+  return result;
+}
+
+// The stored clock, if the same tools placed the same netlist with as many seeds.
+StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options, std::mutex& mutex) {
+  if (!options.page)
+    return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
+  const std::string netlist = identity_of(placed.design, options);
+  unsigned seeds = 0;
+  {
+    const std::lock_guard lock(mutex);
+    seeds = seeds_of(options, placed, bench.stored);
+    const auto found = bench.stored.find(placed.design.name);
+    if (found != bench.stored.end() && found->second.tools == bench.synthesizer.versions() &&
+        found->second.netlist == netlist && (found->second.mhz == 0 || found->second.seeds == seeds))
+      return found->second;
+  }
+  const StoredClock clock = placed_clock(placed, bench, seeds, options);
+  const std::lock_guard lock(mutex);
+  bench.stored[placed.design.name] = clock;
+  must(write_clocks(options.folders.source, bench.family, bench.stored));
+  return clock;
 }
 
 // Remove clocks of other hardware.
@@ -178,19 +205,10 @@ ExitCode clocks(const Options& options) {
   std::vector<std::string_view> tools = {"ghdl", "yosys"};
   for (Bench& bench : benches) {
     tools.push_back(bench.family.device->placer);
-    for (const Placed& placed : bench.hardware) {
-      const Design& design = placed.design;
-      items.push_back({row_name(placed, bench), [&, seeds = seeds_of(options, bench.stored, design.name)] {
-                         const Clock clock = bench.synthesizer.clock(design, seeds);
-                         if (options.page) {
-                           StoredClock measured = to_store(bench, design, clock, options);
-                           const std::lock_guard lock(mutex);
-                           bench.stored[design.name] = std::move(measured);
-                           must(write_clocks(options.folders.source, bench.family, bench.stored));
-                         }
-                         return clock_row(placed, bench, clock, options);
+    for (const Placed& placed : bench.hardware)
+      items.push_back({row_name(placed, bench), [&] {
+                         return clock_row(placed, bench, clock_of(placed, bench, options, mutex), options);
                        }});
-    }
   }
   const ExitCode end = measure(options, {"clocks", std::move(tools), values}, std::move(items));
   if (!options.page) return end;

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 #include "plan/hardware_key.hpp"
 #include "sim/os/must.hpp"
 #include "words/formats.hpp"
@@ -10,6 +13,10 @@
 
 namespace halfway::synth {
 namespace {
+
+// README shows their clocks.
+constexpr std::string_view c_of_readme[] = {"quadratic_shader_exact", "quadratic_shader_grey_exact",
+                                            "quadratic_shader_planes_grey_exact", "spherical_shader_exact"};
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
@@ -100,8 +107,7 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
       all.back().ice40 = !exact;
-      // Of the unrolled form, nextpnr does not end within c_place_time.
-      all.back().ecp5 = !exact || form == ProcessorForm::folded;
+      if (exact) all.back().seeds = 1;  // one placement takes up to half an hour
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
@@ -178,7 +184,10 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
     all.back().ice40 = !exact;
   }
-  for (ListedDesign& listed : all) listed.design.root = root;
+  for (ListedDesign& listed : all) {
+    listed.design.root = root;
+    if (std::ranges::count(c_of_readme, listed.design.name) > 0) listed.seeds = 9;
+  }
   return all;
 }
 

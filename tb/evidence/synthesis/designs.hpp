@@ -18,6 +18,7 @@ struct ListedDesign {
   bool quick = false;  ///< one or two seconds of Yosys: also in `make test`
   bool ice40 = true;   ///< false: much too large for the device and slow to synthesize; only for ECP5
   bool ecp5 = false;   ///< its clock on the ECP5 is stored, and has a threshold
+  unsigned seeds = 0;  ///< of the placement on the ECP5; 0: as stored, or c_seeds
 };
 
 /// All designs, in the order of the page. `root`: the project's.
