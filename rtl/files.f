@@ -46,6 +46,14 @@ illumination/shadow_counter.vhd
 illumination/spot_cone.vhd
 illumination/terms_pkg.vhd
 illumination/token_pkg.vhd
+objects/objects_pkg.vhd
+objects/raster_interpolator.vhd
+objects/object_edges.vhd
+objects/object_merge.vhd
+objects/object_processor.vhd
+objects/object_source.vhd
+objects/object_output.vhd
+objects/object_front.vhd
 arithmetic/unit_vector.vhd
 illumination/light_vector.vhd
 illumination/half_vector.vhd

@@ -46,6 +46,10 @@ struct ShadingToken {
   Channels radiance{};                        ///< I so far
   ShadingLight light{};
 
+  /// Colour before the first processor: half a step if it has a fraction, so that truncation rounds.
+  static constexpr std::uint32_t c_first_radiance =
+      Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
+
   bool is_object() const {
     return command == Command::new_pixel || command == Command::new_object ||
            command == Command::new_scanline;
@@ -89,6 +93,21 @@ struct ShadingToken {
     for_each_word(config, layout, [&](const auto& value, int low, int bits) {
       set_bits(words, word_at(low, bits), static_cast<std::uint64_t>(value));
     });
+  }
+
+  /// Takes the request of a host's vector that draws: command, light and flags.
+  void decode_request(std::span<const std::uint32_t> vector) {
+    using Request = typename Preset::request_header_at;
+    command = static_cast<Command>(get_bits(vector, Request::command));
+    light_number = static_cast<std::uint32_t>(get_bits(vector, Request::light));
+    opens = get_bits(vector, Request::opens) != 0;
+    normalize = get_bits(vector, Request::normalize) != 0;
+  }
+  /// Takes the material of a host's vector.
+  void decode_material(const ProcessorsConfig& config, std::span<const std::uint32_t> vector) {
+    const ProcessorsLayout<Preset> layout(config);
+    visit_material(*this, config, layout, layout.init_material_low(),
+                   [&](auto& value, int low, int bits) { get_word(vector, value, low, bits); });
   }
 
   /// The light defined by a host's vector or by a token.
@@ -140,7 +159,13 @@ struct ShadingToken {
       if (layout.has_view()) use(self.view[axis], layout.view_low(i), Preset::c_direction_bits);
     }
     if (layout.has_distance()) use(self.distance, layout.distance_low(), Preset::c_vector_bits);
-    const int material = layout.material_low();
+    visit_material(self, config, layout, layout.material_low(), use);
+    for (int i = 0; i < config.channels; ++i)
+      use(self.radiance[static_cast<std::size_t>(i)], layout.radiance_low(i), Preset::c_radiance_bits);
+  }
+  template <class Self, class Use>
+  static void visit_material(Self& self, const ProcessorsConfig& config,
+                             const ProcessorsLayout<Preset>& layout, int material, Use&& use) {
     if (config.specular) use(self.exponent, material + layout.exponent_low(), Preset::c_exponent_bits);
     for (int i = 0; i < config.channels; ++i) {
       const auto channel = static_cast<std::size_t>(i);
@@ -149,7 +174,6 @@ struct ShadingToken {
         use(self.diffuse[channel], material + layout.diffuse_low(i), Preset::c_coefficient_bits);
       if (config.specular)
         use(self.specular[channel], material + layout.specular_low(i), Preset::c_coefficient_bits);
-      use(self.radiance[channel], layout.radiance_low(i), Preset::c_radiance_bits);
     }
   }
 

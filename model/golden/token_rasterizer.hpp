@@ -15,6 +15,17 @@
 
 namespace halfway::golden {
 
+/// The walk of a host's vector, a header of preset exact. It starts within a word, so copy it.
+template <class Preset>
+auto walk_of(std::span<const std::uint32_t> vector) {
+  static_assert(Exact::c_init_header_bits % 32 == 0);
+  std::array<std::uint32_t, Exact::c_init_header_bits / 32> walk;
+  for (std::size_t i = 0; i < walk.size(); ++i)
+    walk[i] = static_cast<std::uint32_t>(get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
+                                                  ProcessorsLayout<Preset>::walk_low()));
+  return walk;
+}
+
 template <class Preset>
 class TokenRasterizer {
  public:
@@ -26,11 +37,7 @@ class TokenRasterizer {
   /// Calls line() when the span stage loads a line, and pixel(x) at each of its pixels. token() is its token.
   template <class Line, class Pixel>
   void draw(std::span<const std::uint32_t> vector, Line&& line, Pixel&& pixel) {
-    using At = typename Preset::request_header_at;
-    token_.command = static_cast<Command>(get_bits(vector, At::command));
-    token_.light_number = static_cast<std::uint32_t>(get_bits(vector, At::light));
-    token_.opens = get_bits(vector, At::opens) != 0;
-    token_.normalize = get_bits(vector, At::normalize) != 0;
+    token_.decode_request(vector);
     for (line_load(vector);; line_step()) {
       if (!walker_.line_empty()) draw_line(line, pixel);
       if (walker_.line_last()) return;
@@ -44,7 +51,7 @@ class TokenRasterizer {
   /// The triangle walker after it loaded the header of this vector.
   TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
     TriangleWalker<Exact> walker;
-    walker.line_load(walk_of(vector));
+    walker.line_load(walk_of<Preset>(vector));
     return walker;
   }
   const ZInterpolator<Exact>& depth() const { return depth_; }
@@ -58,24 +65,8 @@ class TokenRasterizer {
   using PlaneAt = typename Preset::plane_header_at;
   using Plane = PlaneInterpolator<Preset::c_plane_sum_bits>;
 
-  static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
-  /// Colour before the first processor: half a step if it has a fraction, so that truncation rounds.
-  static constexpr std::uint32_t c_first_radiance =
-      Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
-
-  // The header starts within a word, so copy it.
-  std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk_of(
-      std::span<const std::uint32_t> vector) const {
-    std::array<std::uint32_t, words_of(Exact::c_init_header_bits)> walk;
-    for (std::size_t i = 0; i < walk.size(); ++i)
-      walk[i] = static_cast<std::uint32_t>(
-          get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0}, layout_.walk_low()));
-    static_assert(Exact::c_init_header_bits % 32 == 0);
-    return walk;
-  }
-
   void line_load(std::span<const std::uint32_t> vector) {
-    const auto walk = walk_of(vector);
+    const auto walk = walk_of<Preset>(vector);
     walker_.line_load(walk);
     depth_.line_load(walk);
     for (int p = 0; p < layout_.planes(); ++p) {
@@ -85,18 +76,7 @@ class TokenRasterizer {
       planes_[static_cast<std::size_t>(p)].line_load(word(PlaneAt::value), word(PlaneAt::dx),
                                                      word(PlaneAt::de0), word(PlaneAt::de1));
     }
-    const auto material = [&](int low, int bits) {
-      return static_cast<std::uint32_t>(
-          get_bits(vector, {"", low, bits, false, 0}, layout_.init_material_low()));
-    };
-    constexpr int c_k = Preset::c_coefficient_bits;
-    if (config_.specular) token_.exponent = material(layout_.exponent_low(), Preset::c_exponent_bits);
-    for (int i = 0; i < config_.channels; ++i) {
-      const auto channel = static_cast<std::size_t>(i);
-      token_.ambient[channel] = material(layout_.ambient_low(i), c_k);
-      if (config_.diffuse) token_.diffuse[channel] = material(layout_.diffuse_low(i), c_k);
-      if (config_.specular) token_.specular[channel] = material(layout_.specular_low(i), c_k);
-    }
+    token_.decode_material(config_, vector);
   }
   void line_step() {
     const bool carry = walker_.carry();
@@ -129,7 +109,7 @@ class TokenRasterizer {
       if (layout_.has_place())
         for (int i = 0; i < c_axes; ++i) token_.place[static_cast<std::size_t>(i)] = plane_value(c_axes + i);
       if (layout_.has_distance()) token_.distance = plane_value(2 * c_axes);
-      token_.radiance.fill(c_first_radiance);
+      token_.radiance.fill(Token::c_first_radiance);
       pixel(x);
       span_step();
     }

@@ -36,6 +36,15 @@ package tb_processors_pkg is
     config(true, 3, 1, 0, 0, true, true, true, false), config(true, 1, 2, 0, 0, true, false, false, false),
     config(true, 3, 1, 1, 0, true, true, true, true), config(false, 3, 1, 1, 1, true, true, true, false));
 
+  -- The hardware with object processors that the testbenches of rtl/objects run (tb/vectors/object_scene.hpp).
+  constant c_fronts    : configs_t(0 to 2)      := (c_shaders(2), c_shaders(3), c_shaders(0));
+  constant c_subpixels : integer_vector(0 to 2) := (16, 4, 1);
+
+  -- Their files, and those of vectors that cause a fault.
+  function front_name (front : natural) return string;
+
+  function front_name (front : natural; wrong : boolean; fault : string) return string;
+
 end package;
 
 package body tb_processors_pkg is
@@ -49,6 +58,19 @@ package body tb_processors_pkg is
   begin
     return preset_name(c.exact) & "_" & to_string(c.channels) & to_string(c.directional) & to_string(c.positional)
       & to_string(c.spots) & digit(c.diffuse) & digit(c.specular) & digit(c.normalize) & digit(c.shadows);
+  end function;
+
+  function front_name (front : natural) return string is
+  begin
+    return config_name(c_fronts(front)) & "_" & to_string(c_subpixels(front));
+  end function;
+
+  function front_name (front : natural; wrong : boolean; fault : string) return string is
+  begin
+    if wrong then
+      return front_name(front) & "_" & fault;
+    end if;
+    return front_name(front);
   end function;
 
   function processor_name (p : processor_t) return string is

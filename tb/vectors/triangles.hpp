@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "frame/fragment.hpp"
 #include "golden/triangle_walker.hpp"
 #include "golden/walker_clock.hpp"
 #include "setup/walk.hpp"

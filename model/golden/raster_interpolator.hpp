@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Golden model of rtl/objects/raster_interpolator.vhd.
+#pragma once
+
+#include "golden/words.hpp"
+
+namespace halfway::golden {
+
+/// A value at each pixel of a strip, in raster order.
+template <int W>
+class RasterInterpolator {
+ public:
+  using Value = Word<W>;
+
+  void load(Value start, Value dx, Value dy) {
+    next_line_ = start;
+    dx_ = dx;
+    dy_ = dy;
+  }
+  void line_step() {
+    value_ = next_line_;
+    next_line_ += dy_;
+  }
+  void pixel_step() { value_ += dx_; }
+
+  /// At the centre of the pixel.
+  Value value() const { return value_; }
+  /// At a subpixel of `side` by `side`.
+  Value value(int side, int row, int column) const {
+    const std::uint64_t eighths =
+        8 * value_.bits() + from_centre(side, column, dx_) + from_centre(side, row, dy_);
+    return Value::from_bits(eighths >> 3);
+  }
+
+ private:
+  static_assert(W <= 61);
+  // In eighths of a pixel. Sums wrap.
+  static std::uint64_t from_centre(int side, int index, Value change) {
+    return static_cast<std::uint64_t>((2 * index + 1 - side) * (4 / side)) *
+           static_cast<std::uint64_t>(change.value());
+  }
+  Value next_line_, value_, dx_, dy_;
+};
+
+}  // namespace halfway::golden

@@ -1,0 +1,81 @@
+-- SPDX-License-Identifier: Apache-2.0
+-- Clocks, resets and feeds an entity with a stream at both ends, and compares each word that leaves it with a file: by
+-- turns at full speed and with stalls of either side. At the end the entity is not busy, and fault has its expected value.
+library ieee;
+use ieee.std_logic_1164.all;
+use work.tb_pkg.all;
+
+entity stream_checker is
+  generic (
+    g_file  : string; -- without _in.txt and _out.txt
+    g_fault : std_logic := '0'
+  );
+  port (
+    clk       : buffer std_logic := '0';
+    reset     : buffer std_logic;
+    in_valid  : out    std_logic;
+    in_ready  : in     std_logic;
+    in_word   : out    std_logic_vector;
+    out_valid : in     std_logic;
+    out_ready : buffer std_logic;
+    out_word  : in     std_logic_vector;
+    busy      : in     std_logic;
+    fault     : in     std_logic
+  );
+end entity;
+
+architecture sim of stream_checker is
+  -- Clocks after the last word in which nothing more may leave.
+  constant c_rest : positive := 400;
+
+  signal ended, fed : boolean := false;
+begin
+  clk <= not clk after c_half_period when not ended;
+
+  source : entity work.stream_source
+    generic map (g_file => g_file & "_in.txt", g_pace => 150, g_pause => 2)
+    port map (clk => clk, reset => reset, valid => in_valid, ready => in_ready, word => in_word, fed => fed);
+
+  sink : entity work.stream_sink
+    generic map (g_name => g_file, g_pace => 110, g_pause => 1)
+    port map (clk => clk, reset => reset, valid => out_valid, ready => out_ready, word => out_word);
+
+  check : process is
+    variable vectors : vectors_t;
+    variable still   : natural := 0; -- clocks without a word
+  begin
+    vectors.open_file(g_file & "_out.txt");
+    while vectors.next_vector loop
+      loop
+        wait until rising_edge(clk) and reset = '0';
+        exit when out_valid = '1' and out_ready = '1';
+        still := still + 1;
+        if still > 100000 then
+          vectors.fail("this word does not leave");
+        end if;
+      end loop;
+      still := 0;
+      vectors.check("word", out_word);
+    end loop;
+    if not fed then
+      wait until fed for 100000 * c_half_period;
+    end if;
+    for i in 1 to c_rest loop
+      wait until rising_edge(clk);
+      if out_valid /= '0' then
+        vectors.fail("a word more than there are");
+      end if;
+    end loop;
+    if not fed then
+      vectors.fail("not all words are taken");
+    end if;
+    if busy /= '0' then
+      vectors.fail("busy after the last word");
+    end if;
+    if fault /= g_fault then
+      vectors.fail("fault is " & to_string(fault));
+    end if;
+    ended <= true;
+    finish(finished);
+  end process;
+end architecture;

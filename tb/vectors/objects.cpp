@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vectors of the chain of object processors and of its parts.
+#include <fmt/format.h>
+
+#include "golden/object_front.hpp"
+#include "sim/files/vector_file.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/object_scene.hpp"
+#include "vectors/pipeline.hpp"
+#include "vectors/processor_list.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using words::Command, words::Exact, words::ProcessorsConfig, words::set_bits;
+
+template <class Preset>
+std::string stem_of(const ProcessorsConfig& config, int subpixels) {
+  return fmt::format("{}_{}", name_of<Preset>(config), subpixels);
+}
+
+// An item from its fields. Parts have 64 bits.
+template <class Preset>
+std::vector<std::uint32_t> item_of(const golden::ObjectWord<Preset>& word, const ProcessorsConfig& config) {
+  std::vector<std::uint32_t> item(static_cast<std::size_t>(
+      (words::ProcessorsLayout<Preset>(config).token_bits() + golden::c_part_bits) / 32 + 1));
+  if (word.kind == golden::ObjectKind::item)
+    word.token.encode(config, item);
+  else
+    set_bits(item, {"", 0, golden::c_part_bits, false, 0}, word.part);
+  return item;
+}
+
+template <class Preset>
+void add_word(VectorFile& file, const golden::ObjectWord<Preset>& word, const ProcessorsConfig& config,
+              int subpixels) {
+  const int bits = golden::item_bits<Preset>(config);
+  Flat all = flat(item_of(word, config), bits);
+  all.add(word.mask, subpixels).add(static_cast<std::uint64_t>(word.kind), 2);
+  file.words_of(all.words, all.bits);
+}
+
+// The files of a chain: the vectors, the words after the source, before and after one processor and after
+// the last, and the tokens.
+template <class Preset>
+class ChainFiles {
+ public:
+  ChainFiles(const ProcessorsConfig& config, int subpixels, int objects)
+      : config_(config),
+        subpixels_(subpixels),
+        bits_(words::ProcessorsLayout<Preset>(config).init_bits()),
+        token_bits_(words::ProcessorsLayout<Preset>(config).token_bits()),
+        source_(config, subpixels),
+        chain_(static_cast<std::size_t>(objects), golden::ObjectProcessor<Preset>(config, subpixels)),
+        output_(config),
+        words_(chain_.size() + 1) {}
+
+  void send(const InitVector& vector) {
+    vectors_.words_of(vector, bits_).end_vector();
+    source_.take(vector, [&](const Word& word) { pass(0, word); });
+  }
+  bool source_fault() const { return source_.fault(); }
+  bool output_fault() const { return output_.fault(); }
+
+  void write_source(const Folder& folder, const std::string& stem) const {
+    vectors_.write(folder / (stem + "_in.txt"));
+    words_[0].write(folder / (stem + "_out.txt"));
+  }
+  void write_processor(const Folder& folder, const std::string& stem) const {
+    words_[1].write(folder / (stem + "_in.txt"));
+    words_[2].write(folder / (stem + "_out.txt"));
+  }
+  void write_output(const Folder& folder, const std::string& stem) const {
+    words_.back().write(folder / (stem + "_in.txt"));
+    tokens_.write(folder / (stem + "_out.txt"));
+  }
+  void write_front(const Folder& folder, const std::string& stem) const {
+    vectors_.write(folder / (stem + "_in.txt"));
+    tokens_.write(folder / (stem + "_out.txt"));
+  }
+
+ private:
+  using Word = golden::ObjectWord<Preset>;
+
+  void pass(std::size_t at, const Word& word) {
+    add_word(words_[at], word, config_, subpixels_);
+    words_[at].end_vector();
+    if (at < chain_.size()) {
+      chain_[at].take(word, [&](const Word& next) { pass(at + 1, next); });
+      return;
+    }
+    output_.take(word, [&](const golden::ShadingToken<Preset>& token, std::uint32_t mask) {
+      std::vector<std::uint32_t> words(static_cast<std::size_t>(token_bits_ + 31) / 32);
+      token.encode(config_, words);
+      Flat all = flat(words, token_bits_);
+      all.add(mask, subpixels_);
+      tokens_.words_of(all.words, all.bits).end_vector();
+    });
+  }
+
+  ProcessorsConfig config_;
+  int subpixels_, bits_, token_bits_;
+  golden::ObjectSource<Preset> source_;
+  std::vector<golden::ObjectProcessor<Preset>> chain_;
+  golden::ObjectOutput<Preset> output_;
+  VectorFile vectors_, tokens_;
+  std::vector<VectorFile> words_;
+};
+
+constexpr int c_objects = 4;  // processors, as in object_front_tb.vhd
+
+// Strips of triangles, with loads between. The last strip is ended.
+template <class Preset>
+ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels) {
+  ObjectScene<Preset> scene(config, subpixels, static_cast<std::uint64_t>(subpixels));
+  ChainFiles<Preset> files(config, subpixels, c_objects);
+  for (int i = 0; i < 24; ++i) {
+    const Strip strip = scene.any_strip();
+    while (scene.random().one_in(2)) files.send(scene.load_vector());
+    files.send(scene.strip_vector(strip));
+    for (const StripTriangle& t : scene.triangles(strip, 30, c_objects)) files.send(t.vector);
+    if (scene.random().one_in(3)) files.send(scene.end_vector());
+  }
+  files.send(scene.end_vector());
+  if (files.source_fault() || files.output_fault())
+    throw Failure{tool_failed("object_front: a fault, but the triangles fit")};
+  return files;
+}
+
+// The same with vectors that are refused. `crowded`: more triangles on a line than processors.
+template <class Preset>
+ChainFiles<Preset> wrong_strips_of(const ProcessorsConfig& config, int subpixels, bool crowded) {
+  ObjectScene<Preset> scene(config, subpixels, 3);
+  ChainFiles<Preset> files(config, subpixels, c_objects);
+  const Strip strip{7, 6, 9, 5, static_cast<std::uint32_t>(golden::side_of(subpixels))};
+  auto triangles = scene.triangles(strip, 30, crowded ? c_objects + 2 : 2);
+  if (!crowded) {
+    files.send(triangles.front().vector);  // before any strip
+    std::reverse(triangles.begin(), triangles.end());
+  }
+  files.send(scene.strip_vector(strip));
+  for (const StripTriangle& t : triangles) files.send(t.vector);
+  if (!crowded) {
+    InitVector unknown = scene.load_vector();
+    set_bits(unknown, Preset::request_header_at::command, static_cast<std::uint32_t>(Command::depth));
+    files.send(unknown);
+    Strip lower = strip;
+    lower.lines = 1;
+    files.send(scene.strip_vector(lower));
+    for (const StripTriangle& t : scene.triangles(strip, 6, 9)) files.send(t.vector);  // below the strip
+  }
+  files.send(scene.end_vector());
+  if (files.source_fault() == crowded || files.output_fault() != crowded)
+    throw Failure{tool_failed("object_front: the wrong fault")};
+  return files;
+}
+
+// write(files, folder, stem) for each hardware: strips, and faulty ones.
+template <class Write>
+auto of_chains(const char* faulty, const Write& write) {
+  return [faulty, write](const Folder& folder) {
+    for_each_object_front([&]<class Preset>(const ProcessorsConfig& config, int subpixels) {
+      const std::string stem = stem_of<Preset>(config, subpixels);
+      write(strips_of<Preset>(config, subpixels), folder, stem);
+      if (*faulty != 0)
+        write(wrong_strips_of<Preset>(config, subpixels, faulty == std::string_view("crowded")), folder,
+              stem + "_" + faulty);
+    });
+  };
+}
+
+// A line: checked, load, line_step, pixel_step, start, dx, dy, centre, row, column; value, before the edge.
+void write_interpolator(const Folder& folder) {
+  const auto write = [&]<int W>(int side) {
+    Random random(static_cast<std::uint64_t>(W + side));
+    VectorFile file;
+    golden::RasterInterpolator<W> twin;
+    for (int triangle = 0; triangle < 60; ++triangle) {
+      const words::Word<W> start = random.word<W>(), dx = random.word<W>(), dy = random.word<W>();
+      for (int clock = 0; clock < 30; ++clock) {
+        const bool load = clock == 0, line = clock == 1 || (clock > 1 && random.one_in(6));
+        const bool pixel = clock > 1 && !line && !random.one_in(5), centre = random.one_in(2);
+        const auto row = static_cast<int>(random.between(0, side - 1));
+        const auto column = static_cast<int>(random.between(0, side - 1));
+        file.flag(clock > 1).flag(load).flag(line).flag(pixel).word(start).word(dx).word(dy).flag(centre);
+        file.word(static_cast<std::uint64_t>(row), 2).word(static_cast<std::uint64_t>(column), 2);
+        file.word(centre ? twin.value() : twin.value(side, row, column)).end_vector();
+        if (load) twin.load(start, dx, dy);
+        if (line) twin.line_step();
+        if (pixel) twin.pixel_step();
+      }
+    }
+    file.write(folder / fmt::format("{}_{}.txt", W, side));
+  };
+  write.template operator()<5>(4);
+  write.template operator()<Exact::c_depth_sum_bits>(2);
+  write.template operator()<Exact::c_plane_sum_bits>(1);
+  write.template operator()<Exact::c_plane_sum_bits>(4);
+}
+
+// A line: reset, load, line_step, pixel_step, init; ready, more, known, mask, before the edge.
+void write_edges(const Folder& folder, int subpixels) {
+  const int side = golden::side_of(subpixels);
+  Random random(static_cast<std::uint64_t>(subpixels));
+  VectorFile file;
+  golden::ObjectEdges twin(side);
+  int busy = 0;  // clocks until ready
+  bool known = false, stepped = false;
+  InitVector init(Exact::c_init_header_bits / 32);
+  const auto clock = [&](bool reset, bool load, bool line, bool pixel) {
+    file.flag(reset).flag(load).flag(line).flag(pixel).words_of(init, Exact::c_init_header_bits);
+    file.flag(busy == 0).flag(known && twin.more());
+    file.flag(stepped).word(twin.mask(), subpixels).end_vector();
+    if (load) twin.load(init);
+    if (line) twin.line_step();
+    if (pixel) twin.pixel_step();
+    if (load || line) busy = side;
+    else if (busy > 0) --busy;
+    known = (known || load) && !reset;
+    stepped = stepped || line;
+    if (reset) busy = 0;
+  };
+  for (int i = 0; i < 150; ++i) {
+    init = random_triangle<Exact>(random, Mix::mixed, Exact::c_init_header_bits);
+    clock(false, true, false, false);
+    for (int line = 0; line < 12; ++line) {
+      while (busy != 0) clock(false, false, false, stepped && random.one_in(2));
+      const bool more = twin.more();
+      clock(false, false, true, false);
+      // Look at the pixels of the strip's first columns only, but sometimes at many.
+      for (std::int64_t pixel = random.between(0, random.one_in(30) ? 300 : 20); pixel > 0; --pixel)
+        clock(false, false, false, !random.one_in(8));
+      if (!more) break;
+    }
+    // Triangles end before another one is loaded, or are dropped.
+    while (busy != 0) clock(false, false, false, false);
+    clock(true, false, false, false);
+  }
+  file.write(folder / fmt::format("{}.txt", subpixels));
+}
+
+// A line: reset, in_valid, in_take, own, out_ready, in_word, own_word; in_ready, out_valid, out_word.
+template <class Preset>
+void write_merge(const Folder& folder, const ProcessorsConfig& config, int subpixels) {
+  using Word = golden::ObjectWord<Preset>;
+  Random random(static_cast<std::uint64_t>(subpixels));
+  VectorFile file;
+  golden::ObjectMerge<Preset> twin(subpixels);
+  const auto any_element = [&] {
+    Word word;
+    word.token.command = random.one_in(3) ? Command::shadow : Command::new_object;
+    word.token.z = static_cast<std::uint32_t>(random.between(0, 3)) << random.between(0, 22);
+    word.token.triangle = static_cast<std::uint32_t>(random.bits(2)) << random.between(0, 30);
+    word.token.exponent = static_cast<std::uint32_t>(random.bits(8));
+    if (!word.is_shadow()) word.mask = static_cast<std::uint32_t>(random.bits(subpixels));
+    if (!word.is_shadow() && random.one_in(3)) word.mask = 1U << random.between(0, subpixels - 1);
+    return word;
+  };
+  Word own = any_element();
+  bool has_own = false;
+  for (int i = 0; i < 4000; ++i) {
+    Word in = any_element();
+    const bool heads = random.one_in(4);
+    if (heads) {
+      constexpr Command c_commands[] = {Command::new_pixel, Command::new_scanline, Command::define};
+      in = {};
+      in.token.command = c_commands[random.between(0, 2)];
+    } else if (random.one_in(12)) {
+      in = {};
+      in.kind = static_cast<golden::ObjectKind>(random.between(1, 3));
+      in.part = random.bits(64);
+    }
+    const bool take = in.is_part() && random.one_in(2);
+    const auto row = [&](bool reset, bool valid, bool ready) {
+      const auto choice = twin.choose(in, take, has_own ? &own : nullptr);
+      Word out = choice.own ? own : in;
+      if (out.is_element()) out.mask = choice.mask;
+      file.flag(reset).flag(valid).flag(take).flag(has_own).flag(ready);
+      add_word(file, in, config, subpixels);
+      add_word(file, own, config, subpixels);
+      file.flag(!choice.own && (!choice.output || ready)).flag(valid && (choice.own || choice.output));
+      add_word(file, out, config, subpixels);
+      file.end_vector();
+      if (valid && (ready || !choice.output)) twin.step(in, choice);
+      if (reset) twin.reset();
+      return valid && (ready || !choice.output) && !choice.own;
+    };
+    while (random.one_in(3)) row(false, false, random.one_in(2));
+    while (!row(false, true, !random.one_in(3))) {
+    }
+    if (in.is_head()) {
+      own = any_element();
+      has_own = !random.one_in(3);
+    }
+    if (random.one_in(300)) row(true, false, true);
+  }
+  file.write(folder / (stem_of<Preset>(config, subpixels) + ".txt"));
+}
+
+}  // namespace
+
+std::vector<Entity> objects_entities() {
+  return {
+      {"raster_interpolator", write_interpolator},
+      {"object_edges", of_sizes(write_edges, {{1}, {4}, {16}})},
+      {"object_merge",
+       [](const Folder& folder) {
+         for_each_object_front([&]<class Preset>(const ProcessorsConfig& config, int subpixels) {
+           write_merge<Preset>(folder, config, subpixels);
+         });
+       }},
+      {"object_processor",
+       of_chains("", [](const auto& files, const Folder& f, const std::string& s) { files.write_processor(f, s); })},
+      {"object_source",
+       of_chains("refused", [](const auto& files, const Folder& f, const std::string& s) { files.write_source(f, s); })},
+      {"object_output",
+       of_chains("crowded", [](const auto& files, const Folder& f, const std::string& s) { files.write_output(f, s); })},
+      {"object_front",
+       of_chains("crowded", [](const auto& files, const Folder& f, const std::string& s) { files.write_front(f, s); })},
+  };
+}
+
+}  // namespace halfway::vectors

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// The chain of object processors compared with a model without a chain: for each pixel the coverage by a walk of
+// all subpixels, values by a product, then sort and resolve.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <set>
+#include <tuple>
+
+#include "golden/object_front.hpp"
+#include "vectors/object_scene.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using words::Command, words::Exact, words::ProcessorsConfig;
+
+// What is compared of a token.
+struct Shown {
+  Command command;
+  std::uint32_t y, x, z, triangle, mask;
+  std::int64_t normal_x;
+  bool operator==(const Shown&) const = default;
+};
+void PrintTo(const Shown& s, std::ostream* out) {
+  *out << static_cast<int>(s.command) << " at " << s.y << ',' << s.x << " z " << s.z << " triangle "
+       << s.triangle << " mask " << s.mask << " N " << s.normal_x;
+}
+
+template <class Preset>
+std::vector<Shown> tokens_of(const std::vector<InitVector>& vectors, const ProcessorsConfig& config,
+                             int subpixels, int objects, bool* fault = nullptr) {
+  golden::ObjectFront<Preset> front(config, subpixels, objects);
+  std::vector<Shown> tokens;
+  for (const InitVector& vector : vectors)
+    front.take(vector, [&](const auto& t, std::uint32_t mask) {
+      tokens.push_back({t.command, t.y, t.x, t.z, t.triangle, mask, t.normal[0]});
+    });
+  EXPECT_FALSE(front.busy());
+  if (fault) *fault = front.fault();
+  return tokens;
+}
+
+// Subpixels (y, x) of a walk.
+std::set<std::array<std::int64_t, 2>> covered_by(const InitVector& walk) {
+  std::set<std::array<std::int64_t, 2>> covered;
+  for (const WalkedLine& line : walk_lines<Exact>(walk))
+    for (std::int64_t i = 0; i < line.pixels(); ++i)
+      covered.insert({line.y, line.start.value() + (line.backward ? -i : i)});
+  return covered;
+}
+
+template <class Preset>
+class Unordered {
+ public:
+  Unordered(const ProcessorsConfig& config, const Strip& strip) : config_(config), strip_(strip) {}
+
+  std::vector<Shown> tokens(const std::vector<StripTriangle>& triangles) const {
+    for (const StripTriangle& t : triangles) coverage_.push_back(covered_by(header_of(t)));
+    std::vector<Shown> all;
+    for (std::uint32_t y = 0; y < strip_.lines; ++y) {
+      bool line = true;
+      for (std::uint32_t x = 0; x < strip_.columns; ++x) {
+        const std::vector<Shown> list = resolved(triangles, y, x);
+        if (list.empty()) continue;
+        if (config_.shadows)
+          all.push_back({line ? Command::new_scanline : Command::new_pixel, strip_.y + y, strip_.x + x});
+        line = false;
+        all.insert(all.end(), list.begin(), list.end());
+      }
+    }
+    return all;
+  }
+
+ private:
+  using At = Exact::init_header_at;
+
+  static InitVector header_of(const StripTriangle& t) {
+    const auto walk = golden::walk_of<Preset>(t.vector);
+    return {walk.begin(), walk.end()};
+  }
+
+  // value + columns * dx + lines * dy, in eighths of a pixel.
+  static std::uint64_t at(std::uint64_t value, std::int64_t dx, std::int64_t dy, std::int64_t columns,
+                          std::int64_t lines) {
+    return (8 * value + static_cast<std::uint64_t>(columns * dx) + static_cast<std::uint64_t>(lines * dy)) >> 3;
+  }
+  template <int W>
+  static std::int64_t word(std::span<const std::uint32_t> vector, const words::Field& field, int low) {
+    return words::Word<W>::from_bits(get_bits(vector, field, low)).value();
+  }
+
+  Shown element(const StripTriangle& t, std::size_t number, std::uint32_t y, std::uint32_t x) const {
+    using Plane = typename Preset::plane_header_at;
+    constexpr int c_walk = words::ProcessorsLayout<Preset>::walk_low();
+    constexpr int c_plane = words::ProcessorsLayout<Preset>::plane_low(0);
+    const std::uint32_t side = strip_.side;
+    std::uint32_t mask = 0;
+    for (std::uint32_t i = 0; i < side * side; ++i)
+      mask |= static_cast<std::uint32_t>(
+                  coverage_[number].count({side * y + i / side, side * x + i % side}))
+              << i;
+    Shown e{Command::new_object, strip_.y + y, strip_.x + x, 0, 0, mask, 0};
+    if (mask == 0) return e;
+    // Eighths from the strip's first pixel to the point.
+    std::int64_t columns = 8 * x, lines = 8 * y - 8 * (static_cast<std::uint32_t>(t.first_line));
+    bool centre = true;
+    for (std::uint32_t row = (side - 1) / 2; row <= side / 2; ++row)
+      for (std::uint32_t column = (side - 1) / 2; column <= side / 2; ++column)
+        centre = centre && (mask >> (side * row + column) & 1) != 0;
+    if (!centre) {
+      const int first = std::countr_zero(mask), n = static_cast<int>(side);
+      columns += (2 * (first % n) + 1 - n) * 4 / n;
+      lines += (2 * (first / n) + 1 - n) * 4 / n;
+    }
+    const auto depth = [&](const words::Field& field) {
+      return word<Exact::c_depth_sum_bits>(t.vector, field, c_walk);
+    };
+    const auto plane = [&](const words::Field& field) {
+      return word<Preset::c_plane_sum_bits>(t.vector, field, c_plane);
+    };
+    const std::uint64_t z = at(static_cast<std::uint64_t>(depth(At::z)), depth(At::z_dx), depth(At::z_de0), columns, lines);
+    const std::uint64_t n = at(static_cast<std::uint64_t>(plane(Plane::value)), plane(Plane::dx), plane(Plane::de0), columns, lines);
+    e.z = static_cast<std::uint32_t>(words::low_bits(z >> Exact::c_depth_sum_fraction_bits, 24));
+    e.triangle = static_cast<std::uint32_t>(get_bits(t.vector, At::triangle, c_walk));
+    e.normal_x = words::Word<Preset::c_plane_sum_bits>::from_bits(n).value() >>
+                 (Preset::c_plane_sum_bits - Preset::c_vector_bits);
+    return e;
+  }
+
+  std::vector<Shown> resolved(const std::vector<StripTriangle>& triangles, std::uint32_t y,
+                              std::uint32_t x) const {
+    const std::uint32_t side = strip_.side, full = (1U << (side * side)) - 1;
+    const std::uint32_t right_below_centre = 1U << (side * (side / 2) + side / 2);
+    std::vector<Shown> all;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      Shown e = element(triangles[i], i, y, x);
+      const auto command = static_cast<Command>(get_bits(triangles[i].vector, Preset::request_header_at::command));
+      if (command == Command::shadow) {
+        if ((e.mask & right_below_centre) == 0) continue;
+        e.mask = 0;
+        e.normal_x = 0;
+        e.command = Command::shadow;
+        all.push_back(e);
+      } else if (e.mask != 0) {
+        all.push_back(e);
+      }
+    }
+    std::sort(all.begin(), all.end(), [](const Shown& a, const Shown& b) {
+      return std::tuple(a.z, a.command == Command::shadow, a.triangle) <
+             std::tuple(b.z, b.command == Command::shadow, b.triangle);
+    });
+    std::uint32_t before = 0;
+    std::vector<Shown> left;
+    for (Shown e : all) {
+      const std::uint32_t mask = e.mask;
+      e.mask &= ~before;
+      if (e.command == Command::shadow ? before != full : e.mask != 0) left.push_back(e);
+      before |= mask;
+    }
+    return left;
+  }
+
+  ProcessorsConfig config_;
+  Strip strip_;
+  mutable std::vector<std::set<std::array<std::int64_t, 2>>> coverage_;
+};
+
+template <class Preset>
+void compare_strips(const ProcessorsConfig& config, int subpixels) {
+  ObjectScene<Preset> scene(config, subpixels, 77);
+  std::size_t compared = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Strip strip = scene.any_strip();
+    const int most = 1 + i % 12;
+    std::vector<StripTriangle> triangles = scene.triangles(strip, 40, most);
+    const auto vectors = [&] {
+      std::vector<InitVector> all{scene.strip_vector(strip)};
+      for (const StripTriangle& t : triangles) all.push_back(t.vector);
+      all.push_back(scene.end_vector());
+      return all;
+    };
+    bool fault = true;
+    const std::vector<Shown> tokens = tokens_of<Preset>(vectors(), config, subpixels, most, &fault);
+    EXPECT_FALSE(fault);
+    ASSERT_EQ(tokens, Unordered<Preset>(config, strip).tokens(triangles)) << "strip " << i;
+    compared += tokens.size();
+    // More processors, and another order of the triangles that start on one line.
+    std::reverse(triangles.begin(), triangles.end());
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [](const auto& a, const auto& b) { return a.first_line < b.first_line; });
+    for (const int objects : {most, most + 1, 40})
+      ASSERT_EQ(tokens_of<Preset>(vectors(), config, subpixels, objects), tokens) << "strip " << i;
+  }
+  EXPECT_GT(compared, 1000U);
+}
+
+TEST(Objects, TheChainSortsAndResolves) {
+  for_each_object_front([]<class Preset>(const ProcessorsConfig& config, int subpixels) {
+    compare_strips<Preset>(config, subpixels);
+  });
+}
+
+// The masks are the coverage of a frame four times as wide and high.
+TEST(Objects, MasksAreTheCoverageOfALargerFrame) {
+  constexpr std::uint32_t c_columns = 9, c_lines = 7, c_side = 4;
+  Random random(5);
+  std::size_t covered = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::array<ScreenPoint, 3> corners, larger;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = {static_cast<std::int32_t>(random.between(-80, 220)),
+                    static_cast<std::int32_t>(random.between(-40, 160))};
+      larger[k] = {corners[k].x * 4, corners[k].y * 4};
+    }
+    const FrameSize frame{c_columns * c_side, c_lines * c_side};
+    std::set<std::array<std::int64_t, 2>> expected, got;
+    for (const Walk& walk : plan_walks(larger, 4, frame)) {
+      InitVector header(Exact::c_init_header_bits / 32);
+      put_walk(header, walk);
+      expected.merge(covered_by(header));
+    }
+    for (const Walk& walk : plan_walks(corners, 2, frame)) {
+      InitVector header(Exact::c_init_header_bits / 32);
+      put_walk(header, walk);
+      golden::ObjectEdges edges(c_side);
+      edges.load(header);
+      for (std::int64_t y = walk.y / c_side; edges.more(); ++y) {
+        edges.line_step();
+        for (std::uint32_t x = 0; x < c_columns; ++x, edges.pixel_step())
+          for (std::uint32_t bit = 0; bit < c_side * c_side; ++bit)
+            if ((edges.mask() >> bit & 1) != 0) got.insert({c_side * y + bit / c_side, c_side * x + bit % c_side});
+      }
+    }
+    ASSERT_EQ(got, expected) << "triangle " << i;
+    covered += got.size();
+  }
+  EXPECT_GT(covered, 10000U);
+}
+
+}  // namespace
+}  // namespace halfway::vectors
