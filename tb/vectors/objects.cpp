@@ -92,9 +92,7 @@ class ChainFiles {
     output_.take(word, [&](const golden::ShadingToken<Preset>& token, std::uint32_t mask) {
       std::vector<std::uint32_t> words(static_cast<std::size_t>(token_bits_ + 31) / 32);
       token.encode(config_, words);
-      Flat all = flat(words, token_bits_);
-      all.add(mask, subpixels_);
-      tokens_.words_of(all.words, all.bits).end_vector();
+      tokens_.words_of(words, token_bits_).word(mask, subpixels_).end_vector();
     });
   }
 

@@ -41,7 +41,7 @@ begin
           fault       => fault);
 
       check : entity work.stream_checker
-        generic map (g_file => g_folder & "/" & c_set, g_fault => to_flag(wrong))
+        generic map (g_file => g_folder & "/" & c_set, g_fault => to_flag(wrong), g_first => token_bits(c_config))
         port map (clk, reset, in_valid, in_ready, in_word, out_valid, out_ready, out_word, busy, fault);
     end generate;
   end generate;
