@@ -16,7 +16,9 @@ enum class ObjectKind { item = 0, part = 1, last_part = 2, strip_end = 3 };
 inline constexpr int c_part_bits = 64;
 
 /// Subpixels per row and per column.
-constexpr int side_of(int subpixels) { return subpixels == 16 ? 4 : subpixels == 4 ? 2 : 1; }
+constexpr int side_of(int subpixels) {
+  return subpixels == 16 ? 4 : subpixels == 4 ? 2 : 1;
+}
 
 /// Bits of an item. It is laid out as a token without its colour.
 template <class Preset>

@@ -212,8 +212,10 @@ void write_edges(const Folder& folder, int subpixels) {
     if (load) twin.load(init);
     if (line) twin.line_step();
     if (pixel) twin.pixel_step();
-    if (load || line) busy = side;
-    else if (busy > 0) --busy;
+    if (load || line)
+      busy = side;
+    else if (busy > 0)
+      --busy;
     known = (known || load) && !reset;
     stepped = stepped || line;
     if (reset) busy = 0;
@@ -307,14 +309,14 @@ std::vector<Entity> objects_entities() {
            write_merge<Preset>(folder, config, subpixels);
          });
        }},
-      {"object_processor",
-       of_chains("", [](const auto& files, const Folder& f, const std::string& s) { files.write_processor(f, s); })},
-      {"object_source",
-       of_chains("refused", [](const auto& files, const Folder& f, const std::string& s) { files.write_source(f, s); })},
-      {"object_output",
-       of_chains("crowded", [](const auto& files, const Folder& f, const std::string& s) { files.write_output(f, s); })},
-      {"object_front",
-       of_chains("crowded", [](const auto& files, const Folder& f, const std::string& s) { files.write_front(f, s); })},
+      {"object_processor", of_chains("", [](const auto& files, const Folder& f,
+                                            const std::string& s) { files.write_processor(f, s); })},
+      {"object_source", of_chains("refused", [](const auto& files, const Folder& f,
+                                                const std::string& s) { files.write_source(f, s); })},
+      {"object_output", of_chains("crowded", [](const auto& files, const Folder& f,
+                                                const std::string& s) { files.write_output(f, s); })},
+      {"object_front", of_chains("crowded", [](const auto& files, const Folder& f,
+                                               const std::string& s) { files.write_front(f, s); })},
   };
 }
 

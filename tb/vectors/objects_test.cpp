@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The chain of object processors compared with a model without a chain: for each pixel the coverage by a walk of
-// all subpixels, values by a product, then sort and resolve.
+// The chain of object processors compared with a model without a chain: for each pixel the coverage by a walk
+// of all subpixels, values by a product, then sort and resolve.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -85,7 +85,8 @@ class Unordered {
   // value + columns * dx + lines * dy, in eighths of a pixel.
   static std::uint64_t at(std::uint64_t value, std::int64_t dx, std::int64_t dy, std::int64_t columns,
                           std::int64_t lines) {
-    return (8 * value + static_cast<std::uint64_t>(columns * dx) + static_cast<std::uint64_t>(lines * dy)) >> 3;
+    return (8 * value + static_cast<std::uint64_t>(columns * dx) + static_cast<std::uint64_t>(lines * dy)) >>
+           3;
   }
   template <int W>
   static std::int64_t word(std::span<const std::uint32_t> vector, const words::Field& field, int low) {
@@ -99,8 +100,7 @@ class Unordered {
     const std::uint32_t side = strip_.side;
     std::uint32_t mask = 0;
     for (std::uint32_t i = 0; i < side * side; ++i)
-      mask |= static_cast<std::uint32_t>(
-                  coverage_[number].count({side * y + i / side, side * x + i % side}))
+      mask |= static_cast<std::uint32_t>(coverage_[number].count({side * y + i / side, side * x + i % side}))
               << i;
     Shown e{Command::new_object, strip_.y + y, strip_.x + x, 0, 0, mask, 0};
     if (mask == 0) return e;
@@ -121,8 +121,10 @@ class Unordered {
     const auto plane = [&](const words::Field& field) {
       return word<Preset::c_plane_sum_bits>(t.vector, field, c_plane);
     };
-    const std::uint64_t z = at(static_cast<std::uint64_t>(depth(At::z)), depth(At::z_dx), depth(At::z_de0), columns, lines);
-    const std::uint64_t n = at(static_cast<std::uint64_t>(plane(Plane::value)), plane(Plane::dx), plane(Plane::de0), columns, lines);
+    const std::uint64_t z =
+        at(static_cast<std::uint64_t>(depth(At::z)), depth(At::z_dx), depth(At::z_de0), columns, lines);
+    const std::uint64_t n = at(static_cast<std::uint64_t>(plane(Plane::value)), plane(Plane::dx),
+                               plane(Plane::de0), columns, lines);
     e.z = static_cast<std::uint32_t>(words::low_bits(z >> Exact::c_depth_sum_fraction_bits, 24));
     e.triangle = static_cast<std::uint32_t>(get_bits(t.vector, At::triangle, c_walk));
     e.normal_x = words::Word<Preset::c_plane_sum_bits>::from_bits(n).value() >>
@@ -137,7 +139,8 @@ class Unordered {
     std::vector<Shown> all;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       Shown e = element(triangles[i], i, y, x);
-      const auto command = static_cast<Command>(get_bits(triangles[i].vector, Preset::request_header_at::command));
+      const auto command =
+          static_cast<Command>(get_bits(triangles[i].vector, Preset::request_header_at::command));
       if (command == Command::shadow) {
         if ((e.mask & right_below_centre) == 0) continue;
         e.mask = 0;
@@ -231,7 +234,8 @@ TEST(Objects, MasksAreTheCoverageOfALargerFrame) {
         edges.line_step();
         for (std::uint32_t x = 0; x < c_columns; ++x, edges.pixel_step())
           for (std::uint32_t bit = 0; bit < c_side * c_side; ++bit)
-            if ((edges.mask() >> bit & 1) != 0) got.insert({c_side * y + bit / c_side, c_side * x + bit % c_side});
+            if ((edges.mask() >> bit & 1) != 0)
+              got.insert({c_side * y + bit / c_side, c_side * x + bit % c_side});
       }
     }
     ASSERT_EQ(got, expected) << "triangle " << i;
