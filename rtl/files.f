@@ -54,6 +54,8 @@ objects/object_processor.vhd
 objects/object_source.vhd
 objects/object_output.vhd
 objects/object_front.vhd
+objects/filter_pkg.vhd
+objects/pixel_filter.vhd
 arithmetic/unit_vector.vhd
 illumination/light_vector.vhd
 illumination/half_vector.vhd

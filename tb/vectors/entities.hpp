@@ -42,6 +42,7 @@ inline constexpr int c_short = 4;
 
 std::vector<Entity> arithmetic_entities();
 std::vector<Entity> board_entities();
+std::vector<Entity> filter_entities();
 std::vector<Entity> folded_entities();
 std::vector<Entity> illumination_entities();
 std::vector<Entity> interpolation_entities();

@@ -35,7 +35,7 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   // line.
   for (const char* inside :
        {"ambient_term", "cosine_power", "fragment_output", "half_vector", "light_state", "light_term",
-        "light_vector", "light_weight", "radiance_sum", "reflected_term", "shading_sequence", "shared_adder",
+        "light_vector", "light_weight", "pixel_filter", "radiance_sum", "reflected_term", "shading_sequence", "shared_adder",
         "shared_dot_product", "shared_multiplier", "shared_normalizer", "shared_weight", "token_order",
         "token_rasterizer", "token_register"})
     EXPECT_TRUE(listed.insert(inside).second) << inside;
