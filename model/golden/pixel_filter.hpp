@@ -51,7 +51,8 @@ class PixelFilter {
  private:
   static constexpr int c_fraction = Preset::c_radiance_fraction_bits;
   static constexpr std::int64_t c_half = (std::int64_t{1} << c_fraction) / 2;
-  static constexpr std::int64_t c_white = (std::int64_t{(1 << Preset::c_colour_bits) - 1} << c_fraction) + c_half;
+  static constexpr std::int64_t c_white =
+      (std::int64_t{(1 << Preset::c_colour_bits) - 1} << c_fraction) + c_half;
 
   /// The sum of a pixel's subpixels per channel, and its nearest object.
   struct Pixel {

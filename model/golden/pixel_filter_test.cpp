@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the filter's golden model, strip by strip, with the definition: for each pixel of the whole frame the mean
-// over 2x2 pixels in double. All values are multiples of 2^-20 below 2^8, so double is exact.
+// Compares the filter's golden model, strip by strip, with the definition: for each pixel of the whole frame
+// the mean over 2x2 pixels in double. All values are multiples of 2^-20 below 2^8, so double is exact.
 #include "golden/pixel_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,8 @@ class RandomFrame {
     std::vector<Fragment> fragments;
     for (std::uint32_t y = 0; y < c_lines; ++y)
       for (std::uint32_t x = 0; x < c_columns; ++x) {
-        const std::pair<std::uint32_t, std::uint32_t> support[] = {{y, x}, {y, x - 1}, {y - 1, x}, {y - 1, x - 1}};
+        const std::pair<std::uint32_t, std::uint32_t> support[] = {
+            {y, x}, {y, x - 1}, {y - 1, x}, {y - 1, x - 1}};
         double total = 0, colours[3] = {0, 0, 0};
         const Token* nearest = nullptr;
         for (std::size_t n = 0; n < 4; ++n) {
@@ -76,7 +77,9 @@ class RandomFrame {
           if (!list.empty() && (!nearest || list[0].token.z < nearest->z)) nearest = &list[0].token;
         }
         if (!nearest) continue;
-        const auto rounded = [&](int i) { return static_cast<std::uint8_t>(std::floor(colours[i] / total + 0.5)); };
+        const auto rounded = [&](int i) {
+          return static_cast<std::uint8_t>(std::floor(colours[i] / total + 0.5));
+        };
         fragments.push_back({nearest->triangle, nearest->z, static_cast<std::uint16_t>(y),
                              static_cast<std::uint16_t>(x), rounded(0), rounded(1), rounded(2)});
       }
@@ -86,7 +89,8 @@ class RandomFrame {
   /// The objects, each alone as a fragment.
   std::vector<Fragment> unfiltered(int channels) const {
     std::vector<Fragment> fragments;
-    for (const auto& [place, list] : pixels_) fragments.push_back(fragment_output(list.at(0).token, channels));
+    for (const auto& [place, list] : pixels_)
+      fragments.push_back(fragment_output(list.at(0).token, channels));
     return fragments;
   }
 
@@ -121,7 +125,8 @@ class RandomFrame {
       object.token.z = depth;
       depth += random_() % 2;
       for (std::uint32_t& word : object.token.radiance)
-        word = (static_cast<std::uint32_t>(random_()) & ((1U << Preset::c_radiance_bits) - 1)) >> (random_() % 3);
+        word = (static_cast<std::uint32_t>(random_()) & ((1U << Preset::c_radiance_bits) - 1)) >>
+               (random_() % 3);
       pixels_[at].push_back(object);
     }
   }
@@ -135,7 +140,8 @@ void expect_equal(const std::vector<Fragment>& got, const std::vector<Fragment>&
     return std::tuple(int{f.y}, int{f.x}, f.triangle, f.z, int{f.red}, int{f.green}, int{f.blue});
   };
   ASSERT_EQ(got.size(), expected.size());
-  for (std::size_t i = 0; i < got.size(); ++i) ASSERT_EQ(values(got[i]), values(expected[i])) << "fragment " << i;
+  for (std::size_t i = 0; i < got.size(); ++i)
+    ASSERT_EQ(values(got[i]), values(expected[i])) << "fragment " << i;
 }
 
 template <class Preset>
@@ -143,7 +149,8 @@ void expect_filters(const FilterWeights& weights) {
   for (const int channels : {1, 3})
     for (const std::uint32_t subpixels : {1U, 4U, 16U})
       for (unsigned seed = 0; seed < 20; ++seed) {
-        SCOPED_TRACE(testing::Message() << channels << " channels, " << subpixels << " subpixels, seed " << seed);
+        SCOPED_TRACE(testing::Message()
+                     << channels << " channels, " << subpixels << " subpixels, seed " << seed);
         const RandomFrame<Preset> frame(subpixels, seed);
         const auto expected = frame.filtered(channels, subpixels, weights);
         PixelFilter<Preset> filter(channels, subpixels, c_background, weights);
@@ -154,7 +161,8 @@ void expect_filters(const FilterWeights& weights) {
           const auto strip = frame.strip(filter, first, last);
           all.insert(all.end(), strip.begin(), strip.end());
         }
-        std::stable_sort(all.begin(), all.end(), [](const Fragment& a, const Fragment& b) { return a.y < b.y; });
+        std::stable_sort(all.begin(), all.end(),
+                         [](const Fragment& a, const Fragment& b) { return a.y < b.y; });
         expect_equal(all, expected);
       }
 }

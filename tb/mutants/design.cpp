@@ -14,9 +14,9 @@ namespace halfway::mutants {
 namespace {
 
 Stream read_stream(const toml::table& table) {
-  return {table["port"].value_or(std::string()), table["file"].value_or(std::string()),
+  return {table["port"].value_or(std::string()),    table["file"].value_or(std::string()),
           table["columns"].value_or(std::string()), table["prompt"].value_or(false),
-          table["with"].value_or(std::string())};
+          table["with"].value_or(std::string()),    table["steady"].value_or(std::string())};
 }
 
 std::vector<std::string> words_of(const toml::table& table, const char* name) {

@@ -19,6 +19,7 @@ struct Stream {
   std::string columns;  ///< names of ports, in the order of the file's words
   bool prompt = false;  ///< at full speed every vector is accepted immediately
   std::string with;     ///< of a strobe: it comes only while this input is 1
+  std::string steady;   ///< of an input: the port that keeps its word while no vector is offered
 };
 
 struct Design {

@@ -187,9 +187,10 @@ class Columns {
     for (std::size_t i = 0; i < bound_.size(); ++i)
       if (bound_[i].port != nullptr && bound_[i].port->is_input != 0) Model::write(bound_[i].port, row[i]);
   }
-  void drive_ones() const {
-    for (const Bound& bound : bound_)
-      if (bound.port != nullptr && bound.port->is_input != 0) Model::fill_with_ones(bound.port);
+  void drive_ones(std::string_view steady) const {
+    for (std::size_t i = 0; i < bound_.size(); ++i)
+      if (bound_[i].port != nullptr && bound_[i].port->is_input != 0 && columns_[i].name != steady)
+        Model::fill_with_ones(bound_[i].port);
   }
   /// Compares the outputs, except the port `left_out`.
   Difference compare(const std::vector<Word>& row, std::string_view left_out = {}) const {
@@ -356,7 +357,7 @@ class StreamPass {
     if (input_.waiting)
       input_.columns.drive(input_.row());
     else
-      input_.columns.drive_ones();
+      input_.columns.drive_ones(input_.stream.steady);
     Model::set(input_.valid, input_.waiting);
     Model::set(clear_, clears_now_);
     for (const Lane& lane : outputs_)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random strips for the filter. Files for each case: _in, weight and token in one word, then token, weight and background
-// for the netlist of tb/mutants; _out, the number of the token that ends the pixel, and its fragment.
+// Random strips for the filter. Files for each case: _in, weight and token in one word, then token, weight
+// and background for the netlist of tb/mutants; _out, the number of the token that ends the pixel, and its
+// fragment.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -35,28 +36,35 @@ class FilterFiles {
   explicit FilterFiles(const FilterCase& c)
       : config_{c.channels, 1, 0, 0, true, true, true, false},
         subpixels_(c.subpixels),
-        weight_bits_(c.subpixels == 16 ? 5 : c.subpixels == 4 ? 3 : 1),
+        weight_bits_(c.subpixels == 16  ? 5
+                     : c.subpixels == 4 ? 3
+                                        : 1),
         random_(static_cast<std::uint64_t>(c.channels + c.subpixels)),
+        case_(c),
         background_(c.background[0] | c.background[1] << 8 | c.background[2] << 16),
         twin_(c.channels, c.subpixels, c.background, c.weights) {}
 
   void add_strip() {
     const auto lines = random_.between(1, 7), columns = random_.one_in(20) ? 130 : random_.between(1, 24);
-    const auto y = random_.between(0, 4095 - lines), x = random_.one_in(2) ? 0 : random_.between(1, 4095 - columns);
+    const auto y = random_.between(0, 4095 - lines),
+               x = random_.one_in(2) ? 0 : random_.between(1, 4095 - columns);
     const int kind = static_cast<int>(random_.between(0, 3));  // lone pixels, all covered, mixed, empty
     for (std::int64_t line = 0; line < lines; ++line) {
       const bool empty = kind == 3 || random_.one_in(4);
       for (std::int64_t column = 0; column < columns; ++column) {
-        add_head(column == 0, y + line, x + column);
+        // The first pixel of a strip starts a line with either command.
+        add_head(column == 0 && (line > 0 || random_.one_in(2)), y + line, x + column);
         if (kind == 1 || (!empty && random_.one_in(kind == 0 ? 12 : 2))) add_objects(kind == 1);
-        if (random_.one_in(30)) add(any_token(Command::shadow), any_weight());
+        if (random_.one_in(20)) add_ignored();
       }
     }
-    for (Command command : {Command::new_frame, Command::define, Command::new_frame})
-      if (command == Command::new_frame || random_.one_in(3)) add(any_token(command), any_weight());
+    add(any_token(Command::new_frame), any_weight());
+    if (random_.one_in(3)) add_ignored();
+    if (random_.one_in(3)) add(any_token(Command::new_frame), any_weight());
   }
   void write(const Folder& folder, const FilterCase& c) const {
-    const std::string stem = fmt::format("{}_{}_{}_{}", Preset::c_name, c.channels, c.subpixels, fmt::join(c.weights, "_"));
+    const std::string stem =
+        fmt::format("{}_{}_{}_{}", Preset::c_name, c.channels, c.subpixels, fmt::join(c.weights, "_"));
     in_.write(folder / (stem + "_in.txt"));
     out_.write(folder / (stem + "_out.txt"));
   }
@@ -70,7 +78,8 @@ class FilterFiles {
     Token token;
     token.command = command;
     token.triangle = static_cast<std::uint32_t>(random_.bits(32));
-    token.z = static_cast<std::uint32_t>(random_.one_in(3) ? random_.bits(2) : random_.word(Preset::c_depth_bits));
+    token.z =
+        static_cast<std::uint32_t>(random_.one_in(3) ? random_.bits(2) : random_.word(Preset::c_depth_bits));
     token.y = static_cast<std::uint32_t>(random_.bits(12));
     token.x = static_cast<std::uint32_t>(random_.bits(12));
     for (std::uint32_t& word : token.radiance) {
@@ -81,17 +90,37 @@ class FilterFiles {
     }
     return token;
   }
+  // A colour with which the sum of this object and background is halfway between two colours, or just below.
+  std::uint32_t tied(std::int64_t background, std::int64_t weight) {
+    constexpr int c_fraction = Preset::c_radiance_fraction_bits;
+    std::int64_t step = 0, share = weight * case_.weights[0];  // of the sum
+    for (const std::int64_t w : case_.weights) step += w * subpixels_ << c_fraction;
+    const std::int64_t colour = random_.between(0, 254),
+                       distance = (2 * (colour - background) + 1) * step / 2;
+    const std::int64_t change =
+        (distance + (distance > 0 ? share - 1 : 0)) / share - (random_.one_in(2) ? 1 : 0);
+    const std::int64_t half = (1 << c_fraction) / 2;
+    return static_cast<std::uint32_t>(std::clamp((background << c_fraction) + half + change, std::int64_t{0},
+                                                 (std::int64_t{256} << c_fraction) - 1));
+  }
   void add_head(bool line, std::int64_t y, std::int64_t x) {
     Token head = any_token(line ? Command::new_scanline : Command::new_pixel);
     head.y = static_cast<std::uint32_t>(y);
     head.x = static_cast<std::uint32_t>(x);
     add(head, any_weight());
   }
+  void add_ignored() {
+    constexpr Command c_ignored[] = {Command::define, Command::redefine, Command::remove, Command::shadow};
+    add(any_token(c_ignored[random_.between(0, 3)]), any_weight());
+  }
   void add_objects(bool all) {
     const std::int64_t covered = all ? subpixels_ : random_.between(1, subpixels_);
     for (std::int64_t rest = covered; rest > 0;) {
       const std::int64_t weight = random_.one_in(3) ? rest : random_.between(1, rest);
-      add(any_token(Command::new_object), static_cast<std::uint32_t>(weight));
+      Token object = any_token(Command::new_object);
+      if (!all && random_.one_in(2))
+        for (std::size_t i = 0; i < 3; ++i) object.radiance[i] = tied(case_.background[i], weight);
+      add(object, static_cast<std::uint32_t>(weight));
       rest -= weight;
     }
   }
@@ -112,6 +141,7 @@ class FilterFiles {
   words::ProcessorsConfig config_;
   int subpixels_, weight_bits_;
   Random random_;
+  FilterCase case_;
   int background_;
   golden::PixelFilter<Preset> twin_;
   VectorFile in_, out_;

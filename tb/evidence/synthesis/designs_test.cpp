@@ -34,10 +34,10 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   // These are measured inside the shading processors: a generic of record type has no value on GHDL's command
   // line.
   for (const char* inside :
-       {"ambient_term", "cosine_power", "fragment_output", "half_vector", "light_state", "light_term",
-        "light_vector", "light_weight", "pixel_filter", "radiance_sum", "reflected_term", "shading_sequence", "shared_adder",
-        "shared_dot_product", "shared_multiplier", "shared_normalizer", "shared_weight", "token_order",
-        "token_rasterizer", "token_register"})
+       {"ambient_term",      "cosine_power",     "fragment_output", "half_vector",        "light_state",
+        "light_term",        "light_vector",     "light_weight",    "pixel_filter",       "radiance_sum",
+        "reflected_term",    "shading_sequence", "shared_adder",    "shared_dot_product", "shared_multiplier",
+        "shared_normalizer", "shared_weight",    "token_order",     "token_rasterizer",   "token_register"})
     EXPECT_TRUE(listed.insert(inside).second) << inside;
   // The object processors are not part of a shader yet.
   for (const char* objects : {"object_edges", "object_front", "object_merge", "object_output",
