@@ -104,6 +104,7 @@ run() { # page, options
       ;;
     cells) build/tb/halfway_synth cells ${evidence:+--page} --jobs "$jobs" "$@" ;;
     clocks)
+      [ "${again:-0}" != 1 ] || set -- --again "$@"
       build/tb/halfway_synth clocks ${evidence:+--page} --jobs "$jobs" "$@"
       [ -z "$evidence" ] || build/tb/halfway_synth board --page
       ;;

@@ -25,6 +25,11 @@ ClockStore::const_iterator clock_by_other_ghdl(const ClockStore& clocks, const s
   });
 }
 
+bool is_placed(const StoredClock& clock, const std::string& tools, const std::string& netlist,
+               unsigned seeds) {
+  return clock.tools == tools && clock.netlist == netlist && (clock.seeds == seeds || clock.seeds == 0);
+}
+
 Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& family) {
   ClockStore clocks;
   const std::filesystem::path path = root / clocks_file(family);

@@ -17,11 +17,11 @@ std::string clocks_file(const Family& family);
 struct StoredClock {
   Cells cells;             ///< on the device
   double mhz = 0;          ///< median of the placements; 0: the hardware is not placed
-  unsigned seeds = 0;      ///< number of placements that ended
+  unsigned seeds = 0;      ///< number of placements, with those that did not end; 0: there is no room
   std::string range{};     ///< of the placements' clocks, for the page
   std::string path{};      ///< the critical path, or why there is no clock, for the page
   std::string tools{};     ///< Synthesizer::versions
-  std::string netlist{};   ///< netlist_identity
+  std::string netlist{};   ///< netlist_identity of the design, fitted to the device's multipliers
   std::string hardware{};  ///< hardware_text
 };
 /// By the name of the design, or of the hardware key.
@@ -34,6 +34,10 @@ ClockStore::const_iterator clock_of(const ClockStore& clocks, const std::string&
 /// "GHDL 2.0.0". That netlist differs, and cannot be compared.
 ClockStore::const_iterator clock_by_other_ghdl(const ClockStore& clocks, const std::string& hardware,
                                                const std::string& ghdl);
+
+/// True if the same tools have placed this netlist with as many seeds, or have found no room for it.
+bool is_placed(const StoredClock& clock, const std::string& tools, const std::string& netlist,
+               unsigned seeds);
 
 /// Empty if there is no file.
 Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& family);

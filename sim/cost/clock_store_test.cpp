@@ -61,6 +61,17 @@ TEST(ClockStore, ReadsWhatItWrites) {
   }
 }
 
+TEST(ClockStore, KnowsWhatIsPlaced) {
+  const StoredClock clock{.seeds = 3, .tools = "GHDL 5", .netlist = "ab"};
+  EXPECT_TRUE(is_placed(clock, "GHDL 5", "ab", 3));
+  EXPECT_FALSE(is_placed(clock, "GHDL 6", "ab", 3));
+  EXPECT_FALSE(is_placed(clock, "GHDL 5", "ac", 3));
+  EXPECT_FALSE(is_placed(clock, "GHDL 5", "ab", 9));
+  const StoredClock no_room{.tools = "GHDL 5", .netlist = "ab"};
+  EXPECT_TRUE(is_placed(no_room, "GHDL 5", "ab", 9));
+  EXPECT_FALSE(is_placed(no_room, "GHDL 5", "ac", 9));
+}
+
 // The clocks of two devices do not mix, and each file has its family's cells.
 TEST(ClockStore, IsOfOneDevice) {
   const TemporaryFolder folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));

@@ -122,28 +122,37 @@ TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlFo
   EXPECT_FALSE(none.mhz);
   EXPECT_EQ(none.clock, synth::c_not_placed);
   const std::string netlist = netlist_of(key_.entity(), key_.generics());
-  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist}}});
+  const synth::StoredClock clock{
+      .cells = {1, 2, 3, 4}, .mhz = 87.5, .seeds = 3, .tools = "Placer 1", .netlist = netlist};
+  store({{"any", clock}});
   const synth::Cost stored = figures(true);
   EXPECT_EQ(stored.mhz, 87.5);
   EXPECT_EQ(stored.clock, synth::c_stored);
   EXPECT_EQ(stored.device_cells, (Cells{1, 2, 3, 4}));
   EXPECT_EQ(stored.tools, "placed with Placer 1, cells by Yosys 0.23");
   EXPECT_EQ(placements(), 0U);
-  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist + "0"}}});
+  synth::StoredClock of_another = clock;
+  of_another.netlist += "0";
+  store({{"any", of_another}});
   EXPECT_FALSE(figures(false).mhz);
   // Of another GHDL, whose netlist cannot be compared; of this one, it is other hardware.
-  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "GHDL 0, Placer 1", netlist + "0", key_.name()}}});
+  of_another.tools = "GHDL 0, Placer 1";
+  of_another.hardware = key_.name();
+  store({{"any", of_another}});
   const synth::Cost other = figures(true);
   EXPECT_EQ(other.mhz, 87.5);
   EXPECT_THAT(other.tools,
               ::testing::HasSubstr("GHDL 0, Placer 1, from a netlist that this GHDL does not write"));
   EXPECT_EQ(placements(), 0U);
-  store({{"any", {{1, 2, 3, 4}, 87.5, 3, synth::ghdl_name() + ", Placer 1", netlist + "0", key_.name()}}});
+  of_another.tools = synth::ghdl_name() + ", Placer 1";
+  store({{"any", of_another}});
   EXPECT_FALSE(figures(false).mhz);
-  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "GHDL 0, Placer 1", netlist + "0", key_.name() + "-fraction12"}}});
+  of_another.tools = "GHDL 0, Placer 1";
+  of_another.hardware += "-fraction12";
+  store({{"any", of_another}});
   EXPECT_FALSE(figures(false).mhz);
   // Hardware that has no placement.
-  store({{"any", {{7681, 2, 3, 4}, 0, 0, "Placer 1", netlist}}});
+  store({{"any", {.cells = {7681, 2, 3, 4}, .tools = "Placer 1", .netlist = netlist}}});
   const synth::Cost large = figures(true);
   EXPECT_FALSE(large.mhz);
   EXPECT_FALSE(large.fits);
@@ -184,7 +193,9 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 // Each device has its own clocks, cells and limits, for the same netlist.
 TEST_F(HardwareFiguresTest, CostsAreThoseOfTheDevice) {
   const std::string netlist = netlist_of(key_.entity(), key_.generics());
-  store({{"any", {{1, 2, 3, 4}, 87.5, 3, "Placer 1", netlist}}});
+  const synth::StoredClock clock{
+      .cells = {1, 2, 3, 4}, .mhz = 87.5, .seeds = 3, .tools = "Placer 1", .netlist = netlist};
+  store({{"any", clock}});
   EXPECT_EQ(figures(false).device, "iCE40 HX8K");
   family_ = &synth::c_ecp5;
   EXPECT_FALSE(figures(false).mhz);

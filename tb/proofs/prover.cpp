@@ -157,8 +157,7 @@ void synthesize(const std::filesystem::path& folder, const Proof& proof, const s
   if (!end.succeeded()) throw no_verdict(proof, "ghdl", end);
 }
 
-// Writes formal.v. All properties of the unit must be in it, and no others: the RTL's own assertions are of
-// constants.
+// Writes formal.v. All properties of the unit must be in it, and no others.
 void write_formal_verilog(const std::filesystem::path& folder, const Proof& proof, const Unit& unit) {
   const auto formal = formal_verilog(must(read_file(folder / "netlist.v")), unit.top);
   if (!formal) throw Failure{tool_failed(fmt::format("{}: {}", proof.unit, formal.error().message))};

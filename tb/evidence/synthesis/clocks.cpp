@@ -91,8 +91,8 @@ std::vector<page::Value> values(std::span<const page::Row> rows) {
   return values;
 }
 
-std::string identity_of(const Design& design, const Options& options) {
-  return netlist_identity(netlist_of(design, options.folders.cache));
+std::string identity_of(const Design& design, const Family& family, const Options& options) {
+  return netlist_identity(netlist_of(fitted(design, family.multiplier_bits), options.folders.cache));
 }
 
 std::vector<Placed> listed_hardware(const Options& options, const Sections& sections) {
@@ -109,7 +109,7 @@ std::vector<Placed> listed_hardware(const Options& options, const Sections& sect
 void add_hardware_of_spaces(const Options& options, const Sections& sections, std::vector<Placed>& hardware) {
   const SimulatorFolders& folders = options.folders;
   std::set<std::string> netlists;
-  for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, options));
+  for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, sections.family, options));
   const std::filesystem::path spaces = folders.source / c_spaces;
   for (const auto& [space, scene] : c_studies) {
     auto points = study::read_space(spaces / space);
@@ -122,7 +122,7 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
     const std::filesystem::path file = spaces / scene;
     for (Design& design :
          study::hardware_of_space(exists(file) ? file.string() : scene, points, folders))
-      if (netlists.insert(identity_of(design, options)).second)
+      if (netlists.insert(identity_of(design, sections.family, options)).second)
         hardware.push_back({std::move(design), sections.others});
   }
 }
@@ -148,34 +148,34 @@ StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seed
   const Clock clock = bench.synthesizer.clock(placed.design, seeds);
   const Placement* median = clock.median();
   StoredClock result{.cells = bench.synthesizer.cells(placed.design, bench.family),
+                     .seeds = static_cast<unsigned>(clock.placements.size()) + clock.endless,
                      .range = c_none,
                      .path = "not placed: " + clock.none,
                      .tools = bench.synthesizer.versions(),
-                     .netlist = identity_of(placed.design, options),
+                     .netlist = identity_of(placed.design, bench.family, options),
                      .hardware = hardware_text(placed.design)};
   if (median == nullptr) return result;
   result.mhz = median->mhz;
-  result.seeds = static_cast<unsigned>(clock.placements.size());
   result.range =
       fmt::format("{:.0f} to {:.0f} of {}{}", clock.placements.front().mhz, clock.placements.back().mhz,
-                  result.seeds,
+                  clock.placements.size(),
                   clock.endless > 0 ? fmt::format("; nextpnr does not end: {}", clock.endless) : "");
   result.path = path_text(median->path);
   return result;
 }
 
-// The stored clock, if the same tools placed the same netlist with as many seeds.
+// The stored clock if there is one, unless the flow has changed (--again).
 StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options, std::mutex& mutex) {
   if (!options.page)
     return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
-  const std::string netlist = identity_of(placed.design, options);
+  const std::string netlist = identity_of(placed.design, bench.family, options);
   unsigned seeds = 0;
   {
     const std::lock_guard lock(mutex);
     seeds = seeds_of(options, placed, bench.stored);
     const auto found = bench.stored.find(placed.design.name);
-    if (found != bench.stored.end() && found->second.tools == bench.synthesizer.versions() &&
-        found->second.netlist == netlist && (found->second.mhz == 0 || found->second.seeds == seeds))
+    if (!options.again && found != bench.stored.end() &&
+        is_placed(found->second, bench.synthesizer.versions(), netlist, seeds))
       return found->second;
   }
   const StoredClock clock = placed_clock(placed, bench, seeds, options);

@@ -21,7 +21,7 @@ inline constexpr const char* c_none = "–";  ///< in a column without a value
 struct Options {
   SimulatorFolders folders{".", {}};
   std::string part{}, device{c_hx8k.option};
-  bool quick = false, page = false;
+  bool quick = false, page = false, again = false;
   unsigned jobs = 2, seeds = 0;
 };
 
