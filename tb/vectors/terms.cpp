@@ -19,12 +19,12 @@ namespace {
 using golden::Axes, words::Exact, words::Published;
 
 // Number of points for which a light is constant; number of lights.
-constexpr int c_points = 100, c_lights = 40;
+constexpr int c_points = 100, c_term_lights = 40;
 
 // add(first of a light)
 template <class Add>
 void run_lights(const Add& add) {
-  for (int light = 0; light < c_lights; ++light)
+  for (int light = 0; light < c_term_lights; ++light)
     for (int point = 0; point < c_points; ++point) add(point == 0);
 }
 
