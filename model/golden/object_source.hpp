@@ -15,7 +15,7 @@ class ObjectSource {
  public:
   using Word = ObjectWord<Preset>;
 
-  ObjectSource(const ProcessorsConfig& config, int subpixels) : config_(config), side_(side_of(subpixels)) {}
+  ObjectSource(const ProcessorsConfig& config, int subpixels) : config_(config), subpixels_(subpixels) {}
 
   /// Takes a vector, and calls out(word) for each word that it causes.
   template <class Out>
@@ -23,7 +23,8 @@ class ObjectSource {
     using Request = typename Preset::request_header_at;
     const auto command = static_cast<Command>(get_bits(vector, Request::command));
     if (command == Command::draw || command == Command::shadow) {
-      const auto first_line = static_cast<std::uint32_t>(of_walk(vector, At::y)) / side_;
+      const auto side = static_cast<std::uint32_t>(side_of(subpixels_));
+      const auto first_line = static_cast<std::uint32_t>(of_walk(vector, At::y)) / side;
       while (strip_ && remaining_ != 0 && line_number_ < first_line) scan_line(out);
       if (!strip_ || remaining_ == 0 || line_number_ > first_line)
         fault_ = true;
@@ -59,13 +60,16 @@ class ObjectSource {
       return words::Word<Exact::c_span_x_bits>::from_bits(of_walk(vector, field)).value();
     };
     const std::int64_t first = column(At::start_x), end = column(At::upper_x);
+    const auto lines = static_cast<std::uint32_t>(of_walk(vector, At::upper_lines));
+    const bool too_large =
+        end - first > most_columns<Preset>(subpixels_) || static_cast<int>(lines) > most_lines<Preset>(subpixels_);
+    if (too_large) fault_ = true;
+    strip_ = !too_large && lines != 0 && first < end;
     line_number_ = 0;
-    remaining_ = static_cast<std::uint32_t>(of_walk(vector, At::upper_lines));
+    remaining_ = lines;
     y_ = static_cast<std::uint32_t>(of_walk(vector, At::y));
     first_x_ = wrapped(first);
-    columns_ = static_cast<std::uint32_t>(low_bits(static_cast<std::uint64_t>(end - first), 12));
-    strip_ = remaining_ != 0 && first < end;
-    if (columns_ == 0) columns_ = 1U << Preset::c_pixel_x_bits;
+    columns_ = static_cast<std::uint32_t>(end - first);
   }
 
   static std::uint32_t wrapped(std::int64_t x) {
@@ -110,7 +114,7 @@ class ObjectSource {
   }
 
   ProcessorsConfig config_;
-  std::uint32_t side_;
+  int subpixels_;
   bool strip_ = false, fault_ = false;
   std::uint32_t line_number_ = 0;  ///< of the next line, from the strip's first
   std::uint32_t remaining_ = 0;    ///< lines that are not scanned

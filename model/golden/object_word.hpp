@@ -20,6 +20,17 @@ constexpr int side_of(int subpixels) {
   return subpixels == 16 ? 4 : subpixels == 4 ? 2 : 1;
 }
 
+/// Limits of a strip, in pixels: the ends of spans must fit span_x in subpixels, and the first lines of
+/// triangles pixel_y.
+template <class Preset>
+constexpr int most_columns(int subpixels) {
+  return std::min(((1 << (Exact::c_span_x_bits - 1)) - 1) / side_of(subpixels), 1 << Preset::c_pixel_x_bits);
+}
+template <class Preset>
+constexpr int most_lines(int subpixels) {
+  return (1 << Preset::c_pixel_y_bits) / side_of(subpixels);
+}
+
 /// Bits of an item. It is laid out as a token without its colour.
 template <class Preset>
 constexpr int item_bits(const ProcessorsConfig& config) {

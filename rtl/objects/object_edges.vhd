@@ -12,6 +12,8 @@
 --             the next line. pixel_step: go to the next pixel. At most one of the three is '1'. load and line_step
 --             only where ready = '1'. init must be stable from load to the next ready.
 --             more: the next line has a part of the triangle; valid while ready = '1'.
+--             A strip has at most most_columns and most_lines (objects_pkg): with more, the ends of spans and the first
+--             lines wrap.
 -- Formats     init: header of preset exact, lines and columns in subpixels from the strip's first pixel
 -- Latency     1 clock from a step to mask, side + 1 from load or line_step to ready
 -- Throughput  1 pixel per clock; a line takes at least side + 1 clocks
@@ -51,7 +53,7 @@ architecture rtl of object_edges is
   -- Subpixels of one line of a pixel, counted from 0.
   subtype row_t is unsigned(2 downto 0);
 
-  -- Two bits more than a span's ends: no distance wraps in a strip of 4096 columns of subpixels.
+  -- Two bits more than a span's ends: no distance wraps in a strip of most_columns.
   subtype distance_t is signed(span_x_t'length + 1 downto 0);
 
   type distances_t is array (0 to c_side - 1) of distance_t;

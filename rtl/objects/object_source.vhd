@@ -9,7 +9,8 @@
 --               define, redefine, delete, new_frame    the strip before is scanned to its end; then the load enters
 -- Contract    Both streams are valid/ready. in_vector must not change while it waits; out_word does not change while it
 --             waits. Triangles come in the order of their first lines, after their strip. fault stays '1' after a
---             triangle out of this order or outside a strip, or an unknown command; such a vector is dropped.
+--             triangle out of this order or outside a strip, a strip larger than most_columns or most_lines
+--             (objects_pkg), or an unknown command; such a vector is dropped.
 --             busy: a strip is not scanned to its end. The last strip ends with the strip after it.
 -- Formats     in_vector: processors_pkg. Fields of a strip: y, upper_lines, start_x, upper_x of the walk, in pixels. y of
 --             a triangle: in subpixels from the strip's first line. out_word: objects_pkg
@@ -53,6 +54,9 @@ architecture rtl of object_source is
   constant c_pixel : pixel_header_t := pixel_header(c_exact);
   constant c_parts : positive       := object_parts(g_config);
 
+  constant c_most_columns : positive := most_columns(c_exact, g_subpixels);
+  constant c_most_lines   : positive := most_lines(c_exact, g_subpixels);
+
   subtype column_t is unsigned(formats(c_exact).pixel_x.bits - 1 downto 0);
   subtype lines_t is unsigned(formats(c_exact).lines.bits - 1 downto 0);
   -- Bits of the number of a part, as in object_processor.
@@ -82,7 +86,8 @@ architecture rtl of object_source is
   signal sends_head, sends_end : std_logic;
   signal sends_part            : std_logic;
   signal refuses, starts_line  : std_logic;
-  signal opens                 : std_logic; -- the strip is opened
+  signal opens                 : std_logic; -- the strip is opened or refused
+  signal too_large             : std_logic; -- the strip is refused
   signal last_part             : std_logic;
   signal parts                 : std_logic_vector(c_parts * c_part_bits - 1 downto 0);
   signal head                  : std_logic_vector(c_pixel.z.low - 1 downto 0);
@@ -105,6 +110,14 @@ begin
       unsigned(walk(c_init.y.high downto c_init.y.low + side_bits(g_subpixels)));
     early <= flag(first_line < r.line_number);
     now   <= flag(first_line = r.line_number);
+  end process;
+
+  measure_strip : process (all)
+    variable columns : signed(c_init.start_x.high - c_init.start_x.low + 1 downto 0);
+  begin
+    columns := resize(signed(field_of(walk, c_init.upper_x)), columns'length)
+      - resize(signed(field_of(walk, c_init.start_x)), columns'length);
+    too_large <= flag(columns > c_most_columns or unsigned(field_of(walk, c_init.upper_lines)) > c_most_lines);
   end process;
 
   -- Choose what is output. A line is scanned to its end.
@@ -205,7 +218,7 @@ begin
     -- Open a strip.
     if opens = '1' then
       v.strip       := flag(unsigned(field_of(walk, c_init.upper_lines)) /= 0
-        and signed(field_of(walk, c_init.start_x)) < signed(field_of(walk, c_init.upper_x)));
+        and signed(field_of(walk, c_init.start_x)) < signed(field_of(walk, c_init.upper_x))) and not too_large;
       v.line_number := (others => '0');
       v.remaining   := unsigned(field_of(walk, c_init.upper_lines));
       v.y           := unsigned(field_of(walk, c_init.y));
@@ -213,7 +226,7 @@ begin
       v.x           := v.first_x;
       v.last_x      := unsigned(walk(c_init.upper_x.low + column_t'high downto c_init.upper_x.low)) - 1;
     end if;
-    if refuses = '1' then
+    if refuses = '1' or (opens = '1' and too_large = '1') then
       v.fault := '1';
     end if;
     if reset = '1' then

@@ -33,6 +33,11 @@ package objects_pkg is
 
   function side_bits (subpixels : positive) return natural;
 
+  -- Limits of a strip, in pixels: the ends of spans must fit span_x in subpixels, and the first lines of triangles pixel_y.
+  function most_columns (exact : boolean; subpixels : positive) return positive;
+
+  function most_lines (exact : boolean; subpixels : positive) return positive;
+
   -- Number of parts of a host's vector: of one with an object, of one with a shadow polygon.
   function object_parts (c : config_t) return positive;
 
@@ -77,6 +82,17 @@ package body objects_pkg is
   function side_of (subpixels : positive) return positive is
   begin
     return 2 ** side_bits(subpixels);
+  end function;
+
+  function most_columns (exact : boolean; subpixels : positive) return positive is
+    constant c_most : positive := (2 ** (formats(true).span_x.bits - 1) - 1) / side_of(subpixels); -- evaluated at elaboration
+  begin
+    return minimum(c_most, 2 ** formats(exact).pixel_x.bits);
+  end function;
+
+  function most_lines (exact : boolean; subpixels : positive) return positive is
+  begin
+    return 2 ** (formats(exact).pixel_y.bits - side_bits(subpixels));
   end function;
 
   function parts_of (bits : positive) return positive is

@@ -31,6 +31,9 @@ struct StripTriangle {
 /// The part of the frame that is scanned. `side`: subpixels per row of a pixel.
 struct Strip {
   std::uint32_t y, lines, x, columns, side;
+
+  /// The last column is before the first one. Then `columns` is 0, or a negative number wrapped.
+  bool empty() const { return static_cast<std::int32_t>(columns) <= 0; }
 };
 
 /// The vectors of one host.
@@ -46,6 +49,18 @@ class ObjectScene {
       return static_cast<std::uint32_t>(random_.between(low, high));
     };
     return {number(0, 4000), number(1, 9), number(0, 4000), number(1, 12), static_cast<std::uint32_t>(side_)};
+  }
+  /// To the frame's last line and column, without columns, with a negative number of them, and the widest.
+  std::vector<Strip> limit_strips() const {
+    const auto side = static_cast<std::uint32_t>(side_);
+    const auto widest = static_cast<std::uint32_t>(golden::most_columns<Preset>(side_ * side_));
+    return {{4090, 6, 4084, 12, side}, {3, 4, 9, 0, side}, {3, 4, 9, ~2U, side}, {8, 1, 0, widest, side}};
+  }
+  /// A column more, and a line more, than a strip may have.
+  std::vector<Strip> too_large_strips() const {
+    const auto side = static_cast<std::uint32_t>(side_);
+    return {{8, 1, 0, static_cast<std::uint32_t>(golden::most_columns<Preset>(side_ * side_) + 1), side},
+            {0, static_cast<std::uint32_t>(golden::most_lines<Preset>(side_ * side_) + 1), 8, 1, side}};
   }
 
   InitVector strip_vector(const Strip& strip) {

@@ -107,16 +107,18 @@ class ChainFiles {
 
 constexpr int c_objects = 4;  // processors, as in object_front_tb.vhd
 
-// Strips of triangles, with loads between. The last strip is ended.
+// Strips of triangles, those at the limits first, with loads between. The last strip is ended.
 template <class Preset>
 ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels) {
   ObjectScene<Preset> scene(config, subpixels, static_cast<std::uint64_t>(subpixels));
   ChainFiles<Preset> files(config, subpixels, c_objects);
-  for (int i = 0; i < 24; ++i) {
-    const Strip strip = scene.any_strip();
+  std::vector<Strip> strips = scene.limit_strips();
+  for (int i = 0; i < 24; ++i) strips.push_back(scene.any_strip());
+  for (const Strip& strip : strips) {
     while (scene.random().one_in(2)) files.send(scene.load_vector());
     files.send(scene.strip_vector(strip));
-    for (const StripTriangle& t : scene.triangles(strip, 30, c_objects)) files.send(t.vector);
+    if (!strip.empty())
+      for (const StripTriangle& t : scene.triangles(strip, 30, c_objects)) files.send(t.vector);
     if (scene.random().one_in(3)) files.send(scene.end_vector());
   }
   files.send(scene.end_vector());
@@ -146,6 +148,7 @@ ChainFiles<Preset> wrong_strips_of(const ProcessorsConfig& config, int subpixels
     lower.lines = 1;
     files.send(scene.strip_vector(lower));
     for (const StripTriangle& t : scene.triangles(strip, 6, 9)) files.send(t.vector);  // below the strip
+    for (const Strip& large : scene.too_large_strips()) files.send(scene.strip_vector(large));
   }
   files.send(scene.end_vector());
   if (files.source_fault() == crowded || files.output_fault() != crowded)

@@ -175,9 +175,12 @@ template <class Preset>
 void compare_strips(const ProcessorsConfig& config, int subpixels) {
   ObjectScene<Preset> scene(config, subpixels, 77);
   std::size_t compared = 0;
-  for (int i = 0; i < 60; ++i) {
-    const Strip strip = scene.any_strip();
-    const int most = 1 + i % 12;
+  std::vector<Strip> strips = scene.limit_strips();
+  for (int i = 0; i < 60; ++i) strips.push_back(scene.any_strip());
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    const Strip& strip = strips[i];
+    if (strip.empty()) continue;
+    const int most = 1 + static_cast<int>(i) % 12;
     std::vector<StripTriangle> triangles = scene.triangles(strip, 40, most);
     const auto vectors = [&] {
       std::vector<InitVector> all{scene.strip_vector(strip)};
@@ -203,6 +206,38 @@ void compare_strips(const ProcessorsConfig& config, int subpixels) {
 TEST(Objects, TheChainSortsAndResolves) {
   for_each_object_front([]<class Preset>(const ProcessorsConfig& config, int subpixels) {
     compare_strips<Preset>(config, subpixels);
+  });
+}
+
+TEST(Objects, ReachTheLastColumnOfTheWidestStrip) {
+  for_each_object_front([]<class Preset>(const ProcessorsConfig& config, int subpixels) {
+    ObjectScene<Preset> scene(config, subpixels, 1);
+    const Strip strip = scene.limit_strips().back();
+    ASSERT_EQ(strip.columns, static_cast<std::uint32_t>(golden::most_columns<Preset>(subpixels)));
+    const std::vector<StripTriangle> triangles = scene.triangles(strip, 200, 40);
+    std::vector<InitVector> vectors{scene.strip_vector(strip)};
+    for (const StripTriangle& t : triangles) vectors.push_back(t.vector);
+    vectors.push_back(scene.end_vector());
+    const std::vector<Shown> tokens = tokens_of<Preset>(vectors, config, subpixels, 40);
+    EXPECT_EQ(tokens, Unordered<Preset>(config, strip).tokens(triangles));
+    ASSERT_FALSE(tokens.empty());
+    EXPECT_EQ(tokens.back().x, strip.columns - 1);
+  });
+}
+
+TEST(Objects, LargerStripsAreRefused) {
+  for_each_object_front([]<class Preset>(const ProcessorsConfig& config, int subpixels) {
+    ObjectScene<Preset> scene(config, subpixels, 1);
+    const auto faulty = [&](const Strip& strip) {
+      bool fault = false;
+      tokens_of<Preset>({scene.strip_vector(strip), scene.end_vector()}, config, subpixels, 1, &fault);
+      return fault;
+    };
+    for (Strip strip : scene.too_large_strips()) {
+      EXPECT_TRUE(faulty(strip));
+      (strip.lines == 1 ? strip.columns : strip.lines) -= 1;
+      EXPECT_FALSE(faulty(strip));
+    }
   });
 }
 
