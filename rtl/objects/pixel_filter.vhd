@@ -18,7 +18,7 @@
 --                                         token_weight. The weights of a pixel have a sum of g_subpixels at most: a
 --                                         simulation stops otherwise
 --               new_frame                 the strip has ended: its last pixel is output. Needed after each strip
---             Other tokens are ignored. Pixels above and to the left of a strip are background. Where the weights
+--             Other tokens, and objects outside a strip, are ignored. Pixels above and to the left of a strip are background. Where the weights
 --             reach to the left, the first column of a strip that does not start at x = 0 is only the neighbour of the
 --             second one: it gives no fragments. A strip has at most 2**g_column_bits columns. background is stable from
 --             a strip's first token until its last fragment.
@@ -443,12 +443,12 @@ begin
 
   -- Report a broken contract in the user's simulation.
   check_weights : process (clk)
-    variable sum : natural; -- of this pixel
+    variable sum : natural; -- of this pixel; objects outside a strip do not count
   begin
     if rising_edge(clk) then
       if take = '1' and head = '1' then
         sum := 0;
-      elsif take = '1' and command = c_new_object and reset = '0' then
+      elsif take = '1' and command = c_new_object and r.in_strip = '1' and reset = '0' then
         sum := sum + to_integer(unsigned(token_weight));
         assert sum <= g_subpixels
           report "pixel_filter: the weights of a pixel have a sum of " & integer'image(sum) & ", g_subpixels is "
