@@ -9,8 +9,8 @@
 -- Formats     g_bits of any format, signed; sums wrap: only the value at a covered pixel has to fit
 -- Latency     1 clock from a step to value
 -- Throughput  1 pixel per clock
--- Error       each word half a unit off, so the value (1 + lines + pixels)/2 units at most; a subpixel's value is cut: 1
---             unit more
+-- Error       each word half a unit off, so the value (1 + lines + pixels)/2 units at most; at a subpixel 5/4 units more:
+--             3/8 pixels and 3/8 lines of half a unit each, and a cut of 7/8
 -- Source      processors paper, section 2: the object processors interpolate N and P linearly; the order is ours
 -- Golden twin model/golden/raster_interpolator.hpp
 

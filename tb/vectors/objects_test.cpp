@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
 #include <set>
 #include <tuple>
 
@@ -207,6 +208,43 @@ TEST(Objects, TheChainSortsAndResolves) {
   for_each_object_front([]<class Preset>(const ProcessorsConfig& config, int subpixels) {
     compare_strips<Preset>(config, subpixels);
   });
+}
+
+// Exact values in 1/8192 units: the true start, dx and dy are multiples of 1/1024 and are rounded to units.
+TEST(Objects, InterpolatedValuesKeepTheirBound) {
+  constexpr std::int64_t c_unit = 1024, c_eighths = 8;
+  using Interpolator = golden::RasterInterpolator<30>;
+  Random random(9);
+  std::int64_t centre_worst = 0, subpixel_worst = 0;
+  for (int i = 0; i < 200000; ++i) {
+    // Often just below a half.
+    const auto any = [&] {
+      return random.between(-100, 100) * c_unit + (random.one_in(2) ? c_unit / 2 - 1 : random.between(0, c_unit - 1));
+    };
+    const std::int64_t start = any(), dx = any(), dy = any();
+    const auto rounded = [](std::int64_t value) {
+      return Interpolator::Value::from_bits(static_cast<std::uint64_t>((value + c_unit / 2) >> 10));
+    };
+    Interpolator interpolator;
+    interpolator.load(rounded(start), rounded(dx), rounded(dy));
+    const std::int64_t lines = random.between(0, 3), pixels = random.between(0, 3);
+    for (std::int64_t line = 0; line <= lines; ++line) interpolator.line_step();
+    for (std::int64_t pixel = 0; pixel < pixels; ++pixel) interpolator.pixel_step();
+    const auto excess = [&](std::int64_t value, std::int64_t columns, std::int64_t rows) {
+      const std::int64_t exact =
+          c_eighths * start + (c_eighths * pixels + columns) * dx + (c_eighths * lines + rows) * dy;
+      return std::abs(c_eighths * c_unit * value - exact) - c_eighths * c_unit * (1 + lines + pixels) / 2;
+    };
+    centre_worst = std::max(centre_worst, excess(interpolator.value().value(), 0, 0));
+    const int side = random.one_in(2) ? 2 : 4;
+    const auto row = static_cast<int>(random.between(0, side - 1)), column = static_cast<int>(random.between(0, side - 1));
+    const auto eighths = [&](int index) { return (2 * index + 1 - side) * 4 / side; };
+    subpixel_worst = std::max(
+        subpixel_worst, excess(interpolator.value(side, row, column).value(), eighths(column), eighths(row)));
+  }
+  EXPECT_EQ(centre_worst, 0);
+  EXPECT_LE(subpixel_worst, c_eighths * c_unit * 5 / 4);
+  EXPECT_GT(subpixel_worst, c_eighths * c_unit * 6 / 5);
 }
 
 TEST(Objects, ReachTheLastColumnOfTheWidestStrip) {
