@@ -5,6 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <vector>
+
 #include "golden/pixel_filter.hpp"
 #include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
@@ -36,9 +41,7 @@ class FilterFiles {
   explicit FilterFiles(const FilterCase& c)
       : config_{c.channels, 1, 0, 0, true, true, true, false},
         subpixels_(c.subpixels),
-        weight_bits_(c.subpixels == 16  ? 5
-                     : c.subpixels == 4 ? 3
-                                        : 1),
+        weight_bits_(std::bit_width(static_cast<unsigned>(c.subpixels))),
         random_(static_cast<std::uint64_t>(c.channels + c.subpixels)),
         case_(c),
         background_(c.background[0] | c.background[1] << 8 | c.background[2] << 16),
@@ -66,9 +69,9 @@ class FilterFiles {
     for (auto n = random_.between(0, 3); n > 0; --n) add(any_token(Command::new_object), any_weight());
     if (random_.one_in(3)) add(any_token(Command::new_frame), any_weight());
   }
-  void write(const Folder& folder, const FilterCase& c) const {
-    const std::string stem =
-        fmt::format("{}_{}_{}_{}", Preset::c_name, c.channels, c.subpixels, fmt::join(c.weights, "_"));
+  void write(const Folder& folder) const {
+    const std::string stem = fmt::format("{}_{}_{}_{}", Preset::c_name, case_.channels, subpixels_,
+                                         fmt::join(case_.weights, "_"));
     in_.write(folder / (stem + "_in.txt"));
     out_.write(folder / (stem + "_out.txt"));
   }
@@ -156,7 +159,7 @@ void write_filters(const Folder& folder, std::span<const FilterCase> cases) {
   for (const FilterCase& c : cases) {
     FilterFiles<Preset> files(c);
     for (int i = 0; i < 30; ++i) files.add_strip();
-    files.write(folder, c);
+    files.write(folder);
   }
 }
 
