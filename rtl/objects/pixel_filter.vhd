@@ -26,7 +26,7 @@
 --             a pixel the first one. With one channel, red, green and blue are equal, as is the background: its red.
 -- Formats     token: token_pkg; token_weight: 0 to g_subpixels; background: three colours, red lowest; fragment:
 --             formats_pkg, colour and depth
--- Latency     7 clocks from the token that ends a pixel: the next head, or new_frame
+-- Latency     8 clocks from the token that ends a pixel: the next head, or new_frame
 -- Throughput  1 token per clock
 -- Error       colours above white are white; the rest is exact and rounded once, to the nearest, halves up. The colours
 --             already contain half a step (first_radiance of token_pkg)
@@ -145,15 +145,19 @@ architecture rtl of pixel_filter is
     differences   : differences_t;
     add           : step_t;
     products      : pixels_t;
-    -- The pixel that is collected, the one before it, and that one when the pixel above it is read.
+    -- A pixel: its objects are collected; it is complete; the pixel above is read; all its neighbours are known.
     pixel         : entry_t;
     place         : place_t;
     done_valid    : std_logic;
     done          : entry_t;
     done_place    : place_t;
+    read_valid    : std_logic;
+    read          : entry_t;
+    read_place    : place_t;
     current_valid : std_logic;
     current       : entry_t;
     current_place : place_t;
+    above         : entry_t;
     left          : entry_t;
     above_left    : entry_t;
     -- The support in two halves: this line and the line above.
@@ -174,7 +178,7 @@ architecture rtl of pixel_filter is
   attribute ram_style                : string;
   attribute ram_style of memory_line : signal is "block";
 
-  signal above                          : entry_t; -- read from memory_line
+  signal memory_q                       : entry_t;
   signal column                         : unsigned(g_column_bits - 1 downto 0);
   signal command                        : command_t;
   signal head                           : std_logic;
@@ -327,18 +331,22 @@ begin
     end if;
 
     -- Read the pixel above.
-    v.current_valid := r.done_valid;
-    v.current       := r.done;
-    v.current_place := r.done_place;
+    v.read_valid    := r.done_valid;
+    v.read          := r.done;
+    v.read_place    := r.done_place;
+    v.current_valid := r.read_valid;
+    v.current       := r.read;
+    v.current_place := r.read_place;
+    v.above         := memory_q;
     if r.current_valid = '1' then
       v.left       := r.current;
-      v.above_left := above;
+      v.above_left := r.above;
     end if;
 
     -- Add the two halves of the support.
     itself   := member_of(r.current, g_weights(c_itself), '0');
     left     := member_of(r.left, g_weights(c_left), r.current_place.first_column);
-    over     := member_of(above, g_weights(c_above), r.current_place.first_line);
+    over     := member_of(r.above, g_weights(c_above), r.current_place.first_line);
     diagonal := member_of(r.above_left, g_weights(c_above_left), r.current_place.first_column or r.current_place.first_line);
     for channel in 0 to c_channels - 1 loop
       v.this_line(channel)  := half_of(itself, g_weights(c_itself), left, g_weights(c_left), channel);
@@ -350,16 +358,17 @@ begin
     v.above_near := nearer_of(nearest_of(over), nearest_of(diagonal));
 
     if reset = '1' then
-      v.in_strip     := '0';
-      v.weigh.ends   := '0';
-      v.weigh.starts := '0';
-      v.weigh.adds   := '0';
-      v.add.ends     := '0';
-      v.add.starts   := '0';
-      v.add.adds     := '0';
-      v.done_valid   := '0';
+      v.in_strip      := '0';
+      v.weigh.ends    := '0';
+      v.weigh.starts  := '0';
+      v.weigh.adds    := '0';
+      v.add.ends      := '0';
+      v.add.starts    := '0';
+      v.add.adds      := '0';
+      v.done_valid    := '0';
+      v.read_valid    := '0';
       v.current_valid := '0';
-      v.sum_valid    := '0';
+      v.sum_valid     := '0';
     end if;
     r_next <= v;
   end process;
@@ -377,7 +386,7 @@ begin
   begin
     if rising_edge(clk) then
       if r.done_valid = '1' then
-        above                           <= memory_line(to_integer(column));
+        memory_q                        <= memory_line(to_integer(column));
         memory_line(to_integer(column)) <= r.done;
       end if;
     end if;

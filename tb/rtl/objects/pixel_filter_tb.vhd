@@ -1,6 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Random strips: at full speed, with a slow source, with a slow sink, and with both. Until the first stall a fragment leaves
--- 7 clocks after the token that ends its pixel, later at least 7. A token is taken in each clock without a stall.
+-- 8 clocks after the token that ends its pixel, later at least 8. A token is taken in each clock without a stall.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.formats_pkg.all;
@@ -13,7 +13,7 @@ entity pixel_filter_tb is
 end entity;
 
 architecture sim of pixel_filter_tb is
-  constant c_latency : positive := 7;
+  constant c_latency : positive := 8;
   constant c_steady  : positive := 20; -- clocks without a stall, after which a token is taken in each clock
   constant c_rest    : positive := 100; -- clocks after the last token
 
@@ -40,7 +40,8 @@ begin
     constant c_formats : formats_t := formats(c_case.exact);
     constant c_bits    : positive  := token_bits(c_config);
     constant c_file    : string    := g_folder & "/" & preset_name(c_case.exact) & "_"
-      & joined((c_case.channels, c_case.subpixels, c_case.weights(0), c_case.weights(1), c_case.weights(2), c_case.weights(3)));
+      & joined((c_case.channels, c_case.subpixels, c_case.weights(c_itself), c_case.weights(c_left),
+      c_case.weights(c_above), c_case.weights(c_above_left)));
 
     signal ended                          : boolean := false;
     signal fed                            : boolean;
