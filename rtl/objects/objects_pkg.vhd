@@ -85,9 +85,14 @@ package body objects_pkg is
   end function;
 
   function most_columns (exact : boolean; subpixels : positive) return positive is
-    constant c_most : positive := (2 ** (formats(true).span_x.bits - 1) - 1) / side_of(subpixels); -- evaluated at elaboration
+    constant c_in_a_span : positive :=
+      (2 ** (formats(true).span_x.bits - 1) - 1) / side_of(subpixels); -- evaluated at elaboration
+    constant c_in_a_frame : positive := 2 ** formats(exact).pixel_x.bits;
   begin
-    return minimum(c_most, 2 ** formats(exact).pixel_x.bits);
+    if c_in_a_span < c_in_a_frame then
+      return c_in_a_span;
+    end if;
+    return c_in_a_frame;
   end function;
 
   function most_lines (exact : boolean; subpixels : positive) return positive is

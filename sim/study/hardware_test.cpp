@@ -201,12 +201,17 @@ TEST_F(HardwareFiguresTest, CostsAreThoseOfTheDevice) {
   EXPECT_FALSE(figures(false).mhz);
   set_results("7681", "30", "40");
   EXPECT_TRUE(figures(false).fits);
-  store({{"any", {{.luts = 5, .multipliers = 6}, 120.5, 3, "Placer 2", netlist}}});
+  store({{"any",
+          {.cells = {.luts = 5, .multipliers = 6},
+           .mhz = 120.5,
+           .seeds = 3,
+           .tools = "Placer 2",
+           .netlist = netlist}}});
   const synth::Cost stored = figures(false);
   EXPECT_EQ(stored.device, "ECP5 LFE5U-85F");
   EXPECT_EQ(stored.mhz, 120.5);
   EXPECT_EQ(stored.device_cells, (Cells{.luts = 5, .multipliers = 6}));
-  store({{"any", {{.multipliers = 157}, 0, 0, "Placer 2", netlist}}});
+  store({{"any", {.cells = {.multipliers = 157}, .tools = "Placer 2", .netlist = netlist}}});
   EXPECT_EQ(figures(false).clock, "does not fit the LFE5U-85F: 157 multipliers of 156");
 }
 
