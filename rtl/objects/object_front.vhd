@@ -9,7 +9,8 @@
 --             ended takes the next one. The tokens depend neither on the number of processors nor on the order of the
 --             triangles that start on one line.
 -- Contract    Both streams are valid/ready. in_vector must not change while it waits; see object_source for the order of
---             vectors. token and token_mask do not change while they wait.
+--             vectors. in_ready depends on in_valid and in_vector in the same clock, not on token_ready. token and
+--             token_mask do not change while they wait.
 --             fault stays '1' after a triangle for which no processor was free, and as in object_source. Then discard
 --             all tokens. busy: a word is in the chain, or a strip is not scanned to its end.
 -- Formats     in_vector: processors_pkg; see object_source and object_processor. token: token_pkg

@@ -8,9 +8,10 @@
 --                               before is scanned to its end. A strip without a pixel only ends the one before
 --               define, redefine, delete, new_frame    the strip before is scanned to its end; then the load enters
 -- Contract    Both streams are valid/ready. in_vector must not change while it waits; out_word does not change while it
---             waits. Triangles come in the order of their first lines, after their strip. fault stays '1' after a
---             triangle out of this order or outside a strip, a strip larger than most_columns or most_lines
---             (objects_pkg), or an unknown command; such a vector is dropped.
+--             waits. in_ready depends on in_valid, in_vector and out_ready in the same clock.
+--             Triangles come in the order of their first lines, after their strip. fault stays '1' after a triangle out of
+--             this order or outside a strip, a strip larger than most_columns or most_lines (objects_pkg), or an
+--             unknown command; such a vector is dropped.
 --             busy: a strip is not scanned to its end. The last strip ends with the strip after it.
 -- Formats     in_vector: processors_pkg. Fields of a strip: y, upper_lines, start_x, upper_x of the walk, in pixels. y of
 --             a triangle: in subpixels from the strip's first line. out_word: objects_pkg
