@@ -7,7 +7,9 @@
 --
 --             Each processor holds one triangle. A line of a strip must not need more than g_objects of them; one that has
 --             ended takes the next one. The tokens depend neither on the number of processors nor on the order of the
---             triangles that start on one line.
+--             triangles that start on one line. Exception: a triangle that is cut into several walks may have two elements
+--             with equal depth and number in one pixel. Their order is that of the processors; their masks do not
+--             overlap.
 -- Contract    Both streams are valid/ready. in_vector must not change while it waits; see object_source for the order of
 --             vectors. in_ready depends on in_valid and in_vector in the same clock, not on token_ready. token and
 --             token_mask do not change while they wait.
