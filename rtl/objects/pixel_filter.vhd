@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The filter stage: converts the shaded objects of a strip's pixels to filtered fragments. A pixel's colour is
---             the sum of its objects' colours, each weighted by the number of subpixels that it covers; the rest is
+-- Purpose     The filter stage: converts the shaded objects of a strip's pixels to filtered fragments. A pixel's colour
+--             is the sum of its objects' colours, each weighted by the number of subpixels that it covers; the rest is
 --             background. A filtered pixel is the weighted sum over 2x2 pixels: itself, left, above, above left
 --             (filter_pkg). A filtered pixel whose support has an object is a fragment, with triangle and depth of the
 --             support's nearest object.
@@ -18,12 +18,12 @@
 --                                         token_weight. The weights of a pixel have a sum of g_subpixels at most: a
 --                                         simulation stops otherwise
 --               new_frame                 the strip has ended: its last pixel is output. Needed after each strip
---             Other tokens, and objects outside a strip, are ignored. Pixels above and to the left of a strip are background. Where the weights
---             reach to the left, the first column of a strip that does not start at x = 0 is only the neighbour of the
---             second one: it gives no fragments. A strip has at most 2**g_column_bits columns. background is stable from
---             a strip's first token until its last fragment.
---             Of objects with equal depth that of the pixel itself is the nearest, then left, above, above left; within
---             a pixel the first one. With one channel, red, green and blue are equal, as is the background: its red.
+--             Other tokens, and objects outside a strip, are ignored. Pixels above and to the left of a strip are
+--             background. Where the weights reach to the left, the first column of a strip that does not start at x = 0
+--             is only the neighbour of the second one: it gives no fragments. A strip has at most 2**g_column_bits
+--             columns. background is stable from a strip's first token until its last fragment. Of objects with equal
+--             depth that of the pixel itself is the nearest, then left, above, above left; within a pixel the first
+--             one. With one channel, red, green and blue are equal, as is the background: its red.
 -- Formats     token: token_pkg; token_weight: 0 to g_subpixels; background: three colours, red lowest; fragment:
 --             formats_pkg, colour and depth
 -- Latency     8 clocks from the token that ends a pixel: the next head, or new_frame
@@ -103,7 +103,8 @@ architecture rtl of pixel_filter is
 
   type totals_t is array (0 to c_channels - 1) of total_t;
 
-  -- A pixel's nearest object, from its highest bit: '1' if there is none, depth, triangle. Those two are the lowest bits.
+  -- A pixel's nearest object, from its highest bit: '1' if there is none, depth, triangle. Those two are the lowest
+  -- bits.
   constant c_key_bits : positive := 1 + fragment_z'length;
 
   subtype nearest_t is std_logic_vector(c_key_bits + fragment_triangle'length - 1 downto 0);

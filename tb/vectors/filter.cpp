@@ -49,10 +49,10 @@ class FilterFiles {
 
   void add_strip() {
     const auto lines = random_.between(1, 7), columns = random_.one_in(20) ? 130 : random_.between(1, 24);
-    const auto y = random_.between(0, 4096 - lines),
-               x = random_.one_in(2)   ? 0
-                   : random_.one_in(3) ? 4096 - columns
-                                       : random_.between(1, 4096 - columns);
+    const auto y = random_.between(0, 4096 - lines), x = random_.one_in(2) ? 0
+                                                         : random_.one_in(3)
+                                                             ? 4096 - columns
+                                                             : random_.between(1, 4096 - columns);
     const int kind = static_cast<int>(random_.between(0, 3));  // lone pixels, all covered, mixed, empty
     for (std::int64_t line = 0; line < lines; ++line) {
       const bool empty = kind == 3 || random_.one_in(4);
