@@ -21,7 +21,7 @@ struct StoredClock {
   std::string range{};     ///< of the placements' clocks, for the page
   std::string path{};      ///< the critical path, or why there is no clock, for the page
   std::string tools{};     ///< Synthesizer::versions
-  std::string netlist{};   ///< netlist_identity of the design, fitted to the device's multipliers
+  std::string netlist{};   ///< netlist_identity, without g_multiplier_bits
   std::string hardware{};  ///< hardware_text
 };
 /// By the name of the design, or of the hardware key.

@@ -49,8 +49,7 @@ void Costing::add_placement(const Synthesizer& synthesizer, const Design& design
 
 Cost Costing::stored(const Design& design) const {
   Cost cost{.device = std::string(family_.device->title)};
-  auto found =
-      clock_of(clocks_, netlist_identity(netlist_of(fitted(design, family_.multiplier_bits), cache_)));
+  auto found = clock_of(clocks_, netlist_identity(netlist_of(design, cache_)));
   const bool is_of_this_netlist = found != clocks_.end();
   if (!is_of_this_netlist) found = clock_by_other_ghdl(clocks_, hardware_text(design), ghdl_);
   if (found == clocks_.end()) return cost;

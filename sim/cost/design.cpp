@@ -33,12 +33,6 @@ bool takes_multiplier_bits(std::string_view entity) {
   return std::ranges::find(c_entities, entity) != c_entities.end();
 }
 
-Design fitted(Design design, unsigned multiplier_bits) {
-  if (multiplier_bits > 0 && takes_multiplier_bits(design.entity))
-    design.generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
-  return design;
-}
-
 std::string netlist_of(const Design& design, const std::filesystem::path& cache) {
   std::vector<VhdlSource> sources = must(read_rtl_sources(design.root));
   if (!design.more.empty()) sources.push_back(must(read_vhdl_source(design.root, design.more)));

@@ -31,9 +31,6 @@ std::string hardware_text(const Design& design);
 /// True if the entity has the generic g_multiplier_bits, which changes no fragment and no number of clocks.
 bool takes_multiplier_bits(std::string_view entity);
 
-/// The design with products for multipliers of this width; 0: there are none.
-Design fitted(Design design, unsigned multiplier_bits);
-
 /// The netlist by GHDL, mended. Cached. Throws Failure.
 std::string netlist_of(const Design& design, const std::filesystem::path& cache);
 

@@ -149,8 +149,11 @@ Synthesizer::Folder Synthesizer::mapped(const Design& design, const Family& fami
       "read_verilog netlist.v; {0} -top {1}; {2}{3}", family.pass, design.entity, c_statistics,
       // Only the design: of the cells' models, later versions keep those with parameters.
       family.device != nullptr ? "; select " + design.entity + "; write_rtlil -selected mapped.il" : "");
+  Design fitted = design;
+  if (takes_multiplier_bits(design.entity) && family.multiplier_bits > 0)
+    fitted.generics.emplace_back("g_multiplier_bits", std::to_string(family.multiplier_bits));
   return yosys_.run(fmt::format("{}-{}", design.name, family.name), script,
-                    {{"netlist.v", netlist_of(fitted(design, family.multiplier_bits), ghdl_cache_)}}, read_statistics);
+                    {{"netlist.v", netlist_of(fitted, ghdl_cache_)}}, read_statistics);
 }
 
 Cells Synthesizer::cells(const Design& design, const Family& family) const {

@@ -91,8 +91,8 @@ std::vector<page::Value> values(std::span<const page::Row> rows) {
   return values;
 }
 
-std::string identity_of(const Design& design, const Family& family, const Options& options) {
-  return netlist_identity(netlist_of(fitted(design, family.multiplier_bits), options.folders.cache));
+std::string identity_of(const Design& design, const Options& options) {
+  return netlist_identity(netlist_of(design, options.folders.cache));
 }
 
 std::vector<Placed> listed_hardware(const Options& options, const Sections& sections) {
@@ -109,7 +109,7 @@ std::vector<Placed> listed_hardware(const Options& options, const Sections& sect
 void add_hardware_of_spaces(const Options& options, const Sections& sections, std::vector<Placed>& hardware) {
   const SimulatorFolders& folders = options.folders;
   std::set<std::string> netlists;
-  for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, sections.family, options));
+  for (const Placed& placed : hardware) netlists.insert(identity_of(placed.design, options));
   const std::filesystem::path spaces = folders.source / c_spaces;
   for (const auto& [space, scene] : c_studies) {
     auto points = study::read_space(spaces / space);
@@ -122,7 +122,7 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
     const std::filesystem::path file = spaces / scene;
     for (Design& design :
          study::hardware_of_space(exists(file) ? file.string() : scene, points, folders))
-      if (netlists.insert(identity_of(design, sections.family, options)).second)
+      if (netlists.insert(identity_of(design, options)).second)
         hardware.push_back({std::move(design), sections.others});
   }
 }
@@ -152,7 +152,7 @@ StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seed
                      .range = c_none,
                      .path = "not placed: " + clock.none,
                      .tools = bench.synthesizer.versions(),
-                     .netlist = identity_of(placed.design, bench.family, options),
+                     .netlist = identity_of(placed.design, options),
                      .hardware = hardware_text(placed.design)};
   if (median == nullptr) return result;
   result.mhz = median->mhz;
@@ -164,11 +164,11 @@ StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seed
   return result;
 }
 
-// The stored clock if there is one, unless the flow has changed (--again).
+// The stored clock if there is one, unless the flow has changed, or the products for multipliers (--again).
 StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options, std::mutex& mutex) {
   if (!options.page)
     return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
-  const std::string netlist = identity_of(placed.design, bench.family, options);
+  const std::string netlist = identity_of(placed.design, options);
   unsigned seeds = 0;
   {
     const std::lock_guard lock(mutex);

@@ -107,7 +107,9 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
       all.back().ice40 = !exact;
-      if (exact) all.back().seeds = 1;  // one placement takes up to half an hour
+      if (exact) all.back().seeds = 1;  // one placement takes minutes
+      // Of the unrolled form, nextpnr does not end within c_place_time, and its older router takes longer.
+      all.back().ecp5 = !exact || form == ProcessorForm::folded;
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
