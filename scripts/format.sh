@@ -69,10 +69,8 @@ compile_order() {
     sed -e 's/[#].*//' -e 's/ *$//' -e '/^$/d' -e "s|^|$(dirname "$list")/|" "$list"
   done
   find rtl tb -type f -name '*_pkg.vhd' | sort
-  for folders in 'tb/rtl/stream tb/rtl/board' 'rtl tb docs'; do
-    # shellcheck disable=SC2086 # the names are words on purpose
-    find $folders -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
-  done
+  find tb/rtl/stream tb/rtl/board -type f -name '*.vhd' ! -name '*_tb.vhd' ! -name '*_checker.vhd' | sort
+  find rtl tb docs -type f -name '*.vhd' ! -name '*_tb.vhd' | sort
   find rtl tb -type f -name '*_tb.vhd' | sort
 }
 
