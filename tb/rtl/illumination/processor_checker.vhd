@@ -131,8 +131,8 @@ begin
       finish(finished);
     end process;
 
-    -- Check the throughput and latency of the unrolled form: one object per clock, and the first token after the promised
-    -- time.
+    -- Check the throughput and latency of the unrolled form: one object per clock, except in a stall and in the clock after
+    -- it, and the first token after the promised time.
     unrolled : if g_unrolled generate
       pace : process (clk) is
         constant c_header  : pixel_header_t := pixel_header(c_config.exact);
@@ -140,9 +140,13 @@ begin
         variable clocks : natural        := 0;
         variable taken  : boolean        := false;
         variable left   : boolean        := false;
+        variable stalls : boolean        := false; -- the output is stalled
+        variable before : boolean        := false; -- it was in the clock before
       begin
         if rising_edge(clk) and reset = '0' then
-          assert in_ready = '1' or in_valid = '0' or (out_valid = '1' and out_ready = '0') or c_config.shadows
+          before := stalls;
+          stalls := out_valid = '1' and out_ready = '0';
+          assert in_ready = '1' or in_valid = '0' or stalls or before or c_config.shadows
             or unsigned(in_token(c_header.command.high downto c_header.command.low)) > c_new_scanline
             report c_file & ": an object is not taken at once" severity failure;
           if taken and not left then
