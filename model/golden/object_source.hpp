@@ -61,8 +61,8 @@ class ObjectSource {
     };
     const std::int64_t first = column(At::start_x), end = column(At::upper_x);
     const auto lines = static_cast<std::uint32_t>(of_walk(vector, At::upper_lines));
-    const bool too_large =
-        end - first > most_columns<Preset>(subpixels_) || static_cast<int>(lines) > most_lines<Preset>(subpixels_);
+    const bool too_large = end - first > most_columns<Preset>(subpixels_) ||
+                           static_cast<int>(lines) > most_lines<Preset>(subpixels_);
     if (too_large) fault_ = true;
     strip_ = !too_large && lines != 0 && first < end;
     line_number_ = 0;

@@ -21,8 +21,8 @@ auto walk_of(std::span<const std::uint32_t> vector) {
   static_assert(Exact::c_init_header_bits % 32 == 0);
   std::array<std::uint32_t, Exact::c_init_header_bits / 32> walk;
   for (std::size_t i = 0; i < walk.size(); ++i)
-    walk[i] = static_cast<std::uint32_t>(get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0},
-                                                  ProcessorsLayout<Preset>::walk_low()));
+    walk[i] = static_cast<std::uint32_t>(
+        get_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0}, ProcessorsLayout<Preset>::walk_low()));
   return walk;
 }
 

@@ -128,7 +128,7 @@ begin
     waits       := in_valid and not r.in_line;
     sends_head  <= r.in_line;
     refuses     <= waits and ((draws and (not r.strip or none_left or early))
-                   or (not draws and not strips and not loads and not r.strip));
+      or (not draws and not strips and not loads and not r.strip));
     sends_part  <= waits and draws and r.strip and not none_left and now;
     starts_line <= waits and r.strip and not none_left and not (draws and (early or now));
     sends_end   <= waits and not draws and r.strip and none_left;

@@ -66,7 +66,8 @@ Result<ClockStore> read_clocks(const std::filesystem::path& root, const Family& 
 Status write_clocks(const std::filesystem::path& root, const Family& family, const ClockStore& clocks) {
   Table table{{"design"}, {}};
   for (const CellColumn& column : family.columns) table.columns.emplace_back(column.name);
-  table.columns.insert(table.columns.end(), {"mhz", "seeds", "range", "path", "tools", "netlist", "hardware"});
+  table.columns.insert(table.columns.end(),
+                       {"mhz", "seeds", "range", "path", "tools", "netlist", "hardware"});
   for (const auto& [design, clock] : clocks) {
     std::vector<std::string>& row = table.rows.emplace_back(1, design);
     for (const CellColumn& column : family.columns) row.push_back(std::to_string(clock.cells.*column.number));

@@ -52,8 +52,8 @@ TEST(ClockStore, ReadsWhatItWrites) {
 
   const auto text = read_file(file);
   ASSERT_TRUE(text);
-  for (const char* line :
-       {"a,1,2,3,4,5,6,,,,ef,\n", "b,1,2,x,4,5,6,,,,ef,\n", "b,1,2,-3,4,5,6,,,,ef,\n", "b,1,2,3,4,5,6,,,,,\n"}) {
+  for (const char* line : {"a,1,2,3,4,5,6,,,,ef,\n", "b,1,2,x,4,5,6,,,,ef,\n", "b,1,2,-3,4,5,6,,,,ef,\n",
+                           "b,1,2,3,4,5,6,,,,,\n"}) {
     ASSERT_TRUE(write_file(file, *text + line));
     const auto wrong = read_clocks(root, c_ice40);
     ASSERT_FALSE(wrong) << line;

@@ -40,8 +40,8 @@ std::string statements_of(const std::vector<std::string>& asserts, const std::ve
   return text;
 }
 
-// An assertion of the RTL itself has no label, so GHDL gives it a number: n34. It checks what the unit assumes of the
-// inputs.
+// An assertion of the RTL itself has no label, so GHDL gives it a number: n34. It checks what the unit
+// assumes of the inputs.
 bool is_of_unit(std::string_view label) {
   return !label.starts_with('n') || label.find_first_not_of("0123456789", 1) != std::string_view::npos;
 }

@@ -70,8 +70,8 @@ class FilterFiles {
     if (random_.one_in(3)) add(any_token(Command::new_frame), any_weight());
   }
   void write(const Folder& folder) const {
-    const std::string stem = fmt::format("{}_{}_{}_{}", Preset::c_name, case_.channels, subpixels_,
-                                         fmt::join(case_.weights, "_"));
+    const std::string stem =
+        fmt::format("{}_{}_{}_{}", Preset::c_name, case_.channels, subpixels_, fmt::join(case_.weights, "_"));
     in_.write(folder / (stem + "_in.txt"));
     out_.write(folder / (stem + "_out.txt"));
   }

@@ -27,12 +27,9 @@ constexpr Sections c_sections[] = {
 
 // The spaces whose hardware has stored clocks, and their scenes: files beside them, or built in.
 constexpr const char* c_spaces = "sim/study/spaces";
-constexpr std::pair<const char*, const char*> c_studies[] = {{"small.toml", "sphere.toml"},
-                                                             {"times.toml", "sphere.toml"},
-                                                             {"tables.toml", "sphere.toml"},
-                                                             {"one_step.toml", "sphere.toml"},
-                                                             {"colour.toml", "red_sphere.toml"},
-                                                             {"designs.toml", "spheres"}};
+constexpr std::pair<const char*, const char*> c_studies[] = {
+    {"small.toml", "sphere.toml"},    {"times.toml", "sphere.toml"},      {"tables.toml", "sphere.toml"},
+    {"one_step.toml", "sphere.toml"}, {"colour.toml", "red_sphere.toml"}, {"designs.toml", "spheres"}};
 
 struct Placed {
   Design design;
@@ -120,8 +117,7 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
                (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
       });
     const std::filesystem::path file = spaces / scene;
-    for (Design& design :
-         study::hardware_of_space(exists(file) ? file.string() : scene, points, folders))
+    for (Design& design : study::hardware_of_space(exists(file) ? file.string() : scene, points, folders))
       if (netlists.insert(identity_of(design, options)).second)
         hardware.push_back({std::move(design), sections.others});
   }
@@ -166,8 +162,7 @@ StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seed
 
 // The stored clock if there is one, unless the flow has changed, or the products for multipliers (--again).
 StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options, std::mutex& mutex) {
-  if (!options.page)
-    return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
+  if (!options.page) return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
   const std::string netlist = identity_of(placed.design, options);
   unsigned seeds = 0;
   {

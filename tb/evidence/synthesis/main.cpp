@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
           ->add_option("--device", options.device, "hx8k, or ecp5, with thresholds for complete shaders only")
           ->check(CLI::IsMember(synth::device_options()));
   clocks->get_option("--page")->excludes(device);
-  clocks->add_flag("--again", options.again, "place hardware that has a stored clock, too: the flow has changed");
+  clocks->add_flag("--again", options.again,
+                   "place hardware that has a stored clock, too: the flow has changed");
   add("board", "the board's bitstream and its figures", synth::board);
   return cli::run_program(app, argc, argv, exit_code);
 }
