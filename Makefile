@@ -10,6 +10,8 @@ about_SCENE := sim,view,board-sim,compare,why,plan,verilog,study a built-in scen
 about_SHADER := sim,view,compare,why,plan,verilog quadratic, spherical or processors (default: quadratic)
 about_DEGREE := sim,view,why,plan,verilog degree of the quadratic shader: 2, or 1 for planes (Gouraud shading) (default: 2)
 about_FORM := sim,view,why,plan,verilog folded or unrolled shading processors (default: unrolled)
+about_OBJECTS := sim,view,plan,verilog number of object processors before the shading processors (default: the rasterizer)
+about_SUBPIXELS := sim,view,plan,verilog with OBJECTS: 1, or 4 or 16 subpixels of a pixel, which is then filtered (default: 1)
 about_PRESET := sim,view,why,plan,verilog,tables,check-tables exact or published (default: exact; make tables: both, or with a size one of them)
 about_SIZE := sim,view,why,plan,verilog,study WIDTHxHEIGHT in pixels (default: 640x480)
 about_OWN_TABLES := sim 1: spherical shader with a table for each exponent of the scene: within one colour step
@@ -26,7 +28,7 @@ about_MULTIPLIER_BITS := verilog width of multipliers in the device; 0: products
 about_AXI := verilog 1: make verilog: the top with AXI4-Stream ports
 about_PIXEL := why x,y of the pixel that make why explains
 about_MEASURE := plan 1: count cells by Yosys, and cycles and seconds by simulation
-about_OBJECTS := plan objects per pixel that the shading processors draw
+about_OBJECTS_PER_PIXEL := plan objects per pixel that the shading processors draw
 about_SPACE := study a TOML file of designs
 about_FULL := study,mutate 1: make study: the whole space of designs; make mutate: all faults
 about_TILE := study larger frames are drawn in tiles of WIDTHxHEIGHT (default: 1280x960)
@@ -92,7 +94,8 @@ measure = set -- $(2); if [ $$\# -gt 0 ]; then targets=$$(scripts/evidence.sh pr
   targets=$$(scripts/evidence.sh targets "$(1)") && $(build_targets) && scripts/evidence.sh measure "$(1)" "$(jobs)"; fi
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
-  $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights)
+  $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights) \
+  $(call option,OBJECTS,--object-processors) $(call option,SUBPIXELS,--subpixels)
 sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
@@ -142,7 +145,7 @@ why: program ## show one pixel stage by stage, in golden model and RTL (SCENE, P
 
 plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEASURE=1: cells and time)
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
-	  $(call option,OBJECTS,--objects) $(call option,RATE,--rate) $(call option,DEVICE,--device) $(call option,THREADS,--threads) $(scene)
+	  $(call option,OBJECTS_PER_PIXEL,--objects-per-pixel) $(call option,RATE,--rate) $(call option,DEVICE,--device) $(call option,THREADS,--threads) $(scene)
 
 verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports)
 	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)

@@ -56,6 +56,7 @@ objects/object_output.vhd
 objects/object_front.vhd
 objects/filter_pkg.vhd
 objects/pixel_filter.vhd
+objects/filter_queue.vhd
 arithmetic/unit_vector.vhd
 illumination/light_vector.vhd
 illumination/half_vector.vhd
@@ -89,6 +90,7 @@ shaders/token_rasterizer.vhd
 shaders/token_order.vhd
 shaders/fragment_output.vhd
 shaders/processors_shader.vhd
+shaders/objects_shader.vhd
 axi/axi_pkg.vhd
 axi/axi_control.vhd
 axi/axi_output.vhd

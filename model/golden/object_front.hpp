@@ -19,9 +19,9 @@ class ObjectFront {
   ObjectFront(const ProcessorsConfig& config, int subpixels, int objects)
       : source_(config, subpixels),
         chain_(static_cast<std::size_t>(objects), ObjectProcessor<Preset>(config, subpixels)),
-        output_(config) {}
+        output_(config, subpixels > 1) {}
 
-  /// Takes a vector, and calls emit(token, mask) for each token that it causes.
+  /// Takes a vector, and calls emit(token, mask, ends) for each token that it causes.
   template <class Emit>
   void take(std::span<const std::uint32_t> vector, Emit&& emit) {
     source_.take(vector, [&](const Word& word) { pass(0, word, emit); });

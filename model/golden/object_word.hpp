@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "golden/shading_token.hpp"
+#include "words/object_limits.hpp"
 
 namespace halfway::golden {
 
@@ -15,21 +16,7 @@ enum class ObjectKind { item = 0, part = 1, last_part = 2, strip_end = 3 };
 
 inline constexpr int c_part_bits = 64;
 
-/// Subpixels per row and per column.
-constexpr int side_of(int subpixels) {
-  return subpixels == 16 ? 4 : subpixels == 4 ? 2 : 1;
-}
-
-/// Limits of a strip, in pixels: the ends of spans must fit span_x in subpixels, and the first lines of
-/// triangles pixel_y.
-template <class Preset>
-constexpr int most_columns(int subpixels) {
-  return std::min(((1 << (Exact::c_span_x_bits - 1)) - 1) / side_of(subpixels), 1 << Preset::c_pixel_x_bits);
-}
-template <class Preset>
-constexpr int most_lines(int subpixels) {
-  return (1 << Preset::c_pixel_y_bits) / side_of(subpixels);
-}
+using words::side_of, words::most_columns, words::most_lines;
 
 /// Bits of an item. It is laid out as a token without its colour.
 template <class Preset>

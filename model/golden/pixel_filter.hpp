@@ -11,12 +11,11 @@
 
 #include "frame/fragment.hpp"
 #include "golden/shading_token.hpp"
+#include "words/object_limits.hpp"
 
 namespace halfway::golden {
 
-/// Weights of a pixel itself, left, above, above left. Their sum is a power of two.
-using FilterWeights = std::array<std::int64_t, 4>;
-inline constexpr FilterWeights c_filter_weights = {1, 1, 1, 1};
+using words::FilterWeights, words::c_filter_weights;
 
 /// Three colours of 8 bits. One channel has the first one.
 using Background = std::array<std::uint8_t, 3>;
@@ -33,6 +32,9 @@ class PixelFilter {
         background_(background),
         weights_(weights),
         line_(std::size_t{1} << Preset::c_pixel_x_bits) {}
+
+  /// Not within a strip.
+  void set_background(const Background& background) { background_ = background; }
 
   /// Takes a token with the number of subpixels that its object covers, and calls emit(fragment) if the token
   /// ends a pixel whose support has an object.
@@ -94,7 +96,8 @@ class PixelFilter {
     const std::array<const Pixel*, 4> support = {
         &*pixel_, place_.first_column ? nullptr : &left_, place_.first_line ? nullptr : &above,
         place_.first_column || place_.first_line ? nullptr : &above_left_};
-    const bool neighbour = place_.first_column && place_.x != 0 && weights_[1] + weights_[3] > 0;
+    const bool neighbour = (place_.first_column && place_.x != 0 && weights_[1] + weights_[3] > 0) ||
+                           (place_.first_line && place_.y != 0 && weights_[2] + weights_[3] > 0);
     if (!neighbour) filter(support, emit);
     left_ = *pixel_;
     above_left_ = above;

@@ -55,6 +55,8 @@ struct ShadingToken {
            command == Command::new_scanline;
   }
   bool is_define() const { return command == Command::define || command == Command::redefine; }
+  /// The colour of new_frame is the background of the filter.
+  bool has_light() const { return is_define() || command == Command::new_frame; }
 
   static ShadingToken decode(const ProcessorsConfig& config, std::span<const std::uint32_t> words) {
     const ProcessorsLayout<Preset> layout(config);
@@ -64,7 +66,7 @@ struct ShadingToken {
     token.light_number = word(At::light);
     token.opens = word(At::opens) != 0;
     token.normalize = word(At::normalize) != 0;
-    if (token.is_define()) token.light = decode_light(config, words);
+    if (token.has_light()) token.light = decode_light(config, words);
     if (!token.is_object() && token.command != Command::shadow) return token;
     token.triangle = word(At::triangle);
     token.y = word(At::y);
@@ -83,7 +85,7 @@ struct ShadingToken {
     set_bits(words, At::light, light_number);
     set_bits(words, At::opens, opens);
     set_bits(words, At::normalize, normalize);
-    if (is_define()) encode_light(config, light, words);
+    if (has_light()) encode_light(config, light, words);
     if (!is_object() && command != Command::shadow) return;
     set_bits(words, At::triangle, triangle);
     set_bits(words, At::y, y);

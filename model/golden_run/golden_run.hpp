@@ -16,17 +16,18 @@ namespace halfway {
 class GoldenModel {
  public:
   virtual ~GoldenModel() = default;
-  /// Number of vectors of the triangle that starts with this vector: its header and its line records.
+  /// Number of vectors of the triangle that starts with this vector: its header and its line records. Object
+  /// processors: of a strip and its triangles.
   virtual std::size_t group(std::span<const std::uint32_t> init_words) const = 0;
   /// True if the vector changes the state of the hardware for all later triangles, such as a light.
   virtual bool is_load(std::span<const std::uint32_t> init_words) const = 0;
   /// Number of vectors from this one on that the hardware draws independently of those before, except for
-  /// loads: a triangle, or with shadows a line of the frame.
+  /// loads: a triangle or strip, or with shadows a line of the frame.
   virtual std::size_t unit(std::span<const std::uint32_t> init_words) const = 0;
   /// True if the triangle that starts with this vector covers a pixel of the tile. The vectors must come from
   /// a unit of the setup, not from its prologue.
   virtual bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const = 0;
-  /// Number of pixels that the triangle covers.
+  /// Number of pixels that the triangle covers, or that a strip has.
   virtual std::uint64_t pixels(std::span<const std::uint32_t> init_words) const = 0;
   /// The same for any number of whole triangles.
   std::uint64_t all_pixels(std::span<const std::uint32_t> init_words) const;

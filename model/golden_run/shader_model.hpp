@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "golden/objects_shader.hpp"
 #include "golden/processors_shader.hpp"
 #include "golden/quadratic_shader.hpp"
 #include "golden/spherical_shader.hpp"
@@ -25,7 +26,7 @@ std::span<const std::uint32_t> take_triangle(const Shader& shader,
   return triangle;
 }
 
-/// The golden model of one shader: QuadraticShader, SphericalShader or ProcessorsShader.
+/// The golden model of one shader: QuadraticShader, SphericalShader, ProcessorsShader or ObjectsShader.
 template <class Shader>
 class ShaderModel final : public GoldenModel {
  public:
@@ -47,26 +48,34 @@ class ShaderModel final : public GoldenModel {
       return group(init_words);
   }
   bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const override {
-    const std::int64_t left = tile.x, right = left + tile.size.width, top = tile.y,
-                       bottom = top + tile.size.height;
-    bool touched = false;
-    auto walker = shader_.walker_of(init_words);
-    walker.walk([&] {
-      if (touched || walker.line_empty() || walker.y() < top || walker.y() >= bottom) return;
-      const std::int64_t first = walker.start().value(),
-                         last = walker.stop().value() - walker.pixel_step().value();
-      touched = std::min(first, last) < right && std::max(first, last) >= left;
-    });
-    return touched;
+    if constexpr (c_has_strips) {
+      return true;  // a strip is drawn whole
+    } else {
+      const std::int64_t left = tile.x, right = left + tile.size.width, top = tile.y,
+                         bottom = top + tile.size.height;
+      bool touched = false;
+      auto walker = shader_.walker_of(init_words);
+      walker.walk([&] {
+        if (touched || walker.line_empty() || walker.y() < top || walker.y() >= bottom) return;
+        const std::int64_t first = walker.start().value(),
+                           last = walker.stop().value() - walker.pixel_step().value();
+        touched = std::min(first, last) < right && std::max(first, last) >= left;
+      });
+      return touched;
+    }
   }
   std::uint64_t pixels(std::span<const std::uint32_t> init_words) const override {
-    if (is_load(init_words)) return 0;
-    std::uint64_t count = 0;
-    auto walker = shader_.walker_of(init_words);
-    walker.walk([&] {
-      if (!walker.line_empty()) count += walker.pixels();
-    });
-    return count;
+    if constexpr (c_has_strips) {
+      return shader_.pixels(init_words);
+    } else {
+      if (is_load(init_words)) return 0;
+      std::uint64_t count = 0;
+      auto walker = shader_.walker_of(init_words);
+      walker.walk([&] {
+        if (!walker.line_empty()) count += walker.pixels();
+      });
+      return count;
+    }
   }
   // Inline the shader, so that the fields of a fragment are written directly to the vector.
   [[gnu::flatten]] void draw(std::span<const std::uint32_t> init_words,
@@ -85,6 +94,9 @@ class ShaderModel final : public GoldenModel {
   unsigned init_bits() const override { return static_cast<unsigned>(shader_.init_bits()); }
 
  private:
+  static constexpr bool c_has_strips =
+      requires(const Shader& shader, std::span<const std::uint32_t> vector) { shader.pixels(vector); };
+
   Shader shader_;
 };
 
@@ -99,9 +111,12 @@ template <class Formats, Shader S>
 std::unique_ptr<GoldenModel> make_shader_model(const HardwareKey& key) {
   if constexpr (S == Shader::spherical)
     return std::make_unique<ShaderModel<golden::SphericalShader<Formats>>>(golden_config(key));
-  else if constexpr (S == Shader::processors)
+  else if constexpr (S == Shader::processors) {
+    if (const unsigned objects = key.processors.objects; objects > 0)
+      return std::make_unique<ShaderModel<golden::ObjectsShader<Formats>>>(
+          processors_config(key), static_cast<int>(key.processors.subpixels), static_cast<int>(objects));
     return std::make_unique<ShaderModel<golden::ProcessorsShader<Formats>>>(processors_config(key));
-  else if (key.degree == 1)
+  } else if (key.degree == 1)
     return make_quadratic_model<Formats, 1>(key);
   else
     return make_quadratic_model<Formats, 2>(key);

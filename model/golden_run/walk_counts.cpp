@@ -10,8 +10,8 @@ namespace halfway {
 
 bool has_walk_clocks(const HardwareKey& key) {
   if (key.preset != Preset::exact) return false;
-  return key.shader != Shader::processors ||
-         (!key.processors.shadows && key.processors.form == ProcessorForm::unrolled);
+  return key.shader != Shader::processors || (!key.processors.shadows && key.processors.objects == 0 &&
+                                              key.processors.form == ProcessorForm::unrolled);
 }
 
 WalkCounter::WalkCounter(const HardwareKey& key)

@@ -27,8 +27,8 @@ struct WalkCounts {
   std::uint64_t clocks() const { return pixels + lost_to_lines + lost_to_headers; }
 };
 
-/// True if WalkCounter counts the clocks of this hardware: preset exact, without shadows, and without shading
-/// processors of several clocks per token.
+/// True if WalkCounter counts the clocks of this hardware: preset exact, without shadows and object
+/// processors, and without shading processors of several clocks per token.
 bool has_walk_clocks(const HardwareKey& key);
 
 class WalkCounter {

@@ -64,6 +64,8 @@ struct ProcessorUnits {
   bool normalize = false;                               ///< the ambient processor can normalize N
   bool shadows = false;                                 ///< object stage and shadow counters
   ProcessorForm form = ProcessorForm::unrolled;
+  unsigned objects = 0;    ///< object processors; 0: the rasterizer
+  unsigned subpixels = 1;  ///< of a pixel, with object processors: 1, 4 or 16. Above 1 pixels are filtered
   unsigned lights() const { return directional + positional + spots; }
 };
 

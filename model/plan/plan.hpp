@@ -52,7 +52,11 @@ struct PlanRequest {
   std::optional<unsigned> lights;
   std::optional<int> degree;          ///< of the quadratic shader; empty: 2
   std::optional<ProcessorForm> form;  ///< of the shading processors; empty: unrolled
+  unsigned objects = 0;               ///< object processors before the shading processors; 0: the rasterizer
+  unsigned subpixels = 1;             ///< of a pixel, with object processors: 1, 4 or 16
 };
+
+inline constexpr unsigned c_most_object_processors = 256;
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors
 

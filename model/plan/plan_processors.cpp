@@ -78,7 +78,8 @@ HardwareKey every_processor(HardwareKey key, unsigned lights) {
   // Hardware for a spot can also draw the other kinds of light.
   p.directional = p.positional = 0;
   p.spots = lights;
-  p.diffuse = p.specular = p.normalize = p.shadows = true;
+  p.diffuse = p.specular = p.normalize = true;
+  p.shadows = p.objects == 0;
   return key;
 }
 
@@ -121,6 +122,7 @@ class ProcessorsPlanner {
       case Effect::spot:
         return lights_of(effect, LightKind::spot, "like a positional light, and its cone");
       case Effect::shadow:
+        if (p.objects > 0) return planned(calls_, effect, DoneBy::none, "not behind object processors");
         o.shadows = !p.shadows;
         if (o.lights() == 0) o.directional = 1;
         if (!o.diffuse && !o.specular) o.diffuse = true;
@@ -214,6 +216,14 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   units.normalize = normalize.called_for;
   units.shadows = calls[Effect::shadow].called_for;
   units.form = request.form.value_or(ProcessorForm::unrolled);
+  units.objects = request.objects;
+  units.subpixels = request.subpixels;
+  if (units.objects > 0 && units.shadows)
+    return bad_input(fmt::format(
+        "{}: behind object processors shadows are not drawn; leave out --object-processors, or the shadows",
+        scene.name));
+  // The filter mixes the background into pixels at outlines.
+  if (units.subpixels > 1 && !is_grey(scene.background)) key.channels = 3;
   if (units.specular)
     if (Status status = check_highlights(scene); !status) return status.error();
 

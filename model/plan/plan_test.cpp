@@ -455,6 +455,11 @@ std::vector<HardwareKey> every_key() {
                 spherical({lights, diffuse, true, highlight_channels, powers, tables});
         }
     }
+  for (const unsigned objects : {0U, 1U, 12U})
+    for (const unsigned subpixels : {1U, 4U, 16U})
+      if (objects > 0 || subpixels == 1)
+        keys.push_back(
+            {.shader = Shader::processors, .processors = {.objects = objects, .subpixels = subpixels}});
   return keys;
 }
 

@@ -3,6 +3,7 @@
 // double with exact coverage.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -33,6 +34,13 @@ struct RenderOptions {
 /// its shadow ray reaches the point (ray_cast.hpp).
 ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriangle> triangles,
                                 const RenderOptions& options);
+
+/// Each pixel is the weighted sum of 2x2 pixels: itself, left, above, above left. A pixel of these is the
+/// mean of 4x4 samples, each as a pixel of render_reference and at most white; without a triangle, and
+/// outside the frame, it is background. `triangles` are those of options.frame. The mask is 1 where a sample
+/// is covered. Whole frames only.
+ReferenceImage render_filtered(const Scene& scene, std::span<const ScreenTriangle> triangles,
+                               const RenderOptions& options, const std::array<double, 4>& weights);
 
 /// Shades at the vertices, without clamping, and interpolates linearly on the screen. The coverage is the
 /// same. Without shadows.

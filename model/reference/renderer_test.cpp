@@ -205,6 +205,53 @@ TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
 
 // Sums above white at the vertices increase the colour in the middle: they must not be clamped before
 // interpolation.
+// An emitting square in front of a background. Its edges lie 1/4, 1/2 and 3/4 pixel behind the edges of
+// pixels.
+TEST(Renderer, FilteredPixelsAreMeansOfSamples) {
+  Scene scene;
+  scene.background = {0.2, 0.4, 0.6};
+  scene.materials.resize(1);
+  scene.materials[0].colour = glm::dvec3(0.0);
+  scene.materials[0].emission = {1.0, 0.5, 7.0};
+  scene.positions_world = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  scene.normals_world = {{0, 0, 1}};
+  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}, {{0, 2, 3}, {0, 0, 0}, 0}};
+  const FrameSize frame{8, 7};
+  const std::int32_t left = 2 * 16 + 4, right = 6 * 16 + 12, top = 1 * 16 + 8, bottom = 4 * 16;
+  const auto vertex = [](std::int32_t x, std::int32_t y) {
+    ScreenVertex v{};
+    v.x = x;
+    v.y = y;
+    v.inverse_w = 1.0;
+    v.normal_world = {0, 0, 1};
+    return v;
+  };
+  std::vector<ScreenTriangle> triangles(2);
+  triangles[0].vertex = {vertex(left, bottom), vertex(right, bottom), vertex(right, top)};
+  triangles[1].vertex = {vertex(left, bottom), vertex(right, top), vertex(left, top)};
+  const std::array<double, 4> weights = {9, 3, 3, 1};
+  const ReferenceImage image = render_filtered(scene, triangles, {.frame = frame}, weights);
+  // The share of a pixel that is covered.
+  const auto covered = [&](std::int32_t x, std::int32_t y) {
+    const auto within = [](std::int32_t first, std::int32_t end, std::int32_t pixel) {
+      return std::max(0, std::min(end, 16 * pixel + 16) - std::max(first, 16 * pixel)) / 16.0;
+    };
+    return x < 0 || y < 0 ? 0.0 : within(left, right, x) * within(top, bottom, y);
+  };
+  for (std::int32_t y = 0; y < 7; ++y)
+    for (std::int32_t x = 0; x < 8; ++x) {
+      const double share =
+          (9 * covered(x, y) + 3 * covered(x - 1, y) + 3 * covered(x, y - 1) + covered(x - 1, y - 1)) / 16;
+      const std::size_t rgb =
+          image.frame.offset(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+      EXPECT_EQ(image.mask[rgb / 3], share > 0.0) << x << ',' << y;
+      const glm::dvec3 expected = share * glm::dvec3(1.0, 0.5, 1.0) + (1.0 - share) * scene.background;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(image.frame.rgb[rgb + static_cast<std::size_t>(c)], 255.0 * expected[c], 0.501)
+            << x << ',' << y;
+    }
+}
+
 TEST(Renderer, GouraudDoesNotClampItsVertices) {
   Scene scene;
   scene.camera.vertical_fov_degrees = 90.0;

@@ -3,9 +3,17 @@
 
 #include <fmt/format.h>
 
+#include "plan/plan.hpp"
+
 namespace halfway {
 
-Status check_shadow_counts(const Scene& scene, const SetupCounts& counts, bool fault) {
+Status check_pixels(const Scene& scene, const HardwareKey& key, const SetupCounts& counts, bool fault) {
+  if (const unsigned objects = key.processors.objects; counts.objects > objects && objects > 0)
+    return bad_input(fmt::format(
+        "{}: {} pieces of triangles lie on one line of {}, and the hardware has {} object "
+        "processors; give more by --object-processors (make: OBJECTS), up to {}, or leave them out",
+        scene.name, counts.objects, key.processors.subpixels > 1 ? "two neighbouring columns" : "one column",
+        objects, c_most_object_processors));
   if (const std::uint64_t deepest = counts.deepest_shadow; deepest > c_most_shadows)
     return bad_input(
         fmt::format("{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
@@ -13,8 +21,9 @@ Status check_shadow_counts(const Scene& scene, const SetupCounts& counts, bool f
                     "to {}; leave out casters in others' shadow, or the shadows",
                     scene.name, deepest, c_most_shadows));
   if (fault)
-    return tool_failed(
-        fmt::format("{}: a count of shadow volumes left its format; please report it", scene.name));
+    return tool_failed(fmt::format("{}: {}; please report it", scene.name,
+                                   key.processors.objects > 0 ? "a triangle found no free object processor"
+                                                              : "a count of shadow volumes left its format"));
   return Ok{};
 }
 

@@ -8,9 +8,9 @@
 
 namespace halfway {
 
-/// Returns bad input if a pixel has more shadow volumes than can be counted. `fault`: that of the golden
-/// model that draws the vectors.
-Status check_shadow_counts(const Scene& scene, const SetupCounts& counts, bool fault);
+/// Returns bad input if a pixel has more shadow volumes than can be counted, or more objects than the key has
+/// object processors. `fault`: that of the golden model that draws the vectors.
+Status check_pixels(const Scene& scene, const HardwareKey& key, const SetupCounts& counts, bool fault);
 /// Returns bad input if a triangle does not project to finite points on the screen.
 Status check_projection(const Scene& scene, const SetupCounts& counts);
 

@@ -13,12 +13,14 @@
 #include "common/to_integer.hpp"
 #include "projection/unit_vector.hpp"
 #include "scene/lights.hpp"
+#include "setup/object_strips.hpp"
 #include "setup/quadratic_fit.hpp"
 #include "setup/shadow_volume.hpp"
 #include "setup/walk.hpp"
 #include "setup/walk_header.hpp"
 #include "shading/effects.hpp"
 #include "shading/shade.hpp"
+#include "words/object_limits.hpp"
 #include "words/processors_layout.hpp"
 
 namespace halfway {
@@ -145,6 +147,7 @@ class ProcessorsSetup final : public Setup {
         frame_(frame),
         config_(processors_config(key)),
         layout_(config_),
+        chain_(chain_of(key)),
         view_(scene.camera),
         projector_(scene, frame,
                    {.subpixel_bits = config_.shadows ? options.subpixel_bits : 4, .clip_to_frame = false}),
@@ -157,21 +160,25 @@ class ProcessorsSetup final : public Setup {
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));
     note_clamped_values();
     if (config_.shadows) index_lines();
+    if (has_strips()) index_strips();
   }
 
   unsigned init_bits() const override { return static_cast<unsigned>(layout_.init_bits()); }
-  bool units_are_lines() const override { return config_.shadows; }
+  bool units_are_lines() const override { return config_.shadows || has_strips(); }
   std::uint32_t units() const override {
+    if (has_strips()) return static_cast<std::uint32_t>(strips_.size());
     return config_.shadows ? frame_.height : static_cast<std::uint32_t>(scene_.triangles.size());
   }
   Tile reach(std::uint32_t unit) const override {
+    if (has_strips()) return strips_[unit].area;
     return config_.shadows ? Tile{0, unit, {frame_.width, 1}} : projector_.reach(unit);
   }
   std::vector<std::string> notes() const override { return notes_; }
 
   void append_prologue(std::vector<std::uint32_t>& words, SetupCounts& counts) const override {
     counts += whole_frame_;
-    request(words, Command::new_frame, counts);
+    InitVector frame = request(words, Command::new_frame, counts);
+    if (chain_.filtered()) put_colour(frame, as_drawn(scene_.background));
     InitVector ambient = request(words, Command::define, counts);
     put_colour(ambient, ambient_);
     for (std::size_t i = 0; i < lights_.size(); ++i) {
@@ -189,6 +196,10 @@ class ProcessorsSetup final : public Setup {
     explicit Worker(const ProcessorsSetup& setup) : setup_(setup), mesh_(setup.projector_) {}
 
     void append(std::uint32_t unit, std::vector<std::uint32_t>& words, SetupCounts& counts) override {
+      if (setup_.has_strips()) {
+        setup_.append_strip(setup_.strips_[unit], words, counts);
+        return;
+      }
       if (setup_.config_.shadows) {
         setup_.append_line(unit, words, counts);
         return;
@@ -211,7 +222,7 @@ class ProcessorsSetup final : public Setup {
     ++counts.leaves;
     const PlaneFit fit = plane_fit(t);
     const Surface surface = surface_of(t);
-    for (const Walk& walk : walks) draw(t, fit, surface, walk, {walk, 0, 0}, words, counts);
+    for (const Walk& walk : walks) draw(t, fit, surface, difference_start(walk), {walk, 0, 0}, words, counts);
   }
 
   using Request = typename P::request_header_at;
@@ -321,6 +332,11 @@ class ProcessorsSetup final : public Setup {
     for (int c = 0; c < config_.channels; ++c)
       init.put(P::light_colour_channel_at::intensity, clamped(light_intensity[c] * c_white, c_intensity),
                layout_.light_colour_low(c));
+  }
+
+  // Rounded as in a frame.
+  static glm::dvec3 as_drawn(glm::dvec3 radiance) {
+    return glm::dvec3(to_byte(radiance.r), to_byte(radiance.g), to_byte(radiance.b)) / c_white;
   }
 
   void put_axis_vector(InitVector& init, const words::Field& field, glm::dvec3 v) const {
@@ -460,10 +476,11 @@ class ProcessorsSetup final : public Setup {
     return std::isnan(v) ? 0 : fixed(std::clamp(v, -c_most, c_most), P::c_plane_sum_fraction_bits);
   }
 
-  // Appends the vector that draws a walk, or one of its lines.
-  void draw(const ScreenTriangle& t, const PlaneFit& fit, const Surface& surface, const Walk& walk,
-            const WalkLine& line, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
-    const BarycentricStart start = fit.at(difference_start(walk));
+  // Appends the vector that draws a walk, or one of its lines. The differences start at `first`.
+  void draw(const ScreenTriangle& t, const PlaneFit& fit, const Surface& surface,
+            const DifferenceStart& first, const WalkLine& line, std::vector<std::uint32_t>& words,
+            SetupCounts& counts) const {
+    const BarycentricStart start = fit.at(first);
     InitVector init = request(words, Command::draw, counts);
     put_header(init, t.source, line.walk, on_line(depth_words(fit, t, start), line), layout_.walk_low());
     init.put(Request::normalize, surface.normalize);
@@ -485,20 +502,83 @@ class ProcessorsSetup final : public Setup {
     return words;
   }
 
-  // Collects all triangles and shadow polygons to draw, with their lines.
-  void index_lines() {
+  static ObjectChain chain_of(const HardwareKey& key) {
+    const int subpixels = static_cast<int>(key.processors.subpixels);
+    return {.processors = key.processors.objects,
+            .side = static_cast<std::uint32_t>(words::side_of(subpixels)),
+            .most_columns = static_cast<std::uint32_t>(words::most_columns<P>(subpixels)),
+            .most_lines = static_cast<std::uint32_t>(words::most_lines<P>(subpixels))};
+  }
+  bool has_strips() const { return chain_.processors > 0; }
+
+  // Keeps the pieces of triangles for which kept(piece) is true.
+  template <class Kept>
+  void keep_triangles(Kept&& kept) {
     std::vector<ScreenTriangle> on_screen;
-    triangles_by_line_.emplace(frame_.height);
     for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
       on_screen.clear();
       projector_.project(t, on_screen, whole_frame_.projection);
       for (const ScreenTriangle& piece : on_screen) {
         ++whole_frame_.triangles;
-        if (!add_lines(*triangles_by_line_, static_cast<std::uint32_t>(triangles_.size()), piece)) continue;
+        if (!kept(piece)) continue;
         ++whole_frame_.leaves;
         triangles_.push_back(piece);
       }
     }
+  }
+
+  void index_strips() {
+    std::vector<StripItem> items;
+    keep_triangles([&](const ScreenTriangle& piece) {
+      const StripItem item = screen_points(piece);
+      if (strip_walks(item, subpixel_bits(), whole_frame(frame_), chain_.side).empty()) return false;
+      items.push_back(item);
+      return true;
+    });
+    ObjectStrips cut = cut_strips(items, subpixel_bits(), frame_, chain_);
+    strips_ = std::move(cut.strips);
+    whole_frame_.objects = cut.processors;
+  }
+
+  // A strip with its triangles, in the order of their first lines, and the vector that ends it. The first
+  // vector contains the number of those after it.
+  void append_strip(const ObjectStrip& strip, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+    using At = Exact::init_header_at;
+    struct Part {
+      std::uint32_t item;
+      Walk walk;
+      std::int64_t first_line;
+    };
+    std::vector<Part> parts;
+    for (const std::uint32_t item : strip.items)
+      for (const Walk& walk :
+           strip_walks(screen_points(triangles_[item]), subpixel_bits(), strip.area, chain_.side))
+        parts.push_back({item, walk, pixel_lines(walk, chain_.side).begin});
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.first_line < b.first_line; });
+    const auto put_area = [&](const Tile& area, std::size_t vectors_after) {
+      InitVector init = request(words, Command::new_scanline, counts);
+      init.put(At::triangle, static_cast<std::int64_t>(vectors_after), layout_.walk_low());
+      init.put(At::y, area.y, layout_.walk_low());
+      init.put(At::upper_lines, area.size.height, layout_.walk_low());
+      init.put(At::start_x, area.x, layout_.walk_low());
+      init.put(At::upper_x, std::int64_t{area.x} + area.size.width, layout_.walk_low());
+    };
+    put_area(strip.area, parts.size() + 1);
+    for (const Part& part : parts) {
+      const ScreenTriangle& t = triangles_[part.item];
+      const DifferenceStart first{strip.area.x, strip.area.y + part.first_line, 0, false};
+      draw(t, plane_fit(t), surface_of(t), first, {part.walk, 0, 0}, words, counts);
+    }
+    put_area({}, 0);
+  }
+
+  // Collects all triangles and shadow polygons to draw, with their lines.
+  void index_lines() {
+    triangles_by_line_.emplace(frame_.height);
+    keep_triangles([&](const ScreenTriangle& piece) {
+      return add_lines(*triangles_by_line_, static_cast<std::uint32_t>(triangles_.size()), piece);
+    });
     shadows_by_line_.emplace(frame_.height);
     if (!scene_.shadows) return;
     volumes_ = make_shadow_volumes(scene_, lights_);
@@ -541,7 +621,7 @@ class ProcessorsSetup final : public Setup {
     if (!any) return;  // no surface to cast a shadow on
     for (const bool opens : {true, false}) append_shadows(y, opens, words, counts);
     for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
-      draw(t, plane_fit(t), surface_of(t), walk, line, words, counts);
+      draw(t, plane_fit(t), surface_of(t), difference_start(walk), line, words, counts);
     });
   }
 
@@ -647,6 +727,7 @@ class ProcessorsSetup final : public Setup {
   FrameSize frame_;
   words::ProcessorsConfig config_;
   words::ProcessorsLayout<P> layout_;
+  ObjectChain chain_;
   ViewSpace view_;
   Projector projector_;
   glm::dvec3 ambient_ = scene_.ambient;
@@ -659,8 +740,9 @@ class ProcessorsSetup final : public Setup {
   std::vector<MaterialWords> materials_;
   std::vector<std::string> notes_;
 
-  // Used only with shadows.
+  // Used only with shadows or object processors.
   std::vector<ScreenTriangle> triangles_;
+  std::vector<ObjectStrip> strips_;
   std::vector<ShadowVolumes> volumes_;
   std::vector<Shadow> shadows_;
   std::optional<ByLine> triangles_by_line_, shadows_by_line_;

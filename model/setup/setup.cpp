@@ -21,6 +21,7 @@ SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
   unresolved += o.unresolved;
   shadows += o.shadows;
   deepest_shadow = std::max(deepest_shadow, o.deepest_shadow);
+  objects = std::max(objects, o.objects);
   return *this;
 }
 

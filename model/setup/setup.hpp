@@ -100,6 +100,7 @@ struct SetupCounts {
   /// Greatest number of opening or of closing shadow polygons of one light on one pixel, including the
   /// volumes around the eye. Up to c_most_shadows can be counted.
   std::uint64_t deepest_shadow = 0;
+  std::uint64_t objects = 0;  ///< object processors that a line of a strip needs, at most
   SetupCounts& operator+=(const SetupCounts& other);
 };
 
@@ -128,8 +129,8 @@ class Setup {
 
   /// Bits of one vector of the stream.
   virtual unsigned init_bits() const = 0;
-  /// Number of the scene's triangles, in its order; or of the frame's lines, for hardware that needs all
-  /// surfaces of a pixel before it shades one.
+  /// Number of the scene's triangles, in its order; or of the frame's lines or strips, for hardware that
+  /// needs all surfaces of a pixel before it shades one.
   virtual std::uint32_t units() const = 0;
   virtual bool units_are_lines() const { return false; }
   /// A part of the frame that contains every pixel covered by the unit's vectors. Empty if there is none.

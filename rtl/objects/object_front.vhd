@@ -11,8 +11,8 @@
 --             with equal depth and number in one pixel. Their order is that of the processors; their masks do not
 --             overlap.
 -- Contract    Both streams are valid/ready. in_vector must not change while it waits; see object_source for the order of
---             vectors. in_ready depends on in_valid and in_vector in the same clock, not on token_ready. token and
---             token_mask do not change while they wait.
+--             vectors. in_ready depends on in_valid and in_vector in the same clock, not on token_ready. token_mask and
+--             token_ends: see object_output. They and token do not change while the token waits.
 --             fault stays '1' after a triangle for which no processor was free, and as in object_source. Then discard
 --             all tokens. busy: a word is in the chain, or a strip is not scanned to its end.
 -- Formats     in_vector: processors_pkg; see object_source and object_processor. token: token_pkg
@@ -43,6 +43,7 @@ entity object_front is
     token_ready : in  std_logic;
     token       : out std_logic_vector(token_bits(g_config) - 1 downto 0);
     token_mask  : out std_logic_vector(g_subpixels - 1 downto 0);
+    token_ends  : out std_logic;
     busy        : out std_logic;
     fault       : out std_logic
   );
@@ -116,6 +117,7 @@ begin
       token_ready => token_ready,
       token       => token,
       token_mask  => token_mask,
+      token_ends  => token_ends,
       busy        => works(g_objects + 1),
       fault       => none_free
       );

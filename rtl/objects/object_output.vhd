@@ -4,14 +4,16 @@
 --             element becomes a token with its pixel; an object has command new_object, a shadow polygon shadow. With
 --             shadows, a token new_scanline or new_pixel with the pixel comes before a list: new_scanline in the
 --             first list of a line. Heads without elements are dropped. Loads pass. A shadow polygon comes before the
---             objects that it is nearer than.
--- Contract    Both streams are valid/ready; token and token_mask do not change while they wait. in_ready does not depend
+--             objects that it is nearer than. For the filter (has_filter of objects_pkg), each head is a token, and the
+--             end of a strip is one.
+-- Contract    Both streams are valid/ready; the token's ports do not change while it waits. in_ready does not depend
 --             on token_ready in the same clock. token_mask: the subpixels of an object that are not hidden, empty for
---             other tokens. fault stays '1' after a part of an object: no processor was free.
+--             other tokens. token_ends: the strip has ended; the command is new_frame, but it is no load. fault stays
+--             '1' after a part of an object: no processor was free.
 --             busy: a word is in the queue.
 -- Formats     in_word: objects_pkg; token: token_pkg
 -- Latency     2 clocks
--- Throughput  1 word per clock; with shadows one clock more per pixel with elements
+-- Throughput  1 word per clock; with shadows, without the filter, one clock more per pixel with elements
 -- Source      processors paper, section 3.2: the commands of the pixel mode
 -- Golden twin model/golden/object_output.hpp
 
@@ -39,6 +41,7 @@ entity object_output is
     token_ready : in  std_logic;
     token       : out std_logic_vector(token_bits(g_config) - 1 downto 0);
     token_mask  : out std_logic_vector(g_subpixels - 1 downto 0);
+    token_ends  : out std_logic;
     busy        : out std_logic;
     fault       : out std_logic
   );
@@ -46,8 +49,9 @@ end entity;
 
 architecture rtl of object_output is
 
-  constant c_exact : boolean        := g_config.exact;
-  constant c_pixel : pixel_header_t := pixel_header(c_exact);
+  constant c_exact  : boolean        := g_config.exact;
+  constant c_pixel  : pixel_header_t := pixel_header(c_exact);
+  constant c_filter : boolean        := has_filter(g_subpixels);
 
   subtype place_t is std_logic_vector(c_pixel.x.high downto c_pixel.y.low); -- y and x
 
@@ -65,6 +69,7 @@ architecture rtl of object_output is
   signal word                  : std_logic_vector(in_word'range);
   signal command               : command_t;
   signal item, element, head   : std_logic; -- kind of the word
+  signal ends                  : std_logic; -- the word is the end of a strip
   signal sends_head            : std_logic; -- the list's head is output before its first element
   signal outputs, taken        : std_logic;
 
@@ -100,9 +105,11 @@ begin
   item    <= flag(kind_of(word) = kind_word(c_item));
   element <= is_element(c_exact, word);
   head    <= item and flag(command = c_new_pixel or command = c_new_scanline);
+  ends    <= flag(kind_of(word) = kind_word(c_strip_end));
 
-  sends_head  <= element and r.pixel when g_config.shadows else '0';
-  outputs     <= item and not head;
+  sends_head  <= element and r.pixel when g_config.shadows and not c_filter else '0';
+  outputs     <= item or ends when c_filter else item and not head;
+  token_ends  <= ends;
   token_valid <= next_valid and outputs;
   taken       <= next_valid and not sends_head and (token_ready or not outputs);
 
@@ -113,9 +120,11 @@ begin
     v := (others => '0');
     v(item_bits(g_config) - 1 downto 0) := word(item_bits(g_config) - 1 downto 0);
     token_mask <= mask_of(word, g_subpixels);
-    if sends_head = '1' then
+    if sends_head = '1' or ends = '1' then
       first := c_new_pixel;
-      if r.line = '1' then
+      if ends = '1' then
+        first := c_new_frame;
+      elsif r.line = '1' then
         first := c_new_scanline;
       end if;
       v := (others => '0');

@@ -93,7 +93,7 @@ architecture rtl of object_processor is
   signal takes_part               : std_logic;
   signal clear, dropped           : std_logic;
   signal line_step, pixel_step    : std_logic;
-  signal edges_ready, more        : std_logic;
+  signal spans_ready, more        : std_logic;
   signal store                    : std_logic_vector(c_parts * c_part_bits - 1 downto 0);
   signal walk                     : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
   signal mask                     : mask_t;
@@ -138,7 +138,7 @@ begin
   clear      <= flag(kind_of(word) = kind_word(c_strip_end));
 
   -- Whether the triangle has ended is known when the edges are ready.
-  waits      <= (part or line_head or clear) and (r.load or not edges_ready);
+  waits      <= (part or line_head or clear) and (r.load or not spans_ready);
   offered    <= next_valid and not waits;
   next_ready <= ready and not waits;
   taken      <= offered and ready;
@@ -208,12 +208,12 @@ begin
       line_step  => line_step,
       pixel_step => pixel_step,
       init       => walk,
-      ready      => edges_ready,
+      ready      => spans_ready,
       more       => more,
       mask       => mask
       );
 
-  -- Select the point of the pixel at which the element is interpolated.
+    -- Select the point of the pixel at which the element is interpolated.
   select_point : process (all)
     variable around : std_logic;
   begin
@@ -283,7 +283,7 @@ begin
         value      => value
         );
 
-    -- The host has added half a step of the dropped bits.
+      -- The host has added half a step of the dropped bits.
     vectors((plane + 1) * c_vector_bits - 1 downto plane * c_vector_bits) <=
       value(c_sum_bits - 1 downto c_sum_bits - c_vector_bits);
 

@@ -33,6 +33,9 @@ package objects_pkg is
 
   function side_bits (subpixels : positive) return natural;
 
+  -- Pixels with several subpixels are filtered.
+  function has_filter (subpixels : positive) return boolean;
+
   -- Limits of a strip, in pixels: the ends of spans must fit span_x in subpixels, and the first lines of triangles pixel_y.
   function most_columns (exact : boolean; subpixels : positive) return positive;
 
@@ -82,6 +85,11 @@ package body objects_pkg is
   function side_of (subpixels : positive) return positive is
   begin
     return 2 ** side_bits(subpixels);
+  end function;
+
+  function has_filter (subpixels : positive) return boolean is
+  begin
+    return subpixels > 1;
   end function;
 
   function most_columns (exact : boolean; subpixels : positive) return positive is

@@ -20,10 +20,11 @@
 --               new_frame                 the strip has ended: its last pixel is output. Needed after each strip
 --             Other tokens, and objects outside a strip, are ignored. Pixels above and to the left of a strip are
 --             background. Where the weights reach to the left, the first column of a strip that does not start at x = 0
---             is only the neighbour of the second one: it gives no fragments. A strip has at most 2**g_column_bits
---             columns. background is stable from a strip's first token until its last fragment. Of objects with equal
+--             is only the neighbour of the second one: it gives no fragments. The same holds for the first line, where
+--             they reach up and it is not y = 0. A strip has at most 2**g_column_bits columns. background is stable from a strip's first token until its last fragment. Of objects with equal
 --             depth that of the pixel itself is the nearest, then left, above, above left; within a pixel the first
---             one. With one channel, red, green and blue are equal, as is the background: its red.
+--             one. With one channel, red, green and blue are equal, as is the background: its red. busy: a strip has
+--             started and not ended, or a fragment is inside.
 -- Formats     token: token_pkg; token_weight: 0 to g_subpixels; background: three colours, red lowest; fragment:
 --             formats_pkg, colour and depth
 -- Latency     8 clocks from the token that ends a pixel: the next head, or new_frame
@@ -65,7 +66,8 @@ entity pixel_filter is
     fragment_z        : out std_logic_vector(formats(g_config.exact).depth.bits - 1 downto 0);
     fragment_red      : out std_logic_vector(formats(g_config.exact).colour.bits - 1 downto 0);
     fragment_green    : out std_logic_vector(formats(g_config.exact).colour.bits - 1 downto 0);
-    fragment_blue     : out std_logic_vector(formats(g_config.exact).colour.bits - 1 downto 0)
+    fragment_blue     : out std_logic_vector(formats(g_config.exact).colour.bits - 1 downto 0);
+    busy              : out std_logic
   );
 end entity;
 
@@ -79,6 +81,7 @@ architecture rtl of pixel_filter is
   constant c_colours      : positive       := c_channels * c_colour;
   constant c_x_bits       : positive       := formats(c_exact).pixel_x.bits;
   constant c_reaches_left : boolean        := g_weights(c_left) + g_weights(c_above_left) > 0;
+  constant c_reaches_up   : boolean        := g_weights(c_above) + g_weights(c_above_left) > 0;
 
   -- Half a step of the radiance's integers, as the colours contain it; 0 if they have no fraction.
   constant c_half  : natural := 2 ** c_radiance.fraction / 2; -- evaluated at elaboration
@@ -189,6 +192,7 @@ architecture rtl of pixel_filter is
   signal queue_in, queue_out            : std_logic_vector(nearest_t'length + c_colours + fragment_y'length
     + fragment_x'length - 1 downto 0);
   signal queue_valid, shown, queue_take : std_logic;
+  signal held                           : std_logic; -- a pixel has ended, and its fragment has not left
 
   -- The colour minus the background. A colour above white counts as white.
   function difference_of (radiance, colour : std_logic_vector) return difference_t is
@@ -412,7 +416,8 @@ begin
     variable chosen : nearest_t;
   begin
     chosen := nearer_of(r.this_near, r.above_near);
-    if c_reaches_left and r.sum_place.first_column = '1' and unsigned(r.sum_place.x) /= 0 then
+    if (c_reaches_left and r.sum_place.first_column = '1' and unsigned(r.sum_place.x) /= 0)
+      or (c_reaches_up and r.sum_place.first_line = '1' and unsigned(r.sum_place.y) /= 0) then
       chosen := c_none;
     end if;
     nearest <= chosen;
@@ -431,7 +436,7 @@ begin
       reset     => reset,
       claim     => ends,
       room      => room,
-      pending   => open,
+      pending   => held,
       in_valid  => r.sum_valid,
       in_data   => queue_in,
       out_valid => queue_valid,
@@ -450,6 +455,8 @@ begin
   fragment_red      <= queue_out(c_red + c_colour - 1 downto c_red);
   fragment_green    <= queue_out(c_green + c_colour - 1 downto c_green);
   fragment_blue     <= queue_out(c_blue + c_colour - 1 downto c_blue);
+
+  busy <= r.in_strip or held;
 
   -- Report a broken contract in the user's simulation.
   check_weights : process (clk)

@@ -167,6 +167,29 @@ const std::vector<Option>& options_of_some_shaders() {
        [](const Given& given, DrawSettings& s) {
          s.plan.form = given.one_of({ProcessorForm::unrolled, ProcessorForm::folded});
        }},
+      {"--object-processors",
+       {{Shader::processors}},
+       true,
+       fmt::format(
+           "processors: a chain of this many object processors, up to {}, instead of the rasterizer: only\n"
+           "visible objects are shaded (default: the rasterizer)",
+           c_most_object_processors),
+       [](const Given& given, DrawSettings& s) {
+         s.plan.objects = static_cast<unsigned>(given.whole_number(1, c_most_object_processors));
+       }},
+      {"--subpixels",
+       {{Shader::processors}},
+       true,
+       "processors, with --object-processors: 1, or 4 or 16 subpixels of a pixel, which is then filtered\n"
+       "(default: 1)",
+       [](const Given& given, DrawSettings& s) {
+         const int subpixels = given.whole_number(1, 16);
+         if (subpixels != 1 && subpixels != 4 && subpixels != 16)
+           given.fail(fmt::format("{} is not 1, 4 or 16", subpixels));
+         if (s.plan.objects == 0)
+           throw Failure{bad_input("--subpixels goes with --object-processors; give both")};
+         s.plan.subpixels = static_cast<unsigned>(subpixels);
+       }},
       {"--span-ends",
        {{Shader::spherical, Preset::exact}},
        false,

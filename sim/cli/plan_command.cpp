@@ -15,6 +15,7 @@
 #include "frame/assemble.hpp"
 #include "frame/metrics.hpp"
 #include "golden_run/golden_run.hpp"
+#include "golden_run/object_count.hpp"
 #include "plan/plan.hpp"
 #include "plan/processor_clocks.hpp"
 #include "plan/processor_count.hpp"
@@ -222,8 +223,24 @@ void print_own_processors(const Scene& scene, const ShadingLoad& load) {
   }
 }
 
+// The same with the objects that the chain of object processors lets through, instead of O objects at each
+// pixel.
+void print_measured_processors(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
+                               ShadingLoad load) {
+  const FrameStream stream = must(whole_stream(
+      scene, draw.size, key,
+      {.setup = draw.setup, .golden = GoldenDraws::nothing, .workers = on_threads(draw.threads)}));
+  const std::uint64_t objects = count_objects(key, stream.words);
+  fmt::print("measured behind {} object processors, {} subpixel{}: {} objects a frame, O = {:.3f}; ",
+             key.processors.objects, key.processors.subpixels, key.processors.subpixels == 1 ? "" : "s",
+             objects, static_cast<double>(objects) / static_cast<double>(load.pixels));
+  load.pixels = objects;
+  load.objects = 1;
+  print_own_processors(scene, load);
+}
+
 // Table 5 of the processors paper.
-void print_processors(const Scene& scene, const PlanCommand& command, FrameSize size) {
+ShadingLoad print_processors(const Scene& scene, const PlanCommand& command, FrameSize size) {
   const SceneCalls calls = calls_of(scene);
   ShadingLoad load;
   load.pixels = std::uint64_t{size.width} * size.height;
@@ -256,6 +273,7 @@ void print_processors(const Scene& scene, const PlanCommand& command, FrameSize 
                       *n.published_pipelines * n.per_pipeline));
   }
   print_own_processors(scene, load);
+  return load;
 }
 
 // A scene in the quadratic shader of a degree: what setup makes of it, and the golden model's frame.
@@ -340,7 +358,7 @@ int run(const Folders& folders, const PlanCommand& command) {
   const DrawSettings draw = checked(command.draw);
   constexpr EngineKind c_measured[] = {EngineKind::ghdl, EngineKind::verilator};
   const std::vector<EngineKind> simulators = checked_simulators(command.simulators, c_measured);
-  for (const auto& [name, given, most] : {std::tuple{"--objects", command.objects, c_most_objects},
+  for (const auto& [name, given, most] : {std::tuple{"--objects-per-pixel", command.objects, c_most_objects},
                                           std::tuple{"--rate", command.rate, c_most_rate}})
     if (given && (*given < 1 || *given > most))
       throw Failure{bad_input(fmt::format("{}: {} is not 1 to {}", name, *given, most))};
@@ -384,7 +402,10 @@ int run(const Folders& folders, const PlanCommand& command) {
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
   if (plan.key.shader == Shader::quadratic)
     print_degrees(scene, draw, plan.key, cells, simulator_folders, *command.family);
-  if (command.objects || command.rate) print_processors(scene, command, draw.size);
+  if (command.objects || command.rate) {
+    const ShadingLoad load = print_processors(scene, command, draw.size);
+    if (plan.key.processors.objects > 0) print_measured_processors(scene, draw, plan.key, load);
+  }
   return static_cast<int>(same ? ExitCode::equal : ExitCode::differs);
 }
 
@@ -400,7 +421,7 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
       "count cells by Yosys, and cycles and seconds by simulation, for the scene and with all effects;\n"
       "also the cells of each effect. Takes minutes for shading processors, longer for ten lights");
   sub->add_option("--simulator", command->simulators, "for --measure: ghdl or verilator (default: both)");
-  sub->add_option("--objects", command->objects,
+  sub->add_option("--objects-per-pixel", command->objects,
                   "objects per pixel, for the number of processors (processors paper, table 5)");
   sub->add_option("--rate", command->rate, "frames per second, for the same table (default: 30)");
   add_device(*sub, command->family);

@@ -101,7 +101,8 @@ TEST_F(PlanCommand, WritesTheRepairedNetlist) {
 }
 
 TEST_F(PlanCommand, Table5OfTheLights) {
-  const Outcome asked = run({"plan", "lights", "--objects", "3", "--rate", "30", "--size", "1000x1000"});
+  const Outcome asked =
+      run({"plan", "lights", "--objects-per-pixel", "3", "--rate", "30", "--size", "1000x1000"});
   EXPECT_EQ(asked.exit_code, 0) << asked.output;
   EXPECT_THAT(asked.output,
               AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
@@ -124,6 +125,28 @@ TEST_F(PlanCommand, Table5OfTheLights) {
   EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
 }
 
+// Behind object processors each covered pixel has one object; with the filter, pixels at outlines have more.
+TEST_F(PlanCommand, MeasuresObjectsBehindObjectProcessors) {
+  const auto plan = [&](const char* subpixels) {
+    return run({"plan", "matte", "--shader", "processors", "--object-processors", "32", "--subpixels",
+                subpixels, "--size", "160x120", "--rate", "30"});
+  };
+  const Outcome plain = plan("1"), filtered = plan("16");
+  EXPECT_EQ(plain.exit_code, 0) << plain.output;
+  EXPECT_THAT(
+      plain.output,
+      ContainsRegex(
+          "measured behind 32 object processors, 1 subpixel: [0-9]+ objects a frame, O = 0\\.[0-9]+"));
+  const auto objects_of = [](const std::string& output) {
+    const std::string_view before = "objects a frame";
+    const std::size_t end = output.find(before);
+    const std::size_t start = end == std::string::npos ? 0 : output.rfind(": ", end) + 2;
+    return std::atoi(output.c_str() + start);
+  };
+  EXPECT_GT(objects_of(plain.output), 1000);
+  EXPECT_GT(objects_of(filtered.output), objects_of(plain.output));
+}
+
 TEST_F(PlanCommand, BadUsageExitsTwo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"plan", "matte", "--shader", "spherical", "--lights", "3"}, "--lights goes with --all-effects"},
@@ -134,10 +157,19 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
       {{"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "0"}, "0 is not 1 to 16"},
       {{"plan", "lights", "--shader", "spherical", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
       {{"plan", "matte", "--rate", "1001"}, "--rate: 1001 is not 1 to 1000"},
-      {{"plan", "matte", "--objects", "0"}, "--objects: 0 is not 1 to 1000"},
+      {{"plan", "matte", "--objects-per-pixel", "0"}, "--objects-per-pixel: 0 is not 1 to 1000"},
       {{"plan", "matte", "--form", "folded"},
        "--form belongs to the processors shader, and does not apply to the quadratic shader"},
       {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take unrolled or folded"},
+      {{"plan", "matte", "--object-processors", "4"},
+       "--object-processors belongs to the processors shader, and does not apply to the quadratic shader"},
+      {{"plan", "matte", "--shader", "processors", "--object-processors", "257"}, "257 is not 1 to 256"},
+      {{"plan", "matte", "--shader", "processors", "--object-processors", "4", "--subpixels", "9"},
+       "9 is not 1, 4 or 16"},
+      {{"plan", "matte", "--shader", "processors", "--subpixels", "4"},
+       "--subpixels goes with --object-processors"},
+      {{"plan", "shadows", "--shader", "processors", "--object-processors", "4"},
+       "behind object processors shadows are not drawn"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
   };
   for (const auto& [arguments, expected] : cases) EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));

@@ -76,6 +76,9 @@ void print_stage(const StageState& stage, const Widths& widths) {
 
 int run(const Folders& folders, const WhyCommand& command) {
   const auto draw = checked(command.draw);
+  if (draw.plan.objects > 0)
+    throw Failure{
+        bad_input("why explains pixels of the rasterizer; leave out --object-processors and --subpixels")};
   const auto pixel = parse_pixel(command.pixel);
   if (!pixel)
     throw Failure{bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel))};

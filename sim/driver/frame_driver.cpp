@@ -100,7 +100,7 @@ Status FrameDriver::take(const Batch& batch, const OnBatch& on_batch) {
 }
 
 Status FrameDriver::check_counts() const {
-  return o_.check ? check_shadow_counts(scene_, counts_, fault_) : Status(Ok{});
+  return o_.check ? check_pixels(scene_, key_, counts_, fault_) : Status(Ok{});
 }
 
 Status FrameDriver::finish() {

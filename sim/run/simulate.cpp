@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -27,6 +28,7 @@
 #include "sim/run/open_engine.hpp"
 #include "sim/run/waveform.hpp"
 #include "words/generator/cosine.hpp"
+#include "words/object_limits.hpp"
 
 namespace halfway {
 namespace {
@@ -196,8 +198,11 @@ class Simulation {
 
   ReferenceImage draw_reference() const {
     const std::vector<ScreenTriangle> triangles = Projector(scene_, s_.size, {}).project_all();
-    return render_reference(scene_, triangles,
-                            {.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)});
+    const RenderOptions options{.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)};
+    if (s_.plan.subpixels == 1) return render_reference(scene_, triangles, options);
+    std::array<double, 4> weights{};
+    std::copy(words::c_filter_weights.begin(), words::c_filter_weights.end(), weights.begin());
+    return render_filtered(scene_, triangles, options, weights);
   }
 
   // Open the engines in parallel, because some take long.

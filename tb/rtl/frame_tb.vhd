@@ -29,6 +29,8 @@ entity frame_tb is
     g_normalize          : boolean  := true;
     g_shadows            : boolean  := false;
     g_unrolled           : boolean  := true;
+    g_objects            : positive := 1;
+    g_subpixels          : positive := 1;
 
     g_init_file     : string   := "init.txt";
     g_trace_file    : string   := "trace.txt";

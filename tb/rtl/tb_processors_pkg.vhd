@@ -37,8 +37,8 @@ package tb_processors_pkg is
     config(true, 3, 1, 1, 0, true, true, true, true), config(false, 3, 1, 1, 1, true, true, true, false));
 
   -- The hardware with object processors that the testbenches of rtl/objects run (tb/vectors/object_scene.hpp).
-  constant c_fronts    : configs_t(0 to 2)      := (c_shaders(2), c_shaders(3), c_shaders(0));
-  constant c_subpixels : integer_vector(0 to 2) := (16, 4, 1);
+  constant c_fronts    : configs_t(0 to 3)      := (c_shaders(2), c_shaders(3), c_shaders(0), c_shaders(2));
+  constant c_subpixels : integer_vector(0 to 3) := (16, 4, 1, 1);
 
   -- Their files, and those of vectors that cause a fault.
   function front_name (front : natural) return string;

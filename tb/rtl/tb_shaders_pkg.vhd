@@ -23,6 +23,8 @@ package tb_shaders_pkg is
     address_bits, data_bits        : positive;
     directional, positional, spots : natural;
     normalize, shadows, unrolled   : boolean;
+    objects                        : natural; -- object processors; 0: the rasterizer
+    subpixels                      : positive;
   end record;
 
   type hardwares_t is array (natural range <>) of hardware_t;
@@ -31,7 +33,8 @@ package tb_shaders_pkg is
     diffuse, specular : boolean := true; degree : positive := 2; lights : natural := 1;
     highlight_channels : positive := 1; powers : natural := 2; address_bits : positive := 9; data_bits : positive := 8;
     directional : natural := 1; positional, spots : natural := 0; normalize : boolean := true;
-    shadows : boolean := false; unrolled : boolean := true) return hardware_t;
+    shadows : boolean := false; unrolled : boolean := true; objects : natural := 0; subpixels : positive := 1)
+    return hardware_t;
 
   function processors_config (h : hardware_t) return config_t;
 
@@ -48,10 +51,11 @@ package body tb_shaders_pkg is
     diffuse, specular : boolean := true; degree : positive := 2; lights : natural := 1;
     highlight_channels : positive := 1; powers : natural := 2; address_bits : positive := 9; data_bits : positive := 8;
     directional : natural := 1; positional, spots : natural := 0; normalize : boolean := true;
-    shadows : boolean := false; unrolled : boolean := true) return hardware_t is
+    shadows : boolean := false; unrolled : boolean := true; objects : natural := 0; subpixels : positive := 1)
+    return hardware_t is
   begin
     return (shader, exact, channels, diffuse, specular, degree, lights, highlight_channels, powers, address_bits, data_bits,
-      directional, positional, spots, normalize, shadows, unrolled);
+      directional, positional, spots, normalize, shadows, unrolled, objects, subpixels);
   end function;
 
   function processors_config (h : hardware_t) return config_t is

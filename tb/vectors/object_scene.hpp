@@ -20,6 +20,7 @@ void for_each_object_front(Use&& use) {
   use.template operator()<words::Exact>(words::ProcessorsConfig{3, 1, 1, 0, true, true, true, true}, 16);
   use.template operator()<words::Published>(words::ProcessorsConfig{3, 1, 1, 1, true, true, true, false}, 4);
   use.template operator()<words::Exact>(words::ProcessorsConfig{3, 1, 0, 0, true, true, true, false}, 1);
+  use.template operator()<words::Exact>(words::ProcessorsConfig{3, 1, 1, 0, true, true, true, true}, 1);
 }
 
 /// A triangle of a strip, and the lines of pixels on which a processor holds it.
@@ -40,6 +41,8 @@ struct Strip {
 template <class Preset>
 class ObjectScene {
  public:
+  using Command = words::Command;
+
   ObjectScene(const words::ProcessorsConfig& config, int subpixels, std::uint64_t seed)
       : config_(config), layout_(config), side_(golden::side_of(subpixels)), random_(seed) {}
 
@@ -74,12 +77,16 @@ class ObjectScene {
   InitVector end_vector() { return strip_vector({0, 0, 0, 1, 1}); }
   InitVector load_vector() {
     constexpr Command c_loads[] = {Command::define, Command::redefine, Command::remove, Command::new_frame};
-    InitVector vector = request(c_loads[random_.between(0, 3)]);
+    return load_vector(c_loads[random_.between(0, 3)], static_cast<int>(random_.bits(4)));
+  }
+  InitVector load_vector(Command command, int light) {
+    InitVector vector = request(command);
     golden::ShadingToken<Preset> token;
-    token.command = static_cast<Command>(get_bits(vector, Preset::request_header_at::command));
-    token.light_number = static_cast<std::uint32_t>(random_.bits(4));
+    token.command = command;
+    token.light_number = static_cast<std::uint32_t>(light);
     for (auto& place : token.light.place) place = static_cast<std::int64_t>(random_.bits(12));
-    for (auto& intensity : token.light.intensity) intensity = static_cast<std::uint32_t>(random_.bits(8));
+    for (auto& intensity : token.light.intensity)
+      intensity = static_cast<std::uint32_t>(random_.bits(8 + Preset::c_light_intensity_fraction_bits));
     token.encode(config_, vector);
     return vector;
   }
@@ -106,7 +113,6 @@ class ObjectScene {
 
  private:
   using At = words::Exact::init_header_at;
-  using Command = words::Command;
 
   void put(InitVector& vector, const words::Field& field, std::uint64_t value) {
     set_bits(vector, field, value, layout_.walk_low());

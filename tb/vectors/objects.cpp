@@ -2,7 +2,11 @@
 // Vectors of the chain of object processors and of its parts.
 #include <fmt/format.h>
 
+#include <bit>
+#include <span>
+
 #include "golden/object_front.hpp"
+#include "golden/objects_shader.hpp"
 #include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/object_scene.hpp"
@@ -52,7 +56,7 @@ class ChainFiles {
         token_bits_(words::ProcessorsLayout<Preset>(config).token_bits()),
         source_(config, subpixels),
         chain_(static_cast<std::size_t>(objects), golden::ObjectProcessor<Preset>(config, subpixels)),
-        output_(config),
+        output_(config, subpixels > 1),
         words_(chain_.size() + 1) {}
 
   void send(const InitVector& vector) {
@@ -74,6 +78,12 @@ class ChainFiles {
     words_.back().write(folder / (stem + "_in.txt"));
     tokens_.write(folder / (stem + "_out.txt"));
   }
+  void write_lists(const Folder& folder, const std::string& stem) const {
+    if (subpixels_ == 1) return;
+    listed_.write(folder / (stem + "_in.txt"));
+    entered_.write(folder / (stem + "_pipeline.txt"));
+    filtered_.write(folder / (stem + "_out.txt"));
+  }
   void write_front(const Folder& folder, const std::string& stem) const {
     vectors_.write(folder / (stem + "_in.txt"));
     tokens_.write(folder / (stem + "_out.txt"));
@@ -81,6 +91,13 @@ class ChainFiles {
 
  private:
   using Word = golden::ObjectWord<Preset>;
+  using Token = golden::ShadingToken<Preset>;
+
+  std::vector<std::uint32_t> words_of(const Token& token) const {
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(token_bits_ + 31) / 32);
+    token.encode(config_, words);
+    return words;
+  }
 
   void pass(std::size_t at, const Word& word) {
     add_word(words_[at], word, config_, subpixels_);
@@ -89,11 +106,38 @@ class ChainFiles {
       chain_[at].take(word, [&](const Word& next) { pass(at + 1, next); });
       return;
     }
-    output_.take(word, [&](const golden::ShadingToken<Preset>& token, std::uint32_t mask) {
-      std::vector<std::uint32_t> words(static_cast<std::size_t>(token_bits_ + 31) / 32);
-      token.encode(config_, words);
-      tokens_.words_of(words, token_bits_).word(mask, subpixels_).end_vector();
+    output_.take(word, [&](const Token& token, std::uint32_t mask, bool ends) {
+      const std::uint64_t with_mask = mask | std::uint64_t{ends} << subpixels_;
+      tokens_.words_of(words_of(token), token_bits_).word(mask, subpixels_).flag(ends).end_vector();
+      if (subpixels_ > 1) add_to_filter(token, mask, ends, with_mask);
     });
+  }
+
+  // What leads past the pipeline, which changes nothing here. Rows of token, then ends and mask; what enters
+  // the pipeline; and what leaves to the filter: token, then background and weight.
+  void add_to_filter(const Token& token, std::uint32_t mask, bool ends, std::uint64_t with_mask) {
+    const bool object = token.command == Command::new_object, frame = token.command == Command::new_frame;
+    const bool head = token.command == Command::new_pixel || token.command == Command::new_scanline;
+    Flat in = flat(words_of(token), token_bits_);
+    in.add(with_mask, subpixels_ + 1);
+    listed_.words_of(in.words, in.bits).end_vector();
+    if (!ends && (!head || config_.shadows)) entered_.words_of(words_of(token), token_bits_).end_vector();
+    if (!object && !frame && !head) return;
+    Token left;
+    left.command = token.command;
+    if (head) {
+      left.y = token.y;
+      left.x = token.x;
+    }
+    const auto weight = static_cast<std::uint64_t>(std::popcount(mask));
+    Flat out = flat(words_of(object ? token : left), token_bits_);
+    out.add(weight, std::bit_width(static_cast<unsigned>(subpixels_))).add(background_, 24);
+    filtered_.words_of(out.words, out.bits).end_vector();
+    if (frame && !ends) {
+      background_ = 0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(config_.channels); ++i)
+        background_ |= (token.light.intensity[i] >> Preset::c_light_intensity_fraction_bits & 255U) << 8 * i;
+    }
   }
 
   ProcessorsConfig config_;
@@ -102,6 +146,8 @@ class ChainFiles {
   std::vector<golden::ObjectProcessor<Preset>> chain_;
   golden::ObjectOutput<Preset> output_;
   VectorFile vectors_, tokens_;
+  VectorFile listed_, entered_, filtered_;
+  std::uint64_t background_ = 0;
   std::vector<VectorFile> words_;
 };
 
@@ -154,6 +200,87 @@ ChainFiles<Preset> wrong_strips_of(const ProcessorsConfig& config, int subpixels
   if (files.source_fault() == crowded || files.output_fault() != crowded)
     throw Failure{tool_failed("object_front: the wrong fault")};
   return files;
+}
+
+// tb/rtl/shaders/objects_shader_tb.vhd has the same list.
+struct Shaders {
+  const char* name;
+  ProcessorsConfig config;
+  int subpixels;
+};
+constexpr Shaders c_exact_shaders[] = {{"plain", {3, 1, 0, 0, true, true, true, false}, 1},
+                                       {"filtered", {3, 1, 1, 0, true, true, true, false}, 16}};
+constexpr Shaders c_published_shaders[] = {{"published_folded", {1, 1, 0, 0, true, true, true, false}, 4}};
+
+// Init vectors and fragments as in shaders.cpp, without clocks. After a set no light is left.
+template <class Preset>
+class ShaderFiles {
+ public:
+  explicit ShaderFiles(const Shaders& s)
+      : s_(s), scene_(s.config, s.subpixels, 5), twin_(s.config, s.subpixels, c_objects) {}
+
+  void add_strips(int count, bool mixed) {
+    define_all();
+    for (int i = 0; i < count; ++i) {
+      const Strip strip = scene_.any_strip();
+      if (mixed && scene_.random().one_in(2)) send(scene_.load_vector());
+      send(scene_.strip_vector(strip));
+      if (!mixed || !scene_.random().one_in(6))
+        for (const StripTriangle& t : scene_.triangles(strip, mixed ? 12 : 5, c_objects)) send(t.vector);
+      send(scene_.end_vector());
+    }
+    for (int light = 0; light <= s_.config.lights(); ++light)
+      send(scene_.load_vector(Command::remove, light));
+    if (twin_.fault()) throw Failure{tool_failed("objects_shader: a fault, but the triangles fit")};
+  }
+  void add_crowd() {
+    define_all();
+    const Strip strip{7, 6, 9, 5, static_cast<std::uint32_t>(golden::side_of(s_.subpixels))};
+    send(scene_.strip_vector(strip));
+    for (const StripTriangle& t : scene_.triangles(strip, 40, c_objects + 2)) send(t.vector);
+    send(scene_.end_vector());
+    if (!twin_.fault()) throw Failure{tool_failed("objects_shader: no fault")};
+  }
+  void write(const Folder& folder, const char* set) const {
+    const std::string stem = fmt::format("{}_{}", s_.name, set);
+    if (fragments_.size() == 0) throw Failure{tool_failed(stem + ": no fragment")};
+    inits_.write(folder / (stem + "_init.txt"));
+    fragments_.write(folder / (stem + "_fragments.txt"));
+  }
+
+ private:
+  void define_all() {
+    send(scene_.load_vector(Command::new_frame, 0));
+    for (int light = 0; light <= s_.config.lights(); ++light)
+      send(scene_.load_vector(Command::define, light));
+  }
+  void send(const InitVector& vector) {
+    inits_.words_of(vector, twin_.init_bits()).word(0, 32).end_vector();
+    twin_.draw(vector,
+               [&](const Fragment& f) { add_fragment<Preset>(fragments_, f).word(0, 32).end_vector(); });
+  }
+
+  Shaders s_;
+  ObjectScene<Preset> scene_;
+  golden::ObjectsShader<Preset> twin_;
+  VectorFile inits_, fragments_;
+};
+
+template <class Preset>
+void write_shaders_of(const Folder& folder, std::span<const Shaders> all) {
+  for (const Shaders& s : all) {
+    ShaderFiles<Preset> dense(s), mixed(s), crowded(s);
+    dense.add_strips(2, false);
+    dense.write(folder, "dense");
+    mixed.add_strips(6, true);
+    mixed.write(folder, "mixed");
+    crowded.add_crowd();
+    crowded.write(folder, "fault");
+  }
+}
+void write_shaders(const Folder& folder) {
+  write_shaders_of<Exact>(folder, c_exact_shaders);
+  write_shaders_of<words::Published>(folder, c_published_shaders);
 }
 
 // write(files, folder, stem) for each hardware: strips, and faulty ones.
@@ -318,6 +445,9 @@ std::vector<Entity> objects_entities() {
                                                 const std::string& s) { files.write_source(f, s); })},
       {"object_output", of_chains("crowded", [](const auto& files, const Folder& f,
                                                 const std::string& s) { files.write_output(f, s); })},
+      {"filter_queue", of_chains("", [](const auto& files, const Folder& f,
+                                        const std::string& s) { files.write_lists(f, s); })},
+      {"objects_shader", write_shaders},
       {"object_front", of_chains("crowded", [](const auto& files, const Folder& f,
                                                const std::string& s) { files.write_front(f, s); })},
   };

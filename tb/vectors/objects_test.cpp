@@ -36,7 +36,8 @@ std::vector<Shown> tokens_of(const std::vector<InitVector>& vectors, const Proce
   golden::ObjectFront<Preset> front(config, subpixels, objects);
   std::vector<Shown> tokens;
   for (const InitVector& vector : vectors)
-    front.take(vector, [&](const auto& t, std::uint32_t mask) {
+    front.take(vector, [&](const auto& t, std::uint32_t mask, bool ends) {
+      if (ends) return;
       tokens.push_back({t.command, t.y, t.x, t.z, t.triangle, mask, t.normal[0]});
     });
   EXPECT_FALSE(front.busy());
@@ -65,8 +66,9 @@ class Unordered {
       bool line = true;
       for (std::uint32_t x = 0; x < strip_.columns; ++x) {
         const std::vector<Shown> list = resolved(triangles, y, x);
-        if (list.empty()) continue;
-        if (config_.shadows)
+        const bool filtered = strip_.side > 1;
+        if (list.empty() && !filtered) continue;
+        if (config_.shadows || filtered)
           all.push_back({line ? Command::new_scanline : Command::new_pixel, strip_.y + y, strip_.x + x});
         line = false;
         all.insert(all.end(), list.begin(), list.end());
@@ -219,7 +221,8 @@ TEST(Objects, InterpolatedValuesKeepTheirBound) {
   for (int i = 0; i < 200000; ++i) {
     // Often just below a half.
     const auto any = [&] {
-      return random.between(-100, 100) * c_unit + (random.one_in(2) ? c_unit / 2 - 1 : random.between(0, c_unit - 1));
+      return random.between(-100, 100) * c_unit +
+             (random.one_in(2) ? c_unit / 2 - 1 : random.between(0, c_unit - 1));
     };
     const std::int64_t start = any(), dx = any(), dy = any();
     const auto rounded = [](std::int64_t value) {
@@ -237,7 +240,8 @@ TEST(Objects, InterpolatedValuesKeepTheirBound) {
     };
     centre_worst = std::max(centre_worst, excess(interpolator.value().value(), 0, 0));
     const int side = random.one_in(2) ? 2 : 4;
-    const auto row = static_cast<int>(random.between(0, side - 1)), column = static_cast<int>(random.between(0, side - 1));
+    const auto row = static_cast<int>(random.between(0, side - 1)),
+               column = static_cast<int>(random.between(0, side - 1));
     const auto eighths = [&](int index) { return (2 * index + 1 - side) * 4 / side; };
     subpixel_worst = std::max(
         subpixel_worst, excess(interpolator.value(side, row, column).value(), eighths(column), eighths(row)));

@@ -23,7 +23,7 @@ begin
 
       signal clk, reset, in_valid, in_ready, out_valid, out_ready, busy, fault : std_logic;
       signal in_word  : std_logic_vector(word_bits(c_config, c_n) - 1 downto 0);
-      signal out_word : std_logic_vector(token_bits(c_config) + c_n - 1 downto 0);
+      signal out_word : std_logic_vector(token_bits(c_config) + c_n downto 0);
     begin
       dut : entity work.object_output
         generic map (g_config => c_config, g_subpixels => c_n)
@@ -36,12 +36,13 @@ begin
           token_valid => out_valid,
           token_ready => out_ready,
           token       => out_word(token_bits(c_config) - 1 downto 0),
-          token_mask  => out_word(out_word'high downto token_bits(c_config)),
+          token_mask  => out_word(out_word'high - 1 downto token_bits(c_config)),
+          token_ends  => out_word(out_word'high),
           busy        => busy,
           fault       => fault);
 
       check : entity work.stream_checker
-        generic map (g_file => g_folder & "/" & c_set, g_fault => to_flag(wrong), g_first => token_bits(c_config))
+        generic map (g_file => g_folder & "/" & c_set, g_fault => to_flag(wrong), g_first => (token_bits(c_config), c_n))
         port map (clk, reset, in_valid, in_ready, in_word, out_valid, out_ready, out_word, busy, fault);
     end generate;
   end generate;

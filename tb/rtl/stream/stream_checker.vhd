@@ -9,7 +9,7 @@ entity stream_checker is
   generic (
     g_file  : string; -- without _in.txt and _out.txt
     g_fault : std_logic := '0';
-    g_first : natural   := 0 -- a row of _out.txt has two words, and the first one this number of bits; 0: it has one word
+    g_first : integer_vector := (0 => 0) -- bits of the first words of a row of _out.txt; the last word has the rest
   );
   port (
     clk       : buffer std_logic := '0';
@@ -47,6 +47,7 @@ begin
   check : process is
     variable vectors : vectors_t;
     variable still   : natural := 0; -- clocks without a word
+    variable low     : natural;
   begin
     vectors.open_file(g_file & "_out.txt");
     while vectors.next_vector loop
@@ -59,10 +60,14 @@ begin
         end if;
       end loop;
       still := 0;
-      if g_first > 0 then
-        vectors.check("the first word", words(g_first - 1 downto 0));
-      end if;
-      vectors.check("word", words(words'high downto g_first));
+      low := 0;
+      for i in g_first'range loop
+        if g_first(i) > 0 then
+          vectors.check("word " & to_string(i), words(low + g_first(i) - 1 downto low));
+        end if;
+        low := low + g_first(i);
+      end loop;
+      vectors.check("the last word", words(words'high downto low));
     end loop;
     if not fed then
       wait until fed for 100000 * c_half_period;

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Strips compared with the coverage of the whole frame; and frames drawn behind object processors compared
+// with those of the rasterizer and with the reference.
+#include "setup/object_strips.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "frame/metrics.hpp"
+#include "golden_run/test/drawing.hpp"
+#include "plan/plan.hpp"
+#include "reference/renderer.hpp"
+#include "scene/test/random_scenes.hpp"
+#include "setup/check_counts.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/os/must.hpp"
+
+namespace halfway {
+namespace {
+
+constexpr FrameSize c_strip_frame{61, 47};
+constexpr int c_strip_bits = 4;
+
+class RandomItems {
+ public:
+  explicit RandomItems(unsigned seed) : random_(seed) {}
+  int between(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  std::vector<StripItem> items(int count) {
+    std::vector<StripItem> all;
+    for (int i = 0; i < count; ++i) {
+      StripItem item;
+      for (ScreenPoint& p : item) p = {between(-200, 1200), between(-200, 900)};
+      if (i % 2 == 0)  // small
+        for (std::size_t k = 1; k < 3; ++k)
+          item[k] = {item[0].x + between(-50, 50), item[0].y + between(-50, 50)};
+      all.push_back(item);
+    }
+    return all;
+  }
+
+ private:
+  std::mt19937 random_;
+};
+
+// How often each subpixel of the frame is covered by walks in the pixels that a strip draws.
+using Coverage = std::vector<int>;
+
+void add_covered(Coverage& coverage, const StripItem& item, const Tile& area, std::uint32_t side,
+                 const Tile& drawn) {
+  const std::size_t pitch = std::size_t{c_strip_frame.width} * side;
+  for (const Walk& walk : strip_walks(item, c_strip_bits, area, side))
+    for (std::int64_t y = walk.y; y < walk.y + walk.upper_lines + walk.lower_lines; ++y) {
+      const Walk line = line_of(walk, y).walk;
+      const std::int64_t shift = line.backward ? 1 : 0;
+      const auto [left, right] = std::minmax({line.start.pixel + shift, line.upper.pixel + shift});
+      const std::int64_t end = std::min(right, std::int64_t{area.size.width} * side);
+      for (std::int64_t x = std::max(left, std::int64_t{0}); x < end; ++x) {
+        const std::uint32_t column = area.x * side + static_cast<std::uint32_t>(x);
+        const std::uint32_t row = area.y * side + static_cast<std::uint32_t>(y);
+        if (drawn.holds(column / side, row / side)) ++coverage[row * pitch + column];
+      }
+    }
+}
+
+TEST(ObjectStrips, DrawEveryCoveredPixelOnceAndFitTheProcessors) {
+  RandomItems random(4);
+  for (int round = 0; round < 60; ++round) {
+    const std::uint32_t side = 1U << round % 3;
+    const ObjectChain chain{.processors = static_cast<std::uint32_t>(random.between(5, 12)),
+                            .side = side,
+                            .most_columns = static_cast<std::uint32_t>(random.between(5, 70)),
+                            .most_lines = static_cast<std::uint32_t>(random.between(5, 60))};
+    const std::vector<StripItem> items = random.items(random.between(1, 30));
+    const ObjectStrips cut = cut_strips(items, c_strip_bits, c_strip_frame, chain);
+    const std::size_t subpixels = Frame::pixels(c_strip_frame) * side * side;
+    Coverage expected(subpixels), got(subpixels);
+    std::vector<int> drawn(Frame::pixels(c_strip_frame)), needed(Frame::pixels(c_strip_frame));
+    for (const StripItem& item : items) {
+      add_covered(expected, item, whole_frame(c_strip_frame), side, whole_frame(c_strip_frame));
+      Coverage own(subpixels);
+      add_covered(own, item, whole_frame(c_strip_frame), side, whole_frame(c_strip_frame));
+      // The pixels that have the item in their support.
+      for (std::size_t i = 0; i < subpixels; ++i) {
+        if (own[i] == 0) continue;
+        const std::size_t y = i / (c_strip_frame.width * side) / side,
+                          x = i % (c_strip_frame.width * side) / side;
+        const std::size_t reach = chain.filtered() ? 1 : 0;
+        for (std::size_t v = y; v <= std::min<std::size_t>(y + reach, c_strip_frame.height - 1); ++v)
+          for (std::size_t u = x; u <= std::min<std::size_t>(x + reach, c_strip_frame.width - 1); ++u)
+            needed[v * c_strip_frame.width + u] = 1;
+      }
+    }
+    std::uint32_t most = 0;
+    for (const ObjectStrip& strip : cut.strips) {
+      const Tile& area = strip.area;
+      EXPECT_LE(area.size.width, chain.most_columns);
+      EXPECT_LE(area.size.height, chain.most_lines);
+      // The first column and line are neighbours, unless they are the frame's.
+      const std::uint32_t left = chain.filtered() && area.x > 0 ? 1 : 0,
+                          top = chain.filtered() && area.y > 0 ? 1 : 0;
+      const Tile pixels{area.x + left, area.y + top, {area.size.width - left, area.size.height - top}};
+      for (std::uint32_t y = 0; y < pixels.size.height; ++y)
+        for (std::uint32_t x = 0; x < pixels.size.width; ++x)
+          ++drawn[(pixels.y + y) * c_strip_frame.width + pixels.x + x];
+      std::vector<std::uint32_t> lines(area.size.height);
+      for (const std::uint32_t item : strip.items) {
+        add_covered(got, items[item], area, side, pixels);
+        for (const Walk& walk : strip_walks(items[item], c_strip_bits, area, side))
+          for (std::int64_t y = pixel_lines(walk, side).begin; y < pixel_lines(walk, side).end; ++y)
+            most = std::max(most, ++lines[static_cast<std::size_t>(y)]);
+      }
+    }
+    ASSERT_EQ(got, expected) << "round " << round;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      ASSERT_LE(drawn[i], 1) << "pixel " << i;
+      ASSERT_GE(drawn[i], needed[i]) << "pixel " << i;
+    }
+    EXPECT_EQ(cut.processors, most);
+  }
+}
+
+TEST(ObjectStrips, NothingGivesNoStrip) {
+  EXPECT_TRUE(cut_strips({}, c_strip_bits, c_strip_frame, {.processors = 1}).strips.empty());
+  const StripItem outside{{{-400, 5}, {-300, 5}, {-300, 90}}};
+  EXPECT_TRUE(cut_strips({&outside, 1}, c_strip_bits, c_strip_frame, {.processors = 1}).strips.empty());
+}
+
+// Objects at the top and at the bottom: the lines between are not scanned.
+TEST(ObjectStrips, LinesWithoutAnItemAreLeftOut) {
+  const std::array<StripItem, 2> items = {
+      {{{{32, 32}, {80, 32}, {32, 80}}}, {{{32, 640}, {80, 640}, {32, 720}}}}};
+  const ObjectStrips plain = cut_strips(items, c_strip_bits, c_strip_frame, {.processors = 1});
+  ASSERT_EQ(plain.strips.size(), 2U);
+  EXPECT_EQ(plain.strips[0].area, (Tile{2, 2, {4, 2}}));
+  EXPECT_EQ(plain.strips[1].area, (Tile{2, 40, {4, 4}}));
+  const ObjectStrips filtered = cut_strips(items, c_strip_bits, c_strip_frame, {.processors = 1, .side = 2});
+  EXPECT_EQ(filtered.strips[0].area, (Tile{1, 1, {6, 5}}));
+}
+
+HardwareKey chain_key(const Scene& scene, Preset preset, unsigned objects, unsigned subpixels = 1,
+                      bool all_effects = false) {
+  return must(plan_scene(scene, {.shader = Shader::processors,
+                                 .preset = preset,
+                                 .all_effects = all_effects,
+                                 .objects = objects,
+                                 .subpixels = subpixels}))
+      .key;
+}
+Scene builtin_scene(const char* name) {
+  return must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+}
+
+std::vector<Fragment> sorted(std::vector<Fragment> fragments) {
+  std::sort(fragments.begin(), fragments.end(),
+            [](const Fragment& a, const Fragment& b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); });
+  return fragments;
+}
+
+Scene random_triangles(RandomScenes& random) {
+  Scene scene;
+  scene.name = "random";
+  scene.ambient = random.colour(false);
+  scene.materials = {random.material(false, false)};
+  scene.materials[0].brdf = Brdf::blinn;
+  random.add_triangles(scene, 14, 0.8, 0.6);
+  random.add_lights(scene, random.whole(1, 3), RandomScenes::any, 1.0, false);
+  return scene;
+}
+
+// A step of a colour word may come from the rounding of the interpolated words, which start elsewhere.
+TEST(ObjectStrips, OneSubpixelDrawsAsTheRasterizer) {
+  RandomScenes random(8);
+  std::size_t compared = 0, one_off = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Scene scene = random_triangles(random);
+    for (const Preset preset : {Preset::exact, Preset::published}) {
+      const HardwareKey objects = chain_key(scene, preset, c_most_object_processors);
+      const Drawn expected = draw(scene, c_strip_frame, chain_key(scene, preset, 0)),
+                  got = draw(scene, c_strip_frame, objects);
+      if (got.counts.objects > c_most_object_processors) continue;
+      EXPECT_FALSE(got.fault);
+      FrameAssembler rasterized(c_strip_frame, scene.background), chained(c_strip_frame, scene.background);
+      ASSERT_TRUE(rasterized.add(expected.fragments) && chained.add(got.fragments));
+      ASSERT_EQ(rasterized.mask(), chained.mask()) << "scene " << i;
+      EXPECT_EQ(got.fragments.size(), chained.covered_pixels());
+      EXPECT_EQ(got.counts.triangles, expected.counts.triangles);
+      for (std::uint32_t y = 0; y < c_strip_frame.height; ++y)
+        for (std::uint32_t x = 0; x < c_strip_frame.width; ++x) {
+          if (!chained.depth(x, y)) continue;
+          const std::int64_t apart = std::int64_t{*chained.depth(x, y)} - *rasterized.depth(x, y);
+          EXPECT_LE(std::abs(apart), 2) << x << ',' << y;
+        }
+      for (std::size_t k = 0; k < chained.frame().rgb.size(); ++k) {
+        const int apart = std::abs(int{chained.frame().rgb[k]} - int{rasterized.frame().rgb[k]});
+        ++compared;
+        one_off += apart > (preset == Preset::exact ? 1 : 40);
+      }
+    }
+  }
+  EXPECT_GT(compared, 100'000U);
+  // Where two surfaces are equally far, the other one may be in front.
+  EXPECT_LT(one_off * 1'000, compared) << one_off << " of " << compared;
+}
+
+TEST(ObjectStrips, FramesDoNotDependOnTheNumberOfProcessors) {
+  for (const unsigned subpixels : {1U, 4U, 16U})
+    for (const char* name : {"spheres", "matte"}) {
+      const Scene scene = builtin_scene(name);
+      const Drawn wide = draw(scene, c_strip_frame, chain_key(scene, Preset::exact, 256, subpixels));
+      ASSERT_FALSE(wide.fault);
+      ASSERT_GT(wide.fragments.size(), 500U);
+      for (const unsigned objects : {24U, 40U}) {
+        const Drawn narrow = draw(scene, c_strip_frame, chain_key(scene, Preset::exact, objects, subpixels));
+        ASSERT_LE(narrow.counts.objects, objects) << name;
+        EXPECT_GE(narrow.counts.vectors, wide.counts.vectors);
+        const std::vector<Fragment> expected = sorted(wide.fragments), got = sorted(narrow.fragments);
+        ASSERT_EQ(got.size(), expected.size());
+        for (std::size_t i = 0; i < got.size(); ++i)
+          ASSERT_TRUE(got[i] == expected[i])
+              << name << ", " << subpixels << " subpixels, " << objects << " processors, pixel " << got[i].x
+              << ',' << got[i].y << ": triangle " << got[i].triangle << " z " << got[i].z << " red "
+              << int{got[i].red} << ", with more processors " << expected[i].triangle << " z "
+              << expected[i].z << " red " << int{expected[i].red};
+      }
+    }
+}
+
+TEST(ObjectStrips, AllEffectsDrawTheSame) {
+  for (const unsigned subpixels : {1U, 16U})
+    for (const Preset preset : {Preset::exact, Preset::published}) {
+      const Scene scene = builtin_scene("matte");
+      const HardwareKey lean = chain_key(scene, preset, 24, subpixels),
+                        all = chain_key(scene, preset, 24, subpixels, true);
+      EXPECT_NE(lean.name(), all.name());
+      EXPECT_EQ(draw(scene, c_strip_frame, lean).fragments, draw(scene, c_strip_frame, all).fragments);
+    }
+}
+
+TEST(ObjectStrips, FilteredFramesAreCloseToTheReference) {
+  Scene scene = builtin_scene("matte");
+  scene.background = {0.2, 0.4, 0.6};
+  for (const unsigned subpixels : {4U, 16U}) {
+    const HardwareKey key = chain_key(scene, Preset::exact, 64, subpixels);
+    EXPECT_EQ(key.channels, 3U);  // of the background
+    const Drawn drawn = draw(scene, {160, 120}, key);
+    ASSERT_FALSE(drawn.fault);
+    const Frame frame = frame_of(scene, {160, 120}, drawn.fragments);
+    const std::vector<ScreenTriangle> triangles = Projector(scene, {160, 120}, {}).project_all();
+    const ReferenceImage reference = render_filtered(scene, triangles, {.frame = {160, 120}}, {1, 1, 1, 1});
+    const FrameDistance distance = *frame_distance(frame, reference.frame, reference.mask);
+    EXPECT_GT(distance.psnr_db, subpixels == 16 ? 40.0 : 30.0) << subpixels;
+  }
+}
+
+TEST(ObjectStrips, TooFewProcessorsAreRefused) {
+  const Scene scene = builtin_scene("teapot");
+  const HardwareKey key = chain_key(scene, Preset::exact, 2);
+  const auto setup = make_setup(scene, c_strip_frame, key, {});
+  std::vector<std::uint32_t> words;
+  SetupCounts counts;
+  setup->append_prologue(words, counts);
+  const Status refused = check_pixels(scene, key, counts, false);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ExitCode::bad_input);
+  EXPECT_THAT(refused.error().message,
+              testing::HasSubstr(
+                  fmt::format("{} pieces of triangles lie on one line of one column", counts.objects)));
+  HardwareKey enough = key;
+  enough.processors.objects = static_cast<unsigned>(counts.objects);
+  EXPECT_TRUE(check_pixels(scene, enough, counts, false));
+}
+
+}  // namespace
+}  // namespace halfway
