@@ -17,6 +17,7 @@
 #include "sim/files/load_scene.hpp"
 #include "sim/files/table4.hpp"
 #include "sim/os/file.hpp"
+#include "sim/os/threads.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -226,10 +227,48 @@ void draw_equation_3(const Context& context, Drawing& out) {
       measured(largest * 180.0 / std::numbers::pi, "off by up to {:.1f}°");
 }
 
+// ---- Section 2: object processors and filter ----
+
+// A part of a frame, each pixel as a square.
+Frame enlarged(const Frame& frame, const Tile& part, std::uint32_t factor) {
+  Frame out({part.size.width * factor, part.size.height * factor});
+  for (std::uint32_t y = 0; y < out.size.height; ++y)
+    for (std::uint32_t x = 0; x < out.size.width; ++x)
+      std::copy_n(frame.rgb.begin() +
+                      static_cast<std::ptrdiff_t>(frame.offset(part.x + x / factor, part.y + y / factor)),
+                  3, out.rgb.begin() + static_cast<std::ptrdiff_t>(out.offset(x, y)));
+  return out;
+}
+
+void draw_system(const Context& context, Drawing& out) {
+  const Scene scene = must(load_scene("teapot", context.scenes()));
+  const std::vector<ScreenTriangle> triangles = Projector(scene, c_compared_size, {}).project_all();
+  const RenderOptions options{.frame = c_compared_size, .workers = on_threads(context.threads)};
+  const ReferenceImage sampled = render_filtered(scene, triangles, options, {1, 1, 1, 1});
+  const Tile spout{500, 152, {96, 64}};
+  std::vector<Frame> pictures;
+  for (const unsigned subpixels : {1U, 16U}) {
+    const PlanRequest plan{.shader = Shader::processors, .objects = 16, .subpixels = subpixels};
+    const Hardware drawn = draw_in_hardware(context, scene, c_compared_size, plan);
+    out.measured[fmt::format("outlines with {} against 16 samples a pixel, filtered",
+                             subpixels == 1 ? "one sample a pixel" : "16 subpixels and the filter")] =
+        likeness(drawn.frame, sampled.frame, sampled.mask).measured();
+    pictures.push_back(enlarged(drawn.frame, spout, 3));
+    if (!context.quick)
+      out.measured[fmt::format("clocks a fragment with {} subpixel{}, in Verilator", subpixels,
+                               subpixels == 1 ? "" : "s")] =
+          measured(static_cast<double>(drawn.cycles) / static_cast<double>(drawn.fragments), "{:.2f}");
+  }
+  pictures.push_back(enlarged(sampled.frame, spout, 3));
+  save_picture(context, "processors-system", sheet(pictures, 3),
+               "The tip of the teapot's spout: one sample a pixel, with the filter, the reference", out);
+}
+
 }  // namespace
 
 std::map<std::string, Draw> processors_drawings() {
-  return {{"processors-table-3", draw_table_3},
+  return {{"processors-system", draw_system},
+          {"processors-table-3", draw_table_3},
           {"processors-table-4", draw_table_4},
           {"processors-table-5", draw_table_5},
           {"processors-equation-3", draw_equation_3}};
