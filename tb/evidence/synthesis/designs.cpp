@@ -108,8 +108,6 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
       all.back().ice40 = !exact;
       if (exact) all.back().seeds = 1;  // one placement takes minutes
-      // Of the unrolled form, nextpnr does not end within c_place_time, and its older router takes longer.
-      all.back().ecp5 = !exact || form == ProcessorForm::folded;
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
