@@ -107,7 +107,18 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
       all.push_back(
           shader(fmt::format("processors_shader_{}_{}", to_string(form), p), processors(preset, form)));
       all.back().ice40 = !exact;
-      if (exact) all.back().seeds = 1;  // one placement takes minutes
+      // One placement takes minutes. Those of the unrolled form are stored from the space `spheres`.
+      if (exact && form == ProcessorForm::folded) all.back().seeds = 1;
+    }
+
+    // Four object processors, without and with the filter.
+    for (const unsigned subpixels : {1U, 16U}) {
+      if (exact) break;  // some 13,000 LUTs without the object processors: a placement takes too long
+      HardwareKey key = processors(preset, ProcessorForm::unrolled);
+      key.processors.objects = 4;
+      key.processors.subpixels = subpixels;
+      all.push_back(shader(fmt::format("objects_shader_4{}_{}", subpixels > 1 ? "_filtered" : "", p), key));
+      all.back().ice40 = false;
     }
 
     add("line_interpolator", {{"g_bits", of("intensity")}}, true);
