@@ -160,7 +160,7 @@ std::string sentences(const Table& picture, const std::vector<std::size_t>& rows
     return ms(picture, slow, column) / ms(picture, fast, column);
   };
   std::string text = fmt::format(
-      "- The rms error of {0} is {2:.2g} times smaller than that of {1}. Its frame takes {3:.3g} times as "
+      "- The rms error of {0} is {2:.3g} times smaller than that of {1}. Its frame takes {3:.3g} times as "
       "long.\n",
       picture.text(best, "design"), picture.text(quick, "design"), rms(picture, quick) / rms(picture, best),
       times_as_long(best, quick, "overlapped_ns"));
