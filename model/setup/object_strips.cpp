@@ -144,7 +144,7 @@ Walks strip_walks(const StripItem& item, int unit_bits, const Tile& area, std::u
   if (inside.empty()) return inside;
   const std::int64_t top = pixel_lines(inside.front(), side).begin,
                      end = pixel_lines(inside.back(), side).end;
-  const std::int64_t margin = (c_widest - width) / 2;
+  const std::int64_t margin = std::max<std::int64_t>(0, c_widest - width) / 2;
   Walks walks = plan(top, {-margin, width + margin}, end - top);
   for (Walk& walk : walks) walk.y += top * side;
   return walks;

@@ -144,6 +144,16 @@ TEST(ObjectStrips, LinesWithoutAnItemAreLeftOut) {
   EXPECT_EQ(filtered.strips[0].area, (Tile{1, 1, {6, 5}}));
 }
 
+// The set-up asks for the walks in the whole frame, which may be wider than a strip.
+TEST(ObjectStrips, WalksReachBothSidesOfTheWidestFrame) {
+  const Tile widest = whole_frame({4096, 8});
+  for (const std::int32_t x : {0, 2048 * 16, 4095 * 16}) {
+    const StripItem item{{{x, 0}, {x + 16, 0}, {x, 128}}};
+    for (const std::uint32_t side : {1U, 2U, 4U})
+      EXPECT_FALSE(strip_walks(item, c_strip_bits, widest, side).empty()) << x << ", side " << side;
+  }
+}
+
 HardwareKey chain_key(const Scene& scene, Preset preset, unsigned objects, unsigned subpixels = 1,
                       bool all_effects = false) {
   return must(plan_scene(scene, {.shader = Shader::processors,
