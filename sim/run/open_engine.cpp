@@ -9,15 +9,15 @@ namespace halfway {
 
 Result<std::shared_ptr<Engine>> open_engine(EngineKind kind, const HardwareKey& key,
                                             const SimulatorFolders& folders, const EngineOptions& options) {
-  const std::uint32_t idle_limit = key.processors.objects > 0 ? c_strip_idle_limit : c_idle_limit;
   switch (kind) {
     case EngineKind::ghdl:
-      return shared_engine(GhdlEngine::open(
-          key, folders, options.threads,
-          {.idle_limit = idle_limit, .stall_seed = options.stall_seed, .on_progress = options.on_progress}));
+      return shared_engine(GhdlEngine::open(key, folders, options.threads,
+                                            {.idle_limit = idle_limit(key),
+                                             .stall_seed = options.stall_seed,
+                                             .on_progress = options.on_progress}));
     case EngineKind::verilator:
       return shared_engine(VerilatorSimulator::open(
-          key, folders, {.stall_seed = options.stall_seed, .idle_limit = idle_limit}));
+          key, folders, {.stall_seed = options.stall_seed, .idle_limit = idle_limit(key)}));
     case EngineKind::lanes:
       break;
   }

@@ -73,7 +73,8 @@ class Measurement {
     s_.on_progress(fmt::format("GHDL simulates {}", key_.name()));
     const GhdlRunner runner = must(GhdlRunner::open(key_, s_.folders));
     const double begin = children_seconds();
-    const GhdlRun ran = must(runner.run(init, init.parent_path() / "trace", {.idle_limit = c_idle_limit}));
+    const GhdlRun ran =
+        must(runner.run(init, init.parent_path() / "trace", {.idle_limit = idle_limit(key_)}));
     cost_.cycles = ran.cycles;
     cost_.fragments = ran.fragments;
     return children_seconds() - begin;

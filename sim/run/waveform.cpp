@@ -94,7 +94,7 @@ std::filesystem::path write_mismatch_waveform(const HardwareKey& key, const Simu
                                               std::optional<std::uint64_t> index, std::uint32_t stall_seed) {
   if (simulator == "ghdl") return write_ghdl_waveform(key, folders, files, index.value_or(0), stall_seed);
   const std::filesystem::path path = files.folder / "mismatch-verilator.fst";
-  VerilatorOptions options{.stall_seed = stall_seed, .idle_limit = c_idle_limit};
+  VerilatorOptions options{.stall_seed = stall_seed, .idle_limit = idle_limit(key)};
   const std::uint64_t fragments = index ? *index + 1 : UINT64_MAX;
   std::uint64_t at = 0;
   {
