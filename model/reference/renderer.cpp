@@ -62,7 +62,7 @@ ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriang
 }
 
 ReferenceImage render_filtered(const Scene& scene, std::span<const ScreenTriangle> triangles,
-                               const RenderOptions& options, const std::array<double, 4>& weights) {
+                               const RenderOptions& options, const std::array<std::int64_t, 4>& weights) {
   // Lines of pixels at a time. Each thread draws whole lines of pixels of them: 16 lines of samples.
   constexpr std::uint32_t c_lines = 32;
   const std::uint32_t width = options.frame.width, height = options.frame.height;
@@ -74,7 +74,8 @@ ReferenceImage render_filtered(const Scene& scene, std::span<const ScreenTriangl
   // The line above the first one, and these lines, each after an empty pixel.
   const std::size_t pitch = width + 1;
   std::vector<Samples> pixels((c_lines + 1) * pitch);
-  const double all = weights[0] + weights[1] + weights[2] + weights[3];
+  const auto samples =
+      static_cast<double>(c_side * c_side * (weights[0] + weights[1] + weights[2] + weights[3]));
   ReferenceImage image{Frame(options.frame), std::vector<std::uint8_t>(Frame::pixels(options.frame))};
   for (std::uint32_t top = 0; top < height; top += c_lines) {
     const std::uint32_t lines = std::min(c_lines, height - top);
@@ -99,13 +100,13 @@ ReferenceImage render_filtered(const Scene& scene, std::span<const ScreenTriangl
         for (std::size_t i = 0; i < support.size(); ++i) {
           const Samples& pixel = pixels[support[i]];
           const auto rest = static_cast<double>(c_side * c_side - pixel.covered);
-          colour += weights[i] * (pixel.sum + rest * glm::clamp(scene.background, 0.0, 1.0));
-          if (weights[i] > 0.0) covered += pixel.covered;
+          colour +=
+              static_cast<double>(weights[i]) * (pixel.sum + rest * glm::clamp(scene.background, 0.0, 1.0));
+          if (weights[i] > 0) covered += pixel.covered;
         }
         const std::size_t rgb = image.frame.offset(x, top + y);
         for (int channel = 0; channel < 3; ++channel)
-          image.frame.rgb[rgb + static_cast<std::size_t>(channel)] =
-              to_byte(colour[channel] / (all * c_side * c_side));
+          image.frame.rgb[rgb + static_cast<std::size_t>(channel)] = to_byte(colour[channel] / samples);
         image.mask[rgb / 3] = covered != 0;
       }
   }

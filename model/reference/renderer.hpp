@@ -40,7 +40,7 @@ ReferenceImage render_reference(const Scene& scene, std::span<const ScreenTriang
 /// outside the frame, it is background. `triangles` are those of options.frame. The mask is 1 where a sample
 /// is covered. Whole frames only.
 ReferenceImage render_filtered(const Scene& scene, std::span<const ScreenTriangle> triangles,
-                               const RenderOptions& options, const std::array<double, 4>& weights);
+                               const RenderOptions& options, const std::array<std::int64_t, 4>& weights);
 
 /// Shades at the vertices, without clamping, and interpolates linearly on the screen. The coverage is the
 /// same. Without shadows.

@@ -229,7 +229,7 @@ TEST(Renderer, FilteredPixelsAreMeansOfSamples) {
   std::vector<ScreenTriangle> triangles(2);
   triangles[0].vertex = {vertex(left, bottom), vertex(right, bottom), vertex(right, top)};
   triangles[1].vertex = {vertex(left, bottom), vertex(right, top), vertex(left, top)};
-  const std::array<double, 4> weights = {9, 3, 3, 1};
+  const std::array<std::int64_t, 4> weights = {9, 3, 3, 1};
   const ReferenceImage image = render_filtered(scene, triangles, {.frame = frame}, weights);
   // The share of a pixel that is covered.
   const auto covered = [&](std::int32_t x, std::int32_t y) {

@@ -18,6 +18,7 @@
 #include "sim/files/table4.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/threads.hpp"
+#include "words/object_limits.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -244,7 +245,7 @@ void draw_system(const Context& context, Drawing& out) {
   const Scene scene = must(load_scene("teapot", context.scenes()));
   const std::vector<ScreenTriangle> triangles = Projector(scene, c_compared_size, {}).project_all();
   const RenderOptions options{.frame = c_compared_size, .workers = on_threads(context.threads)};
-  const ReferenceImage sampled = render_filtered(scene, triangles, options, {1, 1, 1, 1});
+  const ReferenceImage sampled = render_filtered(scene, triangles, options, words::c_filter_weights);
   const Tile spout{500, 152, {96, 64}};
   std::vector<Frame> pictures;
   for (const unsigned subpixels : {1U, 16U}) {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -199,10 +198,9 @@ class Simulation {
   ReferenceImage draw_reference() const {
     const std::vector<ScreenTriangle> triangles = Projector(scene_, s_.size, {}).project_all();
     const RenderOptions options{.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)};
-    if (s_.plan.subpixels == 1) return render_reference(scene_, triangles, options);
-    std::array<double, 4> weights{};
-    std::copy(words::c_filter_weights.begin(), words::c_filter_weights.end(), weights.begin());
-    return render_filtered(scene_, triangles, options, weights);
+    if (words::has_filter(static_cast<int>(s_.plan.subpixels)))
+      return render_filtered(scene_, triangles, options, words::c_filter_weights);
+    return render_reference(scene_, triangles, options);
   }
 
   // Open the engines in parallel, because some take long.
