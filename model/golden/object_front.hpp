@@ -19,7 +19,7 @@ class ObjectFront {
   ObjectFront(const ProcessorsConfig& config, int subpixels, int objects)
       : source_(config, subpixels),
         chain_(static_cast<std::size_t>(objects), ObjectProcessor<Preset>(config, subpixels)),
-        output_(config, subpixels > 1) {}
+        output_(config, has_filter(subpixels)) {}
 
   /// Takes a vector, and calls emit(token, mask, ends) for each token that it causes.
   template <class Emit>

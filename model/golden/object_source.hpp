@@ -20,8 +20,7 @@ class ObjectSource {
   /// Takes a vector, and calls out(word) for each word that it causes.
   template <class Out>
   void take(std::span<const std::uint32_t> vector, Out&& out) {
-    using Request = typename Preset::request_header_at;
-    const auto command = static_cast<Command>(get_bits(vector, Request::command));
+    const Command command = command_of<Preset>(vector);
     if (command == Command::draw || command == Command::shadow) {
       const auto side = static_cast<std::uint32_t>(side_of(subpixels_));
       const auto first_line = static_cast<std::uint32_t>(of_walk(vector, At::y)) / side;

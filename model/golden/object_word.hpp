@@ -16,7 +16,7 @@ enum class ObjectKind { item = 0, part = 1, last_part = 2, strip_end = 3 };
 
 inline constexpr int c_part_bits = 64;
 
-using words::side_of, words::most_columns, words::most_lines;
+using words::has_filter, words::side_of, words::most_columns, words::most_lines;
 
 /// Bits of an item. It is laid out as a token without its colour.
 template <class Preset>
@@ -42,7 +42,7 @@ struct ObjectWord {
   bool is_item(Command command) const { return kind == ObjectKind::item && token.command == command; }
   bool is_shadow() const { return is_item(Command::shadow); }
   bool is_element() const { return is_shadow() || is_item(Command::new_object); }
-  bool is_head() const { return is_item(Command::new_pixel) || is_item(Command::new_scanline); }
+  bool is_head() const { return kind == ObjectKind::item && words::is_head(token.command); }
   bool is_part() const { return kind == ObjectKind::part || kind == ObjectKind::last_part; }
   /// Position of an element in its list.
   auto key() const { return std::tuple(token.z, is_shadow(), token.triangle); }

@@ -24,7 +24,7 @@ class ObjectsShader {
   ObjectsShader(const ProcessorsConfig& config, int subpixels, int objects)
       : config_(config), layout_(config), front_(config, subpixels, objects), pipeline_(config) {
     assert(config.channels == 1 || config.channels == 3);
-    if (subpixels > 1) filter_.emplace(config.channels, subpixels, Background{});
+    if (has_filter(subpixels)) filter_.emplace(config.channels, subpixels, Background{});
   }
 
   int init_bits() const { return layout_.init_bits(); }
@@ -32,13 +32,13 @@ class ObjectsShader {
   /// The vectors of a strip, with the one that ends it. The first one contains the number of the others, in a
   /// field that the hardware does not use.
   std::size_t group(std::span<const std::uint32_t> vector) const {
-    if (command_of(vector) != Command::new_scanline) return 1;
+    if (command_of<Preset>(vector) != Command::new_scanline) return 1;
     return 1 + get_bits(vector, Exact::init_header_at::triangle, ProcessorsLayout<Preset>::walk_low());
   }
   /// The pixels of the strip that the vector opens. A frame has at most one fragment at each of them.
   std::uint64_t pixels(std::span<const std::uint32_t> vector) const {
     using At = Exact::init_header_at;
-    if (command_of(vector) != Command::new_scanline) return 0;
+    if (command_of<Preset>(vector) != Command::new_scanline) return 0;
     const auto of_walk = [&](const Field& field) {
       return static_cast<std::int64_t>(get_bits(vector, field, ProcessorsLayout<Preset>::walk_low()));
     };
@@ -63,30 +63,19 @@ class ObjectsShader {
 
   /// True if only the processors use the vector. It then covers no pixel.
   static bool is_load(std::span<const std::uint32_t> vector) {
-    const Command command = command_of(vector);
-    return command == Command::new_frame || command == Command::define || command == Command::redefine ||
-           command == Command::remove;
+    return words::is_load(command_of<Preset>(vector));
   }
 
  private:
   using Token = ShadingToken<Preset>;
 
-  static Command command_of(std::span<const std::uint32_t> vector) {
-    return static_cast<Command>(get_bits(vector, Preset::request_header_at::command));
-  }
-
   // Filtered pixels have the background that new_frame gives.
   template <class Emit>
   void draw_filtered(Token& token, std::uint32_t mask, bool ends, Emit& emit) {
-    const bool head = token.command == Command::new_pixel || token.command == Command::new_scanline;
-    if (!ends && !head) pipeline_.process(token);
+    if (!ends && !is_head(token.command)) pipeline_.process(token);
     filter_->take(token, static_cast<std::uint32_t>(std::popcount(mask)), emit);
-    if (token.command != Command::new_frame || ends) return;
-    Background background{};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(config_.channels); ++i)
-      background[i] =
-          static_cast<std::uint8_t>(token.light.intensity[i] >> Preset::c_light_intensity_fraction_bits);
-    filter_->set_background(background);
+    if (token.command == Command::new_frame && !ends)
+      filter_->set_background(background_of(token, config_.channels));
   }
 
   ProcessorsConfig config_;

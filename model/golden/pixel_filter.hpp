@@ -20,6 +20,16 @@ using words::FilterWeights, words::c_filter_weights;
 /// Three colours of 8 bits. One channel has the first one.
 using Background = std::array<std::uint8_t, 3>;
 
+/// That of the frame which a token new_frame starts.
+template <class Preset>
+Background background_of(const ShadingToken<Preset>& new_frame, int channels) {
+  Background background{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(channels); ++i)
+    background[i] =
+        static_cast<std::uint8_t>(new_frame.light.intensity[i] >> Preset::c_light_intensity_fraction_bits);
+  return background;
+}
+
 template <class Preset>
 class PixelFilter {
  public:
@@ -40,7 +50,7 @@ class PixelFilter {
   /// ends a pixel whose support has an object.
   template <class Emit>
   void take(const Token& token, std::uint32_t weight, Emit&& emit) {
-    const bool head = token.command == Command::new_pixel || token.command == Command::new_scanline;
+    const bool head = is_head(token.command);
     if (pixel_ && (head || token.command == Command::new_frame)) end_pixel(emit);
     if (head)
       start_pixel(token);

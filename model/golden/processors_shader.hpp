@@ -40,9 +40,9 @@ class ProcessorsShader {
     std::size_t count = 1;
     bool first_round = true;
     for (auto rest = vectors; rest.size() >= 2 * init_words(); ++count) {
-      first_round = first_round && command_of(rest) == Command::depth;
+      first_round = first_round && command_of<Preset>(rest) == Command::depth;
       rest = rest.subspan(init_words());
-      if (is_load(rest) || (!first_round && command_of(rest) == Command::depth)) break;
+      if (is_load(rest) || (!first_round && command_of<Preset>(rest) == Command::depth)) break;
     }
     return count;
   }
@@ -55,12 +55,12 @@ class ProcessorsShader {
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
     assert(vector.size() >= init_words());
-    walk_ = command_of(vector);
+    walk_ = command_of<Preset>(vector);
     if (walk_ == Command::new_frame) {
       order_.new_frame();
       if (objects_) objects_->clear();
     }
-    if (is_load(walk_)) {
+    if (words::is_load(walk_)) {
       Token load = Token::decode(config_, vector);
       pipeline_.process(load);
       return;
@@ -84,7 +84,9 @@ class ProcessorsShader {
   }
 
   /// True if only the processors use the vector. It then covers no pixel.
-  static bool is_load(std::span<const std::uint32_t> vector) { return is_load(command_of(vector)); }
+  static bool is_load(std::span<const std::uint32_t> vector) {
+    return words::is_load(command_of<Preset>(vector));
+  }
   const TriangleWalker<Exact>& walker() const { return rasterizer_.walker(); }
   TriangleWalker<Exact> walker_of(std::span<const std::uint32_t> vector) const {
     return rasterizer_.walker_of(vector);
@@ -97,18 +99,9 @@ class ProcessorsShader {
   const ShadingToken<Preset>& token() const { return rasterizer_.token(); }
 
  private:
-  using RequestAt = typename Preset::request_header_at;
   using Token = ShadingToken<Preset>;
 
   static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
-
-  static Command command_of(std::span<const std::uint32_t> vector) {
-    return static_cast<Command>(get_bits(vector, RequestAt::command));
-  }
-  static bool is_load(Command command) {
-    return command == Command::new_frame || command == Command::define || command == Command::redefine ||
-           command == Command::remove;
-  }
 
   ProcessorsConfig config_;
   ProcessorsLayout<Preset> layout_;

@@ -7,6 +7,7 @@
 
 #include "plan/shader_plans.hpp"
 #include "scene/lights.hpp"
+#include "words/object_limits.hpp"
 
 namespace halfway {
 namespace {
@@ -223,7 +224,7 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
         "{}: behind object processors shadows are not drawn; leave out --object-processors, or the shadows",
         scene.name));
   // The filter mixes the background into pixels at outlines.
-  if (units.subpixels > 1 && !is_grey(scene.background)) key.channels = 3;
+  if (words::has_filter(static_cast<int>(units.subpixels)) && !is_grey(scene.background)) key.channels = 3;
   if (units.specular)
     if (Status status = check_highlights(scene); !status) return status.error();
 

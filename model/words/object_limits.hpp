@@ -16,6 +16,11 @@ constexpr int side_of(int subpixels) {
   return subpixels == 16 ? 4 : subpixels == 4 ? 2 : 1;
 }
 
+/// Pixels with several subpixels are filtered.
+constexpr bool has_filter(int subpixels) {
+  return subpixels > 1;
+}
+
 /// Limits of a strip, in pixels: the ends of spans must fit span_x in subpixels, and the first lines of
 /// triangles pixel_y.
 template <class Preset>

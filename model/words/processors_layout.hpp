@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "words/formats.hpp"
+#include "words/word.hpp"
 
 namespace halfway::words {
 
@@ -41,6 +43,21 @@ enum class Command : std::uint32_t {
   draw = 0,
   depth = 1,
 };
+
+/// Only the processors use such a vector.
+constexpr bool is_load(Command command) {
+  return command == Command::new_frame || command == Command::define || command == Command::redefine ||
+         command == Command::remove;
+}
+/// In the lists of the object processors: the start of a pixel.
+constexpr bool is_head(Command command) {
+  return command == Command::new_pixel || command == Command::new_scanline;
+}
+
+template <class Preset>
+Command command_of(std::span<const std::uint32_t> vector) {
+  return static_cast<Command>(get_bits(vector, Preset::request_header_at::command));
+}
 
 /// The term that a processor adds.
 enum class Term { ambient = 0, diffuse = 1, specular = 2 };

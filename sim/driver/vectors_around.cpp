@@ -3,7 +3,6 @@
 
 #include <utility>
 
-#include "golden/processors_shader.hpp"
 #include "words/processors_layout.hpp"
 #include "words/word.hpp"
 
@@ -14,7 +13,7 @@ constexpr std::size_t c_around = 2;
 
 // Vectors of the shading processors that define a state; and the line whose state an object stage keeps.
 bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
-  return key.shader == Shader::processors && golden::ProcessorsShader<words::Exact>::is_load(vector);
+  return key.shader == Shader::processors && words::is_load(words::command_of<words::Exact>(vector));
 }
 std::optional<std::uint64_t> line_of_objects(const HardwareKey& key, std::span<const std::uint32_t> vector) {
   if (key.shader != Shader::processors || !key.processors.shadows) return std::nullopt;

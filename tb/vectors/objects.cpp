@@ -56,7 +56,7 @@ class ChainFiles {
         token_bits_(words::ProcessorsLayout<Preset>(config).token_bits()),
         source_(config, subpixels),
         chain_(static_cast<std::size_t>(objects), golden::ObjectProcessor<Preset>(config, subpixels)),
-        output_(config, subpixels > 1),
+        output_(config, words::has_filter(subpixels)),
         words_(chain_.size() + 1) {}
 
   void send(const InitVector& vector) {
@@ -79,7 +79,7 @@ class ChainFiles {
     tokens_.write(folder / (stem + "_out.txt"));
   }
   void write_lists(const Folder& folder, const std::string& stem) const {
-    if (subpixels_ == 1) return;
+    if (!words::has_filter(subpixels_)) return;
     listed_.write(folder / (stem + "_in.txt"));
     entered_.write(folder / (stem + "_pipeline.txt"));
     filtered_.write(folder / (stem + "_out.txt"));
@@ -107,19 +107,18 @@ class ChainFiles {
       return;
     }
     output_.take(word, [&](const Token& token, std::uint32_t mask, bool ends) {
-      const std::uint64_t with_mask = mask | std::uint64_t{ends} << subpixels_;
       tokens_.words_of(words_of(token), token_bits_).word(mask, subpixels_).flag(ends).end_vector();
-      if (subpixels_ > 1) add_to_filter(token, mask, ends, with_mask);
+      if (words::has_filter(subpixels_)) add_to_filter(token, mask, ends);
     });
   }
 
   // What leads past the pipeline, which changes nothing here. Rows of token, then ends and mask; what enters
   // the pipeline; and what leaves to the filter: token, then background and weight.
-  void add_to_filter(const Token& token, std::uint32_t mask, bool ends, std::uint64_t with_mask) {
+  void add_to_filter(const Token& token, std::uint32_t mask, bool ends) {
     const bool object = token.command == Command::new_object, frame = token.command == Command::new_frame;
-    const bool head = token.command == Command::new_pixel || token.command == Command::new_scanline;
+    const bool head = words::is_head(token.command);
     Flat in = flat(words_of(token), token_bits_);
-    in.add(with_mask, subpixels_ + 1);
+    in.add(mask, subpixels_).add(ends, 1);
     listed_.words_of(in.words, in.bits).end_vector();
     if (!ends && (!head || config_.shadows)) entered_.words_of(words_of(token), token_bits_).end_vector();
     if (!object && !frame && !head) return;
@@ -134,9 +133,8 @@ class ChainFiles {
     out.add(weight, std::bit_width(static_cast<unsigned>(subpixels_))).add(background_, 24);
     filtered_.words_of(out.words, out.bits).end_vector();
     if (frame && !ends) {
-      background_ = 0;
-      for (std::size_t i = 0; i < static_cast<std::size_t>(config_.channels); ++i)
-        background_ |= (token.light.intensity[i] >> Preset::c_light_intensity_fraction_bits & 255U) << 8 * i;
+      const golden::Background next = golden::background_of(token, config_.channels);
+      background_ = next[0] | std::uint64_t{next[1]} << 8 | std::uint64_t{next[2]} << 16;
     }
   }
 
