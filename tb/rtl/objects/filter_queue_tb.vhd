@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Lists of objects past a queue in place of the pipeline, which keeps objects and drops other tokens: every token into the
+-- Lists of objects past a queue instead of the pipeline, which keeps objects and drops other tokens: every token into the
 -- pipeline, and every token, weight and background to the filter. The filter is busy for some clocks after a token.
 library ieee;
 use ieee.std_logic_1164.all;
