@@ -39,10 +39,8 @@ raster/edge_pair.vhd
 raster/line_stage.vhd
 raster/span_stage.vhd
 raster/triangle_walker.vhd
-raster/object_stage.vhd
 illumination/diffuse_slice.vhd
 illumination/specular_slice.vhd
-illumination/shadow_counter.vhd
 illumination/spot_cone.vhd
 illumination/terms_pkg.vhd
 illumination/token_pkg.vhd
@@ -87,10 +85,8 @@ shaders/ambient_light.vhd
 shaders/colour_sum.vhd
 shaders/spherical_shader.vhd
 shaders/token_rasterizer.vhd
-shaders/token_order.vhd
 shaders/fragment_output.vhd
 shaders/processors_shader.vhd
-shaders/objects_shader.vhd
 axi/axi_pkg.vhd
 axi/axi_control.vhd
 axi/axi_output.vhd

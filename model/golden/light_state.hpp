@@ -3,10 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 
 #include "golden/shading_token.hpp"
-#include "golden/shadow_counter.hpp"
 
 namespace halfway::golden {
 
@@ -14,16 +12,16 @@ template <class Preset>
 class LightState {
  public:
   /// `shadows`: count the shadow volumes of light `number`.
-  LightState(bool shadows, std::uint32_t number) : number_(number) {
-    if (shadows) counter_.emplace();
-  }
+  LightState(bool shadows, std::uint32_t number) : number_(number), shadows_(shadows) {}
 
   /// Processes a token that is not an object.
   void take(const ShadingToken<Preset>& token) {
     const bool own = token.light_number == number_;
     switch (token.command) {
       case Command::new_frame:
-        if (counter_) counter_->clear();
+      case Command::new_scanline:
+      case Command::new_pixel:
+        count_ = {};
         return;
       case Command::define:
         if (own) define(token.light);
@@ -32,35 +30,35 @@ class LightState {
         if (own && defined_) define(token.light);
         return;
       case Command::remove:
-        if (own) defined_ = false;
+        if (own) count_ = {}, defined_ = false;
         return;
       case Command::shadow:
-        if (own && counter_) counter_->count(token.x, token.opens);
+        if (own) count_ += Count::from_bits(token.opens ? 1 : ~std::uint64_t{0});
         return;
-      default:
+      case Command::new_object:
         return;
     }
   }
-  /// Processes an object. Returns true if no shadow volume contains it. Resets the counter of its column.
-  bool take_object(const ShadingToken<Preset>& token) {
-    return !counter_ || counter_->take(token.x, light_.around_eye);
-  }
+  /// True if no shadow volume contains the objects that follow. A negative number of volumes counts as none:
+  /// the rounding of depths may place the exit of a thin volume before its entry.
+  bool lit() const { return !shadows_ || light_.around_eye + count_.value() <= 0; }
 
   bool defined() const { return defined_; }
   const ShadingLight& light() const { return light_; }
-  /// True if a count of shadow volumes has exceeded its format since the start.
-  bool fault() const { return counter_ && counter_->fault(); }
 
  private:
+  using Count = Word<Exact::c_shadow_count_bits>;
+
   void define(const ShadingLight& light) {
     light_ = light;
     defined_ = true;
+    count_ = {};
   }
 
   std::uint32_t number_;
-  bool defined_ = false;
+  bool shadows_, defined_ = false;
   ShadingLight light_;
-  std::optional<ShadowCounter> counter_;
+  Count count_;  ///< volumes opened at this pixel minus those closed
 };
 
 }  // namespace halfway::golden

@@ -15,17 +15,17 @@ class ObjectMerge {
 
   explicit ObjectMerge(int subpixels) : full_((1U << subpixels) - 1) {}
 
-  /// What happens with a word: the own element is output before it, or it is taken; it is output, or dropped.
+  /// What happens with a word: the own element is output before it, or it is output, or dropped.
   struct Choice {
     bool own, output;
     std::uint32_t mask;  ///< of the output element
   };
 
-  /// `own`: the element of this pixel, or nullptr. take: the word is not output.
-  Choice choose(const Word& in, bool take, const Word* own) const {
+  /// `own`: the element of this pixel, or nullptr.
+  Choice choose(const Word& in, const Word* own) const {
     if (pending_ && own && !hidden(*own) && (!in.is_element() || own->key() < in.key()))
       return {true, true, own->mask & ~covered_};
-    return {false, !take && !(in.is_element() && hidden(in)), in.mask & ~covered_};
+    return {false, !(in.is_element() && hidden(in)), in.mask & ~covered_};
   }
   /// The choice was carried out.
   void step(const Word& in, const Choice& choice) {

@@ -47,7 +47,6 @@ class ObjectOutput {
       }
       token.y = y_;
       token.x = x_;
-      if (!in.is_shadow()) token.radiance.fill(Token::c_first_radiance);
     }
     emit(token, in.mask, false);
   }

@@ -30,12 +30,15 @@ class ObjectProcessor {
   /// Takes a word, and calls out(word) for each word that leaves.
   template <class Out>
   void take(const Word& in, Out&& out) {
-    const bool takes_part = in.is_part() && (taking_ || !(stored_ && edges_.more()));
+    if (in.is_part() && (taking_ || !(stored_ && edges_.more()))) {
+      take_part(in);
+      return;
+    }
     for (;;) {
-      const auto choice = merge_.choose(in, takes_part, has_element_ ? &element_ : nullptr);
+      const auto choice = merge_.choose(in, has_own_ ? &own_ : nullptr);
       merge_.step(in, choice);
       if (choice.output) {
-        const Word& chosen = choice.own ? element_ : in;
+        const Word& chosen = choice.own ? own_ : in;
         if (chosen.is_element() && chosen.mask != choice.mask) {
           Word left = chosen;
           left.mask = choice.mask;
@@ -46,7 +49,6 @@ class ObjectProcessor {
       }
       if (!choice.own) break;
     }
-    if (takes_part) take_part(in);
     if (in.is_head()) step(in.is_item(Command::new_scanline));
     if (in.kind == ObjectKind::strip_end) edges_.reset();
   }
@@ -63,7 +65,6 @@ class ObjectProcessor {
     store_.push_back(static_cast<std::uint32_t>(in.part >> 32));
     stored_ = in.kind == ObjectKind::last_part;
     taking_ = !stored_;
-    has_element_ = false;
     if (stored_) load();
   }
 
@@ -89,7 +90,7 @@ class ObjectProcessor {
   // Goes to the next pixel, or to the first one of the next line.
   void step(bool line) {
     if (line) stored_ = stored_ && edges_.more();
-    has_element_ = false;
+    has_own_ = false;
     if (!stored_) return;
     const auto step_one = [&](auto& stepped) { line ? stepped.line_step() : stepped.pixel_step(); };
     step_one(edges_);
@@ -98,8 +99,10 @@ class ObjectProcessor {
     if (!shadow)
       for (Plane& plane : planes_) step_one(plane);
     const std::uint32_t mask = edges_.mask();
-    has_element_ = shadow ? (mask >> (side_ * (side_ / 2) + side_ / 2) & 1) != 0 : mask != 0;
-    if (has_element_) set_element(mask);
+    has_own_ = shadow ? (mask >> (side_ * (side_ / 2) + side_ / 2) & 1) != 0 : mask != 0;
+    if (!has_own_) return;
+    set_element(mask);
+    own_ = element_;
   }
 
   // The element at the pixel's centre if the subpixels around it are covered, else at the first covered one.
@@ -136,8 +139,9 @@ class ObjectProcessor {
   ObjectEdges edges_;
   Depth depth_;
   std::vector<Plane> planes_;  // N, P or the view ray, 1/w
-  Word element_;
-  bool has_element_ = false;
+  Word element_;               // of the store
+  Word own_;                   // of the last head; the store may already hold another triangle
+  bool has_own_ = false;
   ObjectMerge<Preset> merge_;
 };
 

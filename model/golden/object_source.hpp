@@ -21,7 +21,7 @@ class ObjectSource {
   template <class Out>
   void take(std::span<const std::uint32_t> vector, Out&& out) {
     const Command command = command_of<Preset>(vector);
-    if (command == Command::draw || command == Command::shadow) {
+    if (command == Command::new_object || (command == Command::shadow && config_.shadows)) {
       const auto side = static_cast<std::uint32_t>(side_of(subpixels_));
       const auto first_line = static_cast<std::uint32_t>(of_walk(vector, At::y)) / side;
       while (strip_ && remaining_ != 0 && line_number_ < first_line) scan_line(out);
@@ -34,12 +34,12 @@ class ObjectSource {
     if (strip_) end_strip(out);
     if (command == Command::new_scanline) {
       open_strip(vector);
-    } else if (command == Command::depth) {
-      fault_ = true;
-    } else {
+    } else if (words::is_load(command)) {
       Word load;
       load.token = ShadingToken<Preset>::decode(config_, vector);
       out(load);
+    } else {
+      fault_ = true;
     }
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden model of rtl/shaders/objects_shader.vhd: strips to the fragments of visible objects or of filtered
-// pixels, in the hardware's order.
+// Golden model of rtl/shaders/processors_shader.vhd with object processors: strips to the fragments of
+// visible objects or of filtered pixels, in the hardware's order.
 #pragma once
 
 #include <bit>
@@ -46,8 +46,9 @@ class ObjectsShader {
                        lines = of_walk(At::upper_lines);
     return static_cast<std::uint64_t>(columns > 0 ? columns * lines : 0);
   }
-  /// A triangle found no free processor, or came out of order. All later fragments are then invalid.
-  bool fault() const { return front_.fault(); }
+  /// True since a triangle that found no free processor or came out of order, or a token for a light that
+  /// does not exist. All later fragments are then invalid.
+  bool fault() const { return front_.fault() || pipeline_.fault(); }
 
   /// Processes vectors, and calls emit(fragment) for each fragment that they cause.
   template <class Emit>
@@ -72,7 +73,7 @@ class ObjectsShader {
   // Filtered pixels have the background that new_frame gives.
   template <class Emit>
   void draw_filtered(Token& token, std::uint32_t mask, bool ends, Emit& emit) {
-    if (!ends && !is_head(token.command)) pipeline_.process(token);
+    if (!ends && (!is_head(token.command) || config_.shadows)) pipeline_.process(token);
     filter_->take(token, static_cast<std::uint32_t>(std::popcount(mask)), emit);
     if (token.command == Command::new_frame && !ends)
       filter_->set_background(background_of(token, config_.channels));

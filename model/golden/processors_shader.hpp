@@ -1,53 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden model of rtl/shaders/processors_shader.vhd: converts the host's vectors to fragments, in the
-// hardware's order.
+// Golden model of rtl/shaders/processors_shader.vhd without object processors: converts the host's vectors to
+// fragments, in the hardware's order.
 #pragma once
 
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 #include "frame/fragment.hpp"
 #include "golden/fragment_output.hpp"
-#include "golden/object_stage.hpp"
 #include "golden/shading_pipeline.hpp"
-#include "golden/token_order.hpp"
 #include "golden/token_rasterizer.hpp"
 #include "golden/unwatched.hpp"
 
 namespace halfway::golden {
 
-/// Keeps lights, shadow counts and the object stage's line from one vector to the next.
+/// Keeps lights from one vector to the next.
 template <class Preset>
 class ProcessorsShader {
  public:
   explicit ProcessorsShader(const ProcessorsConfig& config)
       : config_(config), layout_(config), rasterizer_(config), pipeline_(config) {
     assert(config.channels == 1 || config.channels == 3);
-    if (config.shadows) objects_.emplace();
+    assert(!config.shadows);  // they need object processors
   }
 
   int init_bits() const { return layout_.init_bits(); }
   std::size_t init_words() const { return words_of(init_bits()); }
   /// Every group is one vector: no line records follow.
   std::size_t group(std::span<const std::uint32_t>) const { return 1; }
-  /// Number of vectors that the hardware draws independently of those before, except for loads: a triangle,
-  /// or with shadows the rounds of a line.
-  std::size_t unit(std::span<const std::uint32_t> vectors) const {
-    if (!config_.shadows) return 1;
-    std::size_t count = 1;
-    bool first_round = true;
-    for (auto rest = vectors; rest.size() >= 2 * init_words(); ++count) {
-      first_round = first_round && command_of<Preset>(rest) == Command::depth;
-      rest = rest.subspan(init_words());
-      if (is_load(rest) || (!first_round && command_of<Preset>(rest) == Command::depth)) break;
-    }
-    return count;
-  }
-  /// True if a count of shadow volumes has exceeded its format. All later fragments are then invalid.
-  bool fault() const { return pipeline_.fault(); }
+  /// True since a vector with another command, or for a light that does not exist.
+  bool fault() const { return fault_ || pipeline_.fault(); }
 
   /// Processes one vector. Calls emit(fragment) for each pixel output by the pipeline, watch.line(*this) when
   /// the span stage loads a line, watch.span(*this, x) at each pixel of it, and watch.processor(*this, x,
@@ -55,14 +39,13 @@ class ProcessorsShader {
   template <class Emit, class Watch = Unwatched>
   void draw(std::span<const std::uint32_t> vector, Emit&& emit, Watch&& watch = {}) {
     assert(vector.size() >= init_words());
-    walk_ = command_of<Preset>(vector);
-    if (walk_ == Command::new_frame) {
-      order_.new_frame();
-      if (objects_) objects_->clear();
-    }
-    if (words::is_load(walk_)) {
+    if (is_load(vector)) {
       Token load = Token::decode(config_, vector);
       pipeline_.process(load);
+      return;
+    }
+    if (command_of<Preset>(vector) != Command::new_object) {
+      fault_ = true;
       return;
     }
     rasterizer_.draw(
@@ -70,12 +53,6 @@ class ProcessorsShader {
         [&](SpanXWord x) {
           watch.span(*this, x);
           Token& token = rasterizer_.token();
-          if (objects_ && !objects_->passes(walk_, token.x, token.z, token.triangle)) return;
-          if (walk_ == Command::shadow) {
-            pipeline_.process(token);
-            return;
-          }
-          token.command = order_.place(token.y, token.x);
           pipeline_.process(token, [&](std::size_t processor, const Token&) {
             watch.processor(*this, x, static_cast<int>(processor));
           });
@@ -105,11 +82,9 @@ class ProcessorsShader {
 
   ProcessorsConfig config_;
   ProcessorsLayout<Preset> layout_;
-  Command walk_ = Command::draw;
   TokenRasterizer<Preset> rasterizer_;
-  std::optional<ObjectStage> objects_;
-  TokenOrder order_;
   ShadingPipeline<Preset> pipeline_;
+  bool fault_ = false;
 };
 
 }  // namespace halfway::golden

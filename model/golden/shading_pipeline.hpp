@@ -3,8 +3,8 @@
 // light 2 and so on. Tokens pass all of them in order.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "golden/shading_processor.hpp"
@@ -16,7 +16,8 @@ class ShadingPipeline {
  public:
   using Token = ShadingToken<Preset>;
 
-  explicit ShadingPipeline(const ProcessorsConfig& config) {
+  explicit ShadingPipeline(const ProcessorsConfig& config)
+      : lights_(static_cast<std::uint32_t>(config.lights())) {
     processors_.reserve(static_cast<std::size_t>(config.processors()));
     processors_.emplace_back(config, Term::ambient, 0);
     for (int light = 1; light <= config.lights(); ++light) {
@@ -25,10 +26,11 @@ class ShadingPipeline {
     }
   }
 
-  /// Changes `token` to the output of the last processor. Returns true if there is an output: objects have
-  /// one, loads and shadow polygons do not. Calls watch(index, token) after each processor.
+  /// Changes `token` to the output of the last processor. Returns true if there is an output: only objects
+  /// have one. Calls watch(index, token) after each processor.
   template <class Watch>
   bool process(Token& token, Watch&& watch) {
+    if (token.is_for_light() && token.light_number > lights_) fault_ = true;
     for (std::size_t i = 0; i < processors_.size(); ++i) {
       processors_[i].process(token);
       watch(i, token);
@@ -39,11 +41,12 @@ class ShadingPipeline {
     return process(token, [](std::size_t, const Token&) {});
   }
 
-  bool fault() const {
-    return std::any_of(processors_.begin(), processors_.end(), [](const auto& p) { return p.fault(); });
-  }
+  /// True since a token for a light that does not exist.
+  bool fault() const { return fault_; }
 
  private:
+  std::uint32_t lights_;
+  bool fault_ = false;
   std::vector<ShadingProcessor<Preset>> processors_;
 };
 

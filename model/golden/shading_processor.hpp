@@ -34,9 +34,11 @@ class ShadingProcessor {
       state_.take(token);
       return;
     }
-    const bool lit = state_.take_object(token);
-    if (term_ == Term::ambient) ambient_term_.ready_vectors(token);
-    if (!state_.defined() || !lit) return;
+    if (term_ == Term::ambient) {
+      ambient_term_.ready_vectors(token);
+      token.radiance.fill(Token::c_first_radiance);
+    }
+    if (!state_.defined() || !state_.lit()) return;
     if (term_ == Term::ambient)
       add(token, ambient_term_.terms(token, state_.light()));
     else if (const auto terms = light_term_.terms(token, state_.light()))
@@ -48,9 +50,6 @@ class ShadingProcessor {
     process(token);
     if (token.is_object()) token.encode(config_, words);
   }
-
-  /// True if a count of shadow volumes has exceeded its format since the start.
-  bool fault() const { return state_.fault(); }
 
  private:
   void add(Token& token, const Terms& terms) const {

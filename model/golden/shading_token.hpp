@@ -29,11 +29,11 @@ struct ShadingLight {
   Channels intensity{};
 };
 
-/// The layout is in processors_pkg. Of a load's flat words only the light is used, of a shadow polygon's only
-/// the pixel.
+/// The layout is in processors_pkg. Of a load's flat words only the light is used, of a head's and a shadow
+/// polygon's only the pixel.
 template <class Preset>
 struct ShadingToken {
-  Command command = Command::new_pixel;
+  Command command = Command::new_object;
   std::uint32_t light_number = 0;  ///< of the light to load or of the light that casts the shadow
   bool opens = false, normalize = false;
   std::uint32_t triangle = 0, y = 0, x = 0, z = 0;
@@ -46,17 +46,21 @@ struct ShadingToken {
   Channels radiance{};                        ///< I so far
   ShadingLight light{};
 
-  /// Colour before the first processor: half a step if it has a fraction, so that truncation rounds.
+  /// Colour with which the ambient processor starts: half a step if it has a fraction, so that truncation
+  /// rounds.
   static constexpr std::uint32_t c_first_radiance =
       Preset::c_radiance_fraction_bits == 0 ? 0 : 1U << (Preset::c_radiance_fraction_bits - 1);
 
-  bool is_object() const {
-    return command == Command::new_pixel || command == Command::new_object ||
-           command == Command::new_scanline;
-  }
+  bool is_object() const { return command == Command::new_object; }
   bool is_define() const { return command == Command::define || command == Command::redefine; }
+  /// The token is for the light with its number.
+  bool is_for_light() const {
+    return is_define() || command == Command::remove || command == Command::shadow;
+  }
   /// The colour of new_frame is the background of the filter.
   bool has_light() const { return is_define() || command == Command::new_frame; }
+
+  bool has_pixel() const { return is_object() || is_head(command) || command == Command::shadow; }
 
   static ShadingToken decode(const ProcessorsConfig& config, std::span<const std::uint32_t> words) {
     const ProcessorsLayout<Preset> layout(config);
@@ -67,7 +71,7 @@ struct ShadingToken {
     token.opens = word(At::opens) != 0;
     token.normalize = word(At::normalize) != 0;
     if (token.has_light()) token.light = decode_light(config, words);
-    if (!token.is_object() && token.command != Command::shadow) return token;
+    if (!token.has_pixel()) return token;
     token.triangle = word(At::triangle);
     token.y = word(At::y);
     token.x = word(At::x);
@@ -86,7 +90,7 @@ struct ShadingToken {
     set_bits(words, At::opens, opens);
     set_bits(words, At::normalize, normalize);
     if (has_light()) encode_light(config, light, words);
-    if (!is_object() && command != Command::shadow) return;
+    if (!has_pixel()) return;
     set_bits(words, At::triangle, triangle);
     set_bits(words, At::y, y);
     set_bits(words, At::x, x);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Golden model of rtl/shaders/token_rasterizer.vhd: converts a triangle to tokens, one per covered pixel.
+// Golden model of rtl/shaders/token_rasterizer.vhd, of its triangles: one token per covered pixel.
 #pragma once
 
 #include <array>
@@ -44,7 +44,7 @@ class TokenRasterizer {
     }
   }
 
-  /// The token of the pixel with the vector's command. The caller may change it.
+  /// The token of the pixel. The caller may change it.
   Token& token() { return token_; }
   const Token& token() const { return token_; }
   const TriangleWalker<Exact>& walker() const { return walker_; }
@@ -99,21 +99,17 @@ class TokenRasterizer {
     span_load();
     token_.triangle = walker_.triangle();
     token_.y = walker_.y();
-    const Command command = token_.command;
     const SpanXWord stop = walker_.stop(), step = walker_.pixel_step();
     for (SpanXWord x = walker_.start(); x != stop; x += step) {
-      token_.command = command;
       token_.x = static_cast<std::uint32_t>(low_bits(x.bits(), Preset::c_pixel_x_bits));
       token_.z = depth_.z();
       for (int i = 0; i < c_axes; ++i) token_.normal[static_cast<std::size_t>(i)] = plane_value(i);
       if (layout_.has_place())
         for (int i = 0; i < c_axes; ++i) token_.place[static_cast<std::size_t>(i)] = plane_value(c_axes + i);
       if (layout_.has_distance()) token_.distance = plane_value(2 * c_axes);
-      token_.radiance.fill(Token::c_first_radiance);
       pixel(x);
       span_step();
     }
-    token_.command = command;
   }
 
   ProcessorsConfig config_;

@@ -16,14 +16,11 @@ namespace halfway {
 class GoldenModel {
  public:
   virtual ~GoldenModel() = default;
-  /// Number of vectors of the triangle that starts with this vector: its header and its line records. Object
-  /// processors: of a strip and its triangles.
+  /// Number of vectors from this one on that the hardware draws independently of those before, except for
+  /// loads: a triangle, its header and its line records; object processors: a strip with its triangles.
   virtual std::size_t group(std::span<const std::uint32_t> init_words) const = 0;
   /// True if the vector changes the state of the hardware for all later triangles, such as a light.
   virtual bool is_load(std::span<const std::uint32_t> init_words) const = 0;
-  /// Number of vectors from this one on that the hardware draws independently of those before, except for
-  /// loads: a triangle or strip, or with shadows a line of the frame.
-  virtual std::size_t unit(std::span<const std::uint32_t> init_words) const = 0;
   /// True if the triangle that starts with this vector covers a pixel of the tile. The vectors must come from
   /// a unit of the setup, not from its prologue.
   virtual bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const = 0;
@@ -42,7 +39,7 @@ class GoldenModel {
   /// Draws triangles from the start of `init_words` and removes their vectors, until at least `count`
   /// fragments are drawn or no triangle is left.
   std::span<const Fragment> draw_next(std::span<const std::uint32_t>& init_words, std::size_t count);
-  /// True if a shadow counter of the processors shader has overflowed: the fragments are then invalid.
+  /// True if the hardware has refused a vector: the fragments are then invalid.
   virtual bool fault() const = 0;
   virtual unsigned init_bits() const = 0;
 

@@ -41,12 +41,6 @@ class ShaderModel final : public GoldenModel {
     else
       return false;
   }
-  std::size_t unit(std::span<const std::uint32_t> init_words) const override {
-    if constexpr (requires { shader_.unit(init_words); })
-      return shader_.unit(init_words);
-    else
-      return group(init_words);
-  }
   bool touches(std::span<const std::uint32_t> init_words, const Tile& tile) const override {
     if constexpr (c_has_strips) {
       return true;  // a strip is drawn whole

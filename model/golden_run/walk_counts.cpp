@@ -10,8 +10,8 @@ namespace halfway {
 
 bool has_walk_clocks(const HardwareKey& key) {
   if (key.preset != Preset::exact) return false;
-  return key.shader != Shader::processors || (!key.processors.shadows && key.processors.objects == 0 &&
-                                              key.processors.form == ProcessorForm::unrolled);
+  return key.shader != Shader::processors ||
+         (key.processors.objects == 0 && key.processors.form == ProcessorForm::unrolled);
 }
 
 WalkCounter::WalkCounter(const HardwareKey& key)
@@ -25,7 +25,7 @@ void WalkCounter::add(std::span<const std::uint32_t> init_words) {
     const auto vector = init_words;
     init_words = init_words.subspan(golden_->group(init_words) * words_per_vector);
     if (processors_ && words::get_bits(vector, words::Exact::request_header_at::command) !=
-                           static_cast<std::uint64_t>(words::Command::draw))
+                           static_cast<std::uint64_t>(words::Command::new_object))
       continue;  // the vector defines a light
     std::array<std::uint32_t, (words::Exact::c_init_header_bits + 31) / 32> header;
     for (std::size_t i = 0; i < header.size(); ++i)

@@ -27,13 +27,13 @@ struct WalkCounts {
   std::uint64_t clocks() const { return pixels + lost_to_lines + lost_to_headers; }
 };
 
-/// True if WalkCounter counts the clocks of this hardware: preset exact, without shadows and object
-/// processors, and without shading processors of several clocks per token.
+/// True if WalkCounter counts the clocks of this hardware: preset exact, without object processors,
+/// and without shading processors of several clocks per token.
 bool has_walk_clocks(const HardwareKey& key);
 
 class WalkCounter {
  public:
-  /// For hardware of preset exact without shadows.
+  /// For hardware that has_walk_clocks.
   explicit WalkCounter(const HardwareKey& key);
   /// Adds the stream's next vectors, which must be whole triangles.
   void add(std::span<const std::uint32_t> init_words);

@@ -14,7 +14,6 @@ const char* boolean(bool value) {
 }  // namespace
 
 std::string HardwareKey::entity() const {
-  if (shader == Shader::processors && processors.objects > 0) return "objects_shader";
   return std::string(to_string(shader)) + "_shader";
 }
 
@@ -38,7 +37,7 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
     list.emplace_back("g_diffuse", boolean(processors.diffuse));
     list.emplace_back("g_specular", boolean(processors.specular));
     list.emplace_back("g_normalize", boolean(processors.normalize));
-    if (processors.objects == 0) list.emplace_back("g_shadows", boolean(processors.shadows));
+    list.emplace_back("g_shadows", boolean(processors.shadows));
     list.emplace_back("g_unrolled", boolean(processors.form == ProcessorForm::unrolled));
     if (processors.objects > 0) {
       list.emplace_back("g_objects", std::to_string(processors.objects));
@@ -56,10 +55,8 @@ std::string HardwareKey::vhdl_init_bits() const {
       return "work.spherical_pkg.init_bits(g_exact, g_channels, g_lights, g_diffuse, g_specular, "
              "g_highlight_channels)";
     case Shader::processors:
-      return fmt::format(
-          "work.processors_pkg.init_bits(work.processors_pkg.config(g_exact, g_channels, g_directional, "
-          "g_positional, g_spots, g_diffuse, g_specular, g_normalize, {}))",
-          processors.objects > 0 ? "false" : "g_shadows");
+      return "work.processors_pkg.init_bits(work.processors_pkg.config(g_exact, g_channels, g_directional, "
+             "g_positional, g_spots, g_diffuse, g_specular, g_normalize, g_shadows))";
   }
   return {};
 }

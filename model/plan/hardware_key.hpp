@@ -62,7 +62,7 @@ struct ProcessorUnits {
   unsigned directional = 0, positional = 0, spots = 0;  ///< at most 16 in total
   bool diffuse = false, specular = false;               ///< false without lights
   bool normalize = false;                               ///< the ambient processor can normalize N
-  bool shadows = false;                                 ///< object stage and shadow counters
+  bool shadows = false;                                 ///< shadow counters; only with object processors
   ProcessorForm form = ProcessorForm::unrolled;
   unsigned objects = 0;    ///< object processors; 0: the rasterizer
   unsigned subpixels = 1;  ///< of a pixel, with object processors: 1, 4 or 16. Above 1 pixels are filtered

@@ -57,6 +57,8 @@ struct PlanRequest {
 };
 
 inline constexpr unsigned c_most_object_processors = 256;
+/// Object processors of a scene with shadows, if the request has none.
+inline constexpr unsigned c_object_processors = 16;
 
 inline constexpr std::size_t c_most_lights = 16;  ///< of the spherical shader, and of the processors
 

@@ -80,7 +80,7 @@ HardwareKey every_processor(HardwareKey key, unsigned lights) {
   p.directional = p.positional = 0;
   p.spots = lights;
   p.diffuse = p.specular = p.normalize = true;
-  p.shadows = p.objects == 0;
+  p.shadows = p.objects > 0;
   return key;
 }
 
@@ -123,11 +123,12 @@ class ProcessorsPlanner {
       case Effect::spot:
         return lights_of(effect, LightKind::spot, "like a positional light, and its cone");
       case Effect::shadow:
-        if (p.objects > 0) return planned(calls_, effect, DoneBy::none, "not behind object processors");
         o.shadows = !p.shadows;
+        if (o.objects == 0) o.objects = c_object_processors;
         if (o.lights() == 0) o.directional = 1;
         if (!o.diffuse && !o.specular) o.diffuse = true;
-        return in_hardware(effect, "shadow volumes counted by each processor of a light", p.shadows, other);
+        return in_hardware(effect, "object processors; each processor of a light counts shadow volumes",
+                           p.shadows, other);
       case Effect::normalization: {
         o.normalize = !p.normalize;
         if (o.lights() == 0) o.directional = 1;
@@ -217,12 +218,9 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   units.normalize = normalize.called_for;
   units.shadows = calls[Effect::shadow].called_for;
   units.form = request.form.value_or(ProcessorForm::unrolled);
-  units.objects = request.objects;
+  // Shadow polygons are counted along the sorted lists of the object processors.
+  units.objects = request.objects == 0 && units.shadows ? c_object_processors : request.objects;
   units.subpixels = request.subpixels;
-  if (units.objects > 0 && units.shadows)
-    return bad_input(fmt::format(
-        "{}: behind object processors shadows are not drawn; leave out --object-processors, or the shadows",
-        scene.name));
   // The filter mixes the background into pixels at outlines.
   if (words::has_filter(static_cast<int>(units.subpixels)) && !is_grey(scene.background)) key.channels = 3;
   if (units.specular)

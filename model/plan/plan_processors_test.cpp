@@ -50,7 +50,7 @@ TEST(PlanProcessors, NoProcessorsForTermsThatNoMaterialReflects) {
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
   EXPECT_EQ(effect(planned_processors(scene), Effect::normalization).why, "no material reflects a light");
   scene.materials[0].specular = 0.3;
-  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled");
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled-o16x1");
 }
 
 TEST(PlanProcessors, NormalizesIfNormalsDifferOrAsPublishedForLightsWithAPlace) {
@@ -82,11 +82,12 @@ TEST(PlanProcessors, NormalizesIfNormalsDifferOrAsPublishedForLightsWithAPlace) 
 TEST(PlanProcessors, ShadowsWhereALightIsReflected) {
   Scene scene = with_lights(1);
   scene.shadows = true;
-  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled");
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled-o16x1");
   EXPECT_EQ(effect(planned_processors(scene), Effect::shadow).by, DoneBy::hardware);
   EXPECT_TRUE(effect(planned_processors(scene), Effect::shadow).elaborated);
+  EXPECT_EQ(key(scene, {.objects = 5}), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled-o5x1");
   scene.directional.clear();
-  EXPECT_FALSE(planned_processors(scene).key.processors.shadows);
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
 }
 
 TEST(PlanProcessors, OnlyBlinnHighlightsAreSupported) {
@@ -112,9 +113,12 @@ TEST(PlanProcessors, AllEffectsUsesSpotHardwareForEveryLight) {
     const auto all = [&](const Scene& scene, std::optional<unsigned> lights = {}) {
       return key(scene, {.preset = preset, .all_effects = true, .lights = lights});
     };
-    EXPECT_EQ(all(grey_scene()), begin + "1-d-s-n-shadows-unrolled");
-    EXPECT_EQ(all(with_lights(2, 1, 1)), begin + "4-d-s-n-shadows-unrolled");
-    EXPECT_EQ(all(with_lights(2, 1, 1), 16), begin + "16-d-s-n-shadows-unrolled");
+    EXPECT_EQ(all(grey_scene()), begin + "1-d-s-n-unrolled");
+    EXPECT_EQ(all(with_lights(2, 1, 1)), begin + "4-d-s-n-unrolled");
+    EXPECT_EQ(all(with_lights(2, 1, 1), 16), begin + "16-d-s-n-unrolled");
+    Scene shadowed = with_lights(2);
+    shadowed.shadows = true;
+    EXPECT_EQ(all(shadowed), begin + "2-d-s-n-shadows-unrolled-o16x1");
     EXPECT_EQ(planned_processors(with_lights(1), {.preset = preset}).everything.name(), all(with_lights(1)));
   }
   EXPECT_EQ(refusal(with_lights(3), {.all_effects = true, .lights = 2}), "--lights: 2 is not 3 to 16");

@@ -10,20 +10,13 @@ namespace halfway {
 Status check_pixels(const Scene& scene, const HardwareKey& key, const SetupCounts& counts, bool fault) {
   if (const unsigned objects = key.processors.objects; counts.objects > objects && objects > 0)
     return bad_input(fmt::format(
-        "{}: {} pieces of triangles lie on one line of {}, and the hardware has {} object "
+        "{}: {} pieces of triangles{} lie on one line of {}, and the hardware has {} object "
         "processors; give more by --object-processors (make: OBJECTS), up to {}, or leave them out",
-        scene.name, counts.objects, key.processors.subpixels > 1 ? "two neighbouring columns" : "one column",
-        objects, c_most_object_processors));
-  if (const std::uint64_t deepest = counts.deepest_shadow; deepest > c_most_shadows)
-    return bad_input(
-        fmt::format("{}: {} shadow volumes of one light begin or end before one another at a pixel, and the "
-                    "processors count up "
-                    "to {}; leave out casters in others' shadow, or the shadows",
-                    scene.name, deepest, c_most_shadows));
+        scene.name, counts.objects, key.processors.shadows ? " and shadow polygons" : "",
+        key.processors.subpixels > 1 ? "two neighbouring columns" : "one column", objects,
+        c_most_object_processors));
   if (fault)
-    return tool_failed(fmt::format("{}: {}; please report it", scene.name,
-                                   key.processors.objects > 0 ? "a triangle found no free object processor"
-                                                              : "a count of shadow volumes left its format"));
+    return tool_failed(fmt::format("{}: the hardware refused a vector; please report it", scene.name));
   return Ok{};
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -15,13 +16,15 @@ using Items = std::vector<std::uint32_t>;
 
 class Cutter {
  public:
-  Cutter(std::span<const StripItem> items, int unit_bits, FrameSize frame, const ObjectChain& chain)
-      : items_(items), unit_bits_(unit_bits), frame_(frame), chain_(chain) {}
+  Cutter(std::span<const StripItem> objects, std::span<const StripItem> shadows, int unit_bits,
+         FrameSize frame, const ObjectChain& chain)
+      : objects_(objects), shadows_(shadows), unit_bits_(unit_bits), frame_(frame), chain_(chain) {}
 
   ObjectStrips cut() {
-    Items all(items_.size());
-    std::iota(all.begin(), all.end(), 0U);
-    halve(all, {0, frame_.width});
+    Items objects(objects_.size()), shadows(shadows_.size());
+    std::iota(objects.begin(), objects.end(), 0U);
+    std::iota(shadows.begin(), shadows.end(), 0U);
+    halve(objects, shadows, {0, frame_.width});
     return std::move(result_);
   }
 
@@ -39,45 +42,66 @@ class Cutter {
   }
 
   // The pixels in which an item may cover something.
-  Columns columns_of(std::uint32_t item) const {
-    const auto& p = items_[item];
+  Columns columns_of(const StripItem& p) const {
     const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
     return {std::int64_t{left} >> unit_bits_, (std::int64_t{right} >> unit_bits_) + 1};
   }
 
+  // The items that may draw something in the columns.
+  Items in_columns(std::span<const StripItem> items, const Items& from, const Columns& columns) const {
+    Items inside;
+    for (const std::uint32_t item : from)
+      if (const Columns drawn = drawn_by(items[item]); drawn.begin < columns.end && drawn.end > columns.begin)
+        inside.push_back(item);
+    return inside;
+  }
+  Columns drawn_by(const StripItem& item) const {
+    const Columns own = columns_of(item);
+    return {own.begin, own.end + (chain_.filtered() ? 1 : 0)};
+  }
+
   // Draws the columns [begin, end) of the frame.
-  void halve(const Items& from, Columns columns) {
-    Items items;
+  void halve(const Items& all_objects, const Items& all_shadows, Columns columns) {
+    const Items objects = in_columns(objects_, all_objects, columns);
+    if (objects.empty()) return;
     Columns bounds{columns.end, columns.begin};
-    for (const std::uint32_t item : from) {
-      const Columns own = columns_of(item);
-      const Columns drawn{own.begin, own.end + (chain_.filtered() ? 1 : 0)};
-      if (drawn.begin >= columns.end || drawn.end <= columns.begin) continue;
-      items.push_back(item);
+    for (const std::uint32_t object : objects) {
+      const Columns drawn = drawn_by(objects_[object]);
       bounds.begin = std::min(bounds.begin, drawn.begin);
       bounds.end = std::max(bounds.end, drawn.end);
     }
-    if (items.empty()) return;
     columns = {std::max(columns.begin, bounds.begin), std::min(columns.end, bounds.end)};
+    const Items shadows = in_columns(shadows_, all_shadows, columns);
     const std::uint32_t left = scanned_from(columns.begin);
     const Tile area{left, 0, {static_cast<std::uint32_t>(columns.end) - left, frame_.height}};
-    const Lines lines = count(items, area);
-    const std::uint32_t most = *std::max_element(lines.begin(), lines.end());
+    const std::vector<Tile> runs = runs_of(count(objects_, objects, area), area);
+    const Lines on_line = sum(count(objects_, objects, area), count(shadows_, shadows, area));
+    std::uint32_t most = 0;
+    for (const Tile& run : runs)
+      most = std::max(most,
+                      *std::max_element(on_line.begin() + run.y, on_line.begin() + run.y + run.size.height));
     const bool fits = most <= chain_.processors && area.size.width <= chain_.most_columns;
     if (!fits && columns.width() > 1) {
       const std::int64_t middle = columns.begin + columns.width() / 2;
-      halve(items, {columns.begin, middle});
-      halve(items, {middle, columns.end});
+      halve(objects, shadows, {columns.begin, middle});
+      halve(objects, shadows, {middle, columns.end});
       return;
     }
     result_.processors = std::max(result_.processors, most);
-    add_runs(items, area, lines);
+    for (const Tile& run : runs)
+      result_.strips.push_back(
+          {run, with_a_walk(objects_, objects, run), with_a_walk(shadows_, shadows, run)});
   }
 
-  Lines count(const Items& items, const Tile& area) const {
+  static Lines sum(Lines a, const Lines& b) {
+    std::transform(a.begin(), a.end(), b.begin(), a.begin(), std::plus<>());
+    return a;
+  }
+
+  Lines count(std::span<const StripItem> items, const Items& which, const Tile& area) const {
     Lines change(area.size.height + 1, 0);
-    for (const std::uint32_t item : items)
-      for (const Walk& walk : strip_walks(items_[item], unit_bits_, area, chain_.side)) {
+    for (const std::uint32_t item : which)
+      for (const Walk& walk : strip_walks(items[item], unit_bits_, area, chain_.side)) {
         const PixelLines lines = pixel_lines(walk, chain_.side);
         ++change[static_cast<std::size_t>(lines.begin)];
         --change[static_cast<std::size_t>(lines.end)];
@@ -86,8 +110,9 @@ class Cutter {
     return change;
   }
 
-  // One strip for each run of lines with an item, or more if it is too high.
-  void add_runs(const Items& items, const Tile& area, const Lines& lines) {
+  // One strip for each run of lines with an object, or more if it is too high.
+  std::vector<Tile> runs_of(const Lines& lines, const Tile& area) const {
+    std::vector<Tile> runs;
     const std::uint32_t most = chain_.most_lines - (chain_.filtered() ? 1 : 0);
     for (std::uint32_t y = 0; y < area.size.height;) {
       if (lines[y] == 0) {
@@ -99,19 +124,20 @@ class Cutter {
       end = drawn_to(end, area.size.height);
       for (; y < end; y = std::min(end, y + most)) {
         const std::uint32_t top = scanned_from(y);
-        add(items, {area.x, top, {area.size.width, std::min(end, y + most) - top}});
+        runs.push_back({area.x, top, {area.size.width, std::min(end, y + most) - top}});
       }
     }
+    return runs;
   }
 
-  void add(const Items& items, const Tile& area) {
-    ObjectStrip strip{area, {}};
-    for (const std::uint32_t item : items)
-      if (!strip_walks(items_[item], unit_bits_, area, chain_.side).empty()) strip.items.push_back(item);
-    result_.strips.push_back(std::move(strip));
+  Items with_a_walk(std::span<const StripItem> items, const Items& which, const Tile& area) const {
+    Items inside;
+    for (const std::uint32_t item : which)
+      if (!strip_walks(items[item], unit_bits_, area, chain_.side).empty()) inside.push_back(item);
+    return inside;
   }
 
-  std::span<const StripItem> items_;
+  std::span<const StripItem> objects_, shadows_;
   int unit_bits_;
   FrameSize frame_;
   ObjectChain chain_;
@@ -120,9 +146,9 @@ class Cutter {
 
 }  // namespace
 
-ObjectStrips cut_strips(std::span<const StripItem> items, int unit_bits, FrameSize frame,
-                        const ObjectChain& chain) {
-  return Cutter(items, unit_bits, frame, chain).cut();
+ObjectStrips cut_strips(std::span<const StripItem> objects, std::span<const StripItem> shadows, int unit_bits,
+                        FrameSize frame, const ObjectChain& chain) {
+  return Cutter(objects, shadows, unit_bits, frame, chain).cut();
 }
 
 // A walk is limited to the lines on which its item covers the strip, but not to the strip's columns: cut

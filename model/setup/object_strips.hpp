@@ -29,8 +29,8 @@ struct ObjectChain {
 using StripItem = std::array<ScreenPoint, 3>;
 
 struct ObjectStrip {
-  Tile area;                         ///< what is scanned
-  std::vector<std::uint32_t> items;  ///< that have a walk in it, in their order
+  Tile area;                                    ///< what is scanned
+  std::vector<std::uint32_t> objects, shadows;  ///< that have a walk in it, in their order
 };
 
 struct ObjectStrips {
@@ -40,10 +40,10 @@ struct ObjectStrips {
   std::uint32_t processors = 0;
 };
 
-/// Strips that together draw every pixel that an item covers, each pixel once. A strip is halved until its
-/// lines fit the processors. Lines without an item are left out.
-ObjectStrips cut_strips(std::span<const StripItem> items, int unit_bits, FrameSize frame,
-                        const ObjectChain& chain);
+/// Strips that together draw every pixel that an object covers, each pixel once. A strip is halved until its
+/// lines fit the processors. Lines and columns without an object are left out: shadow polygons draw nothing.
+ObjectStrips cut_strips(std::span<const StripItem> objects, std::span<const StripItem> shadows, int unit_bits,
+                        FrameSize frame, const ObjectChain& chain);
 
 /// The walks of an item in a strip, in subpixels from its first pixel. They may leave its columns on both
 /// sides. One walk, unless the item reaches 4095 subpixels less half the strip's width beyond it.

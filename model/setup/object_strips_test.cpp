@@ -78,12 +78,15 @@ TEST(ObjectStrips, DrawEveryCoveredPixelOnceAndFitTheProcessors) {
                             .side = side,
                             .most_columns = static_cast<std::uint32_t>(random.between(5, 70)),
                             .most_lines = static_cast<std::uint32_t>(random.between(5, 60))};
-    const std::vector<StripItem> items = random.items(random.between(1, 30));
-    const ObjectStrips cut = cut_strips(items, c_strip_bits, c_strip_frame, chain);
+    const std::vector<StripItem> objects = random.items(random.between(1, 30));
+    const std::vector<StripItem> shadows = random.items(random.between(0, 8));
+    const ObjectStrips cut = cut_strips(objects, shadows, c_strip_bits, c_strip_frame, chain);
     const std::size_t subpixels = Frame::pixels(c_strip_frame) * side * side;
-    Coverage expected(subpixels), got(subpixels);
+    Coverage expected(subpixels), got(subpixels), shadowed(subpixels), got_shadowed(subpixels);
     std::vector<int> drawn(Frame::pixels(c_strip_frame)), needed(Frame::pixels(c_strip_frame));
-    for (const StripItem& item : items) {
+    for (const StripItem& shadow : shadows)
+      add_covered(shadowed, shadow, whole_frame(c_strip_frame), side, whole_frame(c_strip_frame));
+    for (const StripItem& item : objects) {
       Coverage own(subpixels);
       add_covered(own, item, whole_frame(c_strip_frame), side, whole_frame(c_strip_frame));
       // The pixels that have the item in their support.
@@ -111,37 +114,48 @@ TEST(ObjectStrips, DrawEveryCoveredPixelOnceAndFitTheProcessors) {
         for (std::uint32_t x = 0; x < pixels.size.width; ++x)
           ++drawn[(pixels.y + y) * c_strip_frame.width + pixels.x + x];
       std::vector<std::uint32_t> lines(area.size.height);
-      for (const std::uint32_t item : strip.items) {
-        add_covered(got, items[item], area, side, pixels);
-        for (const Walk& walk : strip_walks(items[item], c_strip_bits, area, side))
+      const auto add = [&](Coverage& coverage, const StripItem& item) {
+        add_covered(coverage, item, area, side, pixels);
+        for (const Walk& walk : strip_walks(item, c_strip_bits, area, side))
           for (std::int64_t y = pixel_lines(walk, side).begin; y < pixel_lines(walk, side).end; ++y)
             most = std::max(most, ++lines[static_cast<std::size_t>(y)]);
-      }
+      };
+      for (const std::uint32_t object : strip.objects) add(got, objects[object]);
+      for (const std::uint32_t shadow : strip.shadows) add(got_shadowed, shadows[shadow]);
     }
     ASSERT_EQ(got, expected) << "round " << round;
     for (std::size_t i = 0; i < drawn.size(); ++i) {
       ASSERT_LE(drawn[i], 1) << "pixel " << i;
       ASSERT_GE(drawn[i], needed[i]) << "pixel " << i;
     }
+    for (std::size_t i = 0; i < subpixels; ++i) {
+      const std::size_t y = i / (c_strip_frame.width * side) / side,
+                        x = i % (c_strip_frame.width * side) / side;
+      if (drawn[y * c_strip_frame.width + x] != 0) {
+        ASSERT_EQ(got_shadowed[i], shadowed[i]) << "subpixel " << i;
+      }
+    }
     EXPECT_EQ(cut.processors, most);
   }
 }
 
 TEST(ObjectStrips, NothingGivesNoStrip) {
-  EXPECT_TRUE(cut_strips({}, c_strip_bits, c_strip_frame, {.processors = 1}).strips.empty());
-  const StripItem outside{{{-400, 5}, {-300, 5}, {-300, 90}}};
-  EXPECT_TRUE(cut_strips({&outside, 1}, c_strip_bits, c_strip_frame, {.processors = 1}).strips.empty());
+  EXPECT_TRUE(cut_strips({}, {}, c_strip_bits, c_strip_frame, {.processors = 1}).strips.empty());
+  const StripItem outside{{{-400, 5}, {-300, 5}, {-300, 90}}}, shadow{{{40, 5}, {300, 5}, {300, 90}}};
+  EXPECT_TRUE(
+      cut_strips({&outside, 1}, {&shadow, 1}, c_strip_bits, c_strip_frame, {.processors = 1}).strips.empty());
 }
 
 // Objects at the top and at the bottom: the lines between are not scanned.
 TEST(ObjectStrips, LinesWithoutAnItemAreLeftOut) {
   const std::array<StripItem, 2> items = {
       {{{{32, 32}, {80, 32}, {32, 80}}}, {{{32, 640}, {80, 640}, {32, 720}}}}};
-  const ObjectStrips plain = cut_strips(items, c_strip_bits, c_strip_frame, {.processors = 1});
+  const ObjectStrips plain = cut_strips(items, {}, c_strip_bits, c_strip_frame, {.processors = 1});
   ASSERT_EQ(plain.strips.size(), 2U);
   EXPECT_EQ(plain.strips[0].area, (Tile{2, 2, {4, 2}}));
   EXPECT_EQ(plain.strips[1].area, (Tile{2, 40, {4, 4}}));
-  const ObjectStrips filtered = cut_strips(items, c_strip_bits, c_strip_frame, {.processors = 1, .side = 2});
+  const ObjectStrips filtered =
+      cut_strips(items, {}, c_strip_bits, c_strip_frame, {.processors = 1, .side = 2});
   EXPECT_EQ(filtered.strips[0].area, (Tile{1, 1, {6, 5}}));
 }
 

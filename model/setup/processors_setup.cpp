@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -33,6 +34,8 @@ using words::Command, words::Exact, words::Published, words::c_axes;
 constexpr double c_farthest_light = 4096.0;
 
 constexpr double c_white = 255.0;  // colour steps
+
+constexpr int c_subpixel_bits = 4;  // of screen coordinates
 
 // A cone is reported in a note if the angle between its axis and its edge is less than this many errors of a
 // cosine.
@@ -92,50 +95,10 @@ struct Surface {
   std::array<PlaneValues, c_most_planes> planes;  // the layout's number of planes is used
 };
 
-// Finds the items on a line, in the order in which they were added.
-class ByLine {
- public:
-  explicit ByLine(std::uint32_t height) : bands_((height + c_band - 1) / c_band) {}
-  void add(std::uint32_t item, std::int64_t first_line, std::int64_t last_line) {
-    for (std::int64_t band = first_line / c_band; band <= last_line / c_band; ++band)
-      bands_[static_cast<std::size_t>(band)].push_back(item);
-  }
-  /// All items on the line. May include others.
-  const std::vector<std::uint32_t>& near(std::uint32_t y) const { return bands_[y / c_band]; }
-
- private:
-  static constexpr std::uint32_t c_band = 16;  // lines
-  std::vector<std::vector<std::uint32_t>> bands_;
-};
-
 // A shadow polygon. Its depth is constant if it lies in front of the near plane.
 struct Shadow {
   ShadowPolygon polygon;
   bool before_near;
-};
-
-// The greatest number of polygons that overlap on a line.
-class Overlap {
- public:
-  explicit Overlap(std::uint32_t width) : change_(width + 2, 0) {}
-  void add(const Walk& line) {
-    // A backward span covers [stop + 1, start + 1).
-    const std::int64_t shift = line.backward ? 1 : 0;
-    const auto [begin, end] = std::minmax({line.start.pixel + shift, line.upper.pixel + shift});
-    ++change_[static_cast<std::size_t>(begin)];
-    --change_[static_cast<std::size_t>(end)];
-    any_ = true;
-  }
-  std::uint64_t most() const {
-    if (!any_) return 0;
-    std::int64_t here = 0, most = 0;
-    for (const std::int32_t change : change_) most = std::max(most, here += change);
-    return static_cast<std::uint64_t>(most);
-  }
-
- private:
-  std::vector<std::int32_t> change_;
-  bool any_ = false;
 };
 
 template <class P>
@@ -149,8 +112,7 @@ class ProcessorsSetup final : public Setup {
         layout_(config_),
         chain_(chain_of(key)),
         view_(scene.camera),
-        projector_(scene, frame,
-                   {.subpixel_bits = config_.shadows ? options.subpixel_bits : 4, .clip_to_frame = false}),
+        projector_(scene, frame, {.subpixel_bits = c_subpixel_bits, .clip_to_frame = false}),
         lights_(reflected_lights(scene)),
         has_places_(
             std::any_of(lights_.begin(), lights_.end(), [&](LightRef light) { return has_place(light); })),
@@ -159,19 +121,17 @@ class ProcessorsSetup final : public Setup {
     set_ambient();
     for (const Material& m : scene.materials) materials_.push_back(material_words(m));
     note_clamped_values();
-    if (config_.shadows) index_lines();
+    assert(has_strips() || !config_.shadows);
     if (has_strips()) index_strips();
   }
 
   unsigned init_bits() const override { return static_cast<unsigned>(layout_.init_bits()); }
-  bool units_are_lines() const override { return config_.shadows || has_strips(); }
+  bool units_are_strips() const override { return has_strips(); }
   std::uint32_t units() const override {
-    if (has_strips()) return static_cast<std::uint32_t>(strips_.size());
-    return config_.shadows ? frame_.height : static_cast<std::uint32_t>(scene_.triangles.size());
+    return static_cast<std::uint32_t>(has_strips() ? strips_.size() : scene_.triangles.size());
   }
   Tile reach(std::uint32_t unit) const override {
-    if (has_strips()) return strips_[unit].area;
-    return config_.shadows ? Tile{0, unit, {frame_.width, 1}} : projector_.reach(unit);
+    return has_strips() ? strips_[unit].area : projector_.reach(unit);
   }
   std::vector<std::string> notes() const override { return notes_; }
 
@@ -200,10 +160,6 @@ class ProcessorsSetup final : public Setup {
         setup_.append_strip(setup_.strips_[unit], words, counts);
         return;
       }
-      if (setup_.config_.shadows) {
-        setup_.append_line(unit, words, counts);
-        return;
-      }
       for (const ScreenTriangle& t : mesh_.project(unit, counts.projection)) {
         ++counts.triangles;
         setup_.append_triangle(t, words, counts);
@@ -217,12 +173,12 @@ class ProcessorsSetup final : public Setup {
 
   void append_triangle(const ScreenTriangle& t, std::vector<std::uint32_t>& words,
                        SetupCounts& counts) const {
-    const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
+    const Walks walks = plan_walks(screen_points(t), c_subpixel_bits, frame_);
     if (walks.empty()) return;
     ++counts.leaves;
     const PlaneFit fit = plane_fit(t);
     const Surface surface = surface_of(t);
-    for (const Walk& walk : walks) draw(t, fit, surface, difference_start(walk), {walk, 0, 0}, words, counts);
+    for (const Walk& walk : walks) draw(t, fit, surface, difference_start(walk), walk, words, counts);
   }
 
   using Request = typename P::request_header_at;
@@ -246,8 +202,6 @@ class ProcessorsSetup final : public Setup {
     std::int64_t exponent;
     std::array<std::int64_t, 3> ambient, diffuse, specular;
   };
-
-  int subpixel_bits() const { return projector_.options().subpixel_bits; }
 
   // I_a of the frame. A processor multiplies it by k_a, so it is raised until each emission has a k_a in
   // range, to a whole number of colour steps, which both presets hold.
@@ -415,14 +369,10 @@ class ProcessorsSetup final : public Setup {
     }
   }
 
-  PlaneFit plane_fit(const ScreenTriangle& t) const { return PlaneFit(screen_points(t), subpixel_bits()); }
+  static PlaneFit plane_fit(const ScreenTriangle& t) { return PlaneFit(screen_points(t), c_subpixel_bits); }
 
   static DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const BarycentricStart& start) {
     return fit.words(fixed_depths(t), start, half(Exact::c_depth_sum_fraction_bits));
-  }
-  DepthWords depth_on_line(const ScreenTriangle& t, const Walk& walk, const WalkLine& line) const {
-    const PlaneFit fit = plane_fit(t);
-    return on_line(depth_words(fit, t, fit.at(difference_start(walk))), line);
   }
 
   bool has_one_normal(const ScreenTriangle& t) const {
@@ -476,18 +426,18 @@ class ProcessorsSetup final : public Setup {
     return std::isnan(v) ? 0 : fixed(std::clamp(v, -c_most, c_most), P::c_plane_sum_fraction_bits);
   }
 
-  // Appends the vector that draws a walk, or one of its lines. The differences start at `first`.
+  // Appends the vector that draws a walk. The differences start at `first`.
   void draw(const ScreenTriangle& t, const PlaneFit& fit, const Surface& surface,
-            const DifferenceStart& first, const WalkLine& line, std::vector<std::uint32_t>& words,
+            const DifferenceStart& first, const Walk& walk, std::vector<std::uint32_t>& words,
             SetupCounts& counts) const {
     const BarycentricStart start = fit.at(first);
-    InitVector init = request(words, Command::draw, counts);
-    put_header(init, t.source, line.walk, on_line(depth_words(fit, t, start), line), layout_.walk_low());
+    InitVector init = request(words, Command::new_object, counts);
+    put_header(init, t.source, walk, depth_words(fit, t, start), layout_.walk_low());
     init.put(Request::normalize, surface.normalize);
     for (int plane = 0; plane < layout_.planes(); ++plane) {
       // Without positions the layout has only the planes of N.
       const DepthWords of_plane =
-          on_line(fit.words(surface.planes[static_cast<std::size_t>(plane)], start, c_half_vector), line);
+          fit.words(surface.planes[static_cast<std::size_t>(plane)], start, c_half_vector);
       const int low = layout_.plane_low(plane);
       init.put(Plane::value, of_plane.value, low);
       init.put(Plane::dx, of_plane.dx, low);
@@ -497,9 +447,16 @@ class ProcessorsSetup final : public Setup {
     put_material(init, materials_[t.material]);
   }
 
-  static DepthWords on_line(DepthWords words, const WalkLine& line) {
-    words.value += (line.steps - line.carries) * words.de0 + line.carries * words.de1;
-    return words;
+  // Appends the vector of a shadow polygon.
+  void cast(const Shadow& shadow, const DifferenceStart& first, const Walk& walk,
+            std::vector<std::uint32_t>& words, SetupCounts& counts) const {
+    ++counts.shadows;
+    const ScreenTriangle& t = shadow.polygon.triangle;
+    InitVector init = request(words, Command::shadow, counts, static_cast<int>(shadow.polygon.light) + 1);
+    init.put(Request::opens, shadow.polygon.opens);
+    DepthWords depth{0, 0, 0, 0};
+    if (const PlaneFit fit = plane_fit(t); !shadow.before_near) depth = depth_words(fit, t, fit.at(first));
+    put_header(init, t.source, walk, depth, layout_.walk_low());
   }
 
   static ObjectChain chain_of(const HardwareKey& key) {
@@ -511,49 +468,57 @@ class ProcessorsSetup final : public Setup {
   }
   bool has_strips() const { return chain_.processors > 0; }
 
-  // Keeps the pieces of triangles for which kept(piece) is true.
-  template <class Kept>
-  void keep_triangles(Kept&& kept) {
-    std::vector<ScreenTriangle> on_screen;
-    for (std::uint32_t t = 0; t < scene_.triangles.size(); ++t) {
-      on_screen.clear();
-      projector_.project(t, on_screen, whole_frame_.projection);
-      for (const ScreenTriangle& piece : on_screen) {
-        ++whole_frame_.triangles;
-        if (!kept(piece)) continue;
-        ++whole_frame_.leaves;
-        triangles_.push_back(piece);
-      }
-    }
+  bool covers_something(const ScreenTriangle& t) const {
+    return !strip_walks(screen_points(t), c_subpixel_bits, whole_frame(frame_), chain_.side).empty();
   }
 
+  // Collects all triangles and shadow polygons to draw, and cuts the frame into strips.
   void index_strips() {
-    std::vector<StripItem> items;
-    keep_triangles([&](const ScreenTriangle& piece) {
-      const StripItem item = screen_points(piece);
-      if (strip_walks(item, subpixel_bits(), whole_frame(frame_), chain_.side).empty()) return false;
-      items.push_back(item);
-      return true;
-    });
-    ObjectStrips cut = cut_strips(items, subpixel_bits(), frame_, chain_);
+    std::vector<ScreenTriangle> on_screen;
+    for (std::uint32_t source = 0; source < scene_.triangles.size(); ++source)
+      projector_.project(source, on_screen, whole_frame_.projection);
+    whole_frame_.triangles = on_screen.size();
+    for (const ScreenTriangle& piece : on_screen)
+      if (covers_something(piece)) triangles_.push_back(piece);
+    whole_frame_.leaves = triangles_.size();
+    if (config_.shadows && scene_.shadows) index_shadows();
+    std::vector<StripItem> objects, shadows;
+    for (const ScreenTriangle& t : triangles_) objects.push_back(screen_points(t));
+    for (const Shadow& shadow : shadows_) shadows.push_back(screen_points(shadow.polygon.triangle));
+    ObjectStrips cut = cut_strips(objects, shadows, c_subpixel_bits, frame_, chain_);
     strips_ = std::move(cut.strips);
     whole_frame_.objects = cut.processors;
   }
 
-  // A strip with its triangles, in the order of their first lines, and the vector that ends it. The first
-  // vector contains the number of those after it.
+  void index_shadows() {
+    volumes_ = make_shadow_volumes(scene_, lights_);
+    ProjectionCounts counts;
+    for (const ShadowPolygon& polygon : shadow_polygons(scene_, projector_, volumes_, counts)) {
+      if (!covers_something(polygon.triangle)) continue;
+      const auto& v = polygon.triangle.vertex;
+      const bool before_near = v[0].z == 0.0 && v[1].z == 0.0 && v[2].z == 0.0;
+      shadows_.push_back({polygon, before_near});
+    }
+    whole_frame_.projection.unrepresentable += counts.unrepresentable;
+  }
+
+  // A strip with its triangles and shadow polygons, in the order of their first lines, and the vector that
+  // ends it. The first vector contains the number of those after it.
   void append_strip(const ObjectStrip& strip, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
     using At = Exact::init_header_at;
     struct Part {
-      std::uint32_t item;
+      const ScreenTriangle* triangle;
+      const Shadow* shadow;  // empty: an object
       Walk walk;
       std::int64_t first_line;
     };
     std::vector<Part> parts;
-    for (const std::uint32_t item : strip.items)
-      for (const Walk& walk :
-           strip_walks(screen_points(triangles_[item]), subpixel_bits(), strip.area, chain_.side))
-        parts.push_back({item, walk, pixel_lines(walk, chain_.side).begin});
+    const auto add = [&](const ScreenTriangle& t, const Shadow* shadow) {
+      for (const Walk& walk : strip_walks(screen_points(t), c_subpixel_bits, strip.area, chain_.side))
+        parts.push_back({&t, shadow, walk, pixel_lines(walk, chain_.side).begin});
+    };
+    for (const std::uint32_t item : strip.objects) add(triangles_[item], nullptr);
+    for (const std::uint32_t item : strip.shadows) add(shadows_[item].polygon.triangle, &shadows_[item]);
     std::stable_sort(parts.begin(), parts.end(),
                      [](const Part& a, const Part& b) { return a.first_line < b.first_line; });
     const auto put_area = [&](const Tile& area, std::size_t vectors_after) {
@@ -566,93 +531,14 @@ class ProcessorsSetup final : public Setup {
     };
     put_area(strip.area, parts.size() + 1);
     for (const Part& part : parts) {
-      const ScreenTriangle& t = triangles_[part.item];
       const DifferenceStart first{strip.area.x, strip.area.y + part.first_line, 0, false};
-      draw(t, plane_fit(t), surface_of(t), first, {part.walk, 0, 0}, words, counts);
+      if (part.shadow)
+        cast(*part.shadow, first, part.walk, words, counts);
+      else
+        draw(*part.triangle, plane_fit(*part.triangle), surface_of(*part.triangle), first, part.walk, words,
+             counts);
     }
     put_area({}, 0);
-  }
-
-  // Collects all triangles and shadow polygons to draw, with their lines.
-  void index_lines() {
-    triangles_by_line_.emplace(frame_.height);
-    keep_triangles([&](const ScreenTriangle& piece) {
-      return add_lines(*triangles_by_line_, static_cast<std::uint32_t>(triangles_.size()), piece);
-    });
-    shadows_by_line_.emplace(frame_.height);
-    if (!scene_.shadows) return;
-    volumes_ = make_shadow_volumes(scene_, lights_);
-    ProjectionCounts counts;
-    for (const ShadowPolygon& polygon : shadow_polygons(scene_, projector_, volumes_, counts)) {
-      if (!add_lines(*shadows_by_line_, static_cast<std::uint32_t>(shadows_.size()), polygon.triangle))
-        continue;
-      const auto& v = polygon.triangle.vertex;
-      const bool before_near = v[0].z == 0.0 && v[1].z == 0.0 && v[2].z == 0.0;
-      shadows_.push_back({polygon, before_near});
-    }
-    whole_frame_.projection.unrepresentable += counts.unrepresentable;
-  }
-
-  bool add_lines(ByLine& by_line, std::uint32_t item, const ScreenTriangle& t) const {
-    const Walks walks = plan_walks(screen_points(t), subpixel_bits(), frame_);
-    if (walks.empty()) return false;
-    by_line.add(item, walks.front().y,
-                walks.back().y + walks.back().upper_lines + walks.back().lower_lines - 1);
-    return true;
-  }
-
-  // Calls part(walk, line) for the part of the triangle on the line.
-  template <class Part>
-  void for_each_part(const ScreenTriangle& t, std::uint32_t y, Part&& part) const {
-    for (const Walk& walk : plan_walks(screen_points(t), subpixel_bits(), frame_)) {
-      if (y < walk.y || y >= walk.y + walk.upper_lines + walk.lower_lines) continue;
-      const WalkLine line = line_of(walk, y);
-      if (!line.empty()) part(walk, line);
-    }
-  }
-
-  void append_line(std::uint32_t y, std::vector<std::uint32_t>& words, SetupCounts& counts) const {
-    bool any = false;
-    for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
-      any = true;
-      InitVector init = request(words, Command::depth, counts);
-      put_header(init, t.source, line.walk, depth_on_line(t, walk, line), layout_.walk_low());
-    });
-    if (!any) return;  // no surface to cast a shadow on
-    for (const bool opens : {true, false}) append_shadows(y, opens, words, counts);
-    for_each_triangle(y, [&](const ScreenTriangle& t, const Walk& walk, const WalkLine& line) {
-      draw(t, plane_fit(t), surface_of(t), difference_start(walk), line, words, counts);
-    });
-  }
-
-  template <class Part>
-  void for_each_triangle(std::uint32_t y, Part&& part) const {
-    for (const std::uint32_t item : triangles_by_line_->near(y)) {
-      const ScreenTriangle& t = triangles_[item];
-      for_each_part(t, y, [&](const Walk& walk, const WalkLine& line) { part(t, walk, line); });
-    }
-  }
-
-  void append_shadows(std::uint32_t y, bool opens, std::vector<std::uint32_t>& words,
-                      SetupCounts& counts) const {
-    std::vector<Overlap> over(volumes_.size(), Overlap(frame_.width));
-    for (const std::uint32_t item : shadows_by_line_->near(y)) {
-      const ShadowPolygon& polygon = shadows_[item].polygon;
-      const bool before_near = shadows_[item].before_near;
-      if (polygon.opens != opens) continue;
-      for_each_part(polygon.triangle, y, [&](const Walk& walk, const WalkLine& line) {
-        ++counts.shadows;
-        over[polygon.light].add(line.walk);
-        InitVector init = request(words, Command::shadow, counts, static_cast<int>(polygon.light) + 1);
-        init.put(Request::opens, opens);
-        const DepthWords depth =
-            before_near ? DepthWords{0, 0, 0, 0} : depth_on_line(polygon.triangle, walk, line);
-        put_header(init, polygon.triangle.source, line.walk, depth, layout_.walk_low());
-      });
-    }
-    for (std::size_t light = 0; light < over.size(); ++light)
-      counts.deepest_shadow =
-          std::max(counts.deepest_shadow, over[light].most() + (opens ? volumes_[light].around_eye : 0));
   }
 
   void note_clamped_values() {
@@ -740,12 +626,11 @@ class ProcessorsSetup final : public Setup {
   std::vector<MaterialWords> materials_;
   std::vector<std::string> notes_;
 
-  // Used only with shadows or object processors.
+  // Used only with object processors.
   std::vector<ScreenTriangle> triangles_;
-  std::vector<ObjectStrip> strips_;
   std::vector<ShadowVolumes> volumes_;
   std::vector<Shadow> shadows_;
-  std::optional<ByLine> triangles_by_line_, shadows_by_line_;
+  std::vector<ObjectStrip> strips_;
   SetupCounts whole_frame_;
 };
 

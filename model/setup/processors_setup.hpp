@@ -9,10 +9,8 @@
 //   published  unit N and P, although they are not linear; P and the places of lights have one common scale.
 // w is the distance along the viewing axis. a, b and the scale are powers of two, one per frame.
 //
-// With shadows the stream is ordered by lines, because a pixel's surface must be known before shadow polygons
-// are counted at it. For each line it has all triangles for their depths, then all polygons, then all
-// triangles to be shaded. The part of a triangle on a line starts with sums of the words of the complete
-// walk, so each pixel has the same values as without shadows.
+// For object processors the stream is ordered by strips of the frame (object_strips.hpp), each with its
+// triangles and shadow polygons in the order of their first lines.
 #pragma once
 
 #include <memory>

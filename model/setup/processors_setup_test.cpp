@@ -40,10 +40,6 @@ constexpr FrameSize c_small_frame{96, 72};
 HardwareKey key_of(const Scene& scene, Preset preset = Preset::exact) {
   return must(plan_scene(scene, {.shader = Shader::processors, .preset = preset})).key;
 }
-HardwareKey with_shadows(HardwareKey key) {
-  key.processors.shadows = true;
-  return key;
-}
 
 ReferenceImage reference_of(const Scene& scene, FrameSize size) {
   return render_reference(scene, Projector(scene, size, {}).project_all(), {.frame = size});
@@ -209,34 +205,15 @@ TEST(ProcessorsSetup, ClampedValuesAreNoted) {
       }
 }
 
-// With hardware for shadows the stream is ordered by lines. Each pixel is shaded as without shadows.
-TEST(ProcessorsSetup, LineOrderDrawsTheSameAsTriangleOrder) {
-  RandomScenes random(3);
-  for (const Preset preset : {Preset::exact, Preset::published})
-    for (int i = 0; i < 30; ++i) {
-      const Scene scene = meshes_or_triangles(random, RandomScenes::any);
-      const HardwareKey key = key_of(scene, preset);
-      const Drawn triangles = draw_processors(scene, key), lines = draw_processors(scene, with_shadows(key));
-      const auto rgb_of = [&](const Drawn& drawn) {
-        return frame_of(scene, c_small_frame, drawn.fragments).rgb;
-      };
-      ASSERT_EQ(rgb_of(triangles), rgb_of(lines)) << to_string(preset) << ", scene " << i;
-      EXPECT_FALSE(lines.fault);
-      // Each pixel is drawn once.
-      EXPECT_LE(lines.fragments.size(), triangles.fragments.size());
-      EXPECT_EQ(lines.counts.triangles, triangles.counts.triangles);
-      EXPECT_EQ(lines.counts.leaves, triangles.counts.leaves);
-      EXPECT_EQ(lines.counts.projection.visible, triangles.counts.projection.visible);
-    }
-}
-
 // Pixels of a frame, and those where the drawn shadows differ from the reference's, which are cast by rays.
 struct Shadowed {
   std::uint64_t pixels = 0, differ = 0;
 
   void add(Scene scene, FrameSize size) {
     for (Material& m : scene.materials) m.specular = 0.0;
-    const Drawn drawn = draw(scene, size, key_of(scene));
+    HardwareKey key = key_of(scene);
+    key.processors.objects = 64;
+    const Drawn drawn = draw(scene, size, key);
     EXPECT_FALSE(drawn.fault);
     const Frame frame = frame_of(scene, size, drawn.fragments);
     const ReferenceImage reference = reference_of(scene, size);
@@ -293,49 +270,45 @@ void for_each_vector(const std::vector<std::uint32_t>& words, unsigned bits, Vec
   for (std::size_t i = 0; i < words.size(); i += size) vector(std::span(words).subspan(i, size));
 }
 
-// On each line: all depths, then shadows (opening ones first), then all triangles to shade, the same as in
-// the depth part.
-TEST(ProcessorsSetup, ALineHasDepthsThenShadowsThenSurfaces) {
+// A strip: the vector that opens it, triangles and shadow polygons in the order of their first lines, the
+// vector that ends it.
+TEST(ProcessorsSetup, AStripHasTrianglesAndShadowPolygonsByFirstLine) {
+  using words::Command;
   std::uint64_t opening = 0, closing = 0, before_near = 0;
   RandomSolids random(11);
   for (int i = 0; i < 3; ++i) {
     Scene scene = random.on_a_floor(4);
     scene.camera.near = 2.0;  // cuts the shadow volumes
-    const HardwareKey key = key_of(scene);
-    const auto setup = make_setup(scene, c_small_frame, key, {});
+    const auto setup = make_setup(scene, c_small_frame, key_of(scene), {});
     const int walk = words::ProcessorsLayout<words::Exact>::walk_low();
-    for (std::uint32_t y = 0; y < setup->units(); ++y) {
+    for (std::uint32_t strip = 0; strip < setup->units(); ++strip) {
       std::vector<std::uint32_t> words;
       SetupCounts counts;
-      setup->append(y, words, counts);
-      std::vector<std::uint64_t> depths, drawn;
-      int stage = 0;
+      setup->append(strip, words, counts);
+      std::vector<Command> commands;
+      std::uint64_t first_line = 0, lines = 0;
       for_each_vector(words, setup->init_bits(), [&](std::span<const std::uint32_t> v) {
-        EXPECT_EQ(words::get_bits(v, Walked::y, walk), y);
-        EXPECT_EQ(words::get_bits(v, Walked::upper_lines, walk), 1U);
-        EXPECT_EQ(words::get_bits(v, Walked::lower_lines, walk), 0U);
-        const auto command = static_cast<words::Command>(words::get_bits(v, Request::command));
-        const bool opens = words::get_bits(v, Request::opens) != 0;
-        const std::uint64_t triangle = words::get_bits(v, Walked::triangle, walk);
-        int now = 3;
-        if (command == words::Command::depth) {
-          now = 0;
-          depths.push_back(triangle);
-        } else if (command == words::Command::shadow) {
-          now = opens ? 1 : 2;
-          ++(opens ? opening : closing);
-          const std::uint64_t light = words::get_bits(v, Request::light);
-          EXPECT_TRUE(light >= 1 && light <= 3) << light;
-          before_near +=
-              words::get_bits(v, Walked::z, walk) == 0 && words::get_bits(v, Walked::z_dx, walk) == 0;
-        } else {
-          EXPECT_EQ(command, words::Command::draw);
-          drawn.push_back(triangle);
+        const Command command = words::command_of<words::Exact>(v);
+        commands.push_back(command);
+        if (commands.size() == 1) lines = words::get_bits(v, Walked::upper_lines, walk);
+        if (command == Command::new_scanline) return;
+        EXPECT_GE(words::get_bits(v, Walked::y, walk), first_line);
+        first_line = words::get_bits(v, Walked::y, walk);
+        EXPECT_LT(first_line, lines);
+        if (command != Command::shadow) {
+          EXPECT_EQ(command, Command::new_object);
+          return;
         }
-        EXPECT_GE(now, stage);
-        stage = now;
+        ++(words::get_bits(v, Request::opens) != 0 ? opening : closing);
+        const std::uint64_t light = words::get_bits(v, Request::light);
+        EXPECT_TRUE(light >= 1 && light <= 3) << light;
+        before_near +=
+            words::get_bits(v, Walked::z, walk) == 0 && words::get_bits(v, Walked::z_dx, walk) == 0;
       });
-      EXPECT_EQ(depths, drawn);
+      EXPECT_EQ(commands.front(), Command::new_scanline);
+      EXPECT_EQ(commands.back(), Command::new_scanline);
+      EXPECT_EQ(std::count(commands.begin(), commands.end(), Command::new_scanline), 2);
+      EXPECT_GT(std::count(commands.begin(), commands.end(), Command::new_object), 0);
     }
   }
   EXPECT_GT(opening, 100U);
@@ -354,7 +327,8 @@ TEST(ProcessorsSetup, AConstantNormalIsRoundedOnce) {
   constexpr int c_drop = words::Exact::c_plane_sum_fraction_bits - words::Exact::c_vector_fraction_bits;
   int seen = 0;
   for_each_vector(draw_processors(scene, key).words, static_cast<unsigned>(layout.init_bits()), [&](auto v) {
-    if (words::get_bits(v, Request::command) != static_cast<std::uint32_t>(words::Command::draw)) return;
+    if (words::get_bits(v, Request::command) != static_cast<std::uint32_t>(words::Command::new_object))
+      return;
     EXPECT_EQ(words::get_bits(v, Request::normalize), 0U);
     const auto triangle = words::get_bits(v, Walked::triangle, layout.walk_low());
     // The camera's axes are the world's axes.
@@ -448,29 +422,6 @@ TEST(ProcessorsSetup, PublishedMatchesThePublishedModel) {
     EXPECT_LT(sum, 1.6 * static_cast<double>(fragments));
     EXPECT_LT(far * 1000, fragments);
   }
-}
-
-// Boxes in a row with the light behind all of them: each box opens a volume.
-TEST(ProcessorsSetup, DeepShadowsAreCounted) {
-  Scene scene;
-  scene.name = "row";
-  scene.shadows = true;
-  scene.materials = {{.name = "wood"}};
-  for (int i = 0; i < 12; ++i) {
-    Mesh box = make_box({0.5, 0.5, 0.05}, 1);
-    for (glm::dvec3& p : box.positions) p += glm::dvec3(1.0 + 0.001 * i, 0.2, -0.2 * i);
-    add_mesh(scene, box);
-  }
-  add_mesh(scene, make_box({40.0, 40.0, 0.1}, 1));
-  for (std::size_t i = scene.positions_world.size() - 8; i < scene.positions_world.size(); ++i)
-    scene.positions_world[i].z -= 8.0;
-  scene.directional = {{.to_light_world = glm::normalize(glm::dvec3(1.0, 0.1, 0.1))}};
-  scene.camera = {.eye_world = {-3.0, 0.2, 3.0}, .target_world = {0.0, 0.0, -6.0}};
-  const Drawn drawn = draw_processors(scene, key_of(scene));
-  EXPECT_GT(drawn.counts.deepest_shadow, 3U);
-  EXPECT_LE(drawn.counts.deepest_shadow, 13U);
-  EXPECT_GT(drawn.counts.shadows, 100U);
-  EXPECT_FALSE(drawn.fault);
 }
 
 }  // namespace

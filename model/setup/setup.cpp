@@ -20,7 +20,6 @@ SetupCounts& SetupCounts::operator+=(const SetupCounts& o) {
   overexposed += o.overexposed;
   unresolved += o.unresolved;
   shadows += o.shadows;
-  deepest_shadow = std::max(deepest_shadow, o.deepest_shadow);
   objects = std::max(objects, o.objects);
   return *this;
 }

@@ -73,11 +73,6 @@ struct ProcessorsSetupOptions {
   /// Preset published: normalize N even if no light has a place, as in version II of the paper. The hardware
   /// must have the units for it.
   bool normalize = false;
-  /// With shadows: fraction bits of screen coordinates, 4 to c_max_subpixel_bits. Each vector then draws one
-  /// line and contains no slope of an edge, so the hardware is the same for all numbers of bits. More bits
-  /// make the edges of shadows more exact, but triangles no longer cover the same pixels as in the other
-  /// shaders.
-  int subpixel_bits = 4;
 };
 
 struct SetupOptions {
@@ -97,19 +92,13 @@ struct SetupCounts {
   std::uint64_t overexposed = 0;  ///< samples clamped at c_largest_sample, or factors at their limit
   std::uint64_t unresolved = 0;   ///< leaves above the threshold: small, or at the last level
   std::uint64_t shadows = 0;      ///< init vectors of shadow polygons
-  /// Greatest number of opening or of closing shadow polygons of one light on one pixel, including the
-  /// volumes around the eye. Up to c_most_shadows can be counted.
-  std::uint64_t deepest_shadow = 0;
-  std::uint64_t objects = 0;  ///< object processors that a line of a strip needs, at most
+  std::uint64_t objects = 0;      ///< object processors that a line of a strip needs, at most
   SetupCounts& operator+=(const SetupCounts& other);
 };
 
 /// Samples are clamped at four times full exposure, 1023 steps. No control point of the quadratic then leaves
 /// the intensity format, and the quadratic stays in the convex hull of its control points.
 inline constexpr double c_largest_sample = 1023.0;
-
-/// Greatest absolute value of a shadow counter.
-inline constexpr std::uint64_t c_most_shadows = (1U << (words::Exact::c_shadow_count_bits - 1)) - 1;
 
 /// Appends the vectors of units, for one thread. It keeps what the next units may use again, because
 /// neighbours in the mesh share vertices and edges. The result does not depend on the units before.
@@ -129,10 +118,9 @@ class Setup {
 
   /// Bits of one vector of the stream.
   virtual unsigned init_bits() const = 0;
-  /// Number of the scene's triangles, in its order; or of the frame's lines or strips, for hardware that
-  /// needs all surfaces of a pixel before it shades one.
+  /// Number of the scene's triangles, in its order; or of the frame's strips, for object processors.
   virtual std::uint32_t units() const = 0;
-  virtual bool units_are_lines() const { return false; }
+  virtual bool units_are_strips() const { return false; }
   /// A part of the frame that contains every pixel covered by the unit's vectors. Empty if there is none.
   virtual Tile reach(std::uint32_t unit) const = 0;
   /// Appends the vectors that the hardware needs once.

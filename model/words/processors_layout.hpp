@@ -27,8 +27,7 @@ struct ProcessorsConfig {
   constexpr int processors() const { return 1 + lights() * ((diffuse ? 1 : 0) + (specular ? 1 : 0)); }
 };
 
-/// Commands of the host's vectors and of tokens. In tokens the first three carry an object to shade. They
-/// give its position relative to the last object: at another pixel, at the same pixel, on another line.
+/// Commands of the host's vectors and of tokens (docs/rtl/processors.md has their effects).
 enum class Command : std::uint32_t {
   new_pixel = 0,
   new_object = 1,
@@ -38,10 +37,6 @@ enum class Command : std::uint32_t {
   redefine = 5,
   remove = 6,  ///< delete
   shadow = 7,
-  // Only from the host: a triangle to be shaded, and a triangle of which the object stage keeps only the
-  // depths.
-  draw = 0,
-  depth = 1,
 };
 
 /// Only the processors use such a vector.
@@ -49,7 +44,7 @@ constexpr bool is_load(Command command) {
   return command == Command::new_frame || command == Command::define || command == Command::redefine ||
          command == Command::remove;
 }
-/// In the lists of the object processors: the start of a pixel.
+/// The start of a pixel.
 constexpr bool is_head(Command command) {
   return command == Command::new_pixel || command == Command::new_scanline;
 }

@@ -32,6 +32,8 @@ entity processors_axi is
     g_normalize   : boolean := true;
     g_shadows     : boolean := false;
     g_unrolled    : boolean := true;
+    g_objects     : natural := 0;
+    g_subpixels   : positive := 1;
     g_limit_bits  : positive := 31 -- of axi_control; folded processors take several clocks per fragment
   );
   port (
@@ -84,7 +86,9 @@ begin
       g_specular    => g_specular,
       g_normalize   => g_normalize,
       g_shadows     => g_shadows,
-      g_unrolled    => g_unrolled
+      g_unrolled    => g_unrolled,
+      g_objects     => g_objects,
+      g_subpixels   => g_subpixels
       )
     port map (
       clk               => aclk,

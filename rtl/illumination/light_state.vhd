@@ -1,19 +1,20 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The state of a processor: its light, whether the light is defined, and the shadow volumes around each
---             column. Both forms of a processor contain one light_state. A token changes the state by its command:
---               define            the light's registers load the token's words; the light is defined
---               redefine          the same, if the light is defined
---               delete            the light is no longer defined
---               shadow            the volumes of the token's column: one more, or one less (shadow_counter)
---               new_frame         no volumes around any column
---             The first four apply only if the token has the number of this light. Only new_frame clears the volumes: a
---             light that is deleted and defined again within a frame keeps them.
--- Contract    At a rising edge with take the token is taken; take must be '0' while ready is '0'. object and changes
---             belong to the token that is offered. lit belongs to the last token taken, until the next one is taken; it
---             has a meaning only for an object. It is '1' without g_config.shadows and in the ambient processor. After reset the light is not defined.
---             fault: shadow_counter.
--- Formats     token, light: token_pkg
+-- Purpose     The state of a processor: its light, whether the light is defined, and the number of its shadow volumes that
+--             the pixel's list has opened and not closed. Both forms of a processor contain one light_state. A token
+--             changes the state by its command:
+--               define                              the light's registers load the token's words; it is defined; count 0
+--               redefine                            the same, if the light is defined
+--               delete                              the light is no longer defined; count 0
+--               shadow                              count + 1 if the polygon opens a volume, - 1 if it closes one
+--               new_pixel, new_scanline, new_frame  count 0
+--             The first four apply only if the token has the number of this light.
+-- Contract    At a rising edge with take the token is taken. object and changes belong to the token that is offered. lit
+--             is '1' if no volume contains the objects that follow: the volumes around the eye and the count are 0 or
+--             less. A volume that is thinner than the rounding of its depths may be closed before it is opened. lit is
+--             '1' without g_config.shadows and in the ambient processor. After reset the light is not defined. A pixel
+--             must not have more shadow polygons of a light than the count can hold.
+-- Formats     token, light: token_pkg; the count: shadow_count, the same in both presets
 -- Latency     1 clock from take to light, defined and lit
 -- Throughput  1 token per clock
 -- Source      processors paper, section 3.2 (the registers of the loading mode), section 3.3 and figure 2 (the counter)
@@ -23,6 +24,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
+use work.line_pkg.all;
 use work.processors_pkg.all;
 use work.token_pkg.all;
 
@@ -37,22 +39,24 @@ entity light_state is
     reset   : in  std_logic;
     take    : in  std_logic;
     token   : in  std_logic_vector(token_bits(g_config) - 1 downto 0);
-    ready   : out std_logic;
     object  : out std_logic; -- the token is an object to shade
     changes : out std_logic; -- the token changes the light
     defined : out std_logic;
     light   : out std_logic_vector(light_bits(g_config) - 1 downto 0);
-    lit     : out std_logic;
-    fault   : out std_logic
+    lit     : out std_logic
   );
 end entity;
 
 architecture rtl of light_state is
 
-  constant c_header : pixel_header_t := pixel_header(g_config.exact);
+  constant c_header  : pixel_header_t := pixel_header(g_config.exact);
+  constant c_shadows : boolean        := g_config.shadows and g_kind /= c_ambient;
+
+  subtype count_t is signed(formats(g_config.exact).shadow_count.bits - 1 downto 0);
 
   type reg_t is record
     defined : std_logic;
+    count   : count_t; -- shadow volumes opened minus those closed
   end record;
 
   signal r, r_next : reg_t;
@@ -66,7 +70,7 @@ begin
   command <= command_of(g_config.exact, token);
   own     <= '1' when unsigned(field_of(token, c_header.light)) = g_light else '0';
   object  <= is_object(command);
-  changes <= '1' when own = '1' and (command = c_define or command = c_redefine or command = c_delete) else '0';
+  changes <= own and is_load(command) and flag(command /= c_new_frame);
   load    <= '1' when own = '1' and (command = c_define or (command = c_redefine and r.defined = '1')) else '0';
   defined <= r.defined;
 
@@ -92,8 +96,19 @@ begin
         v.defined := '0';
       end if;
     end if;
+    if c_shadows and take = '1' then
+      if own = '1' and command = c_shadow then
+        v.count := r.count - 1;
+        if token(c_header.opens.low) = '1' then
+          v.count := r.count + 1;
+        end if;
+      elsif is_head(command) = '1' or command = c_new_frame or load = '1' or (own = '1' and command = c_delete) then
+        v.count := (others => '0');
+      end if;
+    end if;
     if reset = '1' then
       v.defined := '0';
+      v.count   := (others => '0');
     end if;
     r_next <= v;
   end process;
@@ -105,38 +120,12 @@ begin
     end if;
   end process;
 
-  shadows : if g_config.shadows and g_kind /= c_ambient generate
-
-    signal counts : std_logic;
-    signal clear  : std_logic;
-
+  count_volumes : process (all)
+    variable around : signed(count_t'length downto 0); -- volumes around an object
   begin
-
-    counts <= '1' when command = c_shadow and own = '1' else '0';
-    clear  <= '1' when command = c_new_frame else '0';
-
-    counter : entity work.shadow_counter
-      port map (
-        clk        => clk,
-        reset      => reset,
-        ready      => ready,
-        step       => take,
-        clear      => clear,
-        counts     => counts,
-        opens      => token(c_header.opens.low),
-        object     => object,
-        x          => field_of(token, c_header.x),
-        around_eye => field_of(light, light_axes_header(g_config.exact).around_eye),
-        lit        => lit,
-        fault      => fault
-        );
-
-  else generate
-
-    ready <= '1';
-    lit   <= '1';
-    fault <= '0';
-
-  end generate;
+    around := resize(r.count, around'length)
+      + signed(field_of(light, light_axes_header(g_config.exact).around_eye));
+    lit <= flag(around <= 0) when c_shadows else '1';
+  end process;
 
 end architecture;

@@ -15,15 +15,13 @@
 -- Contract    A token moves where valid and ready are both '1' at a rising edge; out_token does not change while it
 --             waits. Every token is output, in order. define, redefine and delete of g_light act on the tokens after
 --             them; after reset the light is not defined. An object leaves with a new colour,
---             from the ambient processor also with new N and view vector. The colour is unchanged if the light is not
---             defined or does not reach the point (shadow volumes). With shadows, in_ready is '0' after reset and after
---             new_frame until shadow_counter is ready. fault: a counter of shadow volumes exceeded its format; it stays
---             '1', at the latest from the clock after the counting token has left.
+--             from the ambient processor, which starts it, also with new N and view vector. The colour is unchanged if
+--             the light is not defined or does not reach the point (shadow volumes).
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between
 --             the units: terms_pkg
 -- Latency     the clocks of Throughput, minus 1
 -- Throughput  1 token per this number of clocks, the clock of the input and of the output included (published, exact):
---             load, delete, shadow polygon, object without a light 2, 2; object in a shadow 3, 3; ambient 4, 5; with N
+--             head, load, delete, shadow polygon, object without a light 2, 2; object in a shadow 3, 3; ambient 4, 5; with N
 --             normalized 6, 15; with the view vector too -, 26 (without N 16); directional diffuse 6, 9, specular 7, 34;
 --             positional diffuse 12, 26, specular 13, 51; spot diffuse 22, 37, specular 28, 54. A step waits only while
 --             its unit is busy.
@@ -67,8 +65,7 @@ entity shading_processor is
     out_ready : in  std_logic;
     out_token : out std_logic_vector(token_bits(config(g_exact, g_channels, g_directional, g_positional, g_spots,
       g_diffuse, g_specular, g_normalize, g_shadows)) - 1 downto 0);
-    busy      : out std_logic; -- holds a token
-    fault     : out std_logic
+    busy      : out std_logic -- holds a token
   );
 end entity;
 
@@ -86,7 +83,6 @@ architecture rtl of shading_processor is
 
   signal free       : std_logic;
   signal take       : std_logic;
-  signal ready      : std_logic; -- of the light's state
   signal object     : std_logic; -- the token offered is one
   signal cycle      : natural range 0 to c_at.leave; -- 0: no token
   signal taken      : std_logic; -- an object, in the clock before
@@ -111,7 +107,7 @@ architecture rtl of shading_processor is
 
 begin
 
-  free <= ready when cycle = 0 else '0';
+  free <= '1' when cycle = 0 else '0';
   take <= in_valid and free;
 
   in_ready  <= free;
@@ -129,13 +125,11 @@ begin
       reset   => reset,
       take    => take,
       token   => in_token,
-      ready   => ready,
       object  => object,
       changes => open,
       defined => defined,
       light   => light,
-      lit     => lit,
-      fault   => fault
+      lit     => lit
       );
 
   shading_sequence : entity work.shading_sequence

@@ -8,6 +8,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
+use work.line_pkg.all;
 use work.processors_pkg.all;
 use work.shading_pkg.all;
 
@@ -17,8 +18,13 @@ package token_pkg is
 
   function command_of (exact : boolean; token : std_logic_vector) return command_t;
 
-  -- The command of an object to shade.
   function is_object (command : command_t) return std_logic;
+
+  -- The start of a pixel.
+  function is_head (command : command_t) return std_logic;
+
+  -- Only the processors use such a token.
+  function is_load (command : command_t) return std_logic;
 
   -- A field of a header.
   function field_of (word : std_logic_vector; field : slice_t) return std_logic_vector;
@@ -46,7 +52,7 @@ package token_pkg is
   -- The sum of the colours so far, one word per channel.
   function radiance_of (c : config_t; token : std_logic_vector) return std_logic_vector;
 
-  -- The colour before the first processor: the half for the final rounding, if the colour has a fraction.
+  -- The colour with which the ambient processor starts: the half for the final rounding, if the colour has a fraction.
   function first_radiance (c : config_t) return std_logic_vector;
 
   -- The token with another N (directions, sign extended), view vector or colour.
@@ -123,10 +129,17 @@ package body token_pkg is
 
   function is_object (command : command_t) return std_logic is
   begin
-    if command = c_new_pixel or command = c_new_object or command = c_new_scanline then
-      return '1';
-    end if;
-    return '0';
+    return flag(command = c_new_object);
+  end function;
+
+  function is_head (command : command_t) return std_logic is
+  begin
+    return flag(command = c_new_pixel or command = c_new_scanline);
+  end function;
+
+  function is_load (command : command_t) return std_logic is
+  begin
+    return flag(command = c_new_frame or command = c_define or command = c_redefine or command = c_delete);
   end function;
 
   function field_of (word : std_logic_vector; field : slice_t) return std_logic_vector is

@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     The token of the folded processor, and the fields that it changes. The ambient processor replaces N and the
---             view vector when their unit vectors are valid. Every processor replaces the colour, in clock `add` of
---             schedule_pkg.
+--             view vector when their unit vectors are valid, and starts the colour. Every processor replaces the colour,
+--             in clock `add` of schedule_pkg.
 -- Contract    At a rising edge with take the register loads in_token. In the ambient processor, an N that is not to be
 --             normalized is converted to a direction at that edge.
 -- Formats     tokens: token_pkg; unit: direction; products: shared_multiplier, in add k I or k I times the weight
@@ -74,14 +74,20 @@ begin
   end process;
 
   registers : process (clk)
+    variable v : std_logic_vector(in_token'range);
   begin
     if rising_edge(clk) then
       if take = '1' then
-        token <= in_token;
-        -- Take an N that is not to be normalized as a direction
-        if g_kind = c_ambient and object = '1' and not (c_shape.first and in_token(c_header.normalize.low) = '1') then
-          token <= with_direction(g_config, in_token, plain_directions(c_exact, normal_of(g_config, in_token)));
+        v := in_token;
+        if g_kind = c_ambient and object = '1' then
+          -- Start the colour
+          v := with_radiance(g_config, v, first_radiance(g_config));
+          -- Take an N that is not to be normalized as a direction
+          if not (c_shape.first and in_token(c_header.normalize.low) = '1') then
+            v := with_direction(g_config, v, plain_directions(c_exact, normal_of(g_config, in_token)));
+          end if;
         end if;
+        token <= v;
       end if;
       -- Take the unit vector N
       if g_kind = c_ambient and c_shape.first and cycle = c_at.round_1 and token(c_header.normalize.low) = '1' then

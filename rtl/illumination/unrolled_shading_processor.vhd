@@ -16,7 +16,7 @@
 --             queue until its term comes.
 -- Contract    as shading_processor, except for latency and throughput. in_ready does not depend on out_ready in the same
 --             clock. A token that defines, changes or deletes the light is taken only when the stages, the queues and
---             the output are empty. fault stays '1', at the latest from the clock after the counting token has left.
+--             the output are empty.
 -- Formats     processors_pkg, formats_pkg; fields of tokens: token_pkg; words between the steps: terms_pkg
 -- Latency     times of terms_pkg: leave (published, exact): ambient 5, 6; with N normalized or the view vector 10, 18;
 --             directional diffuse 7, 9, specular 13, 35; positional diffuse 15, 27, specular 21, 53; spot diffuse 23, 35,
@@ -59,8 +59,7 @@ entity unrolled_shading_processor is
     out_ready : in  std_logic;
     out_token : out std_logic_vector(token_bits(config(g_exact, g_channels, g_directional, g_positional, g_spots,
       g_diffuse, g_specular, g_normalize, g_shadows)) - 1 downto 0);
-    busy      : out std_logic; -- holds a token
-    fault     : out std_logic
+    busy      : out std_logic -- holds a token
   );
 end entity;
 
@@ -96,7 +95,6 @@ architecture rtl of unrolled_shading_processor is
   signal take    : std_logic;
   signal room    : std_logic; -- in the queues
   signal pending : std_logic; -- a token is in the stages or in the queues
-  signal ready   : std_logic; -- of the light's state
   signal changes : std_logic; -- the token offered changes the light
   signal light   : std_logic_vector(light_bits(c_config) - 1 downto 0);
   signal defined : std_logic; -- the light
@@ -121,7 +119,7 @@ architecture rtl of unrolled_shading_processor is
 
 begin
 
-  free <= room and ready and not (in_valid and changes and (pending or r.full));
+  free <= room and not (in_valid and changes and (pending or r.full));
   take <= in_valid and free;
 
   in_ready  <= free;
@@ -154,13 +152,11 @@ begin
       reset   => reset,
       take    => take,
       token   => in_token,
-      ready   => ready,
       object  => open,
       changes => changes,
       defined => defined,
       light   => light,
-      lit     => lit,
-      fault   => fault
+      lit     => lit
       );
 
   kind : if g_kind = c_ambient generate
@@ -254,7 +250,7 @@ begin
   advance <= complete and (out_ready or not r.full);
   object <= is_object(command_of(g_exact, waiting));
 
-  -- The ambient processor renews the vectors of an object
+  -- The ambient processor renews the vectors of an object, and starts its colour
   renew : process (all)
     variable v : token_t;
   begin
@@ -267,6 +263,7 @@ begin
       if has_view(c_config) then
         v := with_view(c_config, v, result(result'high downto c_terms + c_vector + 1));
       end if;
+      v := with_radiance(c_config, v, first_radiance(c_config));
     end if;
     renewed <= v;
   end process;
@@ -280,7 +277,7 @@ begin
       clk      => clk,
       enable   => advance,
       add      => object and defined and result(0),
-      radiance => radiance_of(c_config, waiting),
+      radiance => radiance_of(c_config, renewed),
       terms    => result(c_terms downto 1),
       result   => radiance
       );

@@ -17,7 +17,7 @@
 -- Latency     2 clocks for a head
 -- Throughput  1 token per clock, if the pipeline holds at most 2**g_index_bits - 4 heads and objects
 -- Source      ours
--- Golden twin model/golden/processors_shader.hpp: its order is that of the front
+-- Golden twin model/golden/objects_shader.hpp: its order is that of the front
 
 library ieee;
 use ieee.std_logic_1164.all;
@@ -108,8 +108,8 @@ begin
     severity failure;
 
   command <= command_of(c_exact, front_token);
-  object  <= flag(command = c_new_object);
-  head    <= flag(command = c_new_pixel or command = c_new_scanline);
+  object  <= is_object(command);
+  head    <= is_head(command);
   frame   <= flag(command = c_new_frame);
 
   to_filter   <= object or head or frame;
@@ -168,7 +168,7 @@ begin
       );
 
   next_command <= to_integer(unsigned(next_entry(c_ends - 1 downto c_data)));
-  next_object  <= flag(next_command = c_new_object);
+  next_object  <= is_object(next_command);
   next_frame   <= flag(next_command = c_new_frame) and not next_entry(c_ends);
 
   -- Join. new_frame, and with it the next background, waits until the filter is empty.

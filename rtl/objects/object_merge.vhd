@@ -6,17 +6,17 @@
 --             is output before the first word that follows it in the order: an element behind it, or the next head.
 -- Contract    All streams are valid/ready; out_word does not change while it waits. Elements come in order of key_of
 --             (objects_pkg), after their head. own and own_word belong to the last head that was taken, from the clock
---             after it, and do not change until the next one is taken. in_take: the word is not output; not with a
---             head or an element.
+--             after it, and do not change until the next one is taken.
 -- Formats     objects_pkg
 -- Latency     0
--- Throughput  1 word per clock: one taken, dropped, or inserted
+-- Throughput  1 word per clock: one passed, dropped, or inserted
 -- Source      processors paper, section 2: a distributed z-buffer; list and masks are ours
 -- Golden twin model/golden/object_merge.hpp
 
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.line_pkg.all;
 use work.processors_pkg.all;
 use work.token_pkg.all;
 use work.objects_pkg.all;
@@ -32,7 +32,6 @@ entity object_merge is
     in_valid  : in  std_logic;
     in_ready  : out std_logic;
     in_word   : in  std_logic_vector(word_bits(g_config, g_subpixels) - 1 downto 0);
-    in_take   : in  std_logic;
     own       : in  std_logic; -- the pixel has an own element
     own_word  : in  std_logic_vector(word_bits(g_config, g_subpixels) - 1 downto 0);
     out_valid : out std_logic;
@@ -71,7 +70,7 @@ architecture rtl of object_merge is
 
   function is_shadow (word : std_logic_vector) return boolean is
   begin
-    return command_of(c_exact, word) = c_shadow;
+    return g_config.shadows and command_of(c_exact, word) = c_shadow;
   end function;
 
   function is_hidden (word : std_logic_vector; covered : mask_t) return std_logic is
@@ -85,15 +84,14 @@ architecture rtl of object_merge is
 begin
 
   element <= is_element(c_exact, in_word);
-  head    <= '1' when kind_of(in_word) = kind_word(c_item)
-    and (command_of(c_exact, in_word) = c_new_pixel or command_of(c_exact, in_word) = c_new_scanline) else '0';
+  head    <= flag(kind_of(in_word) = kind_word(c_item)) and is_head(command_of(c_exact, in_word));
 
   in_mask  <= left_of(in_word, r.covered);
   own_mask <= left_of(own_word, r.covered);
 
   own_now <= '1' when r.pending = '1' and own = '1' and is_hidden(own_word, r.covered) = '0'
     and (element = '0' or key_of(c_exact, own_word) < key_of(c_exact, in_word)) else '0';
-  dropped <= '1' when in_take = '1' or (element = '1' and is_hidden(in_word, r.covered) = '1') else '0';
+  dropped <= element and is_hidden(in_word, r.covered);
 
   offered   <= in_valid and (own_now or not dropped);
   out_valid <= offered;

@@ -104,7 +104,7 @@ begin
   command <= command_of(c_exact, word);
   item    <= flag(kind_of(word) = kind_word(c_item));
   element <= is_element(c_exact, word);
-  head    <= item and flag(command = c_new_pixel or command = c_new_scanline);
+  head    <= item and is_head(command);
   ends    <= flag(kind_of(word) = kind_word(c_strip_end));
 
   sends_head  <= element and r.pixel when g_config.shadows and not c_filter else '0';
@@ -131,8 +131,6 @@ begin
       v(c_pixel.command.high downto c_pixel.command.low) :=
         std_logic_vector(to_unsigned(first, formats(c_exact).command.bits));
       token_mask <= (others => '0');
-    elsif command = c_new_object then
-      v := with_radiance(g_config, v, first_radiance(g_config));
     end if;
     if element = '1' then
       v(place_t'range) := r.place;

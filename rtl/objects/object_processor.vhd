@@ -3,12 +3,14 @@
 -- Purpose     One processor of the chain. It stores one triangle, an object or a shadow polygon, and inserts its element into
 --             the list of each pixel that the triangle covers.
 --
---               words in --> stream_queue --> object_merge --> words out
---                                 |                ^
---                               parts           own element
---                                 v                |
+--               words in --> stream_queue --> next word ------> object_merge --> words out
+--                                 |                                  ^
+--                               parts                             element
+--                                 v                                  |
 --                               store --> object_edges, raster_interpolators
 --
+--             The edges step when a head becomes the next word. Its element is registered when the head enters
+--             object_merge: so a clock contains either the choice of the point, or the comparison of depths.
 --             A processor without a triangle, or whose triangle has ended, takes the next one that enters the chain.
 --             An element has one depth, N, P and 1/w: those of the pixel's centre if the four subpixels around it are
 --             covered, otherwise those of the first covered subpixel. A shadow polygon counts where it covers the
@@ -16,11 +18,11 @@
 -- Contract    Both streams are valid/ready; out_word does not change while it waits. in_ready does not depend on out_ready
 --             in the same clock. An object enters directly before the head of its first line. After the strip's end
 --             the processor has no triangle.
---             busy: a word is in the queue.
+--             busy: a word is in the queue, or the next word.
 -- Formats     objects_pkg; an object is the host's vector of a triangle (processors_pkg) in parts of 64 bits, the lowest
 --             first. Its walk is in subpixels, its z, planes, z_dx and dx are per pixel, z_de0 and de0 per line, at
 --             the strip's first column
--- Latency     2 clocks from a word to the same word
+-- Latency     3 clocks from a word to the same word
 -- Throughput  1 word per clock. A line takes at least side + 1 clocks; a head waits for side + 2 clocks after an object
 -- Error       z and planes: see raster_interpolator
 -- Source      processors paper, section 2; Schneider and Claussen 1988: each object processor stores and scan-converts
@@ -79,25 +81,29 @@ architecture rtl of object_processor is
     taking : std_logic; -- parts of a triangle enter
     index  : index_t; -- of the next part
     load   : std_logic; -- the last part was taken in the clock before
+    full   : std_logic; -- there is a next word
+    own    : std_logic; -- the last head in object_merge has an element
   end record;
 
   signal r, r_next : reg_t;
 
   signal enters, room, queued     : std_logic;
   signal next_valid, next_ready   : std_logic;
-  signal word, own_word           : word_t;
+  signal word, next_word          : word_t;
+  signal element, own_word        : word_t; -- of the next word, if it is a head; of the last head in object_merge
   signal part, last_part          : std_logic; -- the word is a part
   signal line_head, pixel_head    : std_logic;
   signal waits                    : std_logic; -- until the edges are ready
-  signal offered, ready, taken    : std_logic;
-  signal takes_part               : std_logic;
+  signal free, merges, taken      : std_logic;
+  signal takes_part, passes       : std_logic; -- the word enters the store, or becomes the next word
+  signal head_merges              : std_logic;
   signal clear, dropped           : std_logic;
   signal line_step, pixel_step    : std_logic;
   signal spans_ready, more        : std_logic;
   signal store                    : std_logic_vector(c_parts * c_part_bits - 1 downto 0);
   signal walk                     : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
   signal mask                     : mask_t;
-  signal shadow, own              : std_logic;
+  signal shadow, covers           : std_logic;
   signal centre                   : std_logic; -- the subpixels around the centre are covered
   signal row, column              : index_bits_t; -- the first covered subpixel
   signal z                        : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
@@ -111,7 +117,7 @@ begin
 
   enters   <= in_valid and room;
   in_ready <= room;
-  busy     <= queued;
+  busy     <= queued or r.full;
 
   words : entity work.stream_queue
     generic map (
@@ -139,14 +145,18 @@ begin
 
   -- Whether the triangle has ended is known when the edges are ready.
   waits      <= (part or line_head or clear) and (r.load or not spans_ready);
-  offered    <= next_valid and not waits;
-  next_ready <= ready and not waits;
-  taken      <= offered and ready;
+  free       <= not r.full or merges;
+  next_ready <= free and not waits;
+  taken      <= next_valid and next_ready;
 
   takes_part <= part and (r.taking or not (r.stored and more));
   line_step  <= taken and line_head;
   pixel_step <= taken and pixel_head and r.stored;
   dropped    <= taken and clear;
+
+  passes      <= taken and not takes_part;
+  head_merges <= r.full and merges and flag(kind_of(next_word) = kind_word(c_item))
+    and is_head(command_of(c_exact, next_word));
 
   combinational : process (all)
     variable v : reg_t;
@@ -167,7 +177,13 @@ begin
     if line_step = '1' then
       v.stored := r.stored and more;
     end if;
+    v.full := passes or not free;
+    if head_merges = '1' then
+      v.own := covers;
+    end if;
     if reset = '1' then
+      v.full   := '0';
+      v.own    := '0';
       v.stored := '0';
       v.taking := '0';
       v.index  := (others => '0');
@@ -194,8 +210,19 @@ begin
     end if;
   end process;
 
+  next_word_register : entity work.parameter_register
+    generic map (
+      g_bits => word_t'length
+      )
+    port map (
+      clk   => clk,
+      load  => passes,
+      start => word,
+      value => next_word
+      );
+
   walk   <= store(walk_low(g_config) + walk'high downto walk_low(g_config));
-  shadow <= flag(command_of(c_exact, store) = c_shadow);
+  shadow <= flag(g_config.shadows and command_of(c_exact, store) = c_shadow);
 
   edges : entity work.object_edges
     generic map (
@@ -289,28 +316,35 @@ begin
 
   end generate;
 
-  own <= r.stored and mask(c_side * (c_side / 2) + c_side / 2) when shadow = '1' else -- evaluated at elaboration
+  covers <= r.stored and mask(c_side * (c_side / 2) + c_side / 2) when shadow = '1' else -- evaluated at elaboration
     r.stored and flag(mask /= (mask'range => '0'));
 
   make_word : process (all)
     variable v : word_t;
   begin
     v := word_of(g_config, g_subpixels, c_item, store(request_t'range));
-    v(c_pixel.command.high downto c_pixel.command.low) :=
-      std_logic_vector(to_unsigned(c_new_object, c_formats.command.bits));
     v(c_pixel.triangle.high downto c_pixel.triangle.low) := field_of(walk, c_init.triangle);
     v(c_pixel.z.high downto c_pixel.z.low)               :=
       z(c_formats.depth_sum.bits - 2 downto c_formats.depth_sum.fraction);
-    if shadow = '1' then
-      v(c_pixel.command.high downto c_pixel.command.low) := field_of(store, c_pixel.command);
-    else
+    if shadow = '0' then
       v(normal_low(g_config, 0) + vectors'high downto normal_low(g_config, 0)) := vectors;
       v(material_low(g_config) + material_bits(g_config) - 1 downto material_low(g_config)) :=
         store(init_material_low(g_config) + material_bits(g_config) - 1 downto init_material_low(g_config));
       v := with_mask(v, mask);
     end if;
-    own_word <= v;
+    element <= v;
   end process;
+
+  own_word_register : entity work.parameter_register
+    generic map (
+      g_bits => word_t'length
+      )
+    port map (
+      clk   => clk,
+      load  => head_merges,
+      start => element,
+      value => own_word
+      );
 
   merge : entity work.object_merge
     generic map (
@@ -320,11 +354,10 @@ begin
     port map (
       clk       => clk,
       reset     => reset,
-      in_valid  => offered,
-      in_ready  => ready,
-      in_word   => word,
-      in_take   => takes_part,
-      own       => own,
+      in_valid  => r.full,
+      in_ready  => merges,
+      in_word   => next_word,
+      own       => r.own,
       own_word  => own_word,
       out_valid => out_valid,
       out_ready => out_ready,

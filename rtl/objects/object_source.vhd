@@ -97,9 +97,9 @@ begin
 
   command <= command_of(c_exact, in_vector);
   walk    <= in_vector(walk_low(g_config) + walk'high downto walk_low(g_config));
-  draws   <= flag(command = c_draw or command = c_shadow);
+  draws   <= flag(command = c_new_object or (command = c_shadow and g_config.shadows));
   strips  <= flag(command = c_new_scanline);
-  loads   <= flag(command = c_new_frame or command = c_define or command = c_redefine or command = c_delete);
+  loads   <= is_load(command);
 
   none_left <= flag(r.remaining = 0);
 
@@ -166,27 +166,28 @@ begin
 
   make_word : process (all)
     variable kind : natural;
-    variable part : std_logic_vector(c_part_bits - 1 downto 0);
+    variable item : std_logic_vector(item_bits(g_config) - 1 downto 0);
   begin
+    kind := c_item;
+    item := (others => '0');
     if sends_head = '1' then
-      out_word <= word_of(g_config, g_subpixels, c_item, head);
+      item(head'range) := head;
     elsif sends_part = '1' then
-      part := (others => '0');
       for i in 0 to c_parts - 1 loop
         if r.index = i then
-          part := parts((i + 1) * c_part_bits - 1 downto i * c_part_bits);
+          item(c_part_bits - 1 downto 0) := parts((i + 1) * c_part_bits - 1 downto i * c_part_bits);
         end if;
       end loop;
       kind := c_part;
       if last_part = '1' then
         kind := c_last_part;
       end if;
-      out_word <= word_of(g_config, g_subpixels, kind, part);
     elsif r.strip = '1' then
-      out_word <= word_of(g_config, g_subpixels, c_strip_end, "");
+      kind := c_strip_end;
     else
-      out_word <= word_of(g_config, g_subpixels, c_item, in_vector(load_bits(g_config) - 1 downto 0));
+      item(load_bits(g_config) - 1 downto 0) := in_vector(load_bits(g_config) - 1 downto 0);
     end if;
+    out_word <= word_of(g_config, g_subpixels, kind, item);
   end process;
 
   combinational : process (all)

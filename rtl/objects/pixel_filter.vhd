@@ -285,7 +285,7 @@ begin
   token_ready <= room;
   take        <= token_valid and room;
   command     <= command_of(c_exact, token);
-  head        <= flag(command = c_new_scanline or command = c_new_pixel);
+  head        <= is_head(command);
   ends        <= take and r.in_strip and (head or flag(command = c_new_frame));
 
   combinational : process (all)
@@ -297,7 +297,7 @@ begin
     -- Take a token.
     v.weigh.ends               := ends;
     v.weigh.starts             := take and head;
-    v.weigh.adds               := take and flag(command = c_new_object);
+    v.weigh.adds               := take and is_object(command);
     v.weigh.place.y            := field_of(token, c_header.y);
     v.weigh.place.x            := field_of(token, c_header.x);
     v.weigh.place.first_line   := not r.in_strip or (r.first_line and not flag(command = c_new_scanline));

@@ -3,10 +3,12 @@
 -- The configuration of the shading processors, and the positions of the blocks in their flat vectors.
 --
 -- The host's vector is a request (command, light, flags) followed by
---  draw, depth, shadow   the walk (header of init); for draw also the planes of N, P (or the view ray) and 1/w, and the
---                        material
+--  new_object, shadow    the walk (header of init); for new_object also the planes of N, P (or the view ray) and 1/w,
+--                        and the material
+--  new_scanline          a strip, in the walk's fields; only with object processors
 --  define, redefine      the light: axes, colour
---  new_frame, delete     nothing
+--  new_frame             the background, as a light's colour; only for the filter
+--  delete                nothing
 -- A token between processors is a pixel header, N, P, 1/w, the view vector, the material, and the sum of the colours so
 -- far. A token that loads has the light after command and flags, at the same position as in the host's vector.
 -- Golden twin model/words/processors_layout.hpp
@@ -15,8 +17,7 @@ use work.formats_pkg.all;
 
 package processors_pkg is
 
-  -- Commands of the host's vectors and of tokens. In a token, the first three mean an object to shade: the first object
-  -- of another pixel, a further object of the same pixel, the first object of another line.
+  -- Commands of the host's vectors and of tokens. Only tokens have new_pixel.
   constant c_new_pixel    : natural := 0;
   constant c_new_object   : natural := 1;
   constant c_new_scanline : natural := 2;
@@ -25,10 +26,6 @@ package processors_pkg is
   constant c_redefine     : natural := 5;
   constant c_delete       : natural := 6;
   constant c_shadow       : natural := 7;
-
-  -- Only in the host's vectors: a triangle to shade, and a triangle for the object stage's depths.
-  constant c_draw  : natural := 0;
-  constant c_depth : natural := 1;
 
   -- Kinds of processors.
   constant c_ambient  : natural := 0;

@@ -3,8 +3,8 @@
 -- Purpose     The chain of the shading processors of all lights: the ambient one, then the diffuse and the specular one
 --             of light 1, of light 2 and so on, in either form. After the last processor only objects are output.
 -- Contract    A token is transferred if valid and ready are both '1' at a rising edge; out_token does not change while
---             it waits. Tokens stay in order. Loads and shadow polygons are dropped after the last processor. busy: a
---             processor holds a token. fault stays '1', as in shading_processor.
+--             it waits. Tokens stay in order. All but objects are dropped after the last processor. busy: a processor
+--             holds a token. fault stays '1' after a token for a light that does not exist.
 --             In either form in_ready does not depend on out_ready in the same clock.
 -- Formats     processors_pkg
 -- Latency     the sum of the processors' latencies
@@ -17,6 +17,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.processors_pkg.all;
+use work.token_pkg.all;
 
 entity shading_pipeline is
   generic (
@@ -51,7 +52,6 @@ architecture rtl of shading_pipeline is
 
   constant c_config     : config_t       := config(g_exact, g_channels, g_directional, g_positional, g_spots, g_diffuse,
     g_specular, g_normalize, g_shadows);
-  constant c_header     : pixel_header_t := pixel_header(g_exact);
   constant c_processors : positive       := processors(c_config);
   -- Processors per light; 1 if there is none.
   constant c_terms : positive := boolean'pos(g_diffuse and g_specular) + 1;
@@ -63,18 +63,13 @@ architecture rtl of shading_pipeline is
   signal ready  : std_logic_vector(0 to c_processors);
   signal tokens : tokens_t;
   signal works  : std_logic_vector(0 to c_processors - 1);
-  signal faults : std_logic_vector(0 to c_processors - 1);
   signal object : std_logic; -- the last processor outputs an object
 
-  subtype command_t is std_logic_vector(c_header.command.high downto c_header.command.low);
+  type reg_t is record
+    fault : std_logic;
+  end record;
 
-  function is_object (command : command_t) return std_logic is
-  begin
-    if unsigned(command) = c_new_pixel or unsigned(command) = c_new_object or unsigned(command) = c_new_scanline then
-      return '1';
-    end if;
-    return '0';
-  end function;
+  signal r, r_next : reg_t;
 
   function light_of (processor : natural) return natural is
   begin
@@ -127,8 +122,7 @@ begin
           out_valid => valid(index + 1),
           out_ready => ready(index + 1),
           out_token => tokens(index + 1),
-          busy      => works(index),
-          fault     => faults(index)
+          busy      => works(index)
           );
 
     else generate
@@ -156,21 +150,45 @@ begin
           out_valid => valid(index + 1),
           out_ready => ready(index + 1),
           out_token => tokens(index + 1),
-          busy      => works(index),
-          fault     => faults(index)
+          busy      => works(index)
           );
 
     end generate;
 
   end generate;
 
-  object <= is_object(tokens(c_processors)(command_t'range));
+  object <= is_object(command_of(g_exact, tokens(c_processors)));
 
   ready(c_processors) <= out_ready or not object;
   out_valid           <= valid(c_processors) and object;
   out_token           <= tokens(c_processors);
 
   busy  <= or works;
-  fault <= or faults;
+  fault <= r.fault;
+
+  combinational : process (all)
+    constant c_light : slice_t := pixel_header(g_exact).light;
+
+    variable v       : reg_t;
+    variable command : command_t;
+  begin
+    v       := r;
+    command := command_of(g_exact, in_token);
+    if in_valid = '1' and unsigned(field_of(in_token, c_light)) > lights(c_config)
+      and (command = c_define or command = c_redefine or command = c_delete or command = c_shadow) then
+      v.fault := '1';
+    end if;
+    if reset = '1' then
+      v.fault := '0';
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
+  end process;
 
 end architecture;

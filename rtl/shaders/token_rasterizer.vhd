@@ -1,18 +1,24 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Converts a triangle to tokens: one token per covered pixel, with the depth, N, P and 1/w of the pixel,
---             and the material. Line and span keep their own copy of the triangle's words: the line stage may already
---             hold the next triangle while the span stage walks this one.
+-- Purpose     Converts the host's vectors to tokens of the shading processors. A triangle (new_object) becomes one token per
+--             covered pixel, with the depth, N, P and 1/w of the pixel, and the material. A load passes as it is. Line and
+--             span keep their own copy of the triangle's words: the line stage may already hold the next triangle while
+--             the span stage walks this one.
 --
---               init --> triangle_walker --> z_interpolator, a plane_interpolator per word of N, P and 1/w --> token
---                  \--> request and material, of line and span --------------------------------------------/
+--               vector --+--> triangle_walker --> z_interpolator, a plane_interpolator per word of N, P and 1/w --+--> token
+--                        +--> request and material, of line and span ---------------------------------------------+
+--                        +--> loads ------------------------------------------------------------------------------+
 --
--- Contract    Both streams are valid/ready. init_ready is '1' when the triangle's first line is loaded. init must be
---             stable from the clock before, in which the walker reads it. A token does not change while it waits.
--- Formats     init: processors_pkg, a triangle's vector; token: token_pkg, with the request's command
--- Latency     3 clocks from a vector offered (init_valid) to its first token, if its first line covers a pixel
+-- Contract    Both streams are valid/ready. in_ready is '1' when the triangle's first line is loaded. in_vector must be
+--             stable from the clock before, in which the walker reads it. A load waits until no triangle is inside. A token
+--             does not change while it waits. A vector with another command is dropped; fault stays '1' from then on.
+--             busy: a triangle is inside.
+-- Formats     in_vector: processors_pkg; token: token_pkg, without a colour
+-- Latency     3 clocks from a triangle offered (in_valid) to its first token, if its first line covers a pixel; 0 for a
+--             load
 -- Throughput  1 token per clock, with no bubble between spans, lines and triangles. Exceptions: a triangle takes at
---             least 2 clocks, and a line without a pixel takes 1 clock if no span is drawn meanwhile
+--             least 2 clocks; a line without a pixel takes 1 clock if no span is drawn meanwhile; the first load after a
+--             triangle takes 4 clocks, each further load 1
 -- Error       see plane_sum in formats_pkg
 -- Source      processors paper, section 2: the object processors interpolate N and P linearly
 -- Golden twin model/golden/token_rasterizer.hpp
@@ -30,13 +36,14 @@ entity token_rasterizer is
   port (
     clk         : in  std_logic;
     reset       : in  std_logic;
-    init_valid  : in  std_logic;
-    init_ready  : out std_logic;
-    init        : in  std_logic_vector(init_bits(g_config) - 1 downto 0);
+    in_valid    : in  std_logic;
+    in_ready    : out std_logic;
+    in_vector   : in  std_logic_vector(init_bits(g_config) - 1 downto 0);
     token_valid : out std_logic;
     token_ready : in  std_logic;
     token       : out std_logic_vector(token_bits(g_config) - 1 downto 0);
-    busy        : out std_logic
+    busy        : out std_logic;
+    fault       : out std_logic
   );
 end entity;
 
@@ -54,6 +61,16 @@ architecture rtl of token_rasterizer is
   subtype request_t is std_logic_vector(c_request.normalize.high downto 0);
   subtype material_t is std_logic_vector(material_bits(g_config) - 1 downto 0);
 
+  type reg_t is record
+    fault : std_logic;
+  end record;
+
+  signal r, r_next : reg_t;
+
+  signal command       : command_t;
+  signal draws, loads  : std_logic; -- kind of the vector
+  signal drawn_valid   : std_logic;
+  signal drawing       : std_logic; -- a triangle is inside
   -- The walk is that of preset exact in either preset.
   signal walk          : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
   signal walk_ready    : std_logic; -- the walker reads the triangle
@@ -81,8 +98,15 @@ begin
     & integer'image(c_pixel.normalize.high) & " of a token"
     severity failure;
 
-  walk       <= init(walk_low(g_config) + walk'high downto walk_low(g_config));
-  init_ready <= line_load;
+  command <= command_of(c_exact, in_vector);
+  draws   <= is_object(command);
+  loads   <= is_load(command) and not drawing;
+  walk    <= in_vector(walk_low(g_config) + walk'high downto walk_low(g_config));
+
+  in_ready    <= line_load when draws = '1' else token_ready and loads when is_load(command) = '1' else '1';
+  token_valid <= drawn_valid or (in_valid and loads);
+  busy        <= drawing;
+  fault       <= r.fault;
 
   walker : entity work.triangle_walker
     generic map (
@@ -91,7 +115,7 @@ begin
     port map (
       clk            => clk,
       reset          => reset,
-      init_valid     => init_valid,
+      init_valid     => in_valid and draws,
       init_ready     => walk_ready,
       init           => walk,
       line_ready     => '1',
@@ -101,12 +125,12 @@ begin
       line_carry     => line_carry,
       span_load      => span_load,
       span_step      => span_step,
-      fragment_valid => token_valid,
+      fragment_valid => drawn_valid,
       fragment_ready => token_ready,
       triangle       => triangle,
       y              => y,
       x              => x,
-      busy           => busy
+      busy           => drawing
       );
 
   line_advance <= line_step and not line_load;
@@ -142,7 +166,7 @@ begin
         )
       port map (
         clk        => clk,
-        plane      => init(c_low + c_plane_bits - 1 downto c_low),
+        plane      => in_vector(c_low + c_plane_bits - 1 downto c_low),
         line_load  => line_load,
         line_step  => line_advance,
         line_carry => line_carry,
@@ -164,7 +188,7 @@ begin
     port map (
       clk   => clk,
       load  => line_load,
-      start => init(request_t'range),
+      start => in_vector(request_t'range),
       value => line_request
       );
 
@@ -175,7 +199,7 @@ begin
     port map (
       clk   => clk,
       load  => line_load,
-      start => init(init_material_low(g_config) + material_t'high downto init_material_low(g_config)),
+      start => in_vector(init_material_low(g_config) + material_t'high downto init_material_low(g_config)),
       value => line_material
       );
 
@@ -205,7 +229,7 @@ begin
     variable v : std_logic_vector(token'range);
   begin
     v := (others => '0');
-    v(request_t'range)                                   := span_request;
+    v(request_t'range) := span_request;
     v(c_pixel.triangle.high downto c_pixel.triangle.low) := triangle;
     v(c_pixel.y.high downto c_pixel.y.low)               := y;
     v(c_pixel.x.high downto c_pixel.x.low)               := x(c_formats.pixel_x.bits - 1 downto 0);
@@ -214,7 +238,29 @@ begin
     -- N, P and 1/w follow one another in a token too
     v(normal_low(g_config, 0) + vectors'high downto normal_low(g_config, 0))  := vectors;
     v(material_low(g_config) + material_t'high downto material_low(g_config)) := span_material;
-    token <= with_radiance(g_config, v, first_radiance(g_config));
+    if drawn_valid = '0' then
+      v                                    := (others => '0');
+      v(load_bits(g_config) - 1 downto 0) := in_vector(load_bits(g_config) - 1 downto 0);
+    end if;
+    token <= v;
+  end process;
+
+  combinational : process (all)
+    variable v : reg_t;
+  begin
+    v       := r;
+    v.fault := r.fault or (in_valid and not draws and not is_load(command));
+    if reset = '1' then
+      v.fault := '0';
+    end if;
+    r_next <= v;
+  end process;
+
+  registers : process (clk)
+  begin
+    if rising_edge(clk) then
+      r <= r_next;
+    end if;
   end process;
 
 end architecture;

@@ -94,8 +94,8 @@ package formats_pkg is
     -- u5.0: a light's number from 1; 0 is the ambient light
     --   at most 16: lights
     light => (5, 0),
-    -- s9.0: shadow volumes opened minus those closed, clamped to -512 to 511
-    --   at most 512: 2^9
+    -- s9.0: shadow volumes of a light: those around the eye, limited to 511; those opened at a pixel minus those closed, at most one for each object processor
+    --   at most 511: 2^9 - 1
     shadow_count => (10, 0),
     -- u18.6: 1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone of a tenth of a degree reaches its full light. The share is t^2 (3 - 2t), where t is the slope times the distance of the cosine from the edge. Its error is 6 t^2 (1 - t), at most 8/9, times the relative error of the slope
     --   off by at most 2^-7: u / 2
@@ -209,8 +209,8 @@ package formats_pkg is
     -- u5.0: a light's number from 1; 0 is the ambient light
     --   at most 16: lights
     light => (5, 0),
-    -- s9.0: shadow volumes opened minus those closed, clamped to -512 to 511
-    --   at most 512: 2^9
+    -- s9.0: shadow volumes of a light: those around the eye, limited to 511; those opened at a pixel minus those closed, at most one for each object processor
+    --   at most 511: 2^9 - 1
     shadow_count => (10, 0),
     -- u18.6: 1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone of a tenth of a degree reaches its full light. The share is t^2 (3 - 2t), where t is the slope times the distance of the cosine from the edge. Its error is 6 t^2 (1 - t), at most 8/9, times the relative error of the slope
     --   off by at most 2^-7: u / 2

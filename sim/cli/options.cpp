@@ -172,8 +172,8 @@ const std::vector<Option>& options_of_some_shaders() {
        true,
        fmt::format(
            "processors: a chain of this many object processors, up to {}, instead of the rasterizer: only\n"
-           "visible objects are shaded (default: the rasterizer)",
-           c_most_object_processors),
+           "visible objects are shaded (default: the rasterizer; {} for a scene with shadows)",
+           c_most_object_processors, c_object_processors),
        [](const Given& given, DrawSettings& s) {
          s.plan.objects = static_cast<unsigned>(given.whole_number(1, c_most_object_processors));
        }},

@@ -172,11 +172,6 @@ void print_seconds(const std::string& simulator, std::optional<double> called_fo
             fmt::format("{:.4g}", *everything), saved(*called_for, *everything));
 }
 
-// The object stage exists only with shadows. It does not output hidden objects.
-bool hides_more(const Plan& plan) {
-  return plan.called_for.processors.shadows != plan.everything.processors.shadows;
-}
-
 void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationCost& called_for,
                     const SimulationCost& everything, bool same) {
   fmt::print("\n");
@@ -192,9 +187,8 @@ void print_measured(const Plan& plan, const CellsByKey& cells, const SimulationC
   print_counts("cycles", called_for.cycles, everything.cycles);
   print_seconds("GHDL", called_for.ghdl_seconds, everything.ghdl_seconds);
   print_seconds("Verilator", called_for.verilator_seconds, everything.verilator_seconds);
-  fmt::print("the two frames {}, {} and {} fragments{}\n", same ? "are equal bit for bit" : "DIFFER",
-             called_for.fragments, everything.fragments,
-             hides_more(plan) ? ", of which the object stage leaves out the hidden ones" : "");
+  fmt::print("the two frames {}, {} and {} fragments\n", same ? "are equal bit for bit" : "DIFFER",
+             called_for.fragments, everything.fragments);
 }
 
 // The same for the pipelines that the scene needs, with the clocks of their slowest processor.
@@ -397,8 +391,8 @@ int run(const Folders& folders, const PlanCommand& command) {
     print_units(*units);
   else
     fmt::print("units are not counted: {}\n", counter.error().message);
-  const bool same = called_for.frame.rgb == everything.frame.rgb &&
-                    (hides_more(plan) || called_for.fragments == everything.fragments);
+  const bool same =
+      called_for.frame.rgb == everything.frame.rgb && called_for.fragments == everything.fragments;
   if (command.measure) print_measured(plan, cells, called_for, everything, same);
   if (plan.key.shader == Shader::quadratic)
     print_degrees(scene, draw, plan.key, cells, simulator_folders, *command.family);

@@ -168,8 +168,6 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
        "9 is not 1, 4 or 16"},
       {{"plan", "matte", "--shader", "processors", "--subpixels", "4"},
        "--subpixels goes with --object-processors"},
-      {{"plan", "shadows", "--shader", "processors", "--object-processors", "4"},
-       "behind object processors shadows are not drawn"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
   };
   for (const auto& [arguments, expected] : cases) EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));

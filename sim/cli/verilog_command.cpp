@@ -72,9 +72,6 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
 
 void run(const Folders& folders, const VerilogCommand& command, const std::string& version) {
   const auto draw = checked(command.draw);
-  if (command.axi && draw.plan.objects > 0)
-    throw Failure{
-        bad_input("--axi: no top with AXI4-Stream ports has object processors; leave out one of the two")};
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;

@@ -56,8 +56,6 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {
   EXPECT_THAT(run({"verilog", "nothing"}), Ends(2, HasSubstr("nothing")));
   EXPECT_THAT(write({"--shader", "raytracer"}), Ends(2, HasSubstr("'raytracer'")));
-  EXPECT_THAT(write({"--shader", "processors", "--object-processors", "2", "--axi"}),
-              Ends(2, HasSubstr("no top with AXI4-Stream ports has object processors")));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "v"));
 }
 

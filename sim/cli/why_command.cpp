@@ -76,9 +76,6 @@ void print_stage(const StageState& stage, const Widths& widths) {
 
 int run(const Folders& folders, const WhyCommand& command) {
   const auto draw = checked(command.draw);
-  if (draw.plan.objects > 0)
-    throw Failure{
-        bad_input("why explains pixels of the rasterizer; leave out --object-processors and --subpixels")};
   const auto pixel = parse_pixel(command.pixel);
   if (!pixel)
     throw Failure{bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel))};
@@ -86,6 +83,9 @@ int run(const Folders& folders, const WhyCommand& command) {
     throw Failure{bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
                                         draw.size.width, draw.size.height))};
   const auto scene = must(load_scene(command.scene, folders.scenes()));
+  if (must(plan_scene(scene, draw.plan)).key.processors.objects > 0)
+    throw Failure{
+        bad_input("why explains pixels of the rasterizer; leave out --object-processors, and the shadows")};
   Progress progress(scene.name);
   WhySettings settings;
   settings.plan = draw.plan;

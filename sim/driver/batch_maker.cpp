@@ -9,7 +9,7 @@ namespace halfway {
 namespace {
 
 constexpr std::uint32_t c_least_batch = 8, c_first_batch = 64, c_largest_batch = 8192;  // triangles
-constexpr std::uint32_t c_least_lines = 1, c_first_lines = 32;
+constexpr std::uint32_t c_least_strips = 1, c_first_strips = 32;
 constexpr std::uint32_t c_most_chunk = 256;                  // units
 constexpr std::size_t c_batch_bytes = std::size_t{8} << 20;  // approximate size of a batch
 
@@ -33,7 +33,7 @@ BatchMaker::BatchMaker(const Setup& setup, MakeGolden golden, unsigned threads, 
       // Without fragments a batch is small enough, and one thread discards nothing when a batch ends early:
       // start with the largest number of units.
       batch_units_(!make_golden_ || threads_ == 1 ? c_largest_batch
-                   : setup.units_are_lines()      ? c_first_lines
+                   : setup.units_are_strips()     ? c_first_strips
                                                   : c_first_batch) {
   setup_.append_prologue(prologue_, counts_);
 }
@@ -119,7 +119,7 @@ Batch BatchMaker::end() {
   }
   next_unit_ = all.end;
   if (bytes(all.batch) > c_batch_bytes)
-    batch_units_ = std::max(setup_.units_are_lines() ? c_least_lines : c_least_batch, batch_units_ / 2);
+    batch_units_ = std::max(setup_.units_are_strips() ? c_least_strips : c_least_batch, batch_units_ / 2);
   else if (bytes(all.batch) < c_batch_bytes / 4)
     batch_units_ = std::min(c_largest_batch, batch_units_ * 4);
   all.batch.done = static_cast<double>(all.end) / setup_.units();

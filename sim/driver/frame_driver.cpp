@@ -59,6 +59,7 @@ Status FrameDriver::draw_stream(const Setup& setup, const OnBatch& on_batch) {
   BatchMaker::MakeGolden golden;
   if (o_.golden == GoldenDraws::batches) golden = [this] { return o_.models.golden(key_); };
   BatchMaker maker(setup, std::move(golden), o_.workers.count, o_.clocks);
+  counts_ = maker.counts();
   Batch batch;
   Status taken = Ok{};
   for (bool is_made = false, more = maker.begin({}); is_made || more;) {

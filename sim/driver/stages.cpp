@@ -292,7 +292,7 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
  public:
   ProcessorsStages(const words::ProcessorsConfig& config, bool folded)
       : StagesOf<Shader>(config), config_(config), folded_(folded) {
-    const std::string around = "token_rasterizer", front = "rasterizer/";
+    const std::string around = "token_rasterizer", front = "in_front/rasterizer/";
     this->template add_line_stage<Exact>(around, 0, front);
     this->template add_span_stage<Exact>(around, 0, front);
     const words::ProcessorsLayout<P> layout(config);
@@ -321,7 +321,7 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
     const Signal command{path + "out_token", At::command.low};
     this->begin_stage({std::move(name), entity, {path + "out_valid", path + "out_ready"}, 0, {}, command});
     this->add(
-        "command", {At::command.bits}, "token_order",
+        "command", {At::command.bits}, "token_rasterizer",
         [](const Shader& s, SpanXWord) { return static_cast<std::uint64_t>(s.token().command); }, command);
     const words::ProcessorsLayout<P> layout(config_);
     for (int c = 0; c < config_.channels; ++c)
@@ -333,6 +333,11 @@ class ProcessorsStages final : public StagesOf<golden::ProcessorsShader<P>> {
 
   words::ProcessorsConfig config_;
   bool folded_;
+};
+
+class NoStages final : public ShaderStages {
+ public:
+  std::vector<GoldenEvent> draw(std::span<const std::uint32_t>) override { return {}; }
 };
 
 template <class P, int Degree>
@@ -350,6 +355,7 @@ std::unique_ptr<ShaderStages> make(const HardwareKey& key) {
     case Shader::spherical:
       return std::make_unique<SphericalStages<P>>(golden_config(key));
     case Shader::processors:
+      if (key.processors.objects > 0) return std::make_unique<NoStages>();
       return std::make_unique<ProcessorsStages<P>>(processors_config(key),
                                                    key.processors.form == ProcessorForm::folded);
   }
@@ -357,10 +363,7 @@ std::unique_ptr<ShaderStages> make(const HardwareKey& key) {
 }
 
 bool is_object(std::uint64_t command) {
-  using words::Command;
-  return command == static_cast<std::uint64_t>(Command::new_pixel) ||
-         command == static_cast<std::uint64_t>(Command::new_object) ||
-         command == static_cast<std::uint64_t>(Command::new_scanline);
+  return command == static_cast<std::uint64_t>(words::Command::new_object);
 }
 
 }  // namespace

@@ -95,6 +95,7 @@ class ShaderStages {
   std::vector<Stage> stages_;
 };
 
+/// Without a stage for hardware with object processors.
 std::unique_ptr<ShaderStages> make_stages(const HardwareKey& key);
 
 /// Names of the planes of the processors shader: "N x", ..., "1/w".

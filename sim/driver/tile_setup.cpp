@@ -28,10 +28,7 @@ class TileSetup::Worker final : public SetupWorker {
     all_.clear();
     SetupCounts of_unit;
     frame_->append(setup_.units_[unit], all_, of_unit);
-    if (setup_.is_counted(setup_.reach(unit)))
-      counted += of_unit;
-    else  // every tile needs this value
-      counted.deepest_shadow = std::max(counted.deepest_shadow, of_unit.deepest_shadow);
+    if (setup_.is_counted(setup_.reach(unit))) counted += of_unit;
     const std::size_t words_per_vector = (setup_.init_bits() + 31) / 32;
     for (std::span<const std::uint32_t> rest = all_; !rest.empty();) {
       const auto triangle = rest.first(setup_.golden_->group(rest) * words_per_vector);

@@ -15,9 +15,8 @@ namespace halfway {
 
 /// The frame's vectors in their order, without the triangles that cover no pixel of the tile. Triangles are
 /// never cut, so each pixel of the tile gets the same fragments as in the whole frame. Pixels outside the
-/// tile get only some of their fragments and must not be used. This also applies to lines with the shading
-/// processors' object stage and shadow counters, which work on one pixel at a time: every polygon that covers
-/// a pixel of the tile is included.
+/// tile get only some of their fragments and must not be used. A strip of object processors is included as a
+/// whole.
 /// The host's work for a unit is counted in one tile only, in which the unit's reach starts. The sum over the
 /// tiles therefore equals the frame's count, for any size of tiles.
 class TileSetup final : public Setup {
@@ -27,7 +26,7 @@ class TileSetup final : public Setup {
 
   unsigned init_bits() const override { return frame_.init_bits(); }
   std::uint32_t units() const override { return static_cast<std::uint32_t>(units_.size()); }
-  bool units_are_lines() const override { return frame_.units_are_lines(); }
+  bool units_are_strips() const override { return frame_.units_are_strips(); }
   Tile reach(std::uint32_t unit) const override { return frame_.reach(units_[unit]); }
   void append_prologue(std::vector<std::uint32_t>& words, SetupCounts& counts) const override;
   std::unique_ptr<SetupWorker> worker() const override;

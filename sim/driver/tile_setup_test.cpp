@@ -53,9 +53,9 @@ struct Drawn {
 
 std::vector<std::uint64_t> numbers(const SetupCounts& c) {
   const ProjectionCounts& p = c.projection;
-  return {c.triangles,   c.subdivided,  c.leaves,      c.vectors,        c.records,    c.shaded,
-          c.overexposed, c.unresolved,  c.shadows,     c.deepest_shadow, p.visible,    p.back_facing,
-          p.left_out,    p.behind_near, p.cut_by_near, p.outside,        p.degenerate, p.unrepresentable};
+  return {c.triangles,   c.subdivided,  c.leaves,  c.vectors,    c.records,        c.shaded,
+          c.overexposed, c.unresolved,  c.shadows, p.visible,    p.back_facing,    p.left_out,
+          p.behind_near, p.cut_by_near, p.outside, p.degenerate, p.unrepresentable};
 }
 
 // Returns the number of fragments of the frame.

@@ -4,21 +4,15 @@
 #include <utility>
 
 #include "words/processors_layout.hpp"
-#include "words/word.hpp"
 
 namespace halfway {
 namespace {
 
 constexpr std::size_t c_around = 2;
 
-// Vectors of the shading processors that define a state; and the line whose state an object stage keeps.
+// Vectors of the shading processors that define a state.
 bool is_load(const HardwareKey& key, std::span<const std::uint32_t> vector) {
   return key.shader == Shader::processors && words::is_load(words::command_of<words::Exact>(vector));
-}
-std::optional<std::uint64_t> line_of_objects(const HardwareKey& key, std::span<const std::uint32_t> vector) {
-  if (key.shader != Shader::processors || !key.processors.shadows) return std::nullopt;
-  return words::get_bits(vector, words::Exact::init_header_at::y,
-                         words::ProcessorsLayout<words::Exact>::walk_low());
 }
 
 }  // namespace
@@ -29,13 +23,9 @@ void VectorsAround::add(std::span<const std::uint32_t> words, std::size_t count,
     kept_.push_back(std::move(triangle));
     return;
   }
-  if (const auto line = line_of_objects(key_, words); line != line_) {
-    before_.clear();
-    line_ = line;
-  }
   if (!wanted && after_ == 0) {
     before_.push_back(std::move(triangle));
-    if (!line_ && before_.size() > c_around) before_.pop_front();
+    if (before_.size() > c_around) before_.pop_front();
     return;
   }
   for (Triangle& earlier : before_) kept_.push_back(std::move(earlier));

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -15,7 +14,7 @@
 namespace halfway {
 
 /// Keeps the vectors of the wanted triangles and of two triangles before and after each. For hardware with a
-/// state from vector to vector it also keeps the vectors that define the state, and the whole line.
+/// state from vector to vector it also keeps the vectors that define the state.
 class VectorsAround {
  public:
   struct Triangle {
@@ -40,8 +39,7 @@ class VectorsAround {
   HardwareKey key_;
   std::vector<Triangle> kept_;
   std::deque<Triangle> before_;  // kept if a wanted one follows
-  std::optional<std::uint64_t> line_;
-  std::size_t after_ = 0;  // triangles still to be kept
+  std::size_t after_ = 0;        // triangles still to be kept
   std::uint64_t next_ = 0;
   bool any_wanted_ = false;
 };

@@ -61,7 +61,7 @@ TEST_F(TablesCommand, WritesTheNumbersOfCommands) {
   ASSERT_EQ(run({}).exit_code, 0);
   const std::string page = text_of("docs/rtl/init-vectors.md");
   for (const auto& [name, command] :
-       {std::pair{"draw", Command::draw}, std::pair{"depth", Command::depth},
+       {std::pair{"new_object", Command::new_object}, std::pair{"new_scanline", Command::new_scanline},
         std::pair{"new_frame", Command::new_frame}, std::pair{"define", Command::define},
         std::pair{"redefine", Command::redefine}, std::pair{"delete", Command::remove},
         std::pair{"shadow", Command::shadow}})

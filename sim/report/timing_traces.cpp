@@ -40,9 +40,9 @@ std::vector<ShownSignal> signals_of(Shader shader) {
   const bool stalls =
       // stages of the rasterizer stall, too; in the other shaders only the walker stalls
       shader == Shader::processors;
-  const std::string front = stalls ? "dut/rasterizer/" : "dut/";
-  const std::string walking = stalls ? "dut/drawing" : "dut/walking";
-  const std::string walked = stalls ? "dut/drawn_valid" : "dut/span_step";
+  const std::string front = stalls ? "dut/in_front/rasterizer/" : "dut/";
+  const std::string walking = stalls ? front + "drawing" : "dut/walking";
+  const std::string walked = stalls ? front + "drawn_valid" : "dut/span_step";
   std::vector<ShownSignal> signals = {
       {"init_valid", "init_valid", Shown::wire},
       {"init_ready", "init_ready", Shown::wire},

@@ -5,12 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
-#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "plan/plan.hpp"
@@ -141,18 +139,6 @@ void expect_equal(const std::vector<Fragment>& called_for, const std::vector<Fra
   }
 }
 
-// For each pixel the fragment that the frame keeps. Hardware that draws line by line has another order, and
-// outputs only these fragments.
-std::vector<Fragment> nearest(const std::vector<Fragment>& fragments) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Fragment> kept;
-  for (const Fragment& f : fragments)
-    if (const auto [it, is_first] = kept.try_emplace({f.y, f.x}, f); !is_first && f.z < it->second.z)
-      it->second = f;
-  std::vector<Fragment> list;
-  for (const auto& [pixel, fragment] : kept) list.push_back(fragment);
-  return list;
-}
-
 struct Hardware {
   Shader shader;
   Preset preset;
@@ -161,12 +147,6 @@ struct Hardware {
 class EachShader : public ::testing::TestWithParam<Hardware> {
  protected:
   PlanRequest request() const { return {.shader = GetParam().shader, .preset = GetParam().preset}; }
-  /// The golden model's fragments; of the shading processors, which may draw line by line, those of the
-  /// frame.
-  std::vector<Fragment> drawn(const Scene& scene, const HardwareKey& key) const {
-    const std::vector<Fragment> golden = draw(scene, key).golden;
-    return GetParam().shader == Shader::processors ? nearest(golden) : golden;
-  }
 };
 
 // In every eighth, the hardware has more lights than the scene. They stay dark.
@@ -181,7 +161,8 @@ TEST_P(EachShader, DrawTheSameForEverySubset) {
     if (!is_quadratic && ++number % 8 == 0) asked.lights = 16;
     const Plan plan = plan_of(scene, asked);
     keys.insert(plan.called_for.name());
-    ASSERT_NO_FATAL_FAILURE(expect_equal(drawn(scene, plan.called_for), drawn(scene, plan.everything)));
+    ASSERT_NO_FATAL_FAILURE(
+        expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.everything).golden));
   }
   // Spherical: 0 to 6 lights. For each number above 0: diffuse, specular by colours, both; one and three
   // channels. Processors: one and three channels. For each of 26 sets of lights: diffuse, specular, both;
@@ -203,7 +184,9 @@ TEST_P(EachShader, EachShowsInTheFrame) {
   if (is_processors) less[8].curved = less[9].shadows = false;
   const auto golden = [&](const Subset& subset) {
     const Scene scene = scene_of(subset);
-    return drawn(scene, plan_of(scene, request()).everything);
+    PlanRequest asked = request();
+    if (is_processors) asked.objects = c_object_processors;
+    return draw(scene, plan_of(scene, asked).everything).golden;
   };
   const std::vector<Fragment> all = golden(full);
   for (const Subset& subset : less) {

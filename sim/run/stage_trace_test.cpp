@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(Quick, Stages,
                                            Case{"lights", Shader::quadratic, Preset::published},
                                            Case{"matte", Shader::spherical, Preset::exact},
                                            Case{"spheres", Shader::spherical, Preset::published},
-                                           Case{"shadows", Shader::processors, Preset::exact},
+                                           Case{"matte", Shader::processors, Preset::exact},
                                            Case{"spheres", Shader::processors, Preset::published,
                                                 ProcessorForm::folded}),
                          c_name_of_case);

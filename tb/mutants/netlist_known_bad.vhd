@@ -20,6 +20,16 @@ end entity;
 architecture rtl of netlist_known_bad is
   signal a, b   : signed(39 downto 0);
   signal result : signed(39 downto 0);
+
+  -- 64 bits, of which only the upper 32 have a 1.
+  function upper_bits return std_logic_vector is
+    variable word : std_logic_vector(63 downto 0) := (others => '0');
+  begin
+    word(63 downto 62) := "11";
+    return word;
+  end function;
+
+  signal chosen : std_logic_vector(63 downto 0);
 begin
   a <= signed(stimulus(55 downto 16));
   b <= signed(stimulus(127 downto 88));
@@ -60,6 +70,11 @@ begin
           result <= a + b;
       end case;
     end process;
+  end generate;
+
+  upper : if g_construct = 9 generate
+    chosen <= upper_bits when stimulus(0) = '1' else std_logic_vector(resize(a, 64));
+    result <= signed(chosen(63 downto 24));
   end generate;
 
   registers : process (clk)

@@ -106,15 +106,17 @@ struct Construct {
 };
 
 // The table in docs/rtl/README.md. `wrong` ones are not used in rtl/.
-constexpr Construct c_constructs[] = {{"0", "a + b", Verdict::right, Verdict::right},
-                                      {"1", "shift_right", Verdict::refused, Verdict::right},
-                                      {"2", "resize to fewer bits", Verdict::wrong, Verdict::wrong},
-                                      {"3", "abs", Verdict::refused, Verdict::right},
-                                      {"4", "/", Verdict::refused, Verdict::right},
-                                      {"5", "minimum", Verdict::refused, Verdict::refused},
-                                      {"6", "a constant of 40 bits", Verdict::mended, Verdict::right},
-                                      {"7", "mod", Verdict::refused, Verdict::refused},
-                                      {"8", "when others", Verdict::refused, Verdict::right}};
+constexpr Construct c_constructs[] = {
+    {"0", "a + b", Verdict::right, Verdict::right},
+    {"1", "shift_right", Verdict::refused, Verdict::right},
+    {"2", "resize to fewer bits", Verdict::wrong, Verdict::wrong},
+    {"3", "abs", Verdict::refused, Verdict::right},
+    {"4", "/", Verdict::refused, Verdict::right},
+    {"5", "minimum", Verdict::refused, Verdict::refused},
+    {"6", "a constant of 40 bits", Verdict::mended, Verdict::right},
+    {"7", "mod", Verdict::refused, Verdict::refused},
+    {"8", "when others", Verdict::refused, Verdict::right},
+    {"9", "a constant with ones in its upper 32 bits only", Verdict::wrong, Verdict::right}};
 
 class ConstructOfGhdl : public KnownBad, public testing::WithParamInterface<Construct> {
  protected:

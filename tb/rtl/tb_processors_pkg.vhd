@@ -31,13 +31,15 @@ package tb_processors_pkg is
   -- The three words of a vector as words of `bits` bits. The bits above a word are 'X'.
   function spaced (words : std_logic_vector; bits : positive) return std_logic_vector;
 
-  -- For the parts of processors_shader: a directional light, grey without highlights, shadows, preset published.
+  -- For the parts of processors_shader: a directional light, all kinds of light, grey without highlights, preset published.
   constant c_shaders : configs_t(0 to 3) := (
-    config(true, 3, 1, 0, 0, true, true, true, false), config(true, 1, 2, 0, 0, true, false, false, false),
-    config(true, 3, 1, 1, 0, true, true, true, true), config(false, 3, 1, 1, 1, true, true, true, false));
+    config(true, 3, 1, 0, 0, true, true, true, false), config(true, 3, 1, 1, 1, true, true, true, false),
+    config(true, 1, 2, 0, 0, true, false, false, false), config(false, 3, 1, 1, 1, true, true, true, false));
 
   -- The hardware with object processors that the testbenches of rtl/objects run (tb/vectors/object_scene.hpp).
-  constant c_fronts    : configs_t(0 to 3)      := (c_shaders(2), c_shaders(3), c_shaders(0), c_shaders(2));
+  constant c_fronts : configs_t(0 to 3) := (
+    config(true, 3, 1, 1, 0, true, true, true, true), c_shaders(3), c_shaders(0),
+    config(true, 3, 1, 1, 0, true, true, true, true));
   constant c_subpixels : integer_vector(0 to 3) := (16, 4, 1, 1);
 
   -- Their files, and those of vectors that cause a fault.

@@ -40,6 +40,9 @@ auto of_sizes(void (*write)(const Folder&, Size...), const std::vector<std::tupl
 /// Folders short/ENTITY have the stimulus of `make test`: as many pixels or tokens, divided by this.
 inline constexpr int c_short = 4;
 
+/// The files of processors_shader with object processors.
+void write_objects_shaders(const Folder& folder);
+
 std::vector<Entity> arithmetic_entities();
 std::vector<Entity> board_entities();
 std::vector<Entity> filter_entities();

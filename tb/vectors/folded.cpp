@@ -250,6 +250,8 @@ void write_token_register(const Folder& folder) {
           if (object && p.term == Term::ambient) {
             ambient.ready_vectors(last);
             if (!can.first || !taken.normalize) taken.normal = last.normal;
+            taken.radiance.fill(golden::ShadingToken<Preset>::c_first_radiance);
+            last.radiance = taken.radiance;
           }
           // The unit vectors are those of N and the view vector, or any.
           Axes units[] = {last.normal, last.view};

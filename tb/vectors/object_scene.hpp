@@ -75,15 +75,16 @@ class ObjectScene {
     return vector;
   }
   InitVector end_vector() { return strip_vector({0, 0, 0, 1, 1}); }
-  InitVector load_vector() {
+  InitVector any_load(int most_light) {
     constexpr Command c_loads[] = {Command::define, Command::redefine, Command::remove, Command::new_frame};
-    return load_vector(c_loads[random_.between(0, 3)], static_cast<int>(random_.bits(4)));
+    return load_vector(c_loads[random_.between(0, 3)], static_cast<int>(random_.between(0, most_light)));
   }
   InitVector load_vector(Command command, int light) {
     InitVector vector = request(command);
     golden::ShadingToken<Preset> token;
     token.command = command;
     token.light_number = static_cast<std::uint32_t>(light);
+    token.light.around_eye = static_cast<int>(random_.between(0, 3) / 3);
     for (auto& place : token.light.place) place = static_cast<std::int64_t>(random_.bits(12));
     for (auto& intensity : token.light.intensity)
       intensity = static_cast<std::uint32_t>(random_.bits(8 + Preset::c_light_intensity_fraction_bits));
@@ -150,8 +151,10 @@ class ObjectScene {
     using Request = typename Preset::request_header_at;
     InitVector vector = random_vector(random_, layout_.init_bits());
     const bool shadow = config_.shadows && random_.one_in(2);
-    const auto command = shadow ? Command::shadow : Command::draw;
+    const auto command = shadow ? Command::shadow : Command::new_object;
     set_bits(vector, Request::command, static_cast<std::uint32_t>(command));
+    if (shadow)
+      set_bits(vector, Request::light, static_cast<std::uint64_t>(random_.between(1, config_.lights())));
     InitVector header(words::Exact::c_init_header_bits / 32);
     put_walk(header, walk);
     // Depths that cross, and many that are equal.

@@ -159,7 +159,7 @@ ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels) {
   std::vector<Strip> strips = scene.limit_strips();
   for (int i = 0; i < 24; ++i) strips.push_back(scene.any_strip());
   for (const Strip& strip : strips) {
-    while (scene.random().one_in(2)) files.send(scene.load_vector());
+    while (scene.random().one_in(2)) files.send(scene.any_load(15));
     files.send(scene.strip_vector(strip));
     if (!strip.empty())
       for (const StripTriangle& t : scene.triangles(strip, 30, c_objects)) files.send(t.vector);
@@ -185,8 +185,8 @@ ChainFiles<Preset> wrong_strips_of(const ProcessorsConfig& config, int subpixels
   files.send(scene.strip_vector(strip));
   for (const StripTriangle& t : triangles) files.send(t.vector);
   if (!crowded) {
-    InitVector unknown = scene.load_vector();
-    set_bits(unknown, Preset::request_header_at::command, static_cast<std::uint32_t>(Command::depth));
+    InitVector unknown = scene.any_load(15);
+    set_bits(unknown, Preset::request_header_at::command, static_cast<std::uint32_t>(Command::new_pixel));
     files.send(unknown);
     Strip lower = strip;
     lower.lines = 1;
@@ -200,15 +200,16 @@ ChainFiles<Preset> wrong_strips_of(const ProcessorsConfig& config, int subpixels
   return files;
 }
 
-// tb/rtl/shaders/objects_shader_tb.vhd has the same list.
+// tb/rtl/shaders/processors_shader_tb.vhd has the same list.
 struct Shaders {
   const char* name;
   ProcessorsConfig config;
   int subpixels;
 };
-constexpr Shaders c_exact_shaders[] = {{"plain", {3, 1, 0, 0, true, true, true, false}, 1},
-                                       {"filtered", {3, 1, 1, 0, true, true, true, false}, 16}};
-constexpr Shaders c_published_shaders[] = {{"published_folded", {1, 1, 0, 0, true, true, true, false}, 4}};
+constexpr Shaders c_exact_shaders[] = {{"objects", {3, 1, 0, 0, true, true, true, false}, 1},
+                                       {"shadows", {3, 1, 1, 0, true, true, true, true}, 1},
+                                       {"filtered", {3, 1, 1, 0, true, true, true, true}, 16}};
+constexpr Shaders c_published_shaders[] = {{"published_shadows", {3, 0, 1, 0, false, true, true, true}, 4}};
 
 // Init vectors and fragments as in shaders.cpp, without clocks. After a set no light is left.
 template <class Preset>
@@ -221,7 +222,7 @@ class ShaderFiles {
     define_all();
     for (int i = 0; i < count; ++i) {
       const Strip strip = scene_.any_strip();
-      if (mixed && scene_.random().one_in(2)) send(scene_.load_vector());
+      if (mixed && scene_.random().one_in(2)) send(scene_.any_load(s_.config.lights()));
       send(scene_.strip_vector(strip));
       if (!mixed || !scene_.random().one_in(6))
         for (const StripTriangle& t : scene_.triangles(strip, mixed ? 12 : 5, c_objects)) send(t.vector);
@@ -229,7 +230,7 @@ class ShaderFiles {
     }
     for (int light = 0; light <= s_.config.lights(); ++light)
       send(scene_.load_vector(Command::remove, light));
-    if (twin_.fault()) throw Failure{tool_failed("objects_shader: a fault, but the triangles fit")};
+    if (twin_.fault()) throw Failure{tool_failed("processors_shader: a fault, but the triangles fit")};
   }
   void add_crowd() {
     define_all();
@@ -237,7 +238,7 @@ class ShaderFiles {
     send(scene_.strip_vector(strip));
     for (const StripTriangle& t : scene_.triangles(strip, 40, c_objects + 2)) send(t.vector);
     send(scene_.end_vector());
-    if (!twin_.fault()) throw Failure{tool_failed("objects_shader: no fault")};
+    if (!twin_.fault()) throw Failure{tool_failed("processors_shader: no fault")};
   }
   void write(const Folder& folder, const char* set) const {
     const std::string stem = fmt::format("{}_{}", s_.name, set);
@@ -276,10 +277,15 @@ void write_shaders_of(const Folder& folder, std::span<const Shaders> all) {
     crowded.write(folder, "fault");
   }
 }
-void write_shaders(const Folder& folder) {
+
+}  // namespace
+
+void write_objects_shaders(const Folder& folder) {
   write_shaders_of<Exact>(folder, c_exact_shaders);
   write_shaders_of<words::Published>(folder, c_published_shaders);
 }
+
+namespace {
 
 // write(files, folder, stem) for each hardware: strips, and faulty ones.
 template <class Write>
@@ -367,7 +373,7 @@ void write_edges(const Folder& folder, int subpixels) {
   file.write(folder / fmt::format("{}.txt", subpixels));
 }
 
-// A line: reset, in_valid, in_take, own, out_ready, in_word, own_word; in_ready, out_valid, out_word.
+// A line: reset, in_valid, own, out_ready, in_word, own_word; in_ready, out_valid, out_word.
 template <class Preset>
 void write_merge(const Folder& folder, const ProcessorsConfig& config, int subpixels) {
   using Word = golden::ObjectWord<Preset>;
@@ -376,7 +382,7 @@ void write_merge(const Folder& folder, const ProcessorsConfig& config, int subpi
   golden::ObjectMerge<Preset> twin(subpixels);
   const auto any_element = [&] {
     Word word;
-    word.token.command = random.one_in(3) ? Command::shadow : Command::new_object;
+    word.token.command = config.shadows && random.one_in(3) ? Command::shadow : Command::new_object;
     word.token.z = static_cast<std::uint32_t>(random.between(0, 3)) << random.between(0, 22);
     word.token.triangle = static_cast<std::uint32_t>(random.bits(2)) << random.between(0, 30);
     word.token.exponent = static_cast<std::uint32_t>(random.bits(8));
@@ -398,12 +404,11 @@ void write_merge(const Folder& folder, const ProcessorsConfig& config, int subpi
       in.kind = static_cast<golden::ObjectKind>(random.between(1, 3));
       in.part = random.bits(64);
     }
-    const bool take = in.is_part() && random.one_in(2);
     const auto row = [&](bool reset, bool valid, bool ready) {
-      const auto choice = twin.choose(in, take, has_own ? &own : nullptr);
+      const auto choice = twin.choose(in, has_own ? &own : nullptr);
       Word out = choice.own ? own : in;
       if (out.is_element()) out.mask = choice.mask;
-      file.flag(reset).flag(valid).flag(take).flag(has_own).flag(ready);
+      file.flag(reset).flag(valid).flag(has_own).flag(ready);
       add_word(file, in, config, subpixels);
       add_word(file, own, config, subpixels);
       file.flag(!choice.own && (!choice.output || ready)).flag(valid && (choice.own || choice.output));
@@ -445,7 +450,6 @@ std::vector<Entity> objects_entities() {
                                                 const std::string& s) { files.write_output(f, s); })},
       {"filter_queue", of_chains("", [](const auto& files, const Folder& f,
                                         const std::string& s) { files.write_lists(f, s); })},
-      {"objects_shader", write_shaders},
       {"object_front", of_chains("crowded", [](const auto& files, const Folder& f,
                                                const std::string& s) { files.write_front(f, s); })},
   };

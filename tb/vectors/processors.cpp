@@ -20,9 +20,6 @@ namespace {
 
 using golden::Axes, words::Command, words::Exact, words::ProcessorsConfig, words::Published, words::Term;
 
-// More shadow polygons of one column than its count can represent.
-constexpr int c_too_many = (1 << (Exact::c_shadow_count_bits - 1)) + 8;
-
 // The clocks in which an unrolled processor takes its tokens at full speed. Clock 0 takes the first one.
 class TakeClock {
  public:
@@ -34,67 +31,44 @@ class TakeClock {
     // A token that changes the light waits until the stages are empty.
     if (own && (token.is_define() || token.command == Command::remove) && taken_ >= 0)
       next_ = std::max(next_, taken_ + latency_ + 1);
-    taken_ = next_++;
-    if (!processor_.config.shadows || processor_.term == Term::ambient) return taken_;
-    if (own && token.command == Command::shadow) last_ = std::max(last_, token.x);
-    if (token.command == Command::new_frame) {
-      next_ += last_ + 1;  // the counter clears its columns
-      last_ = 0;
-    }
-    return taken_;
+    return taken_ = next_++;
   }
 
  private:
   Processor processor_;
   int latency_;
   std::int64_t taken_ = -1, next_ = 0;
-  std::uint32_t last_ = 0;  ///< the highest column that was counted
 };
 
-// A line: token; the output token, fault afterwards, the clock in which an unrolled processor takes the
-// token.
+// A line: token; the output token, the clock in which an unrolled processor takes the token.
 template <class Preset>
-void write_processor(const Folder& folder, const Processor& processor, int tokens, bool faults,
-                     const char* suffix = "", int latency = 0) {
+void write_processor(const Folder& folder, const Processor& processor, int tokens, const char* suffix = "",
+                     int latency = 0) {
   const auto& [config, term, light] = processor;
   const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits * 8 + static_cast<int>(term) * 3 + light);
   golden::ShadingProcessor<Preset> twin(config, term, light);
   TakeClock clock(processor, latency);
   VectorFile file;
-  // At the end, with faults: more volumes than the counter can count.
-  const int last = tokens + (faults ? c_too_many : 0);
-  for (int done = 0; done < last; ++done) {
+  for (int done = 0; done < tokens; ++done) {
     // No light is valid at first. Later the light is defined, and defined again after it was deleted.
     const bool defines = done == 20 || (done > 20 && done % 25 == 0);
-    auto token = done >= tokens ? maker.opening(static_cast<std::uint32_t>(light))
-                 : defines      ? maker.load(Command::define, static_cast<std::uint32_t>(light))
-                                : maker.token(light);
+    auto token =
+        defines ? maker.load(Command::define, static_cast<std::uint32_t>(light)) : maker.token(light);
     if (term != Term::ambient) token = maker.behind_ambient(token);
     auto words = maker.words(token, bits);
-    // The bits of x in a load sometimes name a column with shadow polygons. In a definition they are slope.
-    const bool loads = !token.is_object() && token.command != Command::shadow;
-    const bool own = token.light_number == static_cast<std::uint32_t>(light);
-    if (loads && maker.random().one_in(own && token.is_define() ? 8 : 2))
-      words::set_bits(words, Preset::pixel_header_at::x,
-                      static_cast<std::uint64_t>(maker.random().between(40, 42)));
     const auto before = words;
     twin.process(words);
-    file.words_of(before, bits).words_of(words, bits).flag(twin.fault());
+    file.words_of(before, bits).words_of(words, bits);
     if (latency > 0) file.word(clock.take(token), 32);
     file.end_vector();
   }
-  if (faults && config.shadows && !twin.fault())
-    throw Failure{tool_failed(name_of<Preset>(processor) + ": the shadow counter did not overflow")};
   file.write(folder / (name_of<Preset>(processor) + suffix + ".txt"));
 }
 
 template <class Preset>
 void write_processors(const Folder& folder, int tokens) {
-  for (const Processor& processor : processors()) {
-    const bool faults = processor.light == 1 && processor.term == Term::diffuse;
-    write_processor<Preset>(folder, processor, tokens, faults);
-  }
+  for (const Processor& processor : processors()) write_processor<Preset>(folder, processor, tokens);
 }
 
 // More tokens, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
@@ -111,7 +85,7 @@ void write_long(const Folder& folder) {
   for (const Processor& processor : processors())
     for (const Long& set : c_sets)
       if (name_of<Preset>(processor) == set.name)
-        write_processor<Preset>(folder, processor, 8000, false, "_long", set.latency);
+        write_processor<Preset>(folder, processor, 8000, "_long", set.latency);
 }
 
 // Tokens for the parts of a processor: one configuration with several lights.
@@ -183,46 +157,48 @@ void write_light_term_of(const Folder& folder, Term term, int light_number, int 
 }
 
 // A line: token; object, changes; after the token was accepted: defined, light (valid if defined), lit (valid
-// if object and defined), fault.
+// if defined).
 template <class Preset>
 void write_light_state_of(const Folder& folder) {
   constexpr int c_tokens = 1500;
+  constexpr int c_most = 300;  // volumes of a long list, at the end
   constexpr std::uint32_t c_light = 2;
   const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), 6);
   golden::LightState<Preset> twin(true, c_light);
   VectorFile file;
-  for (int done = 0; done < c_tokens + c_too_many; ++done) {
-    const auto token = done < c_tokens ? maker.token(static_cast<int>(c_light)) : maker.opening(c_light);
+  for (int done = 0; done < c_tokens + 3 * c_most; ++done) {
+    auto token = done < c_tokens ? maker.token(static_cast<int>(c_light)) : maker.shadow(c_light);
+    if (done == c_tokens) token = maker.load(Command::define, c_light);
+    if (done > c_tokens) token.opens = done <= c_tokens + c_most;
     const auto words = maker.words(token, bits);
     const bool changes =
         token.light_number == c_light && (token.is_define() || token.command == Command::remove);
-    bool lit = true;
-    if (token.is_object())
-      lit = twin.take_object(golden::ShadingToken<Preset>::decode(part_config(), words));
-    else
-      twin.take(token);
+    twin.take(token);
     const Flat light = light_words(maker, part_config(), twin.light());
     file.words_of(words, bits).flag(token.is_object()).flag(changes).flag(twin.defined());
-    file.words_of(light.words, light.bits).flag(lit).flag(twin.fault()).end_vector();
+    file.words_of(light.words, light.bits).flag(twin.lit()).end_vector();
   }
   file.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
 // A line: token, comes; the output object (valid if comes), fault afterwards.
 template <class Preset>
-void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool faults, int tokens) {
+void write_pipeline(const Folder& folder, const ProcessorsConfig& config, int tokens) {
   const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits);
   golden::ShadingPipeline<Preset> twin(config);
   VectorFile file;
-  const int last = tokens + (faults ? c_too_many : 0);
-  for (int done = 0; done < last; ++done) {
-    const int light = static_cast<int>(maker.random().between(0, config.lights()));
+  const auto lights = static_cast<std::uint32_t>(config.lights());
+  for (int done = 0; done <= tokens; ++done) {
     // Define all lights first.
-    auto token = done >= tokens            ? maker.opening(static_cast<std::uint32_t>(config.lights()))
-                 : done <= config.lights() ? maker.load(Command::define, static_cast<std::uint32_t>(done))
-                                           : maker.token(light);
+    auto token = static_cast<std::uint32_t>(done) <= lights
+                     ? maker.load(Command::define, static_cast<std::uint32_t>(done))
+                     : maker.token(static_cast<int>(maker.random().between(0, config.lights())));
+    if (token.is_for_light()) token.light_number = std::min(token.light_number, lights);
+    // At the end, a light that does not exist.
+    constexpr Command c_last[] = {Command::define, Command::redefine, Command::remove, Command::shadow};
+    if (done == tokens) token = maker.load(c_last[lights % 4], lights + 1);
     auto words = maker.words(token, bits);
     token = golden::ShadingToken<Preset>::decode(config, words);
     const bool comes = twin.process(token);
@@ -234,14 +210,13 @@ void write_pipeline(const Folder& folder, const ProcessorsConfig& config, bool f
 }
 
 template <class Preset>
-void write_pipelines(const Folder& folder, int tokens, bool faults) {
+void write_pipelines(const Folder& folder, int tokens) {
   // The list of tb/rtl/shaders/shading_pipeline_tb.vhd.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
                                       {3, 0, 0, 0, false, false, true, false}};
-  for (const ProcessorsConfig& config : configs)
-    write_pipeline<Preset>(folder, config, faults && config.shadows, tokens);
+  for (const ProcessorsConfig& config : configs) write_pipeline<Preset>(folder, config, tokens);
 }
 
 void write_light_term(const Folder& folder) {
@@ -259,92 +234,6 @@ void write_light_term(const Folder& folder) {
   }
 }
 
-// A line: reset, step, clear, counts, opens, takes, x, around_eye for the previous column, clocks until
-// ready; then, before the edge: counted, lit (valid if counted), fault.
-void write_shadow_counter(const Folder& folder) {
-  constexpr int c_columns = 1 << Exact::c_pixel_x_bits;
-  constexpr int c_most = (1 << (Exact::c_shadow_count_bits - 1)) - 1;
-  Random random(9);
-  VectorFile file;
-  golden::ShadowCounter twin;
-  std::uint32_t last = 0;   // highest column counted since the last clear
-  std::uint32_t waits = 0;  // clocks until ready
-  bool counted = false;     // the last step was for a column
-  int around_eye = 0;       // constant until the next step
-  bool lit = false;
-  bool fault = false;  // visible two clocks after the step
-  // Choose around_eye for a column with count `held`: often the greatest value with which the object is lit,
-  // else one next to it or any.
-  const auto choose_light = [&](int held) {
-    around_eye = random.one_in(4)
-                     ? static_cast<int>(random.between(-c_most - 1, c_most))
-                     : std::clamp(static_cast<int>(random.between(-1, 1)) - held, -c_most, c_most);
-    if (random.one_in(2)) around_eye = std::clamp(-held, -c_most, c_most);
-    lit = held + around_eye <= 0;
-  };
-  const auto line = [&](bool reset, bool step, bool clear, bool counts, bool opens, bool takes,
-                        std::uint32_t x) {
-    const bool stepped = step && !reset;
-    file.flag(reset).flag(step).flag(clear).flag(counts).flag(opens).flag(takes);
-    file.word(x, Exact::c_pixel_x_bits);
-    file.word(around_eye, Exact::c_shadow_count_bits).word(reset ? 0 : waits, 32);
-    if (waits > 0 && !reset) fault = twin.fault();
-    file.flag(counted).flag(lit).flag(fault).end_vector();
-    if (!reset) waits = 0;
-    fault = twin.fault();
-    if (stepped) {
-      counted = counts || takes;
-      choose_light(twin.held(x));
-      if (clear) {
-        twin.clear();
-        waits = last + 1;
-        last = 0;
-      } else if (takes) {
-        twin.take(x, around_eye);
-      } else if (counts) {
-        twin.count(x, opens);
-        last = x > last ? x : last;
-      }
-    }
-    if (reset) {
-      twin = golden::ShadowCounter();
-      waits = c_columns;
-      last = 0;
-      counted = fault = false;
-    }
-  };
-  line(true, false, false, false, false, false, 0);
-  line(true, false, false, false, false, false, 0);
-  for (std::uint32_t x = 0; x < c_columns; ++x) line(false, true, false, false, false, true, x);
-  for (int i = 0; i < 12000; ++i) {
-    const int part = i / 1500;
-    if (i % 3000 == 2999) {
-      line(true, random.one_in(2), false, true, true, false, 0);
-      continue;
-    }
-    // Use few columns, so that they repeat soon. Two of them count beyond each end, each in its own part.
-    const int first = part < 4 ? 100 : 101;
-    const auto x = static_cast<std::uint32_t>(random.one_in(8) ? random.between(0, c_columns - 1)
-                                                               : random.between(first, first + part % 3));
-    const bool step = part % 2 == 0 || !random.one_in(3);
-    const bool far = part % 4 >= 2;
-    const bool opens = far ? (x % 2 == 0) == (random.between(0, 15) != 0) : random.one_in(2);
-    const bool clear = !far && random.one_in(400);
-    const bool takes = !clear && random.one_in(far ? 3000 : 4);
-    line(false, step, clear, !clear && !takes && !random.one_in(10), opens, takes, x);
-  }
-  // Count one column up to its limit, which is not a fault, and beyond it, with steps around that do not
-  // count.
-  for (const bool opens : {true, false}) {
-    line(true, false, false, false, false, false, 0);
-    for (int i = 0; i < (opens ? c_most : c_most + 1); ++i) line(false, true, false, true, opens, false, 100);
-    for (const bool counts : {false, false, true, false, false})
-      line(false, true, false, counts, opens, false, 100);
-  }
-  for (int i = 0; i < 3; ++i) line(false, false, false, false, false, false, 0);
-  file.write(folder / "columns.txt");
-}
-
 template <int divisor>
 void write_shading_processor(const Folder& folder) {
   constexpr int c_tokens = 280 / divisor;
@@ -358,17 +247,14 @@ void write_shading_processor(const Folder& folder) {
 template <int divisor>
 void write_shading_pipeline(const Folder& folder) {
   constexpr int c_tokens = 240 / divisor;
-  // A fault needs many tokens. The testbenches of processors have it too.
-  constexpr bool c_faults = divisor == 1;
-  write_pipelines<Exact>(folder, c_tokens, c_faults);
-  write_pipelines<Published>(folder, c_tokens, c_faults);
+  write_pipelines<Exact>(folder, c_tokens);
+  write_pipelines<Published>(folder, c_tokens);
 }
 
 }  // namespace
 
 std::vector<Entity> processors_entities() {
   return {
-      {"shadow_counter", write_shadow_counter},
       {"ambient_term", in_both_presets([]<class P>(const Folder& f) { write_ambient_term_of<P>(f); })},
       {"light_term", write_light_term},
       {"light_state", in_both_presets([]<class P>(const Folder& f) { write_light_state_of<P>(f); })},

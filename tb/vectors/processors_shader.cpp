@@ -32,13 +32,11 @@ constexpr Processors c_exact_processors[] = {
     {"all_kinds", {3, 1, 1, 1, true, true, true, false}, 112},
     {"grey", {1, 2, 0, 0, true, false, false, false}, 112},
     {"no_light", {3, 0, 0, 0, false, false, true, false}, 112},
-    {"shadows", {3, 1, 1, 0, true, true, true, true}, 112, 400},
     {"folded", {3, 0, 1, 0, true, true, true, false}, 64, 800},
 };
 constexpr Processors c_published_processors[] = {
     {"published", {3, 1, 1, 1, true, true, true, false}, 64, 800},
     {"published_unrolled", {1, 1, 0, 0, true, true, false, false}, 112},
-    {"published_shadows", {3, 0, 1, 0, false, true, true, true}, 64},
 };
 
 template <class Preset>
@@ -60,10 +58,9 @@ class Host {
   }
   void some_load() {
     constexpr Command c_loads[] = {Command::define, Command::redefine, Command::remove, Command::new_frame};
-    // Also for lights that do not exist.
-    load(c_loads[random_.between(0, 3)], static_cast<int>(random_.between(0, p_.config.lights() + 1)));
+    load(c_loads[random_.between(0, 3)], static_cast<int>(random_.between(0, p_.config.lights())));
   }
-  void draw(const InitVector& walk) { send(walk_vector(Command::draw, walk)); }
+  void draw(const InitVector& walk) { send(walk_vector(walk)); }
   void draw_triangles(Mix mix) {
     for (const InitVector& walk :
          random_triangles<Exact>(random_, mix, Exact::c_init_header_bits, p_.pixels)) {
@@ -78,69 +75,24 @@ class Host {
     const std::int64_t x = random_.between(0, 4095);
     for (const std::uint32_t line : {y, y, y - 1, y - 1, y}) draw(line_walk(line, x, x + 1, 1 << 20, 3));
   }
-  // Draws an object twice at its pixel, with a load between that starts a frame, or with another load.
-  void draw_again() {
-    const InitVector object = line_walk(7, 20, 21, 1 << 20, 3);
-    for (const Command command : {Command::new_frame, Command::define}) {
-      draw(object);
-      load(command, 1);
-      draw(object);
-    }
-  }
-  // A line in its rounds. The exit of a volume lies behind its entry, or in front of it, as rounding may
-  // cause.
-  void draw_line() {
-    const std::uint32_t y = static_cast<std::uint32_t>(random_.between(0, 4095));
-    const std::int64_t left = random_.one_in(4) ? 4096 - 12 : random_.between(0, 4000);
-    const auto span = [&](std::int64_t z, std::uint32_t triangle) {
-      const std::int64_t from = left + random_.between(0, 4), to = left + random_.between(6, 12);
-      return line_walk(y, from, to, z, triangle);
-    };
-    std::vector<InitVector> objects;
-    for (std::int64_t i = random_.between(1, 4); i > 0; --i)
-      objects.push_back(span(random_.between(1, 14) << 20, static_cast<std::uint32_t>(random_.bits(32))));
-    for (const InitVector& object : objects) send(walk_vector(Command::depth, object));
-    for (int light = 1; light <= p_.config.lights(); ++light)
-      for (std::int64_t i = random_.between(0, 2); i > 0; --i) {
-        const std::int64_t z = random_.between(0, 14) << 20;
-        const InitVector entry = span(z, 7);
-        send(shadow_vector(light, true, entry));
-        InitVector exit = entry;
-        put_depth(exit, std::clamp<std::int64_t>(z + (random_.between(-1, 6) << 20), 0, 15 << 20));
-        send(shadow_vector(light, false, exit));
-      }
-    if (random_.one_in(8)) some_load();
-    for (const InitVector& object : objects) draw(object);
-  }
-  // Objects of random words for the parts, often on the line or in the column of the one before.
+  // Objects of random words for the parts.
   void any_objects() {
-    using At = typename Preset::pixel_header_at;
-    std::uint64_t y = 0, x = 0;
     for (int i = 0; i < 200; ++i) {
       std::vector<std::uint32_t> words = random_vector(random_, layout_.token_bits());
-      set_bits(words, At::command, static_cast<std::uint32_t>(Command::new_pixel));
-      if (random_.one_in(2)) set_bits(words, At::y, y);
-      if (random_.one_in(2)) set_bits(words, At::x, x);
-      y = words::get_bits(words, At::y);
-      x = words::get_bits(words, At::x);
-      const auto before = words;
-      const Command command = order_.place(static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(x));
-      set_bits(words, At::command, static_cast<std::uint32_t>(command));
-      order_row({.object = true, .ready = true}, before, words);
+      set_bits(words, Preset::pixel_header_at::command, static_cast<std::uint32_t>(Command::new_object));
       const auto token = golden::ShadingToken<Preset>::decode(p_.config, words);
       shaded_.words_of(words, layout_.token_bits());
       add_fragment<Preset>(shaded_, golden::fragment_output(token, p_.config.channels)).end_vector();
     }
   }
-  // More volumes in front of an object than a counter can count.
+  // A load of a light that does not exist, or a command that no vector has.
   void go_wrong() {
     define_all();
-    const InitVector object = line_walk(5, 3, 4, 1 << 20, 1);
-    send(walk_vector(Command::depth, object));
-    InitVector entry = object;
-    put_depth(entry, 1 << 19);
-    for (int i = 0; i < 1 << (Exact::c_shadow_count_bits - 1); ++i) send(shadow_vector(1, true, entry));
-    draw(object);
+    draw(line_walk(5, 3, 4, 1 << 20, 1));
+    if (p_.config.lights() == 1)
+      load(Command::define, 2);
+    else
+      send(request(Command::new_pixel, 0));
   }
   /// `object`: the last vector draws, so that the processors hold the last token of an object.
   void finish(bool object) {
@@ -152,11 +104,8 @@ class Host {
 
   // Files of the testbenches of the shader's parts.
   void write_rasterizer(const Folder& folder) const {
-    triangles_.write(folder / (name_of<Preset>(p_.config) + "_init.txt"));
+    vectors_.write(folder / (name_of<Preset>(p_.config) + "_in.txt"));
     return tokens_.write(folder / (name_of<Preset>(p_.config) + "_tokens.txt"));
-  }
-  void write_order(const Folder& folder) const {
-    return ordered_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
   }
   void write_output(const Folder& folder) const {
     return shaded_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
@@ -178,67 +127,27 @@ class Host {
     using Layout = words::ProcessorsLayout<Preset>;
     return Layout::light_colour_low(p_.config.channels);
   }
-  // The expected outputs of the shader's parts for the vector.
-  void send_to_parts(const InitVector& vector) {
-    const auto command = static_cast<Command>(words::get_bits(vector, Preset::request_header_at::command));
-    const bool loads = command >= Command::new_frame && command <= Command::remove;
-    const auto order = [&](const std::vector<std::uint32_t>& in, const std::vector<std::uint32_t>& out) {
-      // The word waits, or no word follows in a clock, which may be one with a reset.
-      if (pace_.one_in(3)) order_row({.load = loads, .object = !loads}, in, out);
-      order_row({.load = loads, .object = !loads, .ready = true}, in, out);
-      if (!pace_.one_in(4)) return;
-      const bool reset = pace_.one_in(4);
-      order_row({.reset = reset, .ready = pace_.one_in(2)}, in, out);
-      if (reset) order_.new_frame();
-    };
-    if (loads) {
-      if (command == Command::new_frame) order_.new_frame();
+  // The expected tokens of the rasterizer for the vector.
+  void send_to_rasterizer(const InitVector& vector) {
+    const Command command = words::command_of<Preset>(vector);
+    vectors_.words_of(vector, layout_.init_bits()).end_vector();
+    if (words::is_load(command)) {
       std::vector<std::uint32_t> words(static_cast<std::size_t>(layout_.token_bits() + 31) / 32);
       for (int low = 0; low < load_bits(); low += 8) {
         const Field field{"", low, std::min(8, load_bits() - low), false, 0};
         set_bits(words, field, words::get_bits(vector, field));
       }
-      order(words, words);
-      return;
+      tokens_.words_of(words, layout_.token_bits()).end_vector();
     }
-    triangles_.words_of(vector, layout_.init_bits()).end_vector();
+    if (command != Command::new_object) return;
     rasterizer_.draw(
         vector, [] {},
         [&](golden::SpanXWord) {
-          auto token = rasterizer_.token();
-          // The command has the same bits in the host's vector and in its token. `decode` would not read all
-          // fields for this command.
-          const Command walk = token.command;
-          token.command = Command::new_pixel;
-          auto words = words_of(token);
-          set_bits(words, Preset::request_header_at::command, static_cast<std::uint32_t>(walk));
-          tokens_.words_of(words, layout_.token_bits()).end_vector();
-          const auto before = words;
-          if (walk != Command::shadow)
-            set_bits(words, Preset::request_header_at::command,
-                     static_cast<std::uint32_t>(order_.place(token.y, token.x)));
-          order(before, words);
-          // A shadow polygon keeps its command. The hardware decodes it without shadows, too.
-          if (!pace_.one_in(8)) return;
-          set_bits(words, Preset::request_header_at::command, static_cast<std::uint32_t>(Command::shadow));
-          order(words, words);
+          tokens_.words_of(words_of(rasterizer_.token()), layout_.token_bits()).end_vector();
         });
   }
-  // A clock of token_order.
-  struct OrderClock {
-    bool reset = false, load = false, object = false, ready = false;
-  };
-  void order_row(const OrderClock& now, const std::vector<std::uint32_t>& in,
-                 const std::vector<std::uint32_t>& out) {
-    const auto command = static_cast<Command>(words::get_bits(in, Preset::request_header_at::command));
-    ordered_.flag(now.reset).flag(now.load).flag(now.object).flag(now.ready);
-    ordered_.words_of(in, load_bits()).words_of(in, layout_.token_bits());
-    ordered_.flag(now.ready).flag(now.ready).flag(now.load || now.object);
-    ordered_.words_of(out, layout_.token_bits());
-    ordered_.flag(now.load && now.ready && command == Command::new_frame).end_vector();
-  }
   void send(const InitVector& vector) {
-    send_to_parts(vector);
+    send_to_rasterizer(vector);
     inits_.words_of(vector, layout_.init_bits()).word(0, 32).end_vector();
     twin_.draw(vector, [&](const Fragment& f) {
       shaded_.words_of(words_of(twin_.token()), layout_.token_bits());
@@ -278,22 +187,14 @@ class Host {
     send(vector);
   }
 
-  InitVector walk_vector(Command command, const InitVector& walk) {
-    InitVector vector = request(command, static_cast<int>(random_.bits(5)));
+  InitVector walk_vector(const InitVector& walk) {
+    InitVector vector = request(Command::new_object, static_cast<int>(random_.bits(5)));
     for (int low = 0; low < Exact::c_init_header_bits; low += 32)
       set_bits(vector, {"", low, 32, false, 0}, walk[static_cast<std::size_t>(low) / 32], layout_.walk_low());
     put_planes(vector);
     put_material(vector);
     return vector;
   }
-  InitVector shadow_vector(int light, bool opens, const InitVector& walk) {
-    using At = typename Preset::request_header_at;
-    InitVector vector = walk_vector(Command::shadow, walk);
-    set_bits(vector, At::light, static_cast<std::uint32_t>(light));
-    set_bits(vector, At::opens, opens);
-    return vector;
-  }
-
   // Vectors that change slowly. One plane in twelve keeps random words.
   void put_planes(InitVector& vector) {
     using At = typename Preset::plane_header_at;
@@ -357,37 +258,29 @@ class Host {
   golden::TokenRasterizer<Preset> rasterizer_;
   Random random_, pace_;
   VectorFile inits_, fragments_;
-  golden::TokenOrder order_;
-  VectorFile triangles_, tokens_, ordered_, shaded_;
+  VectorFile vectors_, tokens_, shaded_;
 };
 
 template <class Preset>
 void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
   host.define_all();
-  if (processors.config.shadows)
-    for (std::int64_t line = 0; line < processors.pixels / 8; ++line) host.draw_line();
-  else
-    host.draw_triangles(mix);
+  host.draw_triangles(mix);
   // A dense set has no gap between fragments, as before an object after a load.
-  host.finish(!processors.config.shadows && mix != Mix::dense);
+  host.finish(mix != Mix::dense);
 }
 
-// The parts of the shader with all words of tokens and with shadows, in both presets.
-// tb/rtl/tb_processors_pkg.vhd has the same list.
+// The parts of the shader with all words of tokens, in both presets. tb/rtl/tb_processors_pkg.vhd has the
+// same list.
 template <class Write>
 void write_parts(const Write& write) {
-  for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{4}}) {
-    Host<Exact> host(c_exact_processors[i]);
-    draw_set(host, c_exact_processors[i], Mix::mixed);
-    host.draw_again();
+  const auto write_part = [&]<class Preset>(Host<Preset> host, const Processors& processors) {
+    draw_set(host, processors, Mix::mixed);
     host.any_objects();
     write(host);
-  }
-  Host<Published> host(c_published_processors[0]);
-  draw_set(host, c_published_processors[0], Mix::mixed);
-  host.draw_again();
-  host.any_objects();
-  write(host);
+  };
+  for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2}})
+    write_part(Host<Exact>(c_exact_processors[i]), c_exact_processors[i]);
+  write_part(Host<Published>(c_published_processors[0]), c_published_processors[0]);
 }
 
 template <class Preset>
@@ -409,7 +302,7 @@ void write_all(const Folder& folder, std::span<const Processors> shaders, std::i
   for (Processors processors : shaders) {
     processors.pixels /= divisor;
     for (const char* set : {"dense", "mixed", "fault"}) {
-      if (set == std::string_view("fault") && !processors.config.shadows) continue;
+      if (set == std::string_view("fault") && processors.config.lights() == 0) continue;
       write_set<Preset>(folder, processors, set);
     }
   }
@@ -419,6 +312,7 @@ template <int divisor>
 void write_processors_shader(const Folder& folder) {
   write_all<Exact>(folder, c_exact_processors, divisor);
   write_all<Published>(folder, c_published_processors, divisor);
+  write_objects_shaders(folder);
 }
 
 // More pixels, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
@@ -436,7 +330,6 @@ std::vector<Entity> processors_shader_entities() {
   return {
       {"token_rasterizer",
        [](const Folder& f) { write_parts([&](const auto& host) { host.write_rasterizer(f); }); }},
-      {"token_order", [](const Folder& f) { write_parts([&](const auto& host) { host.write_order(f); }); }},
       {"fragment_output",
        [](const Folder& f) { write_parts([&](const auto& host) { host.write_output(f); }); }},
       {"processors_shader",

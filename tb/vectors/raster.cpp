@@ -7,7 +7,6 @@
 #include "golden/edge_pair.hpp"
 #include "golden/edge_walker.hpp"
 #include "golden/line_counter.hpp"
-#include "golden/object_stage.hpp"
 #include "golden/slope_walker.hpp"
 #include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
@@ -238,67 +237,6 @@ struct LineRecord {
   }
 };
 
-// In: clear, token. Out: the output tokens.
-template <class Preset>
-void write_objects(const Folder& folder) {
-  using At = typename Preset::pixel_header_at;
-  using words::Command;
-  constexpr int c_bits = Preset::c_pixel_header_bits + 37;
-  Random random(57);
-  VectorFile in, out;
-  golden::ObjectStage twin;
-  const auto put = [&](Command command, std::uint32_t x, std::uint32_t z, std::uint32_t triangle) {
-    InitVector token = random_vector(random, c_bits);
-    set_bits(token, At::command, static_cast<std::uint32_t>(command));
-    set_bits(token, At::x, x);
-    set_bits(token, At::z, z);
-    set_bits(token, At::triangle, triangle);
-    in.flag(false).words_of(token, c_bits).end_vector();
-    if (twin.passes(command, x, z, triangle)) out.words_of(token, c_bits).end_vector();
-  };
-  for (int line = 0; line < 90; ++line) {
-    // Use few columns, so that tokens often share one. Some lines use the frame's last columns.
-    const std::int64_t first = random.one_in(3) ? random.between(0, 4090) : 4096 - 6 * random.between(1, 2);
-    const std::int64_t columns = random.between(1, 6), objects = random.between(1, 12);
-    struct Span {
-      std::uint32_t x, z, triangle;
-    };
-    std::vector<Span> drawn;
-    const auto triangle = static_cast<std::uint32_t>(random.bits(32));
-    for (std::int64_t i = 0; i < objects; ++i) {
-      // Equal depths, and depths that differ only in their highest or lowest bit.
-      constexpr std::uint32_t c_depths[] = {0, 1, 0x7fffff, 0x800000, 0xffffff};
-      const std::uint32_t z = random.one_in(3) ? static_cast<std::uint32_t>(random.word(Preset::c_depth_bits))
-                                               : c_depths[random.between(0, 4)];
-      drawn.push_back({static_cast<std::uint32_t>(first + random.between(0, columns - 1)), z,
-                       // The same triangle, or one that differs in a single bit.
-                       triangle ^ (random.one_in(3) ? 0 : 1U << random.between(0, 31))});
-    }
-    // In some lines each object is drawn directly after its depth.
-    const bool at_once = random.one_in(3);
-    for (const Span& s : drawn) {
-      put(Command::depth, s.x, s.z, s.triangle);
-      if (at_once) put(Command::draw, s.x, s.z, s.triangle);
-    }
-    for (std::int64_t i = random.between(0, 20); i > 0; --i) {
-      const Span& s = drawn[random.between(0, objects - 1)];
-      put(Command::shadow, s.x, (s.z + static_cast<std::uint32_t>(random.between(-1, 1))) & 0xffffff,
-          static_cast<std::uint32_t>(random.bits(32)));
-    }
-    // Sometimes clear the state here, or leave it to the next line without drawing.
-    if (random.one_in(3)) {
-      in.flag(true).words_of(random_vector(random, c_bits), c_bits).end_vector();
-      twin.clear();
-    }
-    if (random.one_in(6)) continue;
-    // Draw twice: each pixel must be output once.
-    for (int round = 0; round < 2; ++round)
-      for (const Span& s : drawn) put(Command::draw, s.x, s.z, s.triangle);
-  }
-  in.write(folder / (std::string(Preset::c_name) + "_in.txt"));
-  out.write(folder / (std::string(Preset::c_name) + "_out.txt"));
-}
-
 // A line: checked, load, x, quotient, remainder, divisor, error, carry, step; x, carry, before the edge.
 void write_edge_walker(const Folder& folder) {
   Random random(14);
@@ -436,7 +374,6 @@ std::vector<Entity> raster_entities() {
   return {
       {"edge_walker", write_edge_walker},
       {"slope_walker", write_slope_walker},
-      {"object_stage", in_both_presets([]<class P>(const Folder& f) { write_objects<P>(f); })},
       {"line_counter", in_both_presets([]<class P>(const Folder& f) { write_counter<P>(f); })},
       {"edge_pair", in_both_presets([]<class P>(const Folder& f) { write_pair<P>(f); })},
       {"line_stage", write_line_stage},

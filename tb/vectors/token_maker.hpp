@@ -36,8 +36,9 @@ class TokenMaker {
     if (choice <= 2) return load(words::Command::redefine, number);
     if (choice <= 4) return load(words::Command::define, number);
     if (choice == 5 && random_.one_in(3)) return load(words::Command::new_frame, number);
+    if (choice <= 7) return head();
     // Hardware without shadows passes shadow polygons on.
-    if (choice <= (config_.shadows ? 14 : 6)) return shadow(number);
+    if (choice <= (config_.shadows ? 16 : 8)) return shadow(number);
     return object();
   }
   Token load(words::Command command, std::uint32_t light) {
@@ -52,7 +53,9 @@ class TokenMaker {
     to.outer = static_cast<std::int64_t>(one_direction() * 0.1 * static_cast<double>(random_.between(-3, 9)));
     to.slope = static_cast<std::uint32_t>(random_.one_in(4) ? random_.word(Preset::c_spot_slope_bits)
                                                             : random_.between(64, 640));
-    to.around_eye = random_.one_in(4) ? 1 : 0;
+    to.around_eye = random_.one_in(8)   ? static_cast<int>(random_.between(-512, 511))
+                    : random_.one_in(4) ? 1
+                                        : 0;
     to.place = near(Preset::c_light_place_fraction_bits, Preset::c_light_place_bits, 0.9);
     to.axis = near(Preset::c_direction_fraction_bits, Preset::c_direction_bits, 1);
     for (std::int64_t& axis : to.axis) axis = -axis - (axis == least(Preset::c_direction_bits) ? 1 : 0);
@@ -68,16 +71,13 @@ class TokenMaker {
     token.opens = random_.one_in(2);
     return token;
   }
-  /// A shadow polygon that opens a volume at a column that no random token uses.
-  Token opening(std::uint32_t light) {
-    Token token = shadow(light);
-    token.x = 17;
-    token.opens = true;
+  Token head() {
+    Token token = at_pixel();
+    token.command = random_.one_in(4) ? words::Command::new_scanline : words::Command::new_pixel;
     return token;
   }
   Token object() {
     Token token = at_pixel();
-    token.command = static_cast<words::Command>(random_.between(0, 2));
     token.normalize = !random_.one_in(3);
     token.normal = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, 1);
     token.place = near(Preset::c_vector_fraction_bits, Preset::c_vector_bits, random_.one_in(2) ? -0.6 : 0.3);
@@ -146,8 +146,7 @@ class TokenMaker {
     Token token;
     token.triangle = static_cast<std::uint32_t>(random_.bits(32));
     token.y = static_cast<std::uint32_t>(random_.bits(Preset::c_pixel_y_bits));
-    token.x = static_cast<std::uint32_t>(random_.one_in(10) ? random_.bits(Preset::c_pixel_x_bits)
-                                                            : random_.between(40, 42));
+    token.x = static_cast<std::uint32_t>(random_.bits(Preset::c_pixel_x_bits));
     token.z = static_cast<std::uint32_t>(random_.bits(Preset::c_depth_bits));
     token.light_number = static_cast<std::uint32_t>(random_.bits(Preset::c_light_bits));
     return token;

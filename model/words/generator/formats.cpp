@@ -66,8 +66,9 @@ std::vector<Format> common_formats() {
       {u(5, 0), "light", "a light's number from 1; 0 is the ambient light", {at_most(16, "lights")}},
       {s(9, 0),
        "shadow_count",
-       "shadow volumes opened minus those closed, clamped to -512 to 511",
-       {at_most(512, "2^9")}},
+       "shadow volumes of a light: those around the eye, limited to 511; those opened at a pixel minus those "
+       "closed, at most one for each object processor",
+       {at_most(511, "2^9 - 1")}},
       {u(18, 6),
        "spot_slope",
        "1 / width of a spot's soft edge, in cosines: at least 1/2. The largest slope is 2^18, so that a cone "

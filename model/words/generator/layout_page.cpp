@@ -48,16 +48,17 @@ constexpr Section c_sections[] = {
      "Every vector of the shading processors starts with a request. Its command gives what follows:\n\n"
      "| command | number | after the request |\n"
      "| --- | --- | --- |\n"
-     "| draw | 0 | header of preset `exact`, planes, material |\n"
-     "| depth | 1 | header of preset `exact`; only with `g_shadows` |\n"
-     "| new_frame | 3 | nothing |\n"
+     "| new_object | 1 | a triangle: header of preset `exact`, planes, material |\n"
+     "| new_scanline | 2 | [a strip](objects.md#vectors), in the header; only with `g_objects` |\n"
+     "| new_frame | 3 | with subpixels the background, as the colour of a light; otherwise nothing |\n"
      "| define | 4 | axes and colour of the light; for light 0 (ambient) only the colour is read |\n"
      "| redefine | 5 | as define; only if the light is defined |\n"
      "| delete | 6 | nothing |\n"
-     "| shadow | 7 | header of preset `exact`; only with `g_shadows` |\n\n"
+     "| shadow | 7 | a shadow polygon: header of preset `exact`; only with `g_shadows` |\n\n"
      "Both presets of the processors have the header of preset `exact`. A frame starts with new_frame and a "
      "define for the ambient light and for each light. Lights are numbered from 1: directional, positional, "
-     "spots. A load of another light changes nothing. `processors_pkg` computes the positions of the blocks "
+     "spots. A vector for a light that does not exist, or with another command, is a fault. `processors_pkg` "
+     "computes the positions of the blocks "
      "from the generics (`walk_low`, `plane_low`, `init_material_low`, `light_axes_low`, "
      "`light_colour_low`).",
      "`model/setup/processors_setup.cpp`"},
@@ -124,7 +125,7 @@ void add_material(std::string& page, const std::vector<PresetFormats>& presets) 
   auto to = std::back_inserter(page);
   page +=
       "\n## Material of the shading processors\n\n"
-      "Follows the planes of a draw. The words are listed from bit 0 up; a word that the generics do not "
+      "Follows the planes of a triangle. The words are listed from bit 0 up; a word that the generics do not "
       "need "
       "takes no bits. Channels are in the order red, green, blue.\n\n"
       "Computed by `model/setup/processors_setup.cpp`.\n";

@@ -139,8 +139,9 @@ TEST_F(HardwareUnits, ContainOnlyWhatTheSceneNeeds) {
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       Plan processors = plan_of("matte", Shader::processors, preset);
       processors.called_for.processors.form = processors.everything.processors.form = form;
-      const std::vector<std::string> of_effects = {"power", "shadow_counter", "object_stage", "spot_cone"};
+      const std::vector<std::string> of_effects = {"power", "spot_cone"};
       expect_none(processors.called_for, of_effects);
+      expect_none(processors.everything, {"object_processor"});
       for (const std::string& entity : of_effects)
         EXPECT_TRUE(units(processors.everything).contains(entity)) << entity;
       // Version I of the paper does not normalize vectors.

@@ -84,7 +84,7 @@ struct LaneSimulator::State : Hardware {
   /// The unit at the start of the words.
   Unit unit(std::span<const std::uint32_t> words) const {
     const std::size_t vectors =
-        std::clamp<std::size_t>(golden->unit(words), 1, words.size() / vector_words());
+        std::clamp<std::size_t>(golden->group(words), 1, words.size() / vector_words());
     if (!knows_pixels) return {vectors, c_shortest_part};
     return {vectors, static_cast<std::size_t>(golden->all_pixels(words.first(vectors * vector_words()))),
             golden->is_load(words)};
@@ -243,6 +243,11 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
 }
 
 LaneBuild lane_build_of(const HardwareKey& key, const SimulatorFolders& folders, const LaneOptions& options) {
+  if (key.processors.objects > 0)
+    throw Failure{bad_input(fmt::format(
+        "{}: lanes do not simulate object processors, which shadows need: their netlist is too large; use "
+        "another simulator",
+        key.name()))};
   std::string netlist = netlist_of(key, folders);
   const unsigned init_bits = port_bits(netlist, key.entity(), "init_data");
   if (init_bits == 0)

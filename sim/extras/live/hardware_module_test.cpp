@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(Quick, HardwareModule,
 INSTANTIATE_TEST_SUITE_P(Whole, HardwareModule,
                          testing::Values(Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"lights", Shader::spherical, Preset::published},
-                                         Case{"shadows", Shader::processors, Preset::published}));
+                                         Case{"matte", Shader::processors, Preset::published}));
 
 }  // namespace
 }  // namespace halfway

@@ -96,7 +96,9 @@ std::vector<HardwareKey> live_keys(const LiveSettings& settings) {
         for (const words::CosineSize size : cosine_sizes(preset)) {
           PlanRequest request{.shader = shader, .preset = preset};
           if (shader == Shader::spherical) request.tables = size;
-          if (const auto key = planned_key(scene, request)) keys.emplace(key->name(), *key);
+          // Lanes do not simulate object processors.
+          if (const auto key = planned_key(scene, request); key && key->processors.objects == 0)
+            keys.emplace(key->name(), *key);
         }
   std::vector<HardwareKey> sorted;
   for (auto& [name, key] : keys) sorted.push_back(std::move(key));

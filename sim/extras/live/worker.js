@@ -95,7 +95,7 @@ async function planHardware({ shader, preset, tables }) {
       waiting.set(key, receive);
       postMessage({ kind: "need", key });
     });
-    if (!module) throw new Refused(`This page has no hardware ${key}. It has that of the built-in scenes; shading processors in preset exact have at most four lights here. \`make sim\` draws with any hardware.`);
+    if (!module) throw new Refused(`This page has no hardware ${key}. It has that of the built-in scenes, without shadows; shading processors in preset exact have at most four lights here. \`make sim\` draws with any hardware.`);
     hardwareOf.set(key, await start(module));
   }
   hardware = hardwareOf.get(key);

@@ -174,17 +174,17 @@ Result<Frame> LiveFrame::draw_golden(Picture kind) {
   if (Status status = scene_->apply(*drawn_); !status) return status.error();
   const std::unique_ptr<GoldenModel> golden = make_golden_model(*key_);
   FrameAssembler assembler(drawn_->size(), scene_->scene().background);
-  const bool by_line = key_->shader == Shader::processors && key_->processors.shadows;
+  const bool by_strip = key_->processors.objects > 0;
   std::uint32_t header = 0;
   std::vector<Fragment> painted;
   FrameDriver driver = driver_of(*drawn_, {}, GoldenDraws::nothing);
   const Status made = driver.draw([&](const Batch& batch) -> Status {
     if (kind == Picture::golden) return assembler.add(golden->draw(batch.init_words));
-    // Draw triangle by triangle.
+    // Draw triangle by triangle, or strip by strip.
     for (std::span<const std::uint32_t> words = batch.init_words; !words.empty(); ++header) {
       const auto drawn = golden->draw_next(words, 1);
       painted.assign(drawn.begin(), drawn.end());
-      for (Fragment& fragment : painted) paint(fragment, by_line ? fragment.triangle : header);
+      for (Fragment& fragment : painted) paint(fragment, by_strip ? fragment.triangle : header);
       if (Status added = assembler.add(painted); !added) return added;
     }
     return Ok{};

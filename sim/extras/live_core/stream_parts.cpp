@@ -11,7 +11,7 @@ StreamParts parts_of(const GoldenModel& golden, std::span<const std::uint32_t> i
   StreamParts found;
   for (std::uint32_t first = 0; !init_words.empty();) {
     const std::size_t vectors =
-        std::clamp<std::size_t>(golden.unit(init_words), 1, init_words.size() / vector_words);
+        std::clamp<std::size_t>(golden.group(init_words), 1, init_words.size() / vector_words);
     const auto count = static_cast<std::uint32_t>(vectors);
     if (golden.is_load(init_words))
       found.loads.push_back(first);

@@ -117,7 +117,8 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
       HardwareKey key = processors(preset, ProcessorForm::unrolled);
       key.processors.objects = 4;
       key.processors.subpixels = subpixels;
-      all.push_back(shader(fmt::format("objects_shader_4{}_{}", subpixels > 1 ? "_filtered" : "", p), key));
+      all.push_back(
+          shader(fmt::format("processors_shader_objects_4{}_{}", subpixels > 1 ? "_filtered" : "", p), key));
       all.back().ice40 = false;
     }
 
@@ -181,9 +182,6 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     add("power", {is_exact});
     add("unit_vector", {is_exact, {"g_vector_bits", of("vector")}});
     add("spot_cone", {is_exact});
-    // Both presets are the same. The token has no fields that the stage only passes on.
-    if (exact) add("object_stage", {{"g_bits", std::to_string(words::Exact::c_pixel_header_bits)}});
-    if (exact) add("shadow_counter", {});
     for (const char* entity : {"shading_processor", "unrolled_shading_processor"}) {
       const Generics light = {is_exact, {"g_directional", "1"}, {"g_light", "1"}};
       // Those of preset exact do not fit the device.

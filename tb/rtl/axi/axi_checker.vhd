@@ -117,6 +117,8 @@ begin
         g_normalize   => g_hardware.normalize,
         g_shadows     => g_hardware.shadows,
         g_unrolled    => g_hardware.unrolled,
+        g_objects     => g_hardware.objects,
+        g_subpixels   => g_hardware.subpixels,
         g_limit_bits  => g_limit_bits)
       port map (
         aclk          => aclk,
@@ -196,6 +198,9 @@ begin
       else
         more     := vectors > 0;
         next_one := (others => '0');
+        if g_hardware.shader = processors then
+          next_one(request_header(g_hardware.exact).command.low) := '1'; -- new_object
+        end if;
         -- Upper lines: 0 counts as 2**13.
         if kind = empty then
           next_one(c_walk_low + init_header(true).upper_lines.low) := '1';

@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Without and with shadows, by axi_checker. With shadows a new frame takes 2**12 clocks.
+-- The rasterizer, and object processors with shadows, by axi_checker.
 library ieee;
 use ieee.std_logic_1164.all;
 use work.tb_shaders_pkg.all;
@@ -20,7 +20,7 @@ begin
 
   shadows : entity work.axi_checker
     generic map (
-      g_hardware => hardware(processors, positional => 1, shadows => true),
+      g_hardware => hardware(processors, positional => 1, shadows => true, objects => 4),
       g_timed    => false,
       g_faults   => true,
       g_stem     => g_folder & "/shadows_");

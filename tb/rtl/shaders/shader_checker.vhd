@@ -100,7 +100,7 @@ begin
         fault             => fault);
   end generate;
 
-  processors_dut : if g_hardware.shader = processors and g_hardware.objects = 0 generate
+  processors_dut : if g_hardware.shader = processors generate
     dut : entity work.processors_shader
       generic map (
         g_exact       => g_hardware.exact,
@@ -112,37 +112,6 @@ begin
         g_specular    => g_hardware.specular,
         g_normalize   => g_hardware.normalize,
         g_shadows     => g_hardware.shadows,
-        g_unrolled    => g_hardware.unrolled)
-      port map (
-        clk               => clk,
-        reset             => reset,
-        init_valid        => init_valid,
-        init_ready        => init_ready,
-        init_data         => init_data,
-        fragment_valid    => fragment_valid,
-        fragment_ready    => fragment_ready,
-        fragment_triangle => fragment_triangle,
-        fragment_y        => fragment_y,
-        fragment_x        => fragment_x,
-        fragment_z        => fragment_z,
-        fragment_red      => fragment_red,
-        fragment_green    => fragment_green,
-        fragment_blue     => fragment_blue,
-        busy              => busy,
-        fault             => fault);
-  end generate;
-
-  objects_dut : if g_hardware.shader = processors and g_hardware.objects > 0 generate
-    dut : entity work.objects_shader
-      generic map (
-        g_exact       => g_hardware.exact,
-        g_channels    => g_hardware.channels,
-        g_directional => g_hardware.directional,
-        g_positional  => g_hardware.positional,
-        g_spots       => g_hardware.spots,
-        g_diffuse     => g_hardware.diffuse,
-        g_specular    => g_hardware.specular,
-        g_normalize   => g_hardware.normalize,
         g_unrolled    => g_hardware.unrolled,
         g_objects     => g_hardware.objects,
         g_subpixels   => g_hardware.subpixels)

@@ -1,11 +1,13 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Both forms in both presets, several lights. Light definitions, shadow polygons and new frames are mixed with the
--- objects. Every output object is compared with the golden model's: at full speed, with a slow source, with a slow
+-- Both forms in both presets, several lights. Light definitions, shadow polygons, heads and new frames are mixed with the
+-- objects; the last token is for a light that does not exist. Every output object is compared with the golden model's: at full speed, with a slow source, with a slow
 -- sink.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.formats_pkg.all;
 use work.processors_pkg.all;
+use work.token_pkg.all;
 use work.tb_processors_pkg.all;
 use work.tb_pkg.all;
 
@@ -77,7 +79,7 @@ begin
       variable vectors : vectors_t;
       variable word    : std_logic_vector(in_token'range);
       variable comes   : std_logic;
-      variable faulty  : std_logic;
+      variable faulty  : std_logic := '0'; -- after the token
     begin
       vectors.open_file(c_file);
       while vectors.next_vector loop
@@ -111,11 +113,28 @@ begin
       finish(finished);
     end process;
 
+    -- fault is '1' after a token for a light that does not exist was offered, and only then.
+    missing_light : process (clk) is
+      variable expected : std_logic := '0';
+    begin
+      if rising_edge(clk) then
+        assert fault = expected or reset = '1'
+          report c_file & ": fault is " & to_string(fault) & ", expected " & to_string(expected) severity failure;
+        if in_valid = '1' and unsigned(in_token(2 downto 0)) >= c_define
+          and unsigned(field_of(in_token, pixel_header(c_config.exact).light)) > lights(c_config) then
+          expected := '1';
+        end if;
+        if reset = '1' then
+          expected := '0';
+        end if;
+      end if;
+    end process;
+
     -- After the last object only tokens that are discarded may follow.
     dropped : process (clk) is
     begin
       if rising_edge(clk) and out_valid = '1' then
-        assert unsigned(out_token(2 downto 0)) <= c_new_scanline
+        assert unsigned(out_token(2 downto 0)) = c_new_object
           report c_file & ": a token leaves that is no object" severity failure;
       end if;
     end process;

@@ -5,7 +5,6 @@
 #include <bit>
 
 #include "frame/frame.hpp"
-#include "golden/shadow_counter.hpp"
 #include "plan/plan.hpp"
 #include "projection/project.hpp"
 #include "registry.hpp"
@@ -73,16 +72,6 @@ Finding largest_divisor(const Context&, const Stated& stated) {
   return finding;
 }
 
-Finding deepest_count(const Context&, const Stated&) {
-  golden::ShadowCounter counter;
-  for (int i = 0; i < 1000; ++i) counter.count(0, false);
-  for (int i = 0; i < 1000; ++i) counter.count(1, true);
-  const int least = counter.held(0), most = counter.held(1);
-  return {.worst = static_cast<double>(std::max(-least, most)),
-          .where = fmt::format("1000 volumes closed: {}; opened: {}", least, most),
-          .proved = static_cast<double>(std::max(-least, most))};
-}
-
 }  // namespace
 
 std::vector<Check> integer_checks() {
@@ -95,7 +84,9 @@ std::vector<Check> integer_checks() {
       {"both", "span_x", "", "triangles about the guard band, walked", largest_pixel},
       limit("both", "command", static_cast<double>(words::Command::shadow), "Command::shadow"),
       limit("both", "light", c_most_lights, "c_most_lights"),
-      {"both", "shadow_count", "", "the golden counter past its ends", deepest_count},
+      limit("both", "shadow_count",
+            static_cast<double>(words::low_bits(~0ULL, words::Exact::c_shadow_count_bits - 1)),
+            "setup limits the volumes around the eye"),
       {"exact", "edge_error", "", "an edge with the height of the guard band", largest_divisor,
        "17 bits suffice"},
       {"exact", "edge_x", "", "triangles about the guard band, walked", largest_pixel},

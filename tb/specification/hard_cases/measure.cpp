@@ -16,9 +16,8 @@ long double colour_error(const Fragment& f, const LongVec& radiance) {
   return std::max({off.x, off.y, off.z});
 }
 
-Pieces::Pieces(const Scene& scene, FrameSize frame, int subpixel_bits)
-    : subpixel_bits_(subpixel_bits),
-      pieces_(Projector(scene, frame, {.subpixel_bits = subpixel_bits}).project_all()) {
+Pieces::Pieces(const Scene& scene, FrameSize frame)
+    : pieces_(Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all()) {
   std::ranges::stable_sort(pieces_, {}, &ScreenTriangle::source);
 }
 
@@ -29,14 +28,14 @@ std::span<const ScreenTriangle> Pieces::pieces_of(std::uint32_t source) const {
 
 const ScreenTriangle* Pieces::covering(std::uint32_t source, std::int64_t x, std::int64_t y) const {
   for (const ScreenTriangle& t : pieces_of(source))
-    if (covers(screen_points(t), subpixel_bits_, x, y)) return &t;
+    if (covers(screen_points(t), c_subpixel_bits, x, y)) return &t;
   return nullptr;
 }
 
 const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std::int64_t y) const {
   const auto least = [&](const ScreenTriangle& t) {
     return std::ranges::min(
-        barycentric(screen_points(t), centre(x, subpixel_bits_), centre(y, subpixel_bits_)).real());
+        barycentric(screen_points(t), centre(x, c_subpixel_bits), centre(y, c_subpixel_bits)).real());
   };
   const auto pieces = pieces_of(source);
   return *std::max_element(

@@ -36,7 +36,7 @@ long double colour_error(const Fragment& f, const LongVec& radiance);
 /// The triangles of a scene on the screen. Clipping makes several pieces of one triangle.
 class Pieces {
  public:
-  Pieces(const Scene& scene, FrameSize frame, int subpixel_bits = c_subpixel_bits);
+  Pieces(const Scene& scene, FrameSize frame);
   const std::vector<ScreenTriangle>& all() const { return pieces_; }
   /// The piece of triangle `source` of the scene that covers the pixel, or nullptr.
   const ScreenTriangle* covering(std::uint32_t source, std::int64_t x, std::int64_t y) const;
@@ -48,7 +48,6 @@ class Pieces {
  private:
   std::span<const ScreenTriangle> pieces_of(std::uint32_t source) const;
 
-  int subpixel_bits_;
   std::vector<ScreenTriangle> pieces_;  ///< in order of their sources
 };
 

@@ -48,9 +48,8 @@ struct Promise {
 
 class ShadingBound {
  public:
-  /// The scene must outlive it. The triangles' coordinates are in 1/2^subpixel_bits of a pixel.
-  ShadingBound(const Scene& scene, FrameSize frame, int subpixel_bits = 4)
-      : scene_(scene), subpixel_bits_(subpixel_bits), lights_(reflected_lights(scene)) {
+  /// The scene must outlive it. The triangles' coordinates are in 1/16 of a pixel.
+  ShadingBound(const Scene& scene, FrameSize frame) : scene_(scene), lights_(reflected_lights(scene)) {
     const double height = std::tan(0.5 * glm::radians(scene.camera.vertical_fov_degrees));
     // A power of two that is at least half of the largest possible scale.
     ray_scale_ = 0.5L / std::max({1.0, height, height * frame.width / frame.height});
@@ -70,7 +69,7 @@ class ShadingBound {
   template <class Lit>
   Promise at(const ScreenTriangle& t, std::int64_t x, std::int64_t y, Lit&& lit) const {
     const Material& m = scene_.materials[t.material];
-    const ExactSurface s = surface(t, subpixel_bits_, x, y);
+    const ExactSurface s = surface(t, c_bits, x, y);
     const Surface surface = surface_of(t, s, x, y);
     Promise promise{};
     for (int c = 0; c < 3; ++c)
@@ -108,8 +107,7 @@ class ShadingBound {
   Surface surface_of(const ScreenTriangle& t, const ExactSurface& s, std::int64_t x, std::int64_t y) const {
     Surface out{};
     out.position = s.position_world;
-    const auto weight =
-        barycentric(screen_points(t), centre(x, subpixel_bits_), centre(y, subpixel_bits_)).real();
+    const auto weight = barycentric(screen_points(t), centre(x, c_bits), centre(y, c_bits)).real();
     long double inverse_w = 0.0L, most = 0.0L;
     for (std::size_t i = 0; i < 3; ++i) {
       inverse_w += weight[i] * (long double)t.vertex[i].inverse_w;
@@ -247,7 +245,7 @@ class ShadingBound {
                                c_most_reflected = 0x1p14L - 0x1p-8L;
 
   const Scene& scene_;
-  int subpixel_bits_;
+  static constexpr int c_bits = 4;  ///< below a pixel
   std::vector<LightRef> lights_;
   long double ray_scale_ = 0.5L, distance_scale_ = 1.0L;
 };
