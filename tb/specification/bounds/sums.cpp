@@ -90,8 +90,8 @@ Finding reflected(const Context&, const Stated& stated) {
     processor.process(token);
     const double exact = std::ldexp(double(light.light.intensity[0]) * double(token.ambient[0]),
                                     -P::c_light_intensity_fraction_bits - P::c_coefficient_fraction_bits);
-    const double error =
-        std::fabs(std::ldexp(double(token.radiance[0]), -P::c_radiance_fraction_bits) - exact);
+    const double term = double(token.radiance[0]) - double(token.c_first_radiance);
+    const double error = std::fabs(std::ldexp(term, -P::c_radiance_fraction_bits) - exact);
     keep_worst(finding, error, [&] {
       return fmt::format("k {}, I {} in units", token.ambient[0], light.light.intensity[0]);
     });
@@ -153,6 +153,7 @@ Finding radiance(const Context&, const Stated& stated) {
   token.exponent = c_exponent;
   golden::ShadingProcessor<P>(config, words::Term::ambient, 0).process(token);
   token.view = best.to_light;
+  token.radiance = {};
   for (int light = 1; light <= c_lights; ++light)
     for (const bool diffuse : {true, false}) {
       const std::uint32_t r = diffuse ? best.diffuse_light : best.specular_light;

@@ -209,8 +209,8 @@ class Cover {
         ++pixels_[{x, y}];
       });
   }
-  /// Pixels that are drawn too often or not often enough. Each piece draws its pixels once; with an object
-  /// stage each pixel is drawn once.
+  /// Pixels that are drawn too often or not often enough. Each piece draws its pixels once; with object
+  /// processors each pixel is drawn once.
   std::uint64_t wrong(const std::vector<Fragment>& fragments, bool nearest_alone) const {
     std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, int> drawn;
     std::map<std::pair<std::int64_t, std::int64_t>, int> pixels;
@@ -269,7 +269,7 @@ class SceneSearch final : public Search {
     const Pieces pieces(scene, frame);
     Worst coverage, colour;
     coverage.add(
-        static_cast<double>(Cover(pieces, frame).wrong(drawing->golden, drawing->key.processors.shadows)), 0,
+        static_cast<double>(Cover(pieces, frame).wrong(drawing->golden, drawing->key.processors.objects > 0)), 0,
         [] { return "pixels"; });
     const std::string wrong = tally.add("coverage", coverage);
     if (published || !wrong.empty()) return wrong;
