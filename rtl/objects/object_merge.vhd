@@ -70,7 +70,7 @@ architecture rtl of object_merge is
 
   function is_shadow (word : std_logic_vector) return boolean is
   begin
-    return g_config.shadows and command_of(c_exact, word) = c_shadow;
+    return command_of(c_exact, word) = c_shadow;
   end function;
 
   function is_hidden (word : std_logic_vector; covered : mask_t) return std_logic is
