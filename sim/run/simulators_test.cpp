@@ -50,7 +50,7 @@ TEST_F(Simulators, AFaultThatTheHardwareReportsIsDetected) {
   for (const char* delay : {"0", "4"}) {
     write_rtl(
         {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
-    expect_both_fail("shadow counter", "shadow counter");
+    expect_both_fail("refused a vector", "refused a vector");
   }
 }
 

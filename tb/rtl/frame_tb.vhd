@@ -215,7 +215,7 @@ begin
     procedure check_fault is
     begin
       if fault /= '0' then
-        report "a shadow counter left its range, by cycle " & to_string(cycle) & ": fault is " & to_string(fault)
+        report "the hardware refused a vector, by cycle " & to_string(cycle) & ": fault is " & to_string(fault)
           severity failure;
       end if;
     end procedure;
@@ -384,7 +384,7 @@ begin
       drive;
     end loop;
 
-    -- Wait for fault: the shadow counter may set it some clocks after the token that causes it.
+    -- Wait for fault: the hardware may set it some clocks after the vector that causes it.
     for i in 1 to c_late_cycles loop
       wait until rising_edge(clk);
       check_fault;

@@ -29,7 +29,7 @@ class Cuts {
   /// Returns the number of the first vector of each part; that of the first part is 0. It depends on the
   /// frame only, not on the machine. The first part has an eighth of all clocks, later parts have fewer, so
   /// that threads that take part after part end together. The result is a single part if triangles depend on
-  /// earlier vectors (shading processors: lights, shadow counters), or if the frame is small.
+  /// earlier vectors (shading processors: lights), or if the frame is small.
   std::vector<std::uint64_t> parts() const;
 
  private:

@@ -22,7 +22,7 @@ enum HalfwayStatus {
   halfway_buffer_full = 1,  // call again with free space
   halfway_hang = 2,         // no progress for idle_limit cycles
   halfway_changed = 3,      // a fragment changed or was withdrawn while it waited
-  halfway_fault = 4         // the hardware reports an error: a shadow counter left its range
+  halfway_fault = 4         // the hardware refused a vector
 };
 
 struct HalfwayOptions {

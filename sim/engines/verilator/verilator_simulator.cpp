@@ -165,7 +165,7 @@ Status VerilatorSimulator::advance(std::span<const std::uint32_t> init_words, bo
                         s.name, s.cycles(s.model))};
       case halfway_fault:
         return Error{ExitCode::differs,
-                     fmt::format("{} in Verilator: a shadow counter left its range, by cycle {}", s.name,
+                     fmt::format("{} in Verilator: the hardware refused a vector, by cycle {}", s.name,
                                  s.cycles(s.model))};
       default:
         return tool_failed(fmt::format("{} in Verilator: unknown status {}", s.name, status));
