@@ -41,13 +41,7 @@ class Cutter {
     return std::min(static_cast<std::uint32_t>(end) + (chain_.filtered() ? 1U : 0U), limit);
   }
 
-  // The pixels in which an item may cover something.
-  Columns columns_of(const StripItem& p) const {
-    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
-    return {std::int64_t{left} >> unit_bits_, (std::int64_t{right} >> unit_bits_) + 1};
-  }
-
-  // The items that may draw something in the columns.
+  // The items that may draw something in the columns, and the columns in which an item may.
   Items in_columns(std::span<const StripItem> items, const Items& from, const Columns& columns) const {
     Items inside;
     for (const std::uint32_t item : from)
@@ -55,9 +49,10 @@ class Cutter {
         inside.push_back(item);
     return inside;
   }
-  Columns drawn_by(const StripItem& item) const {
-    const Columns own = columns_of(item);
-    return {own.begin, own.end + (chain_.filtered() ? 1 : 0)};
+  Columns drawn_by(const StripItem& p) const {
+    const auto [left, right] = std::minmax({p[0].x, p[1].x, p[2].x});
+    return {std::int64_t{left} >> unit_bits_,
+            (std::int64_t{right} >> unit_bits_) + (chain_.filtered() ? 2 : 1)};
   }
 
   // Draws the columns [begin, end) of the frame.
@@ -74,8 +69,9 @@ class Cutter {
     const Items shadows = in_columns(shadows_, all_shadows, columns);
     const std::uint32_t left = scanned_from(columns.begin);
     const Tile area{left, 0, {static_cast<std::uint32_t>(columns.end) - left, frame_.height}};
-    const std::vector<Tile> runs = runs_of(count(objects_, objects, area), area);
-    const Lines on_line = sum(count(objects_, objects, area), count(shadows_, shadows, area));
+    const Lines objects_on_line = count(objects_, objects, area);
+    const std::vector<Tile> runs = runs_of(objects_on_line, area);
+    const Lines on_line = sum(objects_on_line, count(shadows_, shadows, area));
     std::uint32_t most = 0;
     for (const Tile& run : runs)
       most = std::max(most,

@@ -455,7 +455,10 @@ class ProcessorsSetup final : public Setup {
     InitVector init = request(words, Command::shadow, counts, static_cast<int>(shadow.polygon.light) + 1);
     init.put(Request::opens, shadow.polygon.opens);
     DepthWords depth{0, 0, 0, 0};
-    if (const PlaneFit fit = plane_fit(t); !shadow.before_near) depth = depth_words(fit, t, fit.at(first));
+    if (!shadow.before_near) {
+      const PlaneFit fit = plane_fit(t);
+      depth = depth_words(fit, t, fit.at(first));
+    }
     put_header(init, t.source, walk, depth, layout_.walk_low());
   }
 

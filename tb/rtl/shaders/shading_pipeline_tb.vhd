@@ -1,7 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Both forms in both presets, several lights. Light definitions, shadow polygons, heads and new frames are mixed with the
--- objects; the last token is for a light that does not exist. Every output object is compared with the golden model's: at full speed, with a slow source, with a slow
--- sink.
+-- objects; the last token is for a light that does not exist. Every output object is compared with the golden model's: at
+-- full speed, with a slow source, with a slow sink.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;

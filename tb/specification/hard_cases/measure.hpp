@@ -20,6 +20,9 @@ namespace halfway::stability {
 
 inline constexpr double c_infinity = std::numeric_limits<double>::infinity();
 inline constexpr int c_subpixel_bits = 4;  ///< of preset exact
+/// Object processors of the golden model in scenes with shadows. The RTL with c_object_processors draws those
+/// scenes that need no more.
+inline constexpr unsigned c_golden_objects = 64;
 inline constexpr ProcessorForm c_forms[] = {ProcessorForm::folded, ProcessorForm::unrolled};
 
 inline double or_infinity(long double figure) {

@@ -24,9 +24,6 @@
 namespace halfway::stability {
 namespace {
 
-// Object processors of the golden model, for scenes with shadows.
-constexpr unsigned c_most_objects = 64;
-
 struct Input {
   Scene scene;
   FrameSize frame;
@@ -256,13 +253,13 @@ class SceneSearch final : public Search {
   std::string failure_of(const Input& input, Tally& tally) const {
     const auto& [scene, frame, input_plan, many_lights, setup] = input;
     PlanRequest plan = input_plan;
-    if (scene.shadows) plan.objects = c_most_objects;
+    if (scene.shadows) plan.objects = c_golden_objects;
     const bool published = plan.preset == Preset::published;
     ++tally.inputs;
     const Result<Drawing> drawing = draw_golden(scene, {.plan = plan, .frame = frame, .setup = setup});
     if (!drawing) return "plan: " + drawing.error().message;
     tally.fragments += drawing->golden.size();
-    if (drawing->counts.objects > c_most_objects) return "";  // refused
+    if (drawing->counts.objects > c_golden_objects) return "";  // refused
     if (drawing->fault) return "the hardware refused a vector";
     // The spans of preset published's spherical shader cover by other rules.
     if (shader_ == Shader::spherical && published) return "";

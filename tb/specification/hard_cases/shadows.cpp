@@ -23,10 +23,6 @@ namespace {
 
 constexpr unsigned c_lights = 3;
 
-// Object processors of the golden model, for all scenes here. The RTL with c_object_processors draws those
-// scenes that need no more.
-constexpr unsigned c_most_objects = 64;
-
 PlanRequest request_of(ProcessorForm form) {
   return {.shader = Shader::processors, .all_effects = true, .lights = c_lights, .form = form};
 }
@@ -259,7 +255,7 @@ void cast(Trial& trial, Scene scene, std::string_view name, Sum& sum, bool with_
   set_colours(scene);
   const FrameSize frame = frame_of(trial);
   PlanRequest request = request_of(ProcessorForm::unrolled);
-  request.objects = c_most_objects;
+  request.objects = c_golden_objects;
   const Drawing drawing = must(draw_golden(scene, {.plan = request, .frame = frame}));
   trial.require(!drawing.fault, [&] {
     return fmt::format("{}: fault; {} object processors are needed", name, drawing.counts.objects);
