@@ -75,7 +75,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
 // The device's clocks, and without its placer none but the stored ones.
 TEST_F(StudyCommandTest, NamesTheDevice) {
   EXPECT_THAT(study({}), Ends(0, HasSubstr("clocks on an ECP5 LFE5U-85F: 1 stored, 0 placed, 0 not known")));
-  EXPECT_THAT(must(read_file(folder_.path() / "out/times.csv")), HasSubstr(",ECP5 LFE5U-85F\n"));
+  EXPECT_THAT(must(read_file(folder_.path() / "out/times.csv")), HasSubstr(",ECP5 LFE5U-85F,\n"));
   EXPECT_THAT(study({"--device", "hx8k"}), Ends(0, HasSubstr("clocks on an iCE40 HX8K: 1 stored")));
   EXPECT_THAT(must(read_file(folder_.path() / "out/study.csv")), HasSubstr(",iCE40 HX8K,"));
   const std::filesystem::path bin = folder_.path() / "bin";

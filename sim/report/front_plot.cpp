@@ -57,15 +57,24 @@ std::string series_of(const Table& table, std::size_t row) {
   if (preset.empty()) return method + " (software)";
   const std::string& form = table.text(row, "form");
   return method + (preset == "exact" ? "" : ", " + preset) + (form == "folded" ? ", folded" : "") +
+         (table.text(row, "objects").empty() ? "" : ", object processors") +
          (table.text(row, "highlight_test") == "centroid" ? ", centroid" : "") +
          (table.text(row, "span_ends") == "slerp" ? ", slerp" : "");
 }
 
-std::string picture_of(const Table& table, std::size_t row) {
+bool is_filtered(const Table& table, std::size_t row) {
+  return table.number(row, "subpixels").value_or(1) > 1;
+}
+
+std::string frame_of(const Table& table, std::size_t row) {
   std::string text;
   for (const char* column : {"scene_hash", "tessellation", "exponent", "width", "height"})
     text += table.text(row, column) + " ";
   return text;
+}
+
+std::string picture_of(const Table& table, std::size_t row) {
+  return frame_of(table, row) + (is_filtered(table, row) ? "filtered" : "");
 }
 
 std::vector<std::pair<double, double>> lower_left(const std::vector<PlotPoint>& points) {

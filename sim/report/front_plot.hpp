@@ -16,7 +16,11 @@ namespace halfway::report {
 bool is_hardware(const Table& table, std::size_t row);
 /// Name of a point's series in a plot: its hardware without table sizes and thresholds.
 std::string series_of(const Table& table, std::size_t row);
-/// Text that is equal for points with equal pictures.
+/// The picture is filtered, and its error is against a filtered reference.
+bool is_filtered(const Table& table, std::size_t row);
+/// Text that is equal for points of the same scene and size, filtered or not.
+std::string frame_of(const Table& table, std::size_t row);
+/// Text that is equal for points with equal pictures, and so the same reference.
 std::string picture_of(const Table& table, std::size_t row);
 /// The lower left boundary of the points that are not `aside`: those that no other point beats in both axes,
 /// from left to right.

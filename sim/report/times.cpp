@@ -51,13 +51,21 @@ constexpr Mark c_marks[] = {
     {"quadratic exact", {c_plot_colours[2], 7}},  {"quadratic published", {c_plot_colours[2], 6}},
     {"spherical exact", {c_plot_colours[9], 5}},  {"spherical published", {c_plot_colours[9], 4}},
     {"processors exact", {c_plot_colours[4], 9}}, {"processors published", {c_plot_colours[4], 8}},
+    {"filtered exact", {c_plot_colours[4], 11}},  {"filtered published", {c_plot_colours[4], 10}},
     {"software", {c_plot_colours[0], 2}}};
 
 std::size_t mark_of(const Table& table, std::size_t row) {
   if (!is_hardware(table, row)) return std::size(c_marks) - 1;
   const std::string& method = table.text(row, "method");
-  const std::size_t shader = method == "spherical" ? 1 : method.starts_with("processors") ? 2 : 0;
+  const bool processors = method.starts_with("processors"), filtered = is_filtered(table, row);
+  const std::size_t shader = method == "spherical" ? 1 : filtered ? 3 : processors ? 2 : 0;
   return 2 * shader + (table.text(row, "preset") == "exact" ? 0 : 1);
+}
+
+bool has_filtered(const Table& picture) {
+  for (std::size_t row = 0; row < picture.rows.size(); ++row)
+    if (is_filtered(picture, row)) return true;
+  return false;
 }
 
 Plot times_plot(const Table& picture) {
@@ -75,6 +83,7 @@ Plot times_plot(const Table& picture) {
                            .series = mark_of(picture, row),
                            .number = row,
                            .name = picture.text(row, "point"),
+                           .aside = is_filtered(picture, row),
                            .ring = is_hardware(picture, row) && picture.text(row, "bound") == "host"});
   }
   // Name the points of the front; of equal ones the first.
@@ -97,12 +106,17 @@ std::vector<std::size_t> by_time(const Table& picture) {
   return rows;
 }
 
-// The rows that no other row beats in time and error, from the quickest.
+// The rows that no other row beats in time and error, from the quickest. Filtered pictures are not compared.
 std::vector<std::size_t> front_rows(const Table& picture) {
   std::vector<study::Costs> costs;
-  for (std::size_t row = 0; row < picture.rows.size(); ++row)
+  std::vector<std::size_t> rows, front;
+  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
+    if (is_filtered(picture, row)) continue;
     costs.push_back({ms(picture, row, "overlapped_ns"), rms(picture, row)});
-  return study::ordered_front_of(costs);
+    rows.push_back(row);
+  }
+  for (const std::size_t at : study::ordered_front_of(costs)) front.push_back(rows[at]);
+  return front;
 }
 
 std::string table_of(const Table& picture, const std::vector<std::size_t>& rows) {
@@ -143,7 +157,7 @@ std::vector<std::size_t> short_rows(const Table& picture, const std::vector<std:
     std::optional<std::size_t> best;
     for (const std::size_t row : all)
       if (picture.text(row, "method") == method && picture.text(row, "preset") == "exact" &&
-          (!best || rms(picture, row) < rms(picture, *best)))
+          !is_filtered(picture, row) && (!best || rms(picture, row) < rms(picture, *best)))
         best = row;
     if (best) chosen.insert(*best);
   }
@@ -178,7 +192,7 @@ std::vector<Table> pictures_of(const Table& times) {
   std::vector<Table> pictures;
   std::vector<std::string> names;
   for (std::size_t row = 0; row < times.rows.size(); ++row) {
-    const std::string name = picture_of(times, row);
+    const std::string name = frame_of(times, row);
     const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
     if (at == names.size()) {
       names.push_back(name);
@@ -211,15 +225,17 @@ std::string readme_times(const Table& times) {
       "*{0} designs draw one grey sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
       "host's set-up on one core, and the hardware at its clock on an {4}. The transfer between them and "
       "the depth test after the hardware are not counted. On the dashed line, no other design is both "
-      "quicker and more accurate. phong, phong-mesa: Phong shading per pixel in software on one core, by "
-      "the "
-      "reference in double precision and by OpenGL on Mesa's llvmpipe. planes: Gouraud's shading in "
-      "hardware. adaptive: quadratic, triangles split until the estimated error is below the threshold, in "
-      "colour steps; quadratic: never split.*\n\n"
+      "quicker and more accurate. phong, phong-mesa: Phong shading per pixel in software on one core: "
+      "the reference, and OpenGL on Mesa's llvmpipe. planes: Gouraud's shading in hardware. adaptive: "
+      "quadratic, triangles split until the estimated error is below the threshold, in colour steps; "
+      "quadratic: never split.{5}*\n\n"
       "| design | ms per frame, overlapped | bound by | in sequence | rms error, 1/255 | largest |\n"
       "| --- | --- | --- | --- | --- | --- |\n",
       picture.rows.size(), plot_name(picture), picture.text(0, "triangles"), size_of(picture),
-      device_of(picture));
+      device_of(picture),
+      has_filtered(picture)
+          ? " The errors of filtered pictures are against a filtered reference; the line leaves them out."
+          : "");
   const std::vector<std::size_t> rows = short_rows(picture, front);
   for (const std::size_t row : rows)
     text += fmt::format("| {} | {} | {} | {} | {:.3g} | {} |\n", picture.text(row, "design"),

@@ -70,6 +70,26 @@ TEST_F(TimesTest, SentencesAreOfTheFront) {
                     HasSubstr("| phong | 10 | host | 10 | 10 | – | – | – | – | 0 | 0 | 0 |")));
 }
 
+// Their errors are against another reference.
+TEST_F(TimesTest, FilteredPicturesAreNotOnTheFront) {
+  EXPECT_THAT(readme_times(read(c_times)), Not(HasSubstr("filtered")));
+  Table times = read(c_times);
+  times.columns.emplace_back("subpixels");
+  for (std::vector<std::string>& row : times.rows) row.emplace_back();
+  std::vector<std::string> filtered = times.rows.front();  // as quick as the quickest
+  filtered[2] = filtered[3] = "f";
+  filtered[20] = "0.1";
+  filtered.back() = "16";
+  times.rows.push_back(filtered);
+  EXPECT_EQ(pictures_of(times).size(), 2U);
+  EXPECT_THAT(readme_times(times),
+              AllOf(HasSubstr("*8 designs draw"), HasSubstr("against a filtered reference"),
+                    HasSubstr("| q | 1 |"), Not(HasSubstr("| f |"))));
+  EXPECT_THAT(page_times(times), HasSubstr("| f | 1 | hardware |"));
+  write_times(times, here() / "out", here());
+  EXPECT_THAT(must(read_file(here() / "out/times-ball-64x48.svg")), HasSubstr("filtered published"));
+}
+
 TEST_F(TimesTest, WithoutDesignsThereIsNothingToSay) {
   EXPECT_THROW(page_times(read("point,method\n")), Failure);
   EXPECT_THROW(readme_times(read("point,method\n")), Failure);

@@ -212,6 +212,18 @@ constexpr Knob c_knobs[] = {
     {"threshold", false, [](const Point& p) { return p.has_threshold(); },
      [](const Value& v, Point& p) { p.threshold = v.number(0.01, 255.0); },
      [](const Point& p) { return fmt::format("{:g}", p.threshold); }},
+    {"objects", false, is_processors,
+     [](const Value& v, Point& p) {
+       p.objects = static_cast<unsigned>(v.whole(0, c_most_object_processors));
+     },
+     [](const Point& p) { return p.objects > 0 ? std::to_string(p.objects) : ""; }},
+    {"subpixels", false, [](const Point& p) { return p.objects > 0; },
+     [](const Value& v, Point& p) {
+       p.subpixels = static_cast<unsigned>(v.whole(1, 16));
+       if (p.subpixels != 1 && p.subpixels != 4 && p.subpixels != 16) v.fail("takes 1, 4 or 16");
+       if (is_processors(p) && p.filtered() && p.objects == 0) v.fail("above 1 is only allowed with objects");
+     },
+     [](const Point& p) { return std::to_string(p.subpixels); }},
 };
 
 void Sweep::multiply(std::vector<DesignPoint>& points, const Knob& knob) const {
@@ -274,6 +286,7 @@ std::string DesignPoint::picture() const {
   if (in_tiles()) text += " in tiles of " + to_string(tile);
   if (tessellation != 1.0) text += fmt::format(", tessellation {:g}", tessellation);
   if (exponent) text += fmt::format(", exponent {:g}", *exponent);
+  if (filtered()) text += ", filtered";
   return text;
 }
 
@@ -287,6 +300,8 @@ std::string DesignPoint::design() const {
   if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);
   if (words.newton) text += *words.newton ? " with Newton" : " without Newton";
   if (is_processors(*this) && form == ProcessorForm::folded) text += " folded";
+  if (objects > 0) text += fmt::format(" objects {}", objects);
+  if (filtered()) text += fmt::format(" subpixels {}", subpixels);
   if (method == Method::adaptive && test != HighlightTest::conservative)
     text += fmt::format(" {}", to_string(test));
   if (has_ends() && ends != SpanEnds::on_surface) text += fmt::format(" {}", to_string(ends));
@@ -316,6 +331,8 @@ PlanRequest DesignPoint::plan() const {
   } else if (is_processors(*this)) {
     request.shader = Shader::processors;
     request.form = form;
+    request.objects = objects;
+    request.subpixels = subpixels;
   }
   return request;
 }

@@ -14,6 +14,7 @@
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "words/generator/word_lengths.hpp"
+#include "words/object_limits.hpp"
 
 namespace halfway::study {
 
@@ -50,6 +51,8 @@ struct DesignPoint {
   bool own_tables = false;                       ///< of spherical in preset exact; then `tables` has a value
   tables::WordLengths words{};                   ///< of the method; std::nullopt: the preset's lengths
   ProcessorForm form = ProcessorForm::unrolled;  ///< of processors methods
+  unsigned objects = 0;                          ///< of processors methods, as PlanRequest::objects
+  unsigned subpixels = 1;                        ///< of points with `objects`, as PlanRequest::subpixels
   HighlightTest test = HighlightTest::conservative;  ///< of adaptive
   SpanEnds ends = SpanEnds::on_surface;              ///< of spherical in preset exact
   double threshold = 2.0;          ///< colour steps; of adaptive, and of spherical with ends on the surface
@@ -69,6 +72,8 @@ struct DesignPoint {
   /// size of cosine tables that are not the scene's own, which changes constants only (measured: 14 of a
   /// million instructions).
   std::string host_work() const;
+  /// The picture and its reference are filtered.
+  bool filtered() const { return words::has_filter(static_cast<int>(subpixels)); }
   bool in_tiles() const { return size.width > tile.width || size.height > tile.height; }
   /// The tiles of the frame; one tile if the frame is not larger than a tile.
   std::vector<Tile> tiles() const { return tiles_of(size, tile); }

@@ -154,6 +154,10 @@ TEST_F(SpaceTest, ErrorsNameFileAndLine) {
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"large\"\n"), HasSubstr("size takes"));
   EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\ntile = \"15x100\"\n"),
               HasSubstr("space.toml:3: tile takes WIDTHxHEIGHT in pixels, such as 640x480, each 16 to 4096"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\nobjects = 8\nsubpixels = 9\n"),
+              HasSubstr("space.toml:4: subpixels takes 1, 4 or 16"));
+  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\nsubpixels = 4\n"),
+              HasSubstr("space.toml:3: subpixels above 1 is only allowed with objects"));
   EXPECT_THAT(message_of(""), HasSubstr("no sweep"));
   EXPECT_THAT(message_of("[[sweep]\n"), HasSubstr("space.toml:1:"));
 }
@@ -175,6 +179,8 @@ TEST(DesignPoint, NameContainsAllParameters) {
   EXPECT_EQ(point.setup().spherical.ends, SpanEnds::slerped_along_edges);
   point = {.method = Method::processors_2, .form = ProcessorForm::folded, .tessellation = 0.5};
   EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
+  point = {.method = Method::processors_2, .objects = 8, .subpixels = 16};
+  EXPECT_EQ(point.name(), "processors-2 exact objects 8 subpixels 16, 320x240, filtered");
 }
 
 // The tile appears in the name only if the frame is larger.

@@ -49,7 +49,8 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
           {"clock_mhz", time.mhz ? fmt::format("{:.1f}", *time.mhz) : ""},
           {"highlight_test", p.method == Method::adaptive ? to_string(p.test) : ""},
           {"span_ends", p.has_ends() ? to_string(p.ends) : ""},
-          {"device", time.device}};
+          {"device", time.device},
+          {"subpixels", p.objects > 0 ? fmt::format("{}", p.subpixels) : ""}};
 }
 
 constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";

@@ -37,6 +37,8 @@ std::vector<double> own_exponents_of(const DesignPoint& point, const Scene& scen
 }  // namespace
 
 PointHardware hardware_of(const DesignPoint& point, const Scene& scene) {
+  if (point.filtered() && point.in_tiles())
+    throw Failure{bad_input("filtered frames are not drawn in tiles; give a larger tile")};
   PointHardware hardware;
   PlanRequest request = point.plan();
   request.own = own_exponents_of(point, scene);

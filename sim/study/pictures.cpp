@@ -10,11 +10,17 @@
 namespace halfway::study {
 namespace {
 
+// As the shader's picture: filtered or not.
+ReferenceImage draw(const Scene& scene, const Subject& subject, const RenderOptions& options, bool filtered) {
+  return filtered ? render_filtered(scene, subject.triangles, options, words::c_filter_weights)
+                  : render_reference(scene, subject.triangles, options);
+}
+
 std::vector<std::uint8_t> highlight_mask(const Subject& subject, const RenderOptions& options,
-                                         const ReferenceImage& reference) {
+                                         const ReferenceImage& reference, bool filtered) {
   Scene dull = subject.scene;
   for (Material& material : dull.materials) material.specular = 0.0;
-  const Frame without = render_reference(dull, subject.triangles, options).frame;
+  const Frame without = draw(dull, subject, options, filtered).frame;
   std::vector<std::uint8_t> mask(reference.mask.size());
   for (std::size_t pixel = 0; pixel < mask.size(); ++pixel)
     for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i)
@@ -32,11 +38,11 @@ Scene drawn_scene(const std::string& scene, const std::filesystem::path& scenes_
   return drawn;
 }
 
-Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile) {
-  const RenderOptions options{.frame = frame, .subpixel_bits = 4, .tile = tile};
+Reference render(const Subject& subject, const DesignPoint& point, const std::optional<Tile>& tile) {
+  const RenderOptions options{.frame = point.size, .subpixel_bits = 4, .tile = tile};
   Reference reference;
-  reference.image = render_reference(subject.scene, subject.triangles, options);
-  reference.highlight = highlight_mask(subject, options, reference.image);
+  reference.image = draw(subject.scene, subject, options, point.filtered());
+  reference.highlight = highlight_mask(subject, options, reference.image, point.filtered());
   return reference;
 }
 
@@ -53,8 +59,7 @@ std::shared_ptr<const Subject> PictureShelf::subject(const DesignPoint& point) {
 std::shared_ptr<const Pictures> PictureShelf::of(const DesignPoint& point, const MakeReference& reference) {
   return pictures_.of(point.picture(), [&] {
     const auto drawn = subject(point);
-    return std::make_shared<const Pictures>(
-        Pictures{drawn, reference ? reference() : render(*drawn, point.size)});
+    return std::make_shared<const Pictures>(Pictures{drawn, reference ? reference() : render(*drawn, point)});
   });
 }
 

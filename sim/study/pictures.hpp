@@ -45,7 +45,8 @@ struct Pictures {
 Scene drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
                   const DesignPoint& point);
 
-Reference render(const Subject& subject, FrameSize frame, const std::optional<Tile>& tile = {});
+/// The reference of the point's picture. A filtered one is of the whole frame.
+Reference render(const Subject& subject, const DesignPoint& point, const std::optional<Tile>& tile = {});
 
 /// Thread-safe cache of named values. Each value is made once and shared. The oldest values are dropped
 /// first.

@@ -197,7 +197,7 @@ TEST_F(QueryTest, PrintsTheCheapestItsNeighboursAndTheirCost) {
       "1005 cycles, 5000 host instructions per triangle; +8000 cells (+400 %), -5 cycles (-0.495 %), "
       "-13208 host instructions per triangle (-72.5 %)\n"
       "  looked at      3 points of hardware; varied: method; not varied: preset, fraction_bits, "
-      "seed_bits, newton, form, highlight_test, threshold\n"
+      "seed_bits, newton, form, highlight_test, threshold, objects\n"
       "  front          3 of 3 points of hardware, time in cycles, the host's work in instructions per "
       "triangle\n"
       "  its steps, each more accurate (by largest error) than all cheaper points:\n"
@@ -290,7 +290,7 @@ TEST_F(QueryTest, PrintsTheVariedParameters) {
   EXPECT_THAT(text,
               HasSubstr("looked at      6 points of hardware; varied: method, address_bits, data_bits, "
                         "threshold; not varied: preset, angle_bits, fraction_bits, seed_bits, newton, form, "
-                        "highlight_test, span_ends, own_tables\n"));
+                        "highlight_test, span_ends, own_tables, objects\n"));
 }
 
 TEST_F(QueryTest, PrintsTheFrontWithoutADemand) {

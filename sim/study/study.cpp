@@ -102,7 +102,7 @@ class Bench {
     const auto subject = shelf_.subject(point);
     const Tile tile = point.tiles()[number];
     if (kind == PieceKind::reference_tile)
-      tiles_.add_reference(point, number, render(*subject, point.size, tile));
+      tiles_.add_reference(point, number, render(*subject, point, tile));
     else
       tiles_.add_drawing(point, number, draw(point, *subject, settings_.folders, tile));
   }

@@ -153,8 +153,8 @@ TEST_F(TiledStudyTest, TilesTogetherEqualTheWhole) {
   EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // tiles of the reference and of all methods except phong
   expect_whole(tiled);
   EXPECT_THAT(tiled.records[2].point.name(), HasSubstr("64x48 in tiles of 37x29"));
-  EXPECT_THAT(table_of(tiled), HasSubstr(",4,,,\n"));
-  EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4,,,\n")));
+  EXPECT_THAT(table_of(tiled), HasSubstr(",4,,,,,\n"));
+  EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4,,,,,\n")));
 }
 
 // A study that was interrupted before any point was assembled.
@@ -321,6 +321,21 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
   EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1,,,\n"));
 }
 
+// Filtered pictures are compared with a filtered reference. Too few object processors are refused, and tiles.
+TEST_F(StudyTest, DrawsBehindObjectProcessors) {
+  DesignPoint point{.method = Method::processors_2, .objects = 6, .subpixels = 4, .tessellation = 0.3};
+  point.size = {64, 48};
+  settings_.points = {point};
+  const Measurement measured = study().records.at(0).measured;
+  EXPECT_LT(measured.picture.rms, 4.0);
+  EXPECT_THAT(measured.hardware, EndsWith("-o6x4"));
+  settings_.points[0].tessellation = 4.0;
+  EXPECT_TRUE(is_error(caught([&] { return study(); }), ExitCode::bad_input, "the hardware has 6 object"));
+  point.tile = {32, 24};
+  EXPECT_THAT(drawable({point}, settings_.scene, settings_.folders).reasons,
+              ::testing::ElementsAre(HasSubstr("filtered frames are not drawn in tiles")));
+}
+
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = words::CosineSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
@@ -402,17 +417,18 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
                "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
                "frame_ns,fragment_ns,device,device_luts,device_carries,device_flip_flops,device_rams,"
                "device_multipliers,"
-               "angle_bits,fraction_bits,seed_bits,newton,tiles,highlight_test,span_ends,own_tables"));
+               "angle_bits,fraction_bits,seed_bits,newton,tiles,highlight_test,span_ends,own_tables,"
+               "objects,subpixels"));
   EXPECT_THAT(lines[1], EndsWith(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
-                                 ",,,,,,,,,,,,,,,,1,,,"));
+                                 ",,,,,,,,,,,,,,,,1,,,,,"));
   EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
   // The line names the tools that made its figures.
   EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
   EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
   const auto cycles = static_cast<double>(made.records[2].measured.cycles),
              fragments = static_cast<double>(made.records[2].measured.fragments);
-  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"stored\",{:.6g},{:.6g},,,,,,,,,,,1,,,", 12.5 * cycles,
-                                             12.5 * cycles / fragments)));
+  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"stored\",{:.6g},{:.6g},,,,,,,,,,,1,,,,,",
+                                             12.5 * cycles, 12.5 * cycles / fragments)));
   EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
   const auto commas = [](const std::string& line) {
     bool quoted = false;

@@ -110,11 +110,12 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
   const std::filesystem::path spaces = folders.source / c_spaces;
   for (const auto& [space, scene] : c_studies) {
     auto points = study::read_space(spaces / space);
-    // Pipelines of preset exact are much too large for the HX8K.
+    // Pipelines of preset exact are much too large for the HX8K, and so are object processors.
     if (&sections.family == &c_ice40)
       std::erase_if(points, [](const study::DesignPoint& point) {
-        return point.preset == Preset::exact &&
-               (point.method == study::Method::processors_1 || point.method == study::Method::processors_2);
+        return point.objects > 0 ||
+               (point.preset == Preset::exact &&
+                (point.method == study::Method::processors_1 || point.method == study::Method::processors_2));
       });
     const std::filesystem::path file = spaces / scene;
     for (Design& design : study::hardware_of_space(exists(file) ? file.string() : scene, points, folders))
