@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "golden/object_edges.hpp"
@@ -74,17 +75,26 @@ class ObjectProcessor {
     const auto walk = walk_of<Preset>(store_);
     element_.token.triangle = static_cast<std::uint32_t>(get_bits(walk, WalkAt::triangle));
     edges_.load(walk);
-    const auto depth = [&](const Field& field) { return Depth::Value::from_bits(get_bits(walk, field)); };
-    depth_.load(depth(WalkAt::z), depth(WalkAt::z_dx), depth(WalkAt::z_de0));
+    load(depth_, walk, 0, WalkAt::z, WalkAt::z_dx, WalkAt::z_de0, WalkAt::z_de1);
     if (element_.token.command == Command::shadow) return;
     element_.token.command = Command::new_object;
     element_.token.decode_material(config_, store_);
-    for (int p = 0; p < layout_.planes(); ++p) {
-      const auto word = [&](const Field& field) {
-        return Plane::Value::from_bits(get_bits(store_, field, layout_.plane_low(p)));
-      };
-      planes_[static_cast<std::size_t>(p)].load(word(PlaneAt::value), word(PlaneAt::dx), word(PlaneAt::de0));
-    }
+    for (int p = 0; p < layout_.planes(); ++p)
+      load(planes_[static_cast<std::size_t>(p)], store_, layout_.plane_low(p), PlaneAt::value, PlaneAt::dx,
+           PlaneAt::de0, PlaneAt::de1);
+  }
+
+  // de1 has the upper bits of dx and de0.
+  template <int W>
+  static void load(RasterInterpolator<W>& interpolator, std::span<const std::uint32_t> words, int low,
+                   const Field& value, const Field& dx, const Field& de0, const Field& de1) {
+    using Interpolator = RasterInterpolator<W>;
+    const std::uint64_t upper = get_bits(words, de1, low);
+    const auto change = [&](const Field& field, std::uint64_t above) {
+      return Interpolator::Change::from_bits(get_bits(words, field, low) | above << W);
+    };
+    interpolator.load(Interpolator::Value::from_bits(get_bits(words, value, low)), change(dx, upper & 7),
+                      change(de0, upper >> 3 & 7));
   }
 
   // Goes to the next pixel, or to the first one of the next line.

@@ -371,8 +371,16 @@ class ProcessorsSetup final : public Setup {
 
   static PlaneFit plane_fit(const ScreenTriangle& t) { return PlaneFit(screen_points(t), c_subpixel_bits); }
 
-  static DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const BarycentricStart& start) {
-    return fit.words(fixed_depths(t), start, half(Exact::c_depth_sum_fraction_bits));
+  DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const BarycentricStart& start) const {
+    return with_upper_bits(fit.words(fixed_depths(t), start, half(Exact::c_depth_sum_fraction_bits)),
+                           Exact::c_depth_sum_bits);
+  }
+
+  // With subpixels, which need eighths of a change, de1 has the three bits above those of dx and of de0.
+  // Object processors do not step by de1.
+  DepthWords with_upper_bits(DepthWords words, int bits) const {
+    if (chain_.filtered()) words.de1 = (words.dx >> bits & 7) | (words.de0 >> bits & 7) << 3;
+    return words;
   }
 
   bool has_one_normal(const ScreenTriangle& t) const {
@@ -437,7 +445,8 @@ class ProcessorsSetup final : public Setup {
     for (int plane = 0; plane < layout_.planes(); ++plane) {
       // Without positions the layout has only the planes of N.
       const DepthWords of_plane =
-          fit.words(surface.planes[static_cast<std::size_t>(plane)], start, c_half_vector);
+          with_upper_bits(fit.words(surface.planes[static_cast<std::size_t>(plane)], start, c_half_vector),
+                          P::c_plane_sum_bits);
       const int low = layout_.plane_low(plane);
       init.put(Plane::value, of_plane.value, low);
       init.put(Plane::dx, of_plane.dx, low);

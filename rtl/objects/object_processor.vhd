@@ -21,7 +21,8 @@
 --             busy: a word is in the queue, or the next word.
 -- Formats     objects_pkg; an object is the host's vector of a triangle (processors_pkg) in parts of 64 bits, the lowest
 --             first. Its walk is in subpixels, its z, planes, z_dx and dx are per pixel, z_de0 and de0 per line, at
---             the strip's first column
+--             the strip's first column. With subpixels, the lowest bits of z_de1 and de1 are the three bits above dx
+--             and the three above de0
 -- Latency     3 clocks from a word to the same word
 -- Throughput  1 word per clock. A line takes at least side + 1 clocks; a head waits for side + 2 clocks after an object
 -- Error       z and planes: see raster_interpolator
@@ -106,7 +107,7 @@ architecture rtl of object_processor is
   signal shadow, covers           : std_logic;
   signal centre                   : std_logic; -- the subpixels around the centre are covered
   signal row, column              : index_bits_t; -- the first covered subpixel
-  signal z                        : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0);
+  signal z, upper_z               : std_logic_vector(c_formats.depth_sum.bits - 1 downto 0); -- upper_z: above dx, de0
   signal vectors                  : std_logic_vector(c_planes * c_vector_bits - 1 downto 0); -- N lowest
 
 begin
@@ -221,8 +222,9 @@ begin
       value => next_word
       );
 
-  walk   <= store(walk_low(g_config) + walk'high downto walk_low(g_config));
-  shadow <= flag(g_config.shadows and command_of(c_exact, store) = c_shadow);
+  walk    <= store(walk_low(g_config) + walk'high downto walk_low(g_config));
+  upper_z <= field_of(walk, c_init.z_de1);
+  shadow  <= flag(g_config.shadows and command_of(c_exact, store) = c_shadow);
 
   edges : entity work.object_edges
     generic map (
@@ -271,8 +273,8 @@ begin
       line_step  => line_step,
       pixel_step => pixel_step,
       start      => field_of(walk, c_init.z),
-      dx         => field_of(walk, c_init.z_dx),
-      dy         => field_of(walk, c_init.z_de0),
+      dx         => upper_z(2 downto 0) & field_of(walk, c_init.z_dx),
+      dy         => upper_z(5 downto 3) & field_of(walk, c_init.z_de0),
       centre     => centre,
       row        => row,
       column     => column,
@@ -286,10 +288,12 @@ begin
 
     signal plane_words : std_logic_vector(plane_channel_low(c_exact, 0) - 1 downto 0);
     signal value : std_logic_vector(c_sum_bits - 1 downto 0);
+    signal upper : std_logic_vector(c_sum_bits - 1 downto 0); -- bits above dx and de0
 
   begin
 
     plane_words <= store(c_low + plane_words'high downto c_low);
+    upper       <= field_of(plane_words, c_plane.de1);
 
     interpolator : entity work.raster_interpolator
       generic map (
@@ -302,8 +306,8 @@ begin
         line_step  => line_step,
         pixel_step => pixel_step,
         start      => field_of(plane_words, c_plane.value),
-        dx         => field_of(plane_words, c_plane.dx),
-        dy         => field_of(plane_words, c_plane.de0),
+        dx         => upper(2 downto 0) & field_of(plane_words, c_plane.dx),
+        dy         => upper(5 downto 3) & field_of(plane_words, c_plane.de0),
         centre     => centre,
         row        => row,
         column     => column,

@@ -6,7 +6,8 @@
 --             the next line. pixel_step: go to the next pixel. At most one of the three is '1'. dx and dy are stable
 --             from load to the last step.
 --             value is that of the pixel's centre where centre = '1', otherwise that of subpixel `row`, `column`.
--- Formats     g_bits of any format, signed; sums wrap: only the value at a covered pixel has to fit
+-- Formats     g_bits of any format, signed; sums wrap: only the value at a covered pixel has to fit. dx and dy have three
+--             bits more, of which only subpixels use: their eighths then wrap as the value does
 -- Latency     1 clock from a step to value
 -- Throughput  1 pixel per clock
 -- Error       each word half a unit off, so the value (1 + lines + pixels)/2 units at most; at a subpixel 5/4 units more:
@@ -29,8 +30,8 @@ entity raster_interpolator is
     line_step  : in  std_logic;
     pixel_step : in  std_logic;
     start      : in  std_logic_vector(g_bits - 1 downto 0);
-    dx         : in  std_logic_vector(g_bits - 1 downto 0); -- change per pixel
-    dy         : in  std_logic_vector(g_bits - 1 downto 0); -- change per line
+    dx         : in  std_logic_vector(g_bits + 2 downto 0); -- change per pixel
+    dy         : in  std_logic_vector(g_bits + 2 downto 0); -- change per line
     centre     : in  std_logic;
     row        : in  std_logic_vector(1 downto 0);
     column     : in  std_logic_vector(1 downto 0);
@@ -52,18 +53,16 @@ architecture rtl of raster_interpolator is
 
   -- Change of the value from the centre to the subpixel with this index, along one axis. Of 4 subpixels they are -3, -1, 1
   -- and 3 eighths away, of 2 subpixels -2 and 2.
-  function from_centre (change : word_t; index : std_logic_vector(1 downto 0)) return eighths_t is
-    constant c_change : eighths_t := resize(change, eighths_t'length);
-
-    variable distance : eighths_t := shift_left(c_change, 1);
+  function from_centre (change : eighths_t; index : std_logic_vector(1 downto 0)) return eighths_t is
+    variable distance : eighths_t := shift_left(change, 1);
     variable negative : std_logic := not index(0);
   begin
     if g_side = 4 then
       negative := not index(1);
       if (index(1) xor index(0)) = '1' then
-        distance := c_change;
+        distance := change;
       else
-        distance := distance + c_change;
+        distance := distance + change;
       end if;
     end if;
     if negative = '1' then
@@ -86,9 +85,9 @@ begin
       v.next_line := signed(start);
     elsif line_step = '1' then
       v.value     := r.next_line;
-      v.next_line := r.next_line + signed(dy);
+      v.next_line := r.next_line + signed(dy(word_t'range));
     elsif pixel_step = '1' then
-      v.value := r.value + signed(dx);
+      v.value := r.value + signed(dx(word_t'range));
     end if;
     r_next <= v;
   end process;

@@ -159,9 +159,13 @@ class ObjectScene {
     put_walk(header, walk);
     // Depths that cross, and many that are equal.
     set_bits(header, At::z, static_cast<std::uint64_t>(random_.between(1, 6)) << 30);
-    for (const words::Field* change : {&At::z_dx, &At::z_de0})
-      if (random_.one_in(2))
-        set_bits(header, *change, static_cast<std::uint64_t>(random_.between(-1, 1) * (1 << 27)));
+    std::uint64_t upper = 0;
+    for (const words::Field* change : {&At::z_de0, &At::z_dx}) {
+      const std::int64_t value = random_.one_in(2) ? random_.between(-1, 1) * (1 << 27) : 0;
+      set_bits(header, *change, static_cast<std::uint64_t>(value));
+      upper = upper << 3 | (value < 0 ? 7 : 0);
+    }
+    set_bits(header, At::z_de1, upper);
     set_bits(header, At::triangle, next_triangle_++);
     for (std::size_t i = 0; i < header.size(); ++i)
       words::set_bits(vector, {"", 32 * static_cast<int>(i), 32, false, 0}, header[i], layout_.walk_low());

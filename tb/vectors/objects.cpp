@@ -308,7 +308,8 @@ void write_interpolator(const Folder& folder) {
     VectorFile file;
     golden::RasterInterpolator<W> twin;
     for (int triangle = 0; triangle < 60; ++triangle) {
-      const words::Word<W> start = random.word<W>(), dx = random.word<W>(), dy = random.word<W>();
+      const words::Word<W> start = random.word<W>();
+      const words::Word<W + 3> dx = random.word<W + 3>(), dy = random.word<W + 3>();
       for (int clock = 0; clock < 30; ++clock) {
         const bool load = clock == 0, line = clock == 1 || (clock > 1 && random.one_in(6));
         const bool pixel = clock > 1 && !line && !random.one_in(5), centre = random.one_in(2);
