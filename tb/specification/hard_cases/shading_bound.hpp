@@ -23,6 +23,12 @@
 
 namespace halfway::stability {
 
+/// A point of the screen in 1/32 pixels.
+struct HalfUnits {
+  Wide x, y;
+  friend bool operator==(const HalfUnits&, const HalfUnits&) = default;
+};
+
 struct Interval {
   long double low, high;
   friend Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
@@ -68,9 +74,20 @@ class ShadingBound {
   /// For the surface at the pixel's centre. lit(i): lights()[i] reaches it.
   template <class Lit>
   Promise at(const ScreenTriangle& t, std::int64_t x, std::int64_t y, Lit&& lit) const {
+    const HalfUnits pixel{centre(x, c_bits), centre(y, c_bits)};
+    return between(t, pixel, pixel, lit);
+  }
+  /// For the surface at `seen`, if the colour is computed at `shaded`: the errors of N, V and each L contain
+  /// their changes from one point to the other.
+  template <class Lit>
+  Promise between(const ScreenTriangle& t, HalfUnits seen, HalfUnits shaded, Lit&& lit) const {
     const Material& m = scene_.materials[t.material];
-    const ExactSurface s = surface(t, c_bits, x, y);
-    const Surface surface = surface_of(t, s, x, y);
+    const Surface computed = surface_of(t, shaded);
+    Surface surface = surface_of(t, seen);
+    surface.normal_error = computed.normal_error + glm::length(computed.normal - surface.normal);
+    surface.eye_error = computed.eye_error + glm::length(computed.to_eye - surface.to_eye);
+    surface.w = computed.w;
+    surface.computed_at = computed.position;
     Promise promise{};
     for (int c = 0; c < 3; ++c)
       add(promise, c, m.ambient * m.colour[c], scene_.ambient[c], 1.0L, {1.0L, 1.0L});
@@ -101,13 +118,15 @@ class ShadingBound {
 
   struct Surface {
     LongVec position, normal, to_eye;  // to_eye is unit
+    LongVec computed_at;               // position for which the hardware computes L
     long double normal_error, eye_error, w;
   };
 
-  Surface surface_of(const ScreenTriangle& t, const ExactSurface& s, std::int64_t x, std::int64_t y) const {
+  Surface surface_of(const ScreenTriangle& t, HalfUnits point) const {
+    const ExactSurface s = exact_surface(t, point.x, point.y);
     Surface out{};
     out.position = s.position_world;
-    const auto weight = barycentric(screen_points(t), centre(x, c_bits), centre(y, c_bits)).real();
+    const auto weight = barycentric(screen_points(t), point.x, point.y).real();
     long double inverse_w = 0.0L, most = 0.0L;
     for (std::size_t i = 0; i < 3; ++i) {
       inverse_w += weight[i] * (long double)t.vertex[i].inverse_w;
@@ -145,13 +164,18 @@ class ShadingBound {
       to_light = LongVec(light.point.xyz_world);
     } else {
       const LongVec place(light.point.xyz_world);
-      const LongVec way = place - s.position;
+      const LongVec way = place - s.computed_at;
       const long double distance = glm::length(way),
                         from_eye = glm::length(place - LongVec(scene_.camera.eye_world));
-      if (distance > 0.0L) to_light = way / distance;
+      const auto direction = [](const LongVec& v) {
+        const long double length = glm::length(v);
+        return length > 0.0L ? v / length : LongVec(0.0L);
+      };
+      to_light = direction(place - s.position);
       const long double scale = std::min(ray_scale_, distance_scale_ / (2.0L * from_eye)) / s.w;
       light_error =
           distance > 0.0L ? std::min(c_unit + c_way / (scale * distance), c_nothing_known) : c_nothing_known;
+      light_error += glm::length(direction(way) - to_light);
     }
     const long double n_dot_l = glm::dot(s.normal, to_light);
     const Interval lambert = about(n_dot_l, s.normal_error + light_error + c_cosine);
