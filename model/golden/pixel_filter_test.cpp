@@ -29,10 +29,10 @@ class RandomFrame {
     std::uint32_t weight;
   };
 
-  RandomFrame(std::uint32_t subpixels, unsigned seed) : random_(seed) {
+  RandomFrame(std::uint32_t subpixels, unsigned seed) : engine_(seed) {
     for (std::uint32_t y = 0; y < c_lines; ++y)
       for (std::uint32_t x = 0; x < c_columns; ++x)
-        if (y % 4 != 2 && random_() % 8 < (x < 12 ? 7 : 2)) fill({y, x}, subpixels);
+        if (y % 4 != 2 && random() % 8 < (x < 12 ? 7 : 2)) fill({y, x}, subpixels);
   }
 
   /// The fragments of a strip from column `first` to `last`, in order.
@@ -113,25 +113,27 @@ class RandomFrame {
     return (sum + rest * c_background[static_cast<std::size_t>(channel)]) / subpixels;
   }
   void fill(At at, std::uint32_t subpixels) {
-    const std::uint32_t all = random_() % 3 == 0 ? subpixels : 1 + random_() % subpixels;
-    std::uint32_t depth = random_() % 3;  // equal depths are frequent
+    const std::uint32_t all = random() % 3 == 0 ? subpixels : 1 + random() % subpixels;
+    std::uint32_t depth = random() % 3;  // equal depths are frequent
     for (std::uint32_t rest = all; rest > 0;) {
       Object object;
-      object.weight = random_() % 2 == 0 ? rest : 1 + random_() % rest;
+      object.weight = random() % 2 == 0 ? rest : 1 + random() % rest;
       rest -= object.weight;
       object.token.command = Command::new_object;
       std::tie(object.token.y, object.token.x) = at;
-      object.token.triangle = static_cast<std::uint32_t>(random_());
+      object.token.triangle = random();
       object.token.z = depth;
-      depth += random_() % 2;
+      depth += random() % 2;
       for (std::uint32_t& word : object.token.radiance)
-        word = (static_cast<std::uint32_t>(random_()) & ((1U << Preset::c_radiance_bits) - 1)) >>
-               (random_() % 3);
+        word = (random() & ((1U << Preset::c_radiance_bits) - 1)) >>
+               (random() % 3);
       pixels_[at].push_back(object);
     }
   }
 
-  std::mt19937 random_;
+  std::uint32_t random() { return static_cast<std::uint32_t>(engine_()); }
+
+  std::mt19937 engine_;
   std::map<At, std::vector<Object>> pixels_;
 };
 

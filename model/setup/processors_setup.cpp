@@ -371,16 +371,33 @@ class ProcessorsSetup final : public Setup {
 
   static PlaneFit plane_fit(const ScreenTriangle& t) { return PlaneFit(screen_points(t), c_subpixel_bits); }
 
-  DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const BarycentricStart& start) const {
-    return with_upper_bits(fit.words(fixed_depths(t), start, half(Exact::c_depth_sum_fraction_bits)),
-                           Exact::c_depth_sum_bits);
-  }
-
-  // With subpixels, which need eighths of a change, de1 has the three bits above those of dx and of de0.
-  // Object processors do not step by de1.
-  DepthWords with_upper_bits(DepthWords words, int bits) const {
+  // Words of a plane that start at a pixel. The value is that of the triangle's origin, moved by the rounded
+  // changes: where a strip begins then makes no difference.
+  DepthWords plane_words(const PlaneFit& fit, const ScreenTriangle& t, const std::array<std::int64_t, 3>& values,
+                         const DifferenceStart& first, std::int64_t half, int bits) const {
+    if (!has_strips()) return fit.words(values, fit.at(first), half);
+    const DifferenceStart origin = origin_of(t);
+    DepthWords words = fit.words(values, fit.at(origin), half);
+    words.value += (first.x - origin.x) * words.dx + (first.y - origin.y) * words.de0;
+    // With subpixels, which need eighths of a change, de1 has the three bits above those of dx and of de0.
+    // Object processors do not step by de1.
     if (chain_.filtered()) words.de1 = (words.dx >> bits & 7) | (words.de0 >> bits & 7) << 3;
     return words;
+  }
+
+  // The pixel of the frame that is nearest to the leftmost column and the first line of the triangle.
+  DifferenceStart origin_of(const ScreenTriangle& t) const {
+    const auto& v = t.vertex;
+    const auto pixel = [](std::int32_t least, std::uint32_t size) {
+      return std::clamp<std::int64_t>(least >> c_subpixel_bits, 0, std::int64_t{size} - 1);
+    };
+    return {pixel(std::min({v[0].x, v[1].x, v[2].x}), frame_.width),
+            pixel(std::min({v[0].y, v[1].y, v[2].y}), frame_.height), 0, false};
+  }
+
+  DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const DifferenceStart& first) const {
+    return plane_words(fit, t, fixed_depths(t), first, half(Exact::c_depth_sum_fraction_bits),
+                       Exact::c_depth_sum_bits);
   }
 
   bool has_one_normal(const ScreenTriangle& t) const {
@@ -438,15 +455,14 @@ class ProcessorsSetup final : public Setup {
   void draw(const ScreenTriangle& t, const PlaneFit& fit, const Surface& surface,
             const DifferenceStart& first, const Walk& walk, std::vector<std::uint32_t>& words,
             SetupCounts& counts) const {
-    const BarycentricStart start = fit.at(first);
     InitVector init = request(words, Command::new_object, counts);
-    put_header(init, t.source, walk, depth_words(fit, t, start), layout_.walk_low());
+    put_header(init, t.source, walk, depth_words(fit, t, first), layout_.walk_low());
     init.put(Request::normalize, surface.normalize);
     for (int plane = 0; plane < layout_.planes(); ++plane) {
       // Without positions the layout has only the planes of N.
       const DepthWords of_plane =
-          with_upper_bits(fit.words(surface.planes[static_cast<std::size_t>(plane)], start, c_half_vector),
-                          P::c_plane_sum_bits);
+          plane_words(fit, t, surface.planes[static_cast<std::size_t>(plane)], first, c_half_vector,
+                      P::c_plane_sum_bits);
       const int low = layout_.plane_low(plane);
       init.put(Plane::value, of_plane.value, low);
       init.put(Plane::dx, of_plane.dx, low);
@@ -464,10 +480,7 @@ class ProcessorsSetup final : public Setup {
     InitVector init = request(words, Command::shadow, counts, static_cast<int>(shadow.polygon.light) + 1);
     init.put(Request::opens, shadow.polygon.opens);
     DepthWords depth{0, 0, 0, 0};
-    if (!shadow.before_near) {
-      const PlaneFit fit = plane_fit(t);
-      depth = depth_words(fit, t, fit.at(first));
-    }
+    if (!shadow.before_near) depth = depth_words(plane_fit(t), t, first);
     put_header(init, t.source, walk, depth, layout_.walk_low());
   }
 
