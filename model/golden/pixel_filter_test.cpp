@@ -125,8 +125,7 @@ class RandomFrame {
       object.token.z = depth;
       depth += random() % 2;
       for (std::uint32_t& word : object.token.radiance)
-        word = (random() & ((1U << Preset::c_radiance_bits) - 1)) >>
-               (random() % 3);
+        word = (random() & ((1U << Preset::c_radiance_bits) - 1)) >> (random() % 3);
       pixels_[at].push_back(object);
     }
   }

@@ -373,8 +373,9 @@ class ProcessorsSetup final : public Setup {
 
   // Words of a plane that start at a pixel. The value is that of the triangle's origin, moved by the rounded
   // changes: where a strip begins then makes no difference.
-  DepthWords plane_words(const PlaneFit& fit, const ScreenTriangle& t, const std::array<std::int64_t, 3>& values,
-                         const DifferenceStart& first, std::int64_t half, int bits) const {
+  DepthWords plane_words(const PlaneFit& fit, const ScreenTriangle& t,
+                         const std::array<std::int64_t, 3>& values, const DifferenceStart& first,
+                         std::int64_t half, int bits) const {
     if (!has_strips()) return fit.words(values, fit.at(first), half);
     const DifferenceStart origin = origin_of(t);
     DepthWords words = fit.words(values, fit.at(origin), half);
@@ -460,9 +461,8 @@ class ProcessorsSetup final : public Setup {
     init.put(Request::normalize, surface.normalize);
     for (int plane = 0; plane < layout_.planes(); ++plane) {
       // Without positions the layout has only the planes of N.
-      const DepthWords of_plane =
-          plane_words(fit, t, surface.planes[static_cast<std::size_t>(plane)], first, c_half_vector,
-                      P::c_plane_sum_bits);
+      const DepthWords of_plane = plane_words(fit, t, surface.planes[static_cast<std::size_t>(plane)], first,
+                                              c_half_vector, P::c_plane_sum_bits);
       const int low = layout_.plane_low(plane);
       init.put(Plane::value, of_plane.value, low);
       init.put(Plane::dx, of_plane.dx, low);

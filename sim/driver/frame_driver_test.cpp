@@ -225,9 +225,10 @@ TEST(FrameDriver, TooManyShadowPolygonsAtAPixelAreRefused) {
     }
     ASSERT_FALSE(status);
     EXPECT_EQ(status.error().code, ExitCode::bad_input);
-    EXPECT_THAT(status.error().message,
-                ::testing::ContainsRegex("pieces of triangles and shadow polygons lie on one line.*, or leave "
-                                         "the shadows out"));
+    EXPECT_THAT(
+        status.error().message,
+        ::testing::ContainsRegex("pieces of triangles and shadow polygons lie on one line.*, or leave "
+                                 "the shadows out"));
   }
 }
 

@@ -266,8 +266,8 @@ class SceneSearch final : public Search {
     const Pieces pieces(scene, frame);
     Worst coverage, colour;
     coverage.add(
-        static_cast<double>(Cover(pieces, frame).wrong(drawing->golden, drawing->key.processors.objects > 0)), 0,
-        [] { return "pixels"; });
+        static_cast<double>(Cover(pieces, frame).wrong(drawing->golden, drawing->key.processors.objects > 0)),
+        0, [] { return "pixels"; });
     const std::string wrong = tally.add("coverage", coverage);
     if (published || !wrong.empty()) return wrong;
     if (shader_ == Shader::quadratic) return against_threshold(input, *drawing, pieces, tally);
