@@ -24,12 +24,12 @@ entity fragment_pixel is
     reset          : in  std_logic;
     fragment_valid : in  std_logic;
     fragment_ready : out std_logic;
-    fragment_y     : in  std_logic_vector(c_exact_formats.pixel_y.bits - 1 downto 0);
-    fragment_x     : in  std_logic_vector(c_exact_formats.pixel_x.bits - 1 downto 0);
-    fragment_z     : in  std_logic_vector(c_exact_formats.depth.bits - 1 downto 0);
-    fragment_red   : in  std_logic_vector(c_exact_formats.colour.bits - 1 downto 0);
-    fragment_green : in  std_logic_vector(c_exact_formats.colour.bits - 1 downto 0);
-    fragment_blue  : in  std_logic_vector(c_exact_formats.colour.bits - 1 downto 0);
+    fragment_y     : in  std_logic_vector(formats(true).pixel_y.bits - 1 downto 0);
+    fragment_x     : in  std_logic_vector(formats(true).pixel_x.bits - 1 downto 0);
+    fragment_z     : in  std_logic_vector(formats(true).depth.bits - 1 downto 0);
+    fragment_red   : in  std_logic_vector(formats(true).colour.bits - 1 downto 0);
+    fragment_green : in  std_logic_vector(formats(true).colour.bits - 1 downto 0);
+    fragment_blue  : in  std_logic_vector(formats(true).colour.bits - 1 downto 0);
     pixel_valid    : out std_logic;
     pixel_ready    : in  std_logic;
     pixel_place    : out place_t;

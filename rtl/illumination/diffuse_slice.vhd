@@ -46,7 +46,7 @@ architecture rtl of diffuse_slice is
 
   constant c_part         : diffuse_header_t := diffuse_header(g_exact);
   constant c_angle_bits   : positive         := formats(g_exact).angle.bits;
-  constant c_factors_low  : positive         := diffuse_channel_low(g_exact, 0);
+  constant c_factors_low  : positive         := diffuse_bits(g_exact, 0);
   constant c_factors_bits : natural          := part'length - c_factors_low;
 
   signal slope, angle : std_logic_vector(c_angle_bits - 1 downto 0);
@@ -109,7 +109,7 @@ begin
 
   cosines : if g_channels > 0 generate
 
-    constant c_channel_bits : positive := diffuse_channel_low(g_exact, 1) - c_factors_low;
+    constant c_channel_bits : positive := diffuse_bits(g_exact, 1) - c_factors_low;
     constant c_product_bits : positive := formats(g_exact).factor.bits + g_data_bits;
 
     signal sample, gated : std_logic_vector(g_data_bits - 1 downto 0);

@@ -79,9 +79,9 @@ architecture rtl of specular_slice is
 
   constant c_part         : specular_header_t := specular_header(g_exact);
   constant c_angle_bits   : positive          := formats(g_exact).angle.bits;
-  constant c_factors_low  : positive          := specular_channel_low(g_exact, 0);
+  constant c_factors_low  : positive          := specular_bits(g_exact, 0);
   constant c_factors_bits : positive          := part'length - c_factors_low;
-  constant c_channel_bits : positive          := specular_channel_low(g_exact, 1) - c_factors_low;
+  constant c_channel_bits : positive          := specular_bits(g_exact, 1) - c_factors_low;
   constant c_product_bits : positive          := formats(g_exact).factor.bits + g_data_bits;
   constant c_factor       : slice_t           := specular_channel(g_exact).factor;
 

@@ -252,8 +252,8 @@ package body token_pkg is
   -- A vector of the light. Its components are at `field` of the light's blocks, one block per axis.
   function light_vector_of (exact : boolean; light : std_logic_vector; field : slice_t) return std_logic_vector is
   begin
-    return words_of(light, light_axes_channel_low(exact, 0) + field.low,
-      light_axes_channel_low(exact, 1) - light_axes_channel_low(exact, 0), c_axes, field.high - field.low + 1);
+    return words_of(light, light_axes_bits(exact, 0) + field.low,
+      light_axes_bits(exact, 1) - light_axes_bits(exact, 0), c_axes, field.high - field.low + 1);
   end function;
 
   function light_place (exact : boolean; light : std_logic_vector) return std_logic_vector is
@@ -294,7 +294,7 @@ package body token_pkg is
   function intensities_of (c : config_t; light : std_logic_vector) return std_logic_vector is
     constant c_bits : positive := formats(c.exact).light_intensity.bits;
   begin
-    return words_of(light, light_axes_bits(c.exact, c_axes) + light_colour_channel_low(c.exact, 0), c_bits,
+    return words_of(light, light_axes_bits(c.exact, c_axes) + light_colour_bits(c.exact, 0), c_bits,
       c.channels, c_bits);
   end function;
 

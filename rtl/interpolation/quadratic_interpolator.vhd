@@ -47,7 +47,7 @@ entity quadratic_interpolator is
   );
   port (
     clk        : in  std_logic;
-    init       : in  std_logic_vector(init_channel_low(g_exact, 1) - init_channel_low(g_exact, 0) - 1 downto 0);
+    init       : in  std_logic_vector(init_bits(g_exact, 1) - init_bits(g_exact, 0) - 1 downto 0);
     line_load  : in  std_logic; -- take the channel's block of the init vector
     line_step  : in  std_logic; -- go to the next line
     line_carry : in  std_logic; -- that step ends one pixel further right

@@ -21,7 +21,7 @@ entity z_interpolator is
   );
   port (
     clk        : in  std_logic;
-    init       : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
+    init       : in  std_logic_vector(init_bits(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_load  : in  std_logic;                                                   -- take the init vector
     line_step  : in  std_logic;                                                   -- go to the next line
     line_carry : in  std_logic;                                                   -- that step ends one pixel further right

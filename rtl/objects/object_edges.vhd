@@ -38,7 +38,7 @@ entity object_edges is
     load       : in  std_logic;
     line_step  : in  std_logic;
     pixel_step : in  std_logic;
-    init       : in  std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
+    init       : in  std_logic_vector(init_bits(true, 0) - 1 downto 0);
     ready      : out std_logic;
     more       : out std_logic;
     mask       : out std_logic_vector(g_subpixels - 1 downto 0)

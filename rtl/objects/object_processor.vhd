@@ -102,7 +102,7 @@ architecture rtl of object_processor is
   signal line_step, pixel_step    : std_logic;
   signal spans_ready, more        : std_logic;
   signal store                    : std_logic_vector(c_parts * c_part_bits - 1 downto 0);
-  signal walk                     : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
+  signal walk                     : std_logic_vector(init_bits(true, 0) - 1 downto 0);
   signal mask                     : mask_t;
   signal shadow, covers           : std_logic;
   signal centre                   : std_logic; -- the subpixels around the centre are covered
@@ -286,7 +286,7 @@ begin
     constant c_low      : natural  := plane_low(g_config, plane);
     constant c_sum_bits : positive := c_formats.plane_sum.bits;
 
-    signal plane_words : std_logic_vector(plane_channel_low(c_exact, 0) - 1 downto 0);
+    signal plane_words : std_logic_vector(plane_bits(c_exact) - 1 downto 0);
     signal value : std_logic_vector(c_sum_bits - 1 downto 0);
     signal upper : std_logic_vector(c_sum_bits - 1 downto 0); -- bits above dx and de0
 

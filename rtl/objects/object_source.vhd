@@ -79,7 +79,7 @@ architecture rtl of object_source is
   signal r, r_next : reg_t;
 
   signal command               : command_t;
-  signal walk                  : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
+  signal walk                  : std_logic_vector(init_bits(true, 0) - 1 downto 0);
   signal draws, loads, strips  : std_logic; -- kind of the vector
   signal early, now            : std_logic; -- the triangle's first line is before the next one; it is the next one
   signal none_left             : std_logic; -- all lines are scanned

@@ -64,7 +64,7 @@ package objects_pkg is
 
   -- Position of an element in its list: depth, objects before shadow polygons, triangle. The formats are the same in both
   -- presets.
-  subtype key_t is unsigned(c_exact_formats.depth.bits + c_exact_formats.triangle.bits downto 0);
+  subtype key_t is unsigned(formats(true).depth.bits + formats(true).triangle.bits downto 0);
 
   function key_of (exact : boolean; word : std_logic_vector) return key_t;
 

@@ -25,7 +25,7 @@ entity edge_pair is
   );
   port (
     clk            : in  std_logic;
-    init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0);
+    init           : in  std_logic_vector(init_bits(g_exact, 0) - 1 downto 0);
     load           : in  std_logic; -- the next line is the first of init
     section_change : in  std_logic; -- the next line is the first of the lower section
     step           : in  std_logic; -- go to the next line
@@ -53,9 +53,9 @@ begin
     type edge_t is record
       x         : std_logic_vector(span_x_t'range);
       quotient  : std_logic_vector(span_x_t'range);
-      remainder : std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
-      divisor   : std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
-      error     : std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
+      remainder : std_logic_vector(formats(true).edge_error.bits - 1 downto 0);
+      divisor   : std_logic_vector(formats(true).edge_error.bits - 1 downto 0);
+      error     : std_logic_vector(formats(true).edge_error.bits - 1 downto 0);
       carry     : std_logic;
     end record;
 
@@ -159,9 +159,9 @@ begin
 
   else generate
 
-    subtype edge_x_t is unsigned(c_published_formats.edge_x.bits - 1 downto 0);
+    subtype edge_x_t is unsigned(formats(false).edge_x.bits - 1 downto 0);
 
-    constant c_one_pixel : edge_x_t := shift_left(to_unsigned(1, edge_x_t'length), c_published_formats.edge_x.fraction);
+    constant c_one_pixel : edge_x_t := shift_left(to_unsigned(1, edge_x_t'length), formats(false).edge_x.fraction);
 
     signal exclusive_x         : edge_x_t; -- the stop edge's first pixel that is not in the span
     signal not_start_x, stop_x : std_logic_vector(span_x_t'range);

@@ -23,23 +23,23 @@ entity edge_walker is
   port (
     clk            : in  std_logic;
     load           : in  std_logic; -- the next step loads an edge
-    load_x         : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
-    load_quotient  : in  std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
-    load_remainder : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
-    load_divisor   : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0);
-    load_error     : in  std_logic_vector(c_exact_formats.edge_error.bits - 1 downto 0); -- after the first step
+    load_x         : in  std_logic_vector(formats(true).span_x.bits - 1 downto 0);
+    load_quotient  : in  std_logic_vector(formats(true).span_x.bits - 1 downto 0);
+    load_remainder : in  std_logic_vector(formats(true).edge_error.bits - 1 downto 0);
+    load_divisor   : in  std_logic_vector(formats(true).edge_error.bits - 1 downto 0);
+    load_error     : in  std_logic_vector(formats(true).edge_error.bits - 1 downto 0); -- after the first step
     load_carry     : in  std_logic;                                                      -- of the first step
     step           : in  std_logic; -- go to the next line
-    x              : out std_logic_vector(c_exact_formats.span_x.bits - 1 downto 0);
+    x              : out std_logic_vector(formats(true).span_x.bits - 1 downto 0);
     carry          : out std_logic -- the next step ends one pixel further right than the quotient says
   );
 end entity;
 
 architecture rtl of edge_walker is
 
-  subtype span_x_t  is signed(c_exact_formats.span_x.bits - 1 downto 0);
-  subtype error_t   is unsigned(c_exact_formats.edge_error.bits - 1 downto 0);
-  subtype reduced_t is unsigned(c_exact_formats.edge_error.bits downto 0); -- two's complement
+  subtype span_x_t  is signed(formats(true).span_x.bits - 1 downto 0);
+  subtype error_t   is unsigned(formats(true).edge_error.bits - 1 downto 0);
+  subtype reduced_t is unsigned(formats(true).edge_error.bits downto 0); -- two's complement
 
   type reg_t is record
     x         : span_x_t;

@@ -29,7 +29,7 @@ entity line_counter is
     reset          : in  std_logic;
     init_valid     : in  std_logic;
     init_ready     : out std_logic;
-    init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0);
+    init           : in  std_logic_vector(init_bits(g_exact, 0) - 1 downto 0);
     advance        : in  std_logic; -- the line stage takes the line
     step           : out std_logic; -- the edges go to the next line
     load           : out std_logic; -- the next line is the first of init

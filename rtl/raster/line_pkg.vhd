@@ -10,9 +10,9 @@ use work.formats_pkg.all;
 
 package line_pkg is
 
-  subtype triangle_t is std_logic_vector(c_exact_formats.triangle.bits - 1 downto 0);
-  subtype pixel_y_t is unsigned(c_exact_formats.pixel_y.bits - 1 downto 0);
-  subtype span_x_t is signed(c_exact_formats.span_x.bits - 1 downto 0);
+  subtype triangle_t is std_logic_vector(formats(true).triangle.bits - 1 downto 0);
+  subtype pixel_y_t is unsigned(formats(true).pixel_y.bits - 1 downto 0);
+  subtype span_x_t is signed(formats(true).span_x.bits - 1 downto 0);
 
   -- Pixels of a line, counted from 0.
   subtype pixels_t is unsigned(span_x_t'range);

@@ -23,19 +23,19 @@ entity slope_walker is
   port (
     clk        : in  std_logic;
     load       : in  std_logic; -- the next step loads an edge
-    load_x     : in  std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
-    load_slope : in  std_logic_vector(c_published_formats.edge_x.bits - 1 downto 0);
+    load_x     : in  std_logic_vector(formats(false).edge_x.bits - 1 downto 0);
+    load_slope : in  std_logic_vector(formats(false).edge_x.bits - 1 downto 0);
     step       : in  std_logic;
-    x          : out std_logic_vector(c_published_formats.span_x.bits - 1 downto 0)
+    x          : out std_logic_vector(formats(false).span_x.bits - 1 downto 0)
   );
 end entity;
 
 architecture rtl of slope_walker is
 
-  constant c_fraction : natural := c_published_formats.edge_x.fraction;
-  constant c_high     : natural := c_published_formats.edge_x.bits - 1;
+  constant c_fraction : natural := formats(false).edge_x.fraction;
+  constant c_high     : natural := formats(false).edge_x.bits - 1;
 
-  subtype span_x_t   is unsigned(c_published_formats.span_x.bits - 1 downto 0);
+  subtype span_x_t   is unsigned(formats(false).span_x.bits - 1 downto 0);
   subtype fraction_t is unsigned(c_fraction - 1 downto 0);
 
   type reg_t is record

@@ -56,7 +56,7 @@ entity triangle_walker is
     reset          : in  std_logic;
     init_valid     : in  std_logic;
     init_ready     : out std_logic;
-    init           : in  std_logic_vector(init_channel_low(g_exact, 0) - 1 downto 0); -- header of the init vector
+    init           : in  std_logic_vector(init_bits(g_exact, 0) - 1 downto 0); -- header of the init vector
     line_ready     : in  std_logic;                                                   -- the line may leave the line stage
     line_held      : out std_logic;                                                   -- the line stage holds a line
     line_load      : out std_logic;                                                   -- begin the triangle

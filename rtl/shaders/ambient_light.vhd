@@ -69,7 +69,7 @@ begin
 
   channels : for channel in 0 to g_channels - 1 generate
 
-    constant c_low : natural := ambient_channel_low(g_exact, channel);
+    constant c_low : natural := ambient_bits(g_exact, channel);
 
   begin
 

@@ -162,13 +162,13 @@ package body processors_pkg is
 
   function walk_low (c : config_t) return natural is
   begin
-    return request_channel_low(c.exact, 0);
+    return request_bits(c.exact);
   end function;
 
   -- The walk is that of preset exact in both presets.
   function plane_low (c : config_t; plane : natural) return natural is
   begin
-    return walk_low(c) + init_channel_low(true, 0) + plane * plane_channel_low(c.exact, 0);
+    return walk_low(c) + init_bits(true, 0) + plane * plane_bits(c.exact);
   end function;
 
   function init_material_low (c : config_t) return natural is
@@ -178,7 +178,7 @@ package body processors_pkg is
 
   function light_axes_low (c : config_t) return natural is
   begin
-    return request_channel_low(c.exact, 0);
+    return request_bits(c.exact);
   end function;
 
   function light_colour_low (c : config_t) return natural is
@@ -232,7 +232,7 @@ package body processors_pkg is
 
   function normal_low (c : config_t; axis : natural) return natural is
   begin
-    return pixel_channel_low(c.exact, 0) + axis * formats(c.exact).vector.bits;
+    return pixel_bits(c.exact) + axis * formats(c.exact).vector.bits;
   end function;
 
   function place_low (c : config_t; axis : natural) return natural is

@@ -26,12 +26,12 @@ package body quadratic_pkg is
     if degree = 1 then
       return init_channel(exact).dxx.low;
     end if;
-    return init_channel_low(exact, 1) - init_channel_low(exact, 0);
+    return init_bits(exact, 1) - init_bits(exact, 0);
   end function;
 
   function channel_low (exact : boolean; degree : positive; channel : natural) return positive is
   begin
-    return init_channel_low(exact, 0) + channel * channel_bits(exact, degree);
+    return init_bits(exact, 0) + channel * channel_bits(exact, degree);
   end function;
 
   function init_bits (exact : boolean; degree, channels : positive) return positive is

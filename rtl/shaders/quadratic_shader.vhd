@@ -58,7 +58,7 @@ end entity;
 architecture rtl of quadratic_shader is
 
   constant c_formats     : formats_t := formats(g_exact);
-  constant c_header_bits : positive  := init_channel_low(g_exact, 0);
+  constant c_header_bits : positive  := init_bits(g_exact, 0);
   constant c_colour      : positive  := c_formats.colour.bits;
 
   -- Parts of the interpolators' skewed words (skew_pkg): clocks from a strobe to its word, at most the 2 that a vector

@@ -95,7 +95,7 @@ package body spherical_pkg is
 
   function init_bits (exact : boolean; channels : positive; lights : natural; diffuse, specular : boolean;
     highlight_channels : positive) return positive is
-    constant c_header : positive := init_channel_low(exact, 0) + ambient_bits(exact, channels);
+    constant c_header : positive := init_bits(exact, 0) + ambient_bits(exact, channels);
     constant c_record : natural  := record_bits(exact, channels, lights, diffuse, specular, highlight_channels);
   begin
     if c_record > c_header then

@@ -65,7 +65,7 @@ end entity;
 architecture rtl of spherical_shader is
 
   constant c_formats     : formats_t := formats(g_exact);
-  constant c_walk_bits   : positive  := init_channel_low(g_exact, 0); -- of the header: walk and depth
+  constant c_walk_bits   : positive  := init_bits(g_exact, 0); -- of the header: walk and depth
   constant c_header_bits : positive  := c_walk_bits + ambient_bits(g_exact, g_channels);
 
   -- Lights with a part in the line records.

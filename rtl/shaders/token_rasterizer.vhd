@@ -54,7 +54,7 @@ architecture rtl of token_rasterizer is
   constant c_request     : request_header_t := request_header(c_exact);
   constant c_pixel       : pixel_header_t   := pixel_header(c_exact);
   constant c_planes      : positive         := planes(g_config);
-  constant c_plane_bits  : positive         := plane_channel_low(c_exact, 0);
+  constant c_plane_bits  : positive         := plane_bits(c_exact);
   constant c_vector_bits : positive         := c_formats.vector.bits;
 
   -- The headers of a request and of a token begin with the same fields.
@@ -72,7 +72,7 @@ architecture rtl of token_rasterizer is
   signal drawn_valid   : std_logic;
   signal drawing       : std_logic; -- a triangle is inside
   -- The walk is that of preset exact in either preset.
-  signal walk          : std_logic_vector(init_channel_low(true, 0) - 1 downto 0);
+  signal walk          : std_logic_vector(init_bits(true, 0) - 1 downto 0);
   signal walk_ready    : std_logic; -- the walker reads the triangle
   signal line_load     : std_logic;
   signal line_step     : std_logic;

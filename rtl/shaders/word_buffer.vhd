@@ -46,7 +46,7 @@ architecture rtl of word_buffer is
   -- The depth words are the last of the header; the channels' words follow them.
   constant c_depth_low    : positive := init_header(g_exact).z.low;
   constant c_depth_bits   : positive := formats(g_exact).depth_sum.bits;
-  constant c_channels_low : positive := init_channel_low(g_exact, 0);
+  constant c_channels_low : positive := init_bits(g_exact, 0);
   constant c_value_bits   : positive := formats(g_exact).intensity.bits;
 
   type reg_t is record

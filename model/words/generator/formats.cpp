@@ -404,7 +404,7 @@ std::vector<std::string_view> all_names(const std::vector<PresetFormats>& preset
 }
 
 std::string vhdl_slices(const PresetFormats& preset, const std::vector<Field>& fields,
-                        const std::vector<std::string_view>& names) {
+                        const std::vector<std::string_view>& names, std::string_view indent) {
   std::string text;
   for (const std::string_view name : names) {
     int low = 0, bits = 0;
@@ -417,10 +417,18 @@ std::string vhdl_slices(const PresetFormats& preset, const std::vector<Field>& f
       low += width;
     }
     if (bits == 0) low = 0;
-    fmt::format_to(std::back_inserter(text), "    {} => ({}, {}),\n", name, low + bits - 1, low);
+    fmt::format_to(std::back_inserter(text), "{}{} => ({}, {}),\n", indent, name, low + bits - 1, low);
   }
   text.resize(text.size() - 2);
   return text + "\n";
+}
+
+// The body of a function of `exact`: value(preset, indent) is what it returns.
+template <class Value>
+std::string by_preset(const std::vector<PresetFormats>& presets, const Value& value) {
+  return fmt::format(
+      "  begin\n    if exact then\n      return {};\n    end if;\n    return {};\n  end function;\n\n",
+      value(presets[0], "      "), value(presets[1], "    "));
 }
 
 std::string upper_first(std::string_view name) {
@@ -503,74 +511,63 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
       "-- Number formats and the layouts of the flat vectors, for both presets. A slice of (-1, 0) is a "
       "field that\n"
-      "-- the preset does not have.\n{}\nlibrary ieee;\n  use ieee.std_logic_1164.all;\n\npackage "
-      "formats_pkg "
-      "is\n\n",
+      "-- the preset does not have. A format of preset published without a comment is that of preset exact. "
+      "A vector of n\n"
+      "-- channels has x_bits(exact, n) bits; channel n starts there.\n{}\nlibrary ieee;\n"
+      "  use ieee.std_logic_1164.all;\n\npackage formats_pkg is\n\n",
       c_formats_notice, names_in_bounds("-- "));
-  auto to = std::back_inserter(out);
+  std::string body = "end package;\n\npackage body formats_pkg is\n\n";
+  auto to = std::back_inserter(out), to_body = std::back_inserter(body);
+  const auto declare_record = [&](std::string_view name, const std::vector<std::string_view>& fields,
+                                  std::string_view type) {
+    fmt::format_to(to, "  type {}_t is record\n", name);
+    for (const std::string_view field : fields) fmt::format_to(to, "    {} : {};\n", field, type);
+    fmt::format_to(to, "  end record;\n\n  function {0} (exact : boolean) return {0}_t;\n\n", name);
+    fmt::format_to(to_body, "  function {0} (exact : boolean) return {0}_t is\n", name);
+  };
   out += "  type format_t is record\n    bits     : natural;\n    fraction : natural;\n  end record;\n\n";
   out += "  type slice_t is record\n    high : integer;\n    low  : natural;\n  end record;\n\n";
-  out += "  type formats_t is record\n";
-  for (const Format& format : presets[0].formats) fmt::format_to(to, "    {} : format_t;\n", format.name);
-  out += "  end record;\n\n";
-  for (const PresetFormats& preset : presets) {
-    fmt::format_to(to, "  constant c_{}_formats : formats_t := (\n", preset.name);
-    for (const Format& format : preset.formats)
-      fmt::format_to(to, "{}    {} => ({}, {}){}\n", commented(format, "    -- "), format.name, format.bits(),
-                     format.fraction_bits, &format == &preset.formats.back() ? "" : ",");
-    out += "  );\n\n";
-  }
-  out += "  function formats (exact : boolean) return formats_t;\n\n";
+  std::vector<std::string_view> names;
+  for (const Format& format : presets[0].formats) names.push_back(format.name);
+  declare_record("formats", names, "format_t");
+  body += by_preset(presets, [&](const PresetFormats& preset, std::string_view indent) {
+    std::string text = "(\n";
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const Format& format = preset.formats[i];
+      const std::string comment = commented(format, fmt::format("{}  -- ", indent));
+      const bool again = &preset != &presets[0] &&
+                         commented(format, "") == commented(presets[0].formats[i], "");
+      fmt::format_to(std::back_inserter(text), "{}{}  {} => ({}, {}){}\n", again ? "" : comment, indent,
+                     format.name, format.bits(), format.fraction_bits, i + 1 < names.size() ? "," : "");
+    }
+    return fmt::format("{}{})", text, indent);
+  });
   for (std::size_t i = 0; i < presets[0].layouts.size(); ++i) {
     const std::string_view layout = presets[0].layouts[i].name;
     for (const auto& [part, members] :
          {std::pair{"header", &Layout::header}, std::pair{"channel", &Layout::channel}}) {
-      const std::vector<std::string_view> names = all_names(presets, i, members);
-      if (!names.empty()) {
-        fmt::format_to(to, "  type {}_{}_t is record\n", layout, part);
-        for (const std::string_view name : names) fmt::format_to(to, "    {} : slice_t;\n", name);
-        out += "  end record;\n\n";
-        for (const PresetFormats& preset : presets)
-          fmt::format_to(to, "  constant c_{}_{}_{} : {}_{}_t := (\n{}  );\n\n", preset.name, layout, part,
-                         layout, part, vhdl_slices(preset, preset.layouts[i].*members, names));
-        fmt::format_to(to, "  function {}_{} (exact : boolean) return {}_{}_t;\n\n", layout, part, layout,
-                       part);
-      }
-      for (const PresetFormats& preset : presets)
-        fmt::format_to(to, "  constant c_{}_{}_{}_bits : natural := {};\n", preset.name, layout, part,
-                       total_bits(preset, preset.layouts[i].*members));
-      out += "\n";
+      const std::vector<std::string_view> fields = all_names(presets, i, members);
+      if (fields.empty()) continue;
+      declare_record(fmt::format("{}_{}", layout, part), fields, "slice_t");
+      body += by_preset(presets, [&](const PresetFormats& preset, std::string_view indent) {
+        return fmt::format(
+            "(\n{}{})",
+            vhdl_slices(preset, preset.layouts[i].*members, fields, fmt::format("{}  ", indent)), indent);
+      });
     }
-    fmt::format_to(to, "  function {}_channel_low (exact : boolean; channel : natural) return natural;\n\n",
-                   layout);
-    fmt::format_to(to, "  function {}_bits (exact : boolean; channels : natural) return natural;\n\n",
-                   layout);
+    const bool channels = !presets[0].layouts[i].channel.empty();
+    const std::string bits = fmt::format("  function {}_bits (exact : boolean{}) return natural", layout,
+                                         channels ? "; channels : natural" : "");
+    fmt::format_to(to, "{};\n\n", bits);
+    fmt::format_to(to_body, "{} is\n", bits);
+    body += by_preset(presets, [&](const PresetFormats& preset, std::string_view) {
+      const std::string header = fmt::format("{}", total_bits(preset, preset.layouts[i].header));
+      return channels ? fmt::format("{} + channels * {}", header,
+                                    total_bits(preset, preset.layouts[i].channel))
+                      : header;
+    });
   }
-  out += "end package;\n\npackage body formats_pkg is\n\n";
-  const auto choose = [&](std::string_view name, std::string_view type, std::string_view suffix) {
-    fmt::format_to(to,
-                   "  function {0} (exact : boolean) return {1} is\n  begin\n    if exact then\n"
-                   "      return c_exact_{2};\n    end if;\n    return c_published_{2};\n  end function;\n\n",
-                   name, type, suffix);
-  };
-  choose("formats", "formats_t", "formats");
-  for (const Layout& layout : presets[0].layouts) {
-    const std::string name(layout.name);
-    if (!layout.header.empty()) choose(name + "_header", name + "_header_t", name + "_header");
-    if (!layout.channel.empty()) choose(name + "_channel", name + "_channel_t", name + "_channel");
-    fmt::format_to(
-        to,
-        "  function {0}_channel_low (exact : boolean; channel : natural) return natural is\n  begin\n"
-        "    if exact then\n      return c_exact_{0}_header_bits + channel * c_exact_{0}_channel_bits;\n    "
-        "end if;\n"
-        "    return c_published_{0}_header_bits + channel * c_published_{0}_channel_bits;\n  end "
-        "function;\n\n"
-        "  function {0}_bits (exact : boolean; channels : natural) return natural is\n  begin\n"
-        "    return {0}_channel_low(exact, channels);\n  end function;\n\n",
-        name);
-  }
-  out += "end package body;\n";
-  return out;
+  return out + body + "end package body;\n";
 }
 
 std::string cpp_header(const std::vector<PresetFormats>& presets) {

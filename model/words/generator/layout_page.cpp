@@ -154,7 +154,7 @@ std::string layout_page(const std::vector<PresetFormats>& presets) {
       "integer "
       "bits (without the sign) and F fraction bits: its value is the word divided by 2^F. Colours are in "
       "colour steps (1/255 of white), depths in steps of the 24-bit depth, positions on the screen in "
-      "pixels. In the RTL the same bit ranges are constants of `formats_pkg`: "
+      "pixels. In the RTL the same bit ranges are functions of `formats_pkg`: "
       "`init_header(g_exact).start_x` and the like; in C++ they are "
       "`words::Exact::init_header_at::start_x`.\n\n"
       "**Added halves.** The hardware drops fractions instead of rounding. The host therefore adds half a "

@@ -99,7 +99,7 @@ begin
         low := light_axes_low(c_config);
         set(token, low + c_axes_header.positional.low, 1, c_run.positional + c_run.spots);
         set(token, low + c_axes_header.spot.low, 1, c_run.spots);
-        low := low + light_axes_channel_low(exact, 0);
+        low := low + light_axes_bits(exact, 0);
         set(token, low + c_axis.place.low, c_formats.light_place.bits, 2 ** c_formats.light_place.fraction);
         if not exact then
           set(token, low + c_axis.half.low, c_formats.direction.bits, 2 ** c_formats.direction.fraction);

@@ -27,7 +27,7 @@ begin
     signal reset                           : std_logic := '1';
     signal init_valid                      : std_logic := '0';
     signal init_ready                      : std_logic;
-    signal init                            : std_logic_vector(init_channel_low(exact, 0) - 1 downto 0) := (others => '0');
+    signal init                            : std_logic_vector(init_bits(exact, 0) - 1 downto 0) := (others => '0');
     signal line_ready                      : std_logic := '1';
     signal line_held, line_load, line_step : std_logic;
     signal line_carry, span_load           : std_logic;

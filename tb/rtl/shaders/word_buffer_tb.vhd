@@ -19,7 +19,7 @@ begin
   presets : for exact in boolean generate
     constant c_channels     : positive := 1 + 2 * boolean'pos(exact);
     constant c_depth_low    : positive := init_header(exact).z.low;
-    constant c_channels_low : positive := init_channel_low(exact, 0);
+    constant c_channels_low : positive := init_bits(exact, 0);
 
     subtype vector_t is std_logic_vector(init_bits(exact, c_channels) - 1 downto 0);
 
