@@ -79,7 +79,7 @@ TestEnd run_testbench(const SourceFault& fault, const std::filesystem::path& sou
   sources.push_back(testbench_of(fault.test, source));
   for (const char* name : {"tb/rtl/tb_pkg.vhd", "tb/rtl/tb_processors_pkg.vhd", "tb/rtl/tb_shaders_pkg.vhd",
                            "tb/rtl/stream/stream_source.vhd", "tb/rtl/stream/stream_sink.vhd",
-                           "tb/rtl/shaders/shader_checker.vhd", "tb/rtl/illumination/processor_checker.vhd"})
+                           "tb/rtl/shaders/shader_checker.vhd", "tb/rtl/stream/stream_checker.vhd"})
     sources.push_back(must(read_vhdl_source(source, name)));
   std::vector<std::string> import{"ghdl", "-i", "--std=08"};
   for (const VhdlSource& one : sources) {

@@ -97,6 +97,9 @@ package tb_pkg is
 
   function preset_name (exact : boolean) return string;
 
+  -- The files of a set of vectors, or of the one that causes a fault.
+  function set_name (name : string; wrong : boolean; fault : string) return string;
+
   -- Numbers in a file's name, such as 3_24_14_8.
   function joined (numbers : integer_vector) return string;
 
@@ -458,6 +461,14 @@ package body tb_pkg is
       return "exact";
     end if;
     return "published";
+  end function;
+
+  function set_name (name : string; wrong : boolean; fault : string) return string is
+  begin
+    if wrong then
+      return name & "_" & fault;
+    end if;
+    return name;
   end function;
 
   function joined (numbers : integer_vector) return string is

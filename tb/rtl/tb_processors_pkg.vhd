@@ -42,10 +42,7 @@ package tb_processors_pkg is
     config(true, 3, 1, 1, 0, true, true, true, true));
   constant c_subpixels : integer_vector(0 to 3) := (16, 4, 1, 1);
 
-  -- Their files, and those of vectors that cause a fault.
   function front_name (front : natural) return string;
-
-  function front_name (front : natural; wrong : boolean; fault : string) return string;
 
 end package;
 
@@ -65,14 +62,6 @@ package body tb_processors_pkg is
   function front_name (front : natural) return string is
   begin
     return config_name(c_fronts(front)) & "_" & to_string(c_subpixels(front));
-  end function;
-
-  function front_name (front : natural; wrong : boolean; fault : string) return string is
-  begin
-    if wrong then
-      return front_name(front) & "_" & fault;
-    end if;
-    return front_name(front);
   end function;
 
   function processor_name (p : processor_t) return string is

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random strips for the filter. Files for each case: _in, weight and token in one word, then token, weight
-// and background for the netlist of tb/mutants; _out, the number of the token that ends the pixel, and its
-// fragment.
+// and background for the netlist of tb/mutants; _out, fragments; _ends, for each fragment the number of the
+// token that ends its pixel.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -74,6 +74,7 @@ class FilterFiles {
         fmt::format("{}_{}_{}_{}", Preset::c_name, case_.channels, subpixels_, fmt::join(case_.weights, "_"));
     in_.write(folder / (stem + "_in.txt"));
     out_.write(folder / (stem + "_out.txt"));
+    ends_.write(folder / (stem + "_ends.txt"));
   }
 
  private:
@@ -138,7 +139,7 @@ class FilterFiles {
     token.encode(config_, words);
     set_bits(words, {"", bits, weight_bits_, false, 0}, weight);
     twin_.take(token, weight, [&](const Fragment& f) {
-      out_.word(in_.size(), 32);
+      ends_.word(in_.size(), 32).end_vector();
       add_fragment<Preset>(out_, f).end_vector();
     });
     in_.words_of(words, bits + weight_bits_).words_of(words, bits).word(weight, weight_bits_);
@@ -151,7 +152,7 @@ class FilterFiles {
   FilterCase case_;
   int background_;
   golden::PixelFilter<Preset> twin_;
-  VectorFile in_, out_;
+  VectorFile in_, out_, ends_;
 };
 
 template <class Preset>

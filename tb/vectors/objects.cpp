@@ -149,7 +149,7 @@ class ChainFiles {
   std::vector<VectorFile> words_;
 };
 
-constexpr int c_objects = 4;  // processors, as in object_front_tb.vhd
+constexpr int c_objects = 4;  // processors, as in rows.toml
 
 // Strips of triangles, those at the limits first, with loads between. The last strip is ended.
 template <class Preset>

@@ -40,7 +40,7 @@ class TakeClock {
   std::int64_t taken_ = -1, next_ = 0;
 };
 
-// A line: token; the output token, the clock in which an unrolled processor takes the token.
+// A line of _in: token, the clock in which an unrolled processor takes it. A line of _out: the output token.
 template <class Preset>
 void write_processor(const Folder& folder, const Processor& processor, int tokens, const char* suffix = "",
                      int latency = 0) {
@@ -49,7 +49,7 @@ void write_processor(const Folder& folder, const Processor& processor, int token
   TokenMaker<Preset> maker(config, bits * 8 + static_cast<int>(term) * 3 + light);
   golden::ShadingProcessor<Preset> twin(config, term, light);
   TakeClock clock(processor, latency);
-  VectorFile file;
+  VectorFile in, out;
   for (int done = 0; done < tokens; ++done) {
     // No light is valid at first. Later the light is defined, and defined again after it was deleted.
     const bool defines = done == 20 || (done > 20 && done % 25 == 0);
@@ -57,13 +57,14 @@ void write_processor(const Folder& folder, const Processor& processor, int token
         defines ? maker.load(Command::define, static_cast<std::uint32_t>(light)) : maker.token(light);
     if (term != Term::ambient) token = maker.behind_ambient(token);
     auto words = maker.words(token, bits);
-    const auto before = words;
+    in.words_of(words, bits);
+    if (latency > 0) in.word(clock.take(token), 32);
+    in.end_vector();
     twin.process(words);
-    file.words_of(before, bits).words_of(words, bits);
-    if (latency > 0) file.word(clock.take(token), 32);
-    file.end_vector();
+    out.words_of(words, bits).end_vector();
   }
-  file.write(folder / (name_of<Preset>(processor) + suffix + ".txt"));
+  in.write(folder / (name_of<Preset>(processor) + suffix + "_in.txt"));
+  out.write(folder / (name_of<Preset>(processor) + suffix + "_out.txt"));
 }
 
 template <class Preset>
@@ -156,39 +157,47 @@ void write_light_term_of(const Folder& folder, Term term, int light_number, int 
   pipeline.write(folder / fmt::format("{}_{}{}.txt", Preset::c_name, static_cast<int>(term), light_number));
 }
 
-// A line: token; object, changes; after the token was accepted: defined, light (valid if defined), lit (valid
-// if defined).
+// A line: reset, take, token; object, changes (valid if take), defined, light, lit (valid if defined), before
+// the edge.
 template <class Preset>
 void write_light_state_of(const Folder& folder) {
   constexpr int c_tokens = 1500;
-  constexpr int c_most = 300;  // volumes of a long list, at the end
+  constexpr int c_most = 300;   // volumes of a long list, at the end
+  constexpr int c_pace = 100;  // number of tokens between changes of the pace
   constexpr std::uint32_t c_light = 2;
   const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), 6);
   golden::LightState<Preset> twin(true, c_light);
   VectorFile file;
+  const auto clock = [&](bool reset, bool take, auto token) {
+    const auto words = maker.words(token, bits);
+    const bool changes =
+        token.light_number == c_light && (token.is_define() || token.command == Command::remove);
+    const Flat light = light_words(maker, part_config(), twin.light());
+    file.flag(reset).flag(take).words_of(words, bits).flag(token.is_object()).flag(changes);
+    file.flag(twin.defined()).words_of(light.words, light.bits).flag(twin.lit()).end_vector();
+    if (take) twin.take(token);
+    if (reset) twin = golden::LightState<Preset>(true, c_light);
+  };
   for (int done = 0; done < c_tokens + 3 * c_most; ++done) {
     auto token = done < c_tokens ? maker.token(static_cast<int>(c_light)) : maker.shadow(c_light);
     if (done == c_tokens) token = maker.load(Command::define, c_light);
     if (done > c_tokens) token.opens = done <= c_tokens + c_most;
-    const auto words = maker.words(token, bits);
-    const bool changes =
-        token.light_number == c_light && (token.is_define() || token.command == Command::remove);
-    twin.take(token);
-    const Flat light = light_words(maker, part_config(), twin.light());
-    file.words_of(words, bits).flag(token.is_object()).flag(changes).flag(twin.defined());
-    file.words_of(light.words, light.bits).flag(twin.lit()).end_vector();
+    while (done / c_pace % 2 == 1 && !maker.random().one_in(4)) clock(false, false, maker.token(c_light));
+    clock(false, true, token);
   }
+  clock(true, false, maker.token(c_light));
+  clock(false, false, maker.token(c_light));
   file.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
-// A line: token, comes; the output object (valid if comes), fault afterwards.
+// A line of _in: token. A line of _out: object, fault at the end.
 template <class Preset>
 void write_pipeline(const Folder& folder, const ProcessorsConfig& config, int tokens) {
   const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits);
   golden::ShadingPipeline<Preset> twin(config);
-  VectorFile file;
+  VectorFile in, out;
   const auto lights = static_cast<std::uint32_t>(config.lights());
   for (int done = 0; done <= tokens; ++done) {
     // Define all lights first.
@@ -201,17 +210,18 @@ void write_pipeline(const Folder& folder, const ProcessorsConfig& config, int to
     if (done == tokens) token = maker.load(c_last[lights % 4], lights + 1);
     auto words = maker.words(token, bits);
     token = golden::ShadingToken<Preset>::decode(config, words);
-    const bool comes = twin.process(token);
-    file.words_of(words, bits).flag(comes);
-    if (comes) token.encode(config, words);
-    file.words_of(words, bits).flag(twin.fault()).end_vector();
+    in.words_of(words, bits).end_vector();
+    if (!twin.process(token)) continue;
+    token.encode(config, words);
+    out.words_of(words, bits).flag(true).end_vector();
   }
-  file.write(folder / (name_of<Preset>(config) + ".txt"));
+  in.write(folder / (name_of<Preset>(config) + "_in.txt"));
+  out.write(folder / (name_of<Preset>(config) + "_out.txt"));
 }
 
 template <class Preset>
 void write_pipelines(const Folder& folder, int tokens) {
-  // The list of tb/rtl/shaders/shading_pipeline_tb.vhd.
+  // The list of tb/vectors/rows.toml.
   const ProcessorsConfig configs[] = {{3, 1, 1, 1, true, true, true, true},
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},

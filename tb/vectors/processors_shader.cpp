@@ -81,7 +81,7 @@ class Host {
       std::vector<std::uint32_t> words = random_vector(random_, layout_.token_bits());
       set_bits(words, Preset::pixel_header_at::command, static_cast<std::uint32_t>(Command::new_object));
       const auto token = golden::ShadingToken<Preset>::decode(p_.config, words);
-      shaded_.words_of(words, layout_.token_bits());
+      objects_.words_of(words, layout_.token_bits()).end_vector();
       add_fragment<Preset>(shaded_, golden::fragment_output(token, p_.config.channels)).end_vector();
     }
   }
@@ -103,12 +103,19 @@ class Host {
   bool fault() const { return twin_.fault(); }
 
   // Files of the testbenches of the shader's parts.
-  void write_rasterizer(const Folder& folder) const {
-    vectors_.write(folder / (name_of<Preset>(p_.config) + "_in.txt"));
-    return tokens_.write(folder / (name_of<Preset>(p_.config) + "_tokens.txt"));
+  void write_rasterizer(const Folder& folder) {
+    const std::string stem = name_of<Preset>(p_.config);
+    write_rasterizer(folder, stem);
+    vectors_ = {};
+    tokens_ = {};
+    define_all();
+    send(request(Command::new_pixel, 0));
+    define_all();
+    write_rasterizer(folder, stem + "_refused");
   }
   void write_output(const Folder& folder) const {
-    return shaded_.write(folder / (name_of<Preset>(p_.config) + ".txt"));
+    objects_.write(folder / (name_of<Preset>(p_.config) + "_in.txt"));
+    shaded_.write(folder / (name_of<Preset>(p_.config) + "_out.txt"));
   }
   void write(const Folder& folder, const char* set) {
     const std::string stem = fmt::format("{}_{}", p_.name, set);
@@ -118,6 +125,10 @@ class Host {
   }
 
  private:
+  void write_rasterizer(const Folder& folder, const std::string& stem) const {
+    vectors_.write(folder / (stem + "_in.txt"));
+    tokens_.write(folder / (stem + "_out.txt"));
+  }
   std::vector<std::uint32_t> words_of(const golden::ShadingToken<Preset>& token) const {
     std::vector<std::uint32_t> words(static_cast<std::size_t>(layout_.token_bits() + 31) / 32);
     token.encode(p_.config, words);
@@ -150,7 +161,7 @@ class Host {
     send_to_rasterizer(vector);
     inits_.words_of(vector, layout_.init_bits()).word(0, 32).end_vector();
     twin_.draw(vector, [&](const Fragment& f) {
-      shaded_.words_of(words_of(twin_.token()), layout_.token_bits());
+      objects_.words_of(words_of(twin_.token()), layout_.token_bits()).end_vector();
       add_fragment<Preset>(shaded_, f).end_vector();
       add_fragment<Preset>(fragments_, f).word(0, 32).end_vector();
     });
@@ -258,7 +269,7 @@ class Host {
   golden::TokenRasterizer<Preset> rasterizer_;
   Random random_, pace_;
   VectorFile inits_, fragments_;
-  VectorFile vectors_, tokens_, shaded_;
+  VectorFile vectors_, tokens_, objects_, shaded_;
 };
 
 template <class Preset>
@@ -329,7 +340,7 @@ void write_long(const Folder& folder, std::span<const Processors> shaders) {
 std::vector<Entity> processors_shader_entities() {
   return {
       {"token_rasterizer",
-       [](const Folder& f) { write_parts([&](const auto& host) { host.write_rasterizer(f); }); }},
+       [](const Folder& f) { write_parts([&](auto& host) { host.write_rasterizer(f); }); }},
       {"fragment_output",
        [](const Folder& f) { write_parts([&](const auto& host) { host.write_output(f); }); }},
       {"processors_shader",

@@ -131,10 +131,11 @@ class Writer {
   }
   void check_keys() const {
     const Texts known =
-        words("generics forms files file for if latency reset drive check late use declare connect");
+        words("generics forms files file for if latency reset drive check late stream fault passes use declare connect");
     for (const auto& [key, node] : table_)
       if (std::ranges::find(known, key.str()) == known.end()) fail(fmt::format("unknown key {}", key.str()));
-    if (value("drive").empty() || value("check").empty()) fail("needs drive and check");
+    if (has("stream") ? words(value("stream")).size() < 2 : value("drive").empty() || value("check").empty())
+      fail("needs drive and check, or stream with two ports or more");
   }
   bool has(const char* key) const { return table_.contains(key); }
   bool resets() const { return table_["reset"].value_or(false); }
@@ -186,11 +187,49 @@ class Writer {
       put("generic map ({})", fmt::join(associations(interface_.generic_names), ", "));
     put("port map ({});", fmt::join(associations(interface_.port_names), ", "));
     if (has("connect")) put(value("connect"));
+    const std::string file = file_of(form, generics, values);
+    if (has("stream"))
+      put_stream(file);
+    else
+      put_run(file);
+    put("end block;");
+  }
+
+  /// A port's handshake has the first word of its name.
+  std::string handshake(const std::string& port) const {
+    return fmt::format("{0}_valid, {0}_ready", port.substr(0, port.find('_')));
+  }
+
+  /// The first port of `stream` takes words, the others are the words of a row that leaves.
+  void put_stream(const std::string& file) {
+    Texts outputs = words(value("stream")), widths, numbered;
+    const std::string input = outputs.front(), output = outputs.at(1);
+    outputs.erase(outputs.begin());
+    for (const std::string& port : outputs) {
+      widths.push_back(interface_.port_types.at(port) == "std_logic" ? "1" : port + "'length");
+      numbered.push_back(fmt::format("{} => {}", numbered.size(), widths.back()));
+    }
+    put("outputs : block is\nsignal row : std_logic_vector({} - 1 downto 0);\nbegin", fmt::join(widths, " + "));
+    std::ranges::reverse(outputs);
+    put("row <= {};", fmt::join(outputs, " & "));
+    // An entity without busy or fault is busy while it has a word, and has no fault.
+    const auto port_or = [&](const std::string& port, const std::string& other) {
+      return interface_.port_types.contains(port) ? port : other;
+    };
+    put("check : entity work.stream_checker");
+    put("generic map (g_file => g_folder & \"/\" & {}, g_fault => {}, g_passes => {}, g_widths => ({}))", file,
+        has("fault") ? value("fault") : "'0'", table_["passes"].value_or(false), fmt::join(numbered, ", "));
+    put("port map (clk, reset, {}, {}, {}, row, {}, {});", handshake(input), input, handshake(output),
+        port_or("busy", output.substr(0, output.find('_')) + "_valid"), port_or("fault", "'0'"));
+    put("end block;");
+  }
+
+  void put_run(const std::string& file) {
     put("run : process is\nvariable vectors : vectors_t;\nbegin");
-    put("vectors.open_file(g_folder & \"/\" & {} & \".txt\"{});", file_of(form, generics, values),
+    put("vectors.open_file(g_folder & \"/\" & {} & \".txt\"{});", file,
         has("latency") ? ", " + value("latency") : "");
     put_rows();
-    put("finish(finished);\nend process;\nend block;");
+    put("finish(finished);\nend process;");
   }
 
   void put_rows() {

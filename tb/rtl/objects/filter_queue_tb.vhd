@@ -93,7 +93,7 @@ begin
     end process;
 
     check : entity work.stream_checker
-      generic map (g_file => c_file)
+      generic map (g_file => c_file, g_widths => (0 => out_word'length))
       port map (clk, reset, in_valid, in_ready, in_word, out_valid, out_ready, out_word, busy, '0');
   end generate;
 
