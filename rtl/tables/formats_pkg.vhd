@@ -624,14 +624,6 @@ package body formats_pkg is
 
   function request_header (exact : boolean) return request_header_t is
   begin
-    if exact then
-      return (
-        command => (2, 0),
-        light => (7, 3),
-        opens => (8, 8),
-        normalize => (9, 9)
-      );
-    end if;
     return (
       command => (2, 0),
       light => (7, 3),
@@ -642,9 +634,6 @@ package body formats_pkg is
 
   function request_bits (exact : boolean) return natural is
   begin
-    if exact then
-      return 10;
-    end if;
     return 10;
   end function;
 
@@ -676,18 +665,6 @@ package body formats_pkg is
 
   function pixel_header (exact : boolean) return pixel_header_t is
   begin
-    if exact then
-      return (
-        command => (2, 0),
-        light => (7, 3),
-        opens => (8, 8),
-        normalize => (9, 9),
-        triangle => (41, 10),
-        y => (53, 42),
-        x => (65, 54),
-        z => (89, 66)
-      );
-    end if;
     return (
       command => (2, 0),
       light => (7, 3),
@@ -702,9 +679,6 @@ package body formats_pkg is
 
   function pixel_bits (exact : boolean) return natural is
   begin
-    if exact then
-      return 90;
-    end if;
     return 90;
   end function;
 

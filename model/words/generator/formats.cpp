@@ -426,9 +426,12 @@ std::string vhdl_slices(const PresetFormats& preset, const std::vector<Field>& f
 // The body of a function of `exact`: value(preset, indent) is what it returns.
 template <class Value>
 std::string by_preset(const std::vector<PresetFormats>& presets, const Value& value) {
-  return fmt::format(
-      "  begin\n    if exact then\n      return {};\n    end if;\n    return {};\n  end function;\n\n",
-      value(presets[0], "      "), value(presets[1], "    "));
+  const std::string published = value(presets[1], "    ");
+  const std::string exact = value(presets[0], "    ") == published
+                                ? ""
+                                : fmt::format("    if exact then\n      return {};\n    end if;\n",
+                                              value(presets[0], "      "));
+  return fmt::format("  begin\n{}    return {};\n  end function;\n\n", exact, published);
 }
 
 std::string upper_first(std::string_view name) {
