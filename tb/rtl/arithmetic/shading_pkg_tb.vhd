@@ -1,5 +1,5 @@
 -- SPDX-License-Identifier: Apache-2.0
--- Cosines of random and extreme dot products against the golden model. Rounding and clamping against numeric_std.
+-- Cosines of random and extreme dot products. The testbenches of the entities that round and clamp test these functions.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -27,47 +27,6 @@ begin
       finish(finished);
     end process;
   end generate;
-
-  calculate : process is
-    variable random : unsigned(31 downto 0) := x"2545F491";
-
-    procedure check (name : in string; got, expected : in unsigned) is
-    begin
-      assert got = expected
-        report "shading_pkg: " & name & " is " & to_hstring(got) & ", expected " & to_hstring(expected) severity failure;
-    end procedure;
-
-    procedure check_rounding (word_bits, bits : in positive) is
-      variable word    : unsigned(word_bits - 1 downto 0);
-      variable half    : unsigned(word_bits downto 0);
-      variable high    : unsigned(word_bits downto 0);
-      variable whole   : signed(word_bits downto 0);
-      variable largest : unsigned(bits - 1 downto 0) := (others => '1');
-    begin
-      draw_word(random, word);
-      half           := (others => '0');
-      half(bits - 1) := '1';
-      high           := ('0' & word) + half;
-      whole          := resize(signed(word), word_bits + 1) + signed(half);
-      check("round_half_up of unsigned", round_half_up(word, bits), high(word_bits downto bits));
-      check("round_half_up of signed", unsigned(round_half_up(signed(word), bits)), unsigned(whole(word_bits downto bits)));
-      check("round_half_up to no bit", unsigned(round_half_up(signed(word), 0)), word(word_bits - 1) & word);
-      check("round_half_up to no bit", round_half_up(word, 0), '0' & word);
-      if word < largest then
-        largest := word(bits - 1 downto 0);
-      end if;
-      check("clamped", clamped(word, bits), largest);
-    end procedure;
-  begin
-    for word_bits in 2 to 34 loop
-      for bits in 1 to word_bits - 1 loop
-        for i in 1 to 8 loop
-          check_rounding(word_bits, bits);
-        end loop;
-      end loop;
-    end loop;
-    finish(finished);
-  end process;
 
   report_end(finished, "shading_pkg_tb");
 end architecture;
