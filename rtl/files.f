@@ -88,9 +88,9 @@ shaders/token_rasterizer.vhd
 shaders/fragment_output.vhd
 shaders/processors_shader.vhd
 axi/axi_pkg.vhd
+axi/packet_reader.vhd
 axi/axi_control.vhd
 axi/axi_output.vhd
 axi/axi_adapter.vhd
-axi/quadratic_axi.vhd
-axi/spherical_axi.vhd
-axi/processors_axi.vhd
+axi/shader_pkg.vhd
+axi/words_to_fragments.vhd

@@ -1,8 +1,14 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Layout of the words of the AXI4-Stream tops. An init vector is a row of 32-bit words, lowest first, as a program holds
--- it in memory. A fragment is 16 bytes, in memory of a little-endian processor:
+-- Layout of the words at the AXI4-Stream ports.
 --
+-- Input: packets. A packet is a header word, the words of one vector, lowest first, and a zero word if the vector has an
+-- even number of words: it is a whole number of 64-bit words on both widths of the bus. The header word is
+--   15 to 0   kind of the packet, below
+--   31 to 16  number of the vector's 32-bit words
+-- Golden twin model/golden_run/packets.hpp
+--
+-- Output: a fragment is 16 bytes, in memory of a little-endian processor:
 --   struct { uint16_t x, y; uint32_t z, triangle; uint8_t red, green, blue, zero; };
 
 library ieee;
@@ -17,8 +23,27 @@ package axi_pkg is
   subtype fragment_data_t is std_logic_vector(c_fragment_bits - 1 downto 0);
   subtype fragment_keep_t is std_logic_vector(c_fragment_bits / c_byte_bits - 1 downto 0); -- evaluated at elaboration
 
-  -- Bits of the whole 32-bit words that hold this number of bits.
-  function whole_words (bits : positive) return positive;
+  -- Kinds of packets.
+  constant c_end_packet      : natural := 0; -- the end of a frame: no vector
+  constant c_triangle_packet : natural := 1; -- a triangle; in the processors new_object
+  constant c_record_packet   : natural := 2; -- of the spherical shader: a line
+  constant c_load_packet     : natural := 3; -- of the processors: new_frame, define, redefine, delete
+  constant c_walk_packet     : natural := 4; -- of the processors: new_scanline, shadow
+
+  -- For each kind with a vector its number of words. 0: the hardware does not take this kind.
+  type packet_lengths_t is array (c_triangle_packet to c_walk_packet) of natural;
+
+  -- Cause of a fault.
+  subtype cause_t is std_logic_vector(2 downto 0);
+
+  constant c_no_fault      : cause_t := "000";
+  constant c_wrong_kind    : cause_t := "001"; -- a packet of a kind that the hardware does not take
+  constant c_wrong_length  : cause_t := "010"; -- a packet with another number of words than its kind has
+  constant c_shader_fault  : cause_t := "011"; -- the shader reports a fault
+  constant c_limit_reached : cause_t := "100"; -- the shader does not go on
+
+  -- Number of 32-bit words that hold this number of bits.
+  function words_of (bits : natural) return natural;
 
   -- A fragment's fields at the positions of tdata; the bits between them are zero.
   function fragment_data (triangle, y, x, z, red, green, blue : std_logic_vector) return fragment_data_t;
@@ -27,9 +52,9 @@ end package;
 
 package body axi_pkg is
 
-  function whole_words (bits : positive) return positive is
+  function words_of (bits : natural) return natural is
   begin
-    return (bits + c_word_bits - 1) / c_word_bits * c_word_bits; -- evaluated at elaboration
+    return (bits + c_word_bits - 1) / c_word_bits; -- evaluated at elaboration
   end function;
 
   function fragment_data (triangle, y, x, z, red, green, blue : std_logic_vector) return fragment_data_t is

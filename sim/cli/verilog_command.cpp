@@ -22,7 +22,7 @@ namespace {
 struct VerilogCommand {
   DrawOptions draw;
   std::string scene = "spheres";
-  bool axi = false;               // the top with AXI4-Stream ports
+  bool axi = false;               // words_to_fragments
   unsigned multiplier_bits = 18;  // as in most FPGAs
 };
 
@@ -48,6 +48,7 @@ using Generics = std::vector<std::pair<std::string, std::string>>;
 
 Generics generics_of(const HardwareKey& key, const std::string& top, unsigned multiplier_bits) {
   auto generics = key.generics();
+  if (top != key.entity()) generics.emplace_back("g_shader", to_string(key.shader));
   if (synth::takes_multiplier_bits(top))
     generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
   return generics;
@@ -75,7 +76,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
-  const std::string top = command.axi ? fmt::format("{}_axi", to_string(key.shader)) : key.entity();
+  const std::string top = command.axi ? "words_to_fragments" : key.entity();
   const Generics generics = generics_of(key, top, command.multiplier_bits);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = must(mend_netlist(must(library.synthesize(top, generics))));
@@ -101,7 +102,7 @@ void add_verilog(CLI::App& app, const Folders& folders, int&) {
   command->draw.out = "build/verilog";
   sub->add_option("scene", command->scene, "as for sim")->capture_default_str();
   command->draw.add_to(*sub);
-  sub->add_flag("--axi", command->axi, "the top with AXI4-Stream ports");
+  sub->add_flag("--axi", command->axi, "words_to_fragments: the shader with AXI4-Stream ports");
   sub->add_option("--multiplier-bits", command->multiplier_bits,
                   "width of the device's multipliers; 0: products in lookup tables")
       ->check(CLI::Range(0, 64))

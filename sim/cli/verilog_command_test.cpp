@@ -46,11 +46,11 @@ TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
 TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
   const Outcome outcome = write({"--axi"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_EQ(text_of("quadratic_axi.f"), "quadratic_axi.v\n");
+  EXPECT_EQ(text_of("words_to_fragments.f"), "words_to_fragments.v\n");
   EXPECT_THAT(
-      text_of("quadratic_axi.v"),
-      AllOf(HasSubstr("--preset published --axi\n"), HasSubstr("\n//   input     512  s_axis_tdata\n"),
-            HasSubstr("\n//   output    128  m_axis_tdata\n"), HasSubstr("\nmodule quadratic_axi\n")));
+      text_of("words_to_fragments.v"),
+      AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"), HasSubstr("\n//   input      32  s_axis_tdata\n"),
+            HasSubstr("\n//   output    128  m_axis_tdata\n"), HasSubstr("\nmodule words_to_fragments\n")));
 }
 
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {

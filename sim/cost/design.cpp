@@ -29,7 +29,7 @@ std::string hardware_text(const Design& design) {
 bool takes_multiplier_bits(std::string_view entity) {
   constexpr std::array<std::string_view, 6> c_entities = {"multiplier",       "diffuse_slice",
                                                           "specular_slice",   "spherical_light",
-                                                          "spherical_shader", "spherical_axi"};
+                                                          "spherical_shader", "words_to_fragments"};
   return std::ranges::find(c_entities, entity) != c_entities.end();
 }
 

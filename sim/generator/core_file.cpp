@@ -30,7 +30,7 @@ std::string core_text(std::string_view files, std::string_view version) {
          "  check:\n"
          "    default_tool: ghdl\n"
          "    filesets: [rtl]\n"
-         "    toplevel: quadratic_axi\n";
+         "    toplevel: words_to_fragments\n";
 }
 
 }  // namespace halfway::tables

@@ -8,7 +8,7 @@ namespace halfway::tables {
 namespace {
 
 TEST(CoreFile, ListsTheFilesInTheirOrder) {
-  EXPECT_EQ(core_text("b/x_pkg.vhd\n# comment\n\na/quadratic_axi.vhd\n", "1.2.3"),
+  EXPECT_EQ(core_text("b/x_pkg.vhd\n# comment\n\na/words_to_fragments.vhd\n", "1.2.3"),
             "CAPI=2:\n"
             "# SPDX-License-Identifier: Apache-2.0\n"
             "# For FuseSoC. Made by `make tables` from rtl/files.f: change that file.\n"
@@ -19,7 +19,7 @@ TEST(CoreFile, ListsTheFilesInTheirOrder) {
             "    file_type: vhdlSource-2008\n"
             "    files:\n"
             "      - rtl/b/x_pkg.vhd\n"
-            "      - rtl/a/quadratic_axi.vhd\n\n"
+            "      - rtl/a/words_to_fragments.vhd\n\n"
             "targets:\n"
             "  default:\n"
             "    filesets: [rtl]\n"
@@ -27,7 +27,7 @@ TEST(CoreFile, ListsTheFilesInTheirOrder) {
             "  check:\n"
             "    default_tool: ghdl\n"
             "    filesets: [rtl]\n"
-            "    toplevel: quadratic_axi\n");
+            "    toplevel: words_to_fragments\n");
 }
 
 }  // namespace

@@ -4,11 +4,10 @@ library ieee;
 use ieee.std_logic_1164.all;
 use work.processors_pkg.all;
 use work.quadratic_pkg.all;
+use work.shader_pkg.all;
 use work.spherical_pkg.all;
 
 package tb_shaders_pkg is
-
-  type shader_t is (quadratic, spherical, processors);
 
   -- The generics of all shaders. Each shader has some of them.
   type hardware_t is record

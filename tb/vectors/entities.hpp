@@ -50,6 +50,7 @@ std::vector<Entity> folded_entities();
 std::vector<Entity> illumination_entities();
 std::vector<Entity> interpolation_entities();
 std::vector<Entity> objects_entities();
+std::vector<Entity> packets_entities();
 std::vector<Entity> processors_entities();
 std::vector<Entity> processors_shader_entities();
 std::vector<Entity> raster_entities();

@@ -273,7 +273,7 @@ class Host {
 };
 
 template <class Preset>
-void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
+void draw_set(Host<Preset>& host, Mix mix) {
   host.define_all();
   host.draw_triangles(mix);
   // A dense set has no gap between fragments, as before an object after a load.
@@ -284,14 +284,14 @@ void draw_set(Host<Preset>& host, const Processors& processors, Mix mix) {
 // same list.
 template <class Write>
 void write_parts(const Write& write) {
-  const auto write_part = [&]<class Preset>(Host<Preset> host, const Processors& processors) {
-    draw_set(host, processors, Mix::mixed);
+  const auto write_part = [&]<class Preset>(Host<Preset> host) {
+    draw_set(host, Mix::mixed);
     host.any_objects();
     write(host);
   };
   for (const std::size_t i : {std::size_t{0}, std::size_t{1}, std::size_t{2}})
-    write_part(Host<Exact>(c_exact_processors[i]), c_exact_processors[i]);
-  write_part(Host<Published>(c_published_processors[0]), c_published_processors[0]);
+    write_part(Host<Exact>(c_exact_processors[i]));
+  write_part(Host<Published>(c_published_processors[0]));
 }
 
 template <class Preset>
@@ -302,7 +302,7 @@ void write_set(const Folder& folder, const Processors& processors, const char* s
     if (!host.fault()) throw Failure{tool_failed(fmt::format("{}: nothing went wrong", processors.name))};
     return host.write(folder, set);
   }
-  draw_set(host, processors, set == std::string_view("dense") ? Mix::dense : Mix::mixed);
+  draw_set(host, set == std::string_view("dense") ? Mix::dense : Mix::mixed);
   if (host.fault())
     throw Failure{tool_failed(fmt::format("{}: a fault in the set {}", processors.name, set))};
   return host.write(folder, set);
@@ -350,8 +350,6 @@ std::vector<Entity> processors_shader_entities() {
          write_long<Published>(f, c_published_processors);
        }},
       {"short/processors_shader", write_processors_shader<c_short>},
-      {"processors_axi", write_processors_shader<1>},
-      {"short/processors_axi", write_processors_shader<c_short>},
   };
 }
 

@@ -230,8 +230,6 @@ std::vector<Entity> shaders_entities() {
   return {
       {"quadratic_shader", write_quadratic_shader},
       {"spherical_shader", write_spherical_shader},
-      {"quadratic_axi", write_quadratic_shader},
-      {"spherical_axi", write_spherical_shader},
   };
 }
 

@@ -29,7 +29,8 @@ ListedDesign shader(const std::string& name, const HardwareKey& key) {
 // The shader with AXI4-Stream ports.
 ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
   ListedDesign top = shader(name, key);
-  top.design.entity = to_string(key.shader) + std::string("_axi");
+  top.design.entity = "words_to_fragments";
+  top.design.generics.emplace_back("g_shader", to_string(key.shader));
   top.design.key.clear();
   return top;
 }
@@ -100,8 +101,8 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
     if (exact) {
-      all.push_back(axi_top("quadratic_axi_grey_exact", {.channels = 1}));
-      all.push_back(axi_top("spherical_axi_grey_exact", spherical(preset, 1, 8, tables)));
+      all.push_back(axi_top("words_to_fragments_quadratic_grey_exact", {.channels = 1}));
+      all.push_back(axi_top("words_to_fragments_spherical_grey_exact", spherical(preset, 1, 8, tables)));
     }
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(
@@ -169,6 +170,7 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     if (exact) add("axi_output", {{"g_bits", "128"}}, true);
     if (exact) add("axi_control", {}, true);
     if (exact) add("axi_adapter", {}, true);
+    if (exact) add("packet_reader", {{"g_bits", "880"}}, true);
     if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
     add("function_rom", {is_exact, {"g_which", "0"}}, true);
     const std::pair<std::string, std::string> clocks{"g_clocks", exact ? "2" : "1"};

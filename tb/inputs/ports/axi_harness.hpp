@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An AXI4-Stream top in Verilator as a shared library: exported by axi_harness.cpp, called by
+// words_to_fragments in Verilator as a shared library: exported by axi_harness.cpp, called by
 // bad_input_test.cpp.
 #pragma once
 
@@ -16,8 +16,8 @@ struct AxiFragment {
 };
 
 struct AxiFrame {
-  const std::uint32_t* words;  ///< the vectors, each in whole 32-bit words
-  std::size_t vectors;
+  const std::uint32_t* words;  ///< of packets; the last two are the frame's end
+  std::size_t count_words;
   std::uint32_t stall_seed;  ///< 0: full speed
   std::uint64_t
       most_wait;  ///< clocks without a transfer, and without a stall of the receiver, that count as a hang
@@ -25,7 +25,8 @@ struct AxiFrame {
   std::size_t capacity;
   std::size_t count;  ///< number of fragments, also of those beyond `capacity`
   std::uint64_t longest_wait;
-  bool fault;  ///< at the frame's last transfer
+  std::uint8_t cause;  ///< of a fault, in the frame's last transfer
+  std::size_t ends;    ///< frames that ended: wrong words may be the end of a frame
 };
 
 /// Draws one frame. Null: it ended; otherwise what is wrong.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors that are none, at the ports of the AXI4-Stream tops in Verilator: random bits, faults in good
-// vectors, and frames without their last vectors. Each frame must end within a bounded number of clocks. The
-// next good frame must have the golden model's fragments, without a reset in between.
+// Packets that are none, at the ports of words_to_fragments in Verilator: random words, random vectors, faults
+// in good packets, and frames without their last packets. Each frame must end within a bounded number of
+// clocks. The next good frame must have the golden model's fragments, without a reset in between.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "golden_run/packets.hpp"
 #include "inputs/ports/axi_harness.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
@@ -46,8 +47,9 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 SharedLibrary build(const HardwareKey& key, int limit_bits) {
-  const std::string top = fmt::format("{}_axi", to_string(key.shader));
+  const std::string top = "words_to_fragments";
   auto generics = key.generics();
+  generics.emplace_back("g_shader", to_string(key.shader));
   generics.emplace_back("g_limit_bits", std::to_string(limit_bits));
   const std::filesystem::path folder = c_folders.source / "tb/inputs/ports";
   return must(
@@ -71,8 +73,7 @@ class BadInput : public testing::TestWithParam<Case> {
                                         c_folders.source / "sim/scenes"));
     const HardwareKey key = must(plan_scene(scene, GetParam().plan)).key;
     FrameStream stream = must(whole_stream(scene, GetParam().size, key));
-    beat_words_ = stream.vector_words();
-    good_ = std::move(stream.words);
+    PacketWriter(key).append(good_, stream.words);
     golden_ = std::move(stream.golden);
     ASSERT_GT(golden_.size(), 40U);
     library_.emplace(build(key, GetParam().limit_bits));
@@ -81,31 +82,32 @@ class BadInput : public testing::TestWithParam<Case> {
     model_ = create_();
   }
 
-  std::size_t vectors() const { return good_.size() / beat_words_; }
   std::uint32_t random() { return static_cast<std::uint32_t>(engine_()); }
 
-  /// Random bits, or the start of a good frame in which bits are inverted, or which only ends too early.
+  /// The start of a good frame that only ends too early, or in which random bits are inverted, or whose words
+  /// but for the headers are random, or random words.
   std::vector<std::uint32_t> bad_frame() {
-    std::vector<std::uint32_t> words;
-    const std::size_t kind = random() % 3,
-                      count = 1 + random() % (kind == 0 ? 4 : std::min<std::size_t>(vectors(), 40));
-    if (kind == 0) {
-      words.resize(count * beat_words_);
-      for (std::uint32_t& word : words) word = random();
-    } else {
-      words.assign(good_.begin(), good_.begin() + static_cast<std::ptrdiff_t>(count * beat_words_));
-      for (std::uint32_t flips = kind == 1 ? 1 + random() % 20 : 0; flips > 0; --flips)
-        words[random() % words.size()] ^= 1U << random() % 32;
+    const std::uint32_t kind = random() % 4;
+    const std::size_t most = kind < 2 ? 2000 : 200, count = 1 + random() % std::min(most, good_.size());
+    std::vector<std::uint32_t> words(good_.begin(), good_.begin() + static_cast<std::ptrdiff_t>(count));
+    for (std::uint32_t flips = kind == 1 ? 1 + random() % 20 : 0; flips > 0; --flips)
+      words[random() % words.size()] ^= 1U << random() % 32;
+    for (std::size_t at = 0; kind == 2 && at < words.size();) {
+      const std::size_t end = std::min(words.size(), at + (words[at] >> 16) / 2 * 2 + 2);
+      while (++at < end) words[at] = random();
     }
+    for (std::uint32_t& word : words)
+      if (kind == 3) word = random();
     return words;
   }
 
   /// Draws the frame. Every wait must end within the limit and the clocks of a reset and of an idle shader.
-  AxiFrame draw(const std::vector<std::uint32_t>& words, bool pauses) {
+  AxiFrame draw(std::vector<std::uint32_t> words, bool pauses) {
     constexpr std::uint64_t c_more_clocks = 20;
+    PacketWriter::append_end(words);
     fragments_.resize(2 * golden_.size());
     AxiFrame frame{.words = words.data(),
-                   .vectors = words.size() / beat_words_,
+                   .count_words = words.size(),
                    .stall_seed = pauses ? random() | 1U : 0U,
                    .most_wait = (std::uint64_t{1} << GetParam().limit_bits) + c_more_clocks,
                    .fragments = fragments_.data(),
@@ -117,13 +119,13 @@ class BadInput : public testing::TestWithParam<Case> {
 
   void draw_good_frame(bool pauses) {
     const AxiFrame frame = draw(good_, pauses);
-    EXPECT_FALSE(frame.fault);
+    EXPECT_EQ(frame.cause, 0);
+    EXPECT_EQ(frame.ends, 1U);
     ASSERT_EQ(frame.count, golden_.size());
     for (std::size_t i = 0; i < golden_.size(); ++i)
       ASSERT_EQ(std::memcmp(&fragments_[i], &golden_[i], sizeof(Fragment)), 0) << "fragment " << i;
   }
 
-  std::size_t beat_words_ = 0;
   std::vector<std::uint32_t> good_;
   std::vector<Fragment> golden_;
   std::vector<AxiFragment> fragments_;
@@ -140,13 +142,15 @@ TEST_P(BadInput, EndsAndTheNextFrameIsGolden) {
   int faults = 0;
   for (int i = 0; i < GetParam().frames; ++i) {
     const bool pauses = i % 4 == 3;
-    faults += draw(bad_frame(), pauses).fault ? 1 : 0;
+    faults += draw(bad_frame(), pauses).cause != 0 ? 1 : 0;
     draw_good_frame(pauses);
     if (HasFailure()) FAIL() << "bad frame " << i;
   }
   // Some bad frames are faulty, others only draw wrong fragments. Object processors may refuse each of them.
   EXPECT_GT(faults, GetParam().frames / 20);
-  if (GetParam().name != std::string_view("shadows")) EXPECT_LT(faults, GetParam().frames);
+  if (GetParam().name != std::string_view("shadows")) {
+    EXPECT_LT(faults, GetParam().frames);
+  }
   RecordProperty("faulty", faults);
   fmt::print("{}: {} of {} bad frames are faulty\n", GetParam().name, faults, GetParam().frames);
 }

@@ -2,7 +2,7 @@
 -- Around a shader that outputs numbered fragments, 0 to 3 for each vector. Every fragment of a frame must come out
 -- once, in order, the last one with tlast, at full speed 1 clock after the next one left the shader, and with random
 -- stalls. A frame without fragments must have one transfer without bytes. A frame in which the shader reports a fault
--- or stops must end with fault = '1', and the next frame must be complete.
+-- or stops, or with a wrong packet, must end with the cause in tuser, and the next frame must be complete.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -15,17 +15,33 @@ end entity;
 
 architecture sim of axi_adapter_tb is
   constant c_limit_bits : positive := 6;
+  constant c_init_bits  : positive := 32;
   constant c_frames     : positive := 600;
   constant c_idle_limit : positive := 3 * 2 ** c_limit_bits; -- clocks without a transfer that count as a hang
 
-  type frame_t is (good, reports, stops);
+  type frame_t is (good, reports, stops, is_wrong);
+
+  function cause_of (kind : frame_t) return cause_t is
+  begin
+    case kind is
+      when good =>
+        return c_no_fault;
+      when reports =>
+        return c_shader_fault;
+      when stops =>
+        return c_limit_reached;
+      when is_wrong =>
+        return c_wrong_kind;
+    end case;
+  end function;
 
   signal clk                         : std_logic := '0';
   signal reset                       : std_logic := '1';
   signal s_axis_tvalid               : std_logic := '0';
   signal s_axis_tready               : std_logic;
-  signal s_axis_tlast                : std_logic := '0';
+  signal s_axis_tdata                : std_logic_vector(31 downto 0) := (others => '0');
   signal init_valid                  : std_logic;
+  signal init_data                   : std_logic_vector(c_init_bits - 1 downto 0);
   signal init_ready, fragment_valid  : std_logic := '0';
   signal fragment_ready              : std_logic;
   signal fragment                    : fragment_data_t := (others => '0');
@@ -34,19 +50,25 @@ architecture sim of axi_adapter_tb is
   signal m_axis_tready               : std_logic := '0';
   signal m_axis_tdata                : fragment_data_t;
   signal m_axis_tkeep                : fragment_keep_t;
-  signal m_axis_tlast, fault         : std_logic;
+  signal m_axis_tlast                : std_logic;
+  signal m_axis_tuser                : cause_t;
   signal ended                       : boolean := false;
 begin
   dut : entity work.axi_adapter
-    generic map (g_limit_bits => c_limit_bits)
+    generic map (
+      g_init_bits  => c_init_bits,
+      g_lengths    => (c_triangle_packet => 1, others => 0),
+      g_limit_bits => c_limit_bits)
     port map (
       clk            => clk,
       reset          => reset,
       s_axis_tvalid  => s_axis_tvalid,
       s_axis_tready  => s_axis_tready,
-      s_axis_tlast   => s_axis_tlast,
+      s_axis_tdata   => s_axis_tdata,
+      s_axis_tlast   => '0',
       init_valid     => init_valid,
       init_ready     => init_ready,
+      init_data      => init_data,
       fragment_valid => fragment_valid,
       fragment_ready => fragment_ready,
       fragment       => fragment,
@@ -58,7 +80,7 @@ begin
       m_axis_tdata   => m_axis_tdata,
       m_axis_tkeep   => m_axis_tkeep,
       m_axis_tlast   => m_axis_tlast,
-      fault          => fault);
+      m_axis_tuser   => m_axis_tuser);
 
   clk <= not clk after c_half_period when not ended;
 
@@ -69,8 +91,9 @@ begin
     procedure draw (frame : natural; kind : frame_t; vectors : positive; pauses : boolean) is
       constant c_place : string := "axi_adapter: " & frame_t'image(kind) & ", frame";
 
-      variable to_send  : natural := vectors;
-      variable offered  : boolean := false; -- a vector waits
+      variable to_send  : natural := 2 * vectors + 2; -- words; a packet has two, the last one is the frame's end
+      variable vector   : integer := 2 * vectors + 1; -- of the next packet: words still to send
+      variable offered  : boolean := false; -- a word waits
       variable left     : natural := 0;     -- fragments of the vector in the shader
       variable drawn    : natural := 0;     -- fragments that left the shader
       variable received : natural := 0;
@@ -82,8 +105,16 @@ begin
         random  := next_random(random);
         offered := to_send > 0 and (offered or not pauses or random(8) = '1');
         s_axis_tvalid  <= to_flag(offered);
-        s_axis_tlast   <= to_flag(to_send = 1);
-        init_ready     <= to_flag(left = 0 and not (kind = stops and to_send = 1));
+        if to_send mod 2 = 1 then
+          s_axis_tdata <= std_logic_vector(to_unsigned(to_send, 32)); -- the vector
+        elsif to_send = 2 then
+          s_axis_tdata <= std_logic_vector(to_unsigned(c_end_packet, 32));
+        elsif to_send = 4 and kind = is_wrong then
+          s_axis_tdata <= x"00010000" or std_logic_vector(to_unsigned(c_load_packet, 32));
+        else
+          s_axis_tdata <= x"00010000" or std_logic_vector(to_unsigned(c_triangle_packet, 32));
+        end if;
+        init_ready     <= to_flag(left = 0 and not (kind = stops and to_send <= 2));
         fragment_valid <= to_flag(left > 0);
         fragment       <= std_logic_vector(to_unsigned(drawn + 1, fragment'length));
         busy           <= to_flag(left > 0);
@@ -114,6 +145,8 @@ begin
           age   := 0;
         end if;
         if init_valid = '1' and init_ready = '1' then
+          check(c_place, frame, "vector", to_integer(unsigned(init_data)), vector);
+          vector := vector - 2;
           left := to_integer(random(17 downto 16));
         end if;
         if s_axis_tvalid = '1' and s_axis_tready = '1' then
@@ -125,8 +158,8 @@ begin
           left := 0;
         end if;
       end loop;
-      check(c_place, frame, "vectors not taken", to_send, 0);
-      check(c_place, frame, "fault", fault, to_flag(kind /= good));
+      check(c_place, frame, "words not taken", to_send, 0);
+      check(c_place, frame, "tuser", m_axis_tuser, cause_of(kind));
       check(c_place, frame, "fragments", received, drawn);
     end procedure;
   begin
@@ -134,7 +167,7 @@ begin
     check("axi_adapter: frame", 0, "s_axis_tready in reset", s_axis_tready, '0');
     reset <= '0';
     for frame in 1 to c_frames loop
-      draw(frame, frame_t'val(frame mod 5 / 2 mod 3), 1 + frame mod 7, frame mod 4 > 1);
+      draw(frame, frame_t'val(frame mod 5 mod 4), 1 + frame mod 7, frame mod 4 > 1);
       draw(frame, good, 1 + frame mod 3, frame mod 8 > 3);
     end loop;
     ended <= true;

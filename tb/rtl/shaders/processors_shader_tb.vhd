@@ -6,6 +6,7 @@
 -- that does not exist, an unknown command, or a line that needs more object processors than there are.
 library ieee;
 use ieee.std_logic_1164.all;
+use work.shader_pkg.all;
 use work.tb_shaders_pkg.all;
 use work.tb_pkg.all;
 

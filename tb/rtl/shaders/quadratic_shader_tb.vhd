@@ -3,6 +3,7 @@
 -- fragment per clock; only a triangle of a single pixel takes two clocks.
 library ieee;
 use ieee.std_logic_1164.all;
+use work.shader_pkg.all;
 use work.tb_shaders_pkg.all;
 use work.tb_pkg.all;
 

@@ -8,6 +8,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.formats_pkg.all;
 use work.tb_pkg.all;
+use work.shader_pkg.all;
 use work.tb_shaders_pkg.all;
 
 entity shader_checker is

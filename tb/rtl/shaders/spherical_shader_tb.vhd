@@ -4,6 +4,7 @@
 -- writes.
 library ieee;
 use ieee.std_logic_1164.all;
+use work.shader_pkg.all;
 use work.tb_shaders_pkg.all;
 use work.tb_pkg.all;
 
