@@ -226,10 +226,12 @@ TEST(Objects, InterpolatedValuesKeepTheirBound) {
     };
     const std::int64_t start = any(), dx = any(), dy = any();
     const auto rounded = [](std::int64_t value) {
-      return Interpolator::Value::from_bits(static_cast<std::uint64_t>((value + c_unit / 2) >> 10));
+      return static_cast<std::uint64_t>((value + c_unit / 2) >> 10);
     };
+    using Change = Interpolator::Change;
     Interpolator interpolator;
-    interpolator.load(rounded(start), rounded(dx), rounded(dy));
+    interpolator.load(Interpolator::Value::from_bits(rounded(start)), Change::from_bits(rounded(dx)),
+                      Change::from_bits(rounded(dy)));
     const std::int64_t lines = random.between(0, 3), pixels = random.between(0, 3);
     for (std::int64_t line = 0; line <= lines; ++line) interpolator.line_step();
     for (std::int64_t pixel = 0; pixel < pixels; ++pixel) interpolator.pixel_step();
