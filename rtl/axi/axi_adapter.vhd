@@ -12,7 +12,7 @@
 --             fragments are missing or wrong. The next frame is drawn. In other transfers, and without a fault, tuser is
 --             zero.
 -- Formats     axi_pkg: packets, the fields of a fragment, causes
--- Latency     1 clock from a packet's last word to init; 2 clocks from a fragment to m_axis if the next one follows at once
+-- Latency     2 clocks from a packet's last word to init; 2 clocks from a fragment to m_axis if the next one follows at once
 -- Throughput  that of packet_reader, and 1 fragment per clock, within a frame. Between frames the shader becomes empty:
 --             see axi_control
 -- Error       none: fragments are passed unchanged, in order

@@ -9,7 +9,7 @@
 --             After a fault the processors have no light: the next frame is drawn if it begins with new_frame and defines
 --             all lights.
 -- Formats     axi_pkg: packets, the fields of a fragment, causes; formats_pkg
--- Latency     from a packet's last word to its vector's first fragment: that of the shader and 3 clocks, if another
+-- Latency     from a packet's last word to its vector's first fragment: that of the shader and 4 clocks, if another
 --             fragment follows
 -- Throughput  those of the shader and of packet_reader within a frame. Between frames the pipeline becomes empty: see
 --             axi_control
