@@ -94,3 +94,14 @@ axi/axi_output.vhd
 axi/axi_adapter.vhd
 axi/shader_pkg.vhd
 axi/words_to_fragments.vhd
+memory/memory_pkg.vhd
+memory/pixel_store.vhd
+memory/frame_fill.vhd
+memory/block_collector.vhd
+memory/block_source.vhd
+memory/block_address.vhd
+memory/block_reader.vhd
+memory/block_tester.vhd
+memory/block_writer.vhd
+memory/fragments_to_memory.vhd
+memory/memory_port.vhd

@@ -49,6 +49,7 @@ std::vector<Entity> filter_entities();
 std::vector<Entity> folded_entities();
 std::vector<Entity> illumination_entities();
 std::vector<Entity> interpolation_entities();
+std::vector<Entity> memory_entities();
 std::vector<Entity> objects_entities();
 std::vector<Entity> packets_entities();
 std::vector<Entity> processors_entities();

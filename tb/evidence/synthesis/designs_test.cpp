@@ -39,6 +39,11 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
                              "shared_adder",  "shared_dot_product",  "shared_multiplier", "shared_normalizer",
                              "shared_weight", "token_rasterizer",    "token_register"})
     EXPECT_TRUE(listed.insert(inside).second) << inside;
+  // docs/rtl/memory.md has the cells of fragments_to_memory.
+  for (const char* in_memory :
+       {"fragments_to_memory", "frame_fill", "block_address", "block_collector", "block_reader",
+        "block_source", "block_tester", "block_writer", "memory_port", "pixel_store"})
+    EXPECT_TRUE(listed.insert(in_memory).second) << in_memory;
   EXPECT_THAT(listed, ::testing::ContainerEq(there));
   EXPECT_GT(there.size(), 30U);
 }
