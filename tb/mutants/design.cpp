@@ -75,6 +75,7 @@ std::vector<Design> read_designs(const std::filesystem::path& source) {
     common.skip = entity["skip"].value_or(0U);
     common.stalled = text_of(entity, "stalled");
     common.reset = entity["reset"].value_or(false);
+    common.busy = entity["busy"].value_or(true);
     common.proofs = entity["proofs"].value_or(true);
     if (entity["own_cells"].value_or(false))
       std::ranges::remove_copy(tested, std::back_inserter(common.without_faults), common.entity);

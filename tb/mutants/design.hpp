@@ -34,6 +34,7 @@ struct Design {
   std::vector<Stream> outputs;
   std::string stalled;                      ///< a ready input without a stream
   bool reset = false;                       ///< before each pass, since the vectors start from that state
+  bool busy = true;                         ///< '1' whenever a word is inside
   bool proofs = true;                       ///< whether survivors are tried to be proved equivalent
   bool quick = false;                       ///< part of the quick form
   std::vector<std::string> without_faults;  ///< own_cells: the entities that are tested by themselves

@@ -309,7 +309,7 @@ class StreamPass {
       : model_(model),
         pace_(pace),
         random_(pace.seed),
-        busy_(model.find("busy")),
+        busy_(design.busy ? model.find("busy") : nullptr),
         idle_(model.find("idle")),
         fault_(model.find("fault")),
         clear_(model.find("clear")),
