@@ -318,7 +318,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
   EXPECT_LT(usual.picture.rms, coarse.picture.rms);
   EXPECT_EQ(usual.fragments, coarse.fragments);
   EXPECT_EQ(usual.setup.shaded, coarse.setup.shaded);
-  EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1,,,\n"));
+  EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1,,,,,\n"));
 }
 
 // Filtered pictures are compared with a filtered reference. Too few object processors are refused, and tiles.
