@@ -91,9 +91,16 @@ class Unordered {
     return (8 * value + static_cast<std::uint64_t>(columns * dx) + static_cast<std::uint64_t>(lines * dy)) >>
            3;
   }
+  // de1 has the upper bits of the changes, which have three more than the value.
   template <int W>
-  static std::int64_t word(std::span<const std::uint32_t> vector, const words::Field& field, int low) {
-    return words::Word<W>::from_bits(get_bits(vector, field, low)).value();
+  static std::uint64_t at(std::span<const std::uint32_t> vector, int low, const words::Field& value,
+                          const words::Field& dx, const words::Field& de0, const words::Field& de1,
+                          std::int64_t columns, std::int64_t lines) {
+    const auto change = [&](const words::Field& field, int upper_low) {
+      const std::uint64_t upper = get_bits(vector, de1, low) >> upper_low & 7;
+      return words::Word<W + 3>::from_bits(get_bits(vector, field, low) | upper << W).value();
+    };
+    return at(get_bits(vector, value, low), change(dx, 0), change(de0, 3), columns, lines);
   }
 
   Shown element(const StripTriangle& t, std::size_t number, std::uint32_t y, std::uint32_t x) const {
@@ -118,16 +125,10 @@ class Unordered {
       columns += (2 * (first % n) + 1 - n) * 4 / n;
       lines += (2 * (first / n) + 1 - n) * 4 / n;
     }
-    const auto depth = [&](const words::Field& field) {
-      return word<Exact::c_depth_sum_bits>(t.vector, field, c_walk);
-    };
-    const auto plane = [&](const words::Field& field) {
-      return word<Preset::c_plane_sum_bits>(t.vector, field, c_plane);
-    };
-    const std::uint64_t z =
-        at(static_cast<std::uint64_t>(depth(At::z)), depth(At::z_dx), depth(At::z_de0), columns, lines);
-    const std::uint64_t n = at(static_cast<std::uint64_t>(plane(Plane::value)), plane(Plane::dx),
-                               plane(Plane::de0), columns, lines);
+    const std::uint64_t z = at<Exact::c_depth_sum_bits>(t.vector, c_walk, At::z, At::z_dx, At::z_de0,
+                                                        At::z_de1, columns, lines);
+    const std::uint64_t n = at<Preset::c_plane_sum_bits>(t.vector, c_plane, Plane::value, Plane::dx,
+                                                         Plane::de0, Plane::de1, columns, lines);
     e.z = static_cast<std::uint32_t>(words::low_bits(z >> Exact::c_depth_sum_fraction_bits, 24));
     e.triangle = static_cast<std::uint32_t>(get_bits(t.vector, At::triangle, c_walk));
     e.normal_x = words::Word<Preset::c_plane_sum_bits>::from_bits(n).value() >>
