@@ -24,8 +24,8 @@ enum class PacketKind : std::uint32_t {
 class PacketWriter {
  public:
   explicit PacketWriter(const HardwareKey& key);
-  /// Appends the packets of vectors, in the order of the set-up. The vectors of a triangle may come in several
-  /// calls.
+  /// Appends the packets of vectors, in the order of the set-up. The vectors of a triangle may come in
+  /// several calls.
   void append(std::vector<std::uint32_t>& packets, std::span<const std::uint32_t> init_words);
   /// Appends the end of the frame.
   static void append_end(std::vector<std::uint32_t>& packets);

@@ -64,10 +64,10 @@ package body shader_pkg is
     sizes := (
       bits => init_bits(c_config),
       lengths => (
-        c_triangle_packet => words_of(init_material_low(c_config) + material_bits(c_config)),
-        c_load_packet => words_of(load_bits(c_config)),
-        others => 0
-        )
+      c_triangle_packet => words_of(init_material_low(c_config) + material_bits(c_config)),
+      c_load_packet => words_of(load_bits(c_config)),
+      others => 0
+      )
       );
     if g.objects > 0 then
       sizes.lengths(c_walk_packet) := words_of(plane_low(c_config, 0));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `halfway init`: writes a scene's init vectors to a file, as vectors or as packets, and prints setup's counts.
+// `halfway init`: writes a scene's init vectors to a file, as vectors or as packets, and prints setup's
+// counts.
 #include <fmt/format.h>
 
 #include "golden_run/packets.hpp"

@@ -49,7 +49,8 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
   EXPECT_EQ(text_of("words_to_fragments.f"), "words_to_fragments.v\n");
   EXPECT_THAT(
       text_of("words_to_fragments.v"),
-      AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"), HasSubstr("\n//   input      32  s_axis_tdata\n"),
+      AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"),
+            HasSubstr("\n//   input      32  s_axis_tdata\n"),
             HasSubstr("\n//   output    128  m_axis_tdata\n"), HasSubstr("\nmodule words_to_fragments\n")));
 }
 

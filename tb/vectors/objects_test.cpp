@@ -125,8 +125,8 @@ class Unordered {
       columns += (2 * (first % n) + 1 - n) * 4 / n;
       lines += (2 * (first / n) + 1 - n) * 4 / n;
     }
-    const std::uint64_t z = at<Exact::c_depth_sum_bits>(t.vector, c_walk, At::z, At::z_dx, At::z_de0,
-                                                        At::z_de1, columns, lines);
+    const std::uint64_t z =
+        at<Exact::c_depth_sum_bits>(t.vector, c_walk, At::z, At::z_dx, At::z_de0, At::z_de1, columns, lines);
     const std::uint64_t n = at<Preset::c_plane_sum_bits>(t.vector, c_plane, Plane::value, Plane::dx,
                                                          Plane::de0, Plane::de1, columns, lines);
     e.z = static_cast<std::uint32_t>(words::low_bits(z >> Exact::c_depth_sum_fraction_bits, 24));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of words_to_fragments for each hardware, frame after frame. packets: the last word of a packet, and the word.
-// fragments: the transfers at the output: last one of the frame, cause of the fault, whether it has a fragment, and the
-// data. A frame with a fault has only its last transfer.
+// Files of words_to_fragments for each hardware, frame after frame. packets: the last word of a packet, and
+// the word. fragments: the transfers at the output: last one of the frame, cause of the fault, whether it has
+// a fragment, and the data. A frame with a fault has only its last transfer.
+#include "golden_run/packets.hpp"
+
 #include <fmt/format.h>
 
-#include "golden_run/packets.hpp"
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
@@ -108,8 +109,9 @@ class Frames {
   void transfer(const Fragment* f, bool last, Cause cause) {
     fragments_.flag(last).word(static_cast<std::uint64_t>(cause), 3).flag(f != nullptr);
     const Fragment data = f != nullptr ? *f : Fragment{};
-    const std::uint32_t words[] = {data.x | std::uint32_t{data.y} << 16, data.z, data.triangle,
-                                   data.red | std::uint32_t{data.green} << 8 | std::uint32_t{data.blue} << 16};
+    const std::uint32_t words[] = {
+        data.x | std::uint32_t{data.y} << 16, data.z, data.triangle,
+        data.red | std::uint32_t{data.green} << 8 | std::uint32_t{data.blue} << 16};
     fragments_.words_of(words, 128).end_vector();
   }
 

@@ -162,7 +162,7 @@ void write_light_term_of(const Folder& folder, Term term, int light_number, int 
 template <class Preset>
 void write_light_state_of(const Folder& folder) {
   constexpr int c_tokens = 1500;
-  constexpr int c_most = 300;   // volumes of a long list, at the end
+  constexpr int c_most = 300;  // volumes of a long list, at the end
   constexpr int c_pace = 100;  // number of tokens between changes of the pace
   constexpr std::uint32_t c_light = 2;
   const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();

@@ -130,8 +130,9 @@ class Writer {
         bad_input(fmt::format("tb/vectors/rows.toml:{}: {}: {}", table_.source().begin.line, entity_, what))};
   }
   void check_keys() const {
-    const Texts known =
-        words("generics forms files file for if latency reset drive check late stream fault passes use declare connect");
+    const Texts known = words(
+        "generics forms files file for if latency reset drive check late stream fault passes use declare "
+        "connect");
     for (const auto& [key, node] : table_)
       if (std::ranges::find(known, key.str()) == known.end()) fail(fmt::format("unknown key {}", key.str()));
     if (has("stream") ? words(value("stream")).size() < 2 : value("drive").empty() || value("check").empty())
@@ -209,7 +210,8 @@ class Writer {
       widths.push_back(interface_.port_types.at(port) == "std_logic" ? "1" : port + "'length");
       numbered.push_back(fmt::format("{} => {}", numbered.size(), widths.back()));
     }
-    put("outputs : block is\nsignal row : std_logic_vector({} - 1 downto 0);\nbegin", fmt::join(widths, " + "));
+    put("outputs : block is\nsignal row : std_logic_vector({} - 1 downto 0);\nbegin",
+        fmt::join(widths, " + "));
     std::ranges::reverse(outputs);
     put("row <= {};", fmt::join(outputs, " & "));
     // An entity without busy or fault is busy while it has a word, and has no fault.
@@ -217,8 +219,9 @@ class Writer {
       return interface_.port_types.contains(port) ? port : other;
     };
     put("check : entity work.stream_checker");
-    put("generic map (g_file => g_folder & \"/\" & {}, g_fault => {}, g_passes => {}, g_widths => ({}))", file,
-        has("fault") ? value("fault") : "'0'", table_["passes"].value_or(false), fmt::join(numbered, ", "));
+    put("generic map (g_file => g_folder & \"/\" & {}, g_fault => {}, g_passes => {}, g_widths => ({}))",
+        file, has("fault") ? value("fault") : "'0'", table_["passes"].value_or(false),
+        fmt::join(numbered, ", "));
     put("port map (clk, reset, {}, {}, {}, row, {}, {});", handshake(input), input, handshake(output),
         port_or("busy", output.substr(0, output.find('_')) + "_valid"), port_or("fault", "'0'"));
     put("end block;");

@@ -427,10 +427,10 @@ std::string vhdl_slices(const PresetFormats& preset, const std::vector<Field>& f
 template <class Value>
 std::string by_preset(const std::vector<PresetFormats>& presets, const Value& value) {
   const std::string published = value(presets[1], "    ");
-  const std::string exact = value(presets[0], "    ") == published
-                                ? ""
-                                : fmt::format("    if exact then\n      return {};\n    end if;\n",
-                                              value(presets[0], "      "));
+  const std::string exact =
+      value(presets[0], "    ") == published
+          ? ""
+          : fmt::format("    if exact then\n      return {};\n    end if;\n", value(presets[0], "      "));
   return fmt::format("  begin\n{}    return {};\n  end function;\n\n", exact, published);
 }
 
@@ -538,8 +538,8 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       const Format& format = preset.formats[i];
       const std::string comment = commented(format, fmt::format("{}  -- ", indent));
-      const bool again = &preset != &presets[0] &&
-                         commented(format, "") == commented(presets[0].formats[i], "");
+      const bool again =
+          &preset != &presets[0] && commented(format, "") == commented(presets[0].formats[i], "");
       fmt::format_to(std::back_inserter(text), "{}{}  {} => ({}, {}){}\n", again ? "" : comment, indent,
                      format.name, format.bits(), format.fraction_bits, i + 1 < names.size() ? "," : "");
     }
@@ -554,8 +554,8 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
       declare_record(fmt::format("{}_{}", layout, part), fields, "slice_t");
       body += by_preset(presets, [&](const PresetFormats& preset, std::string_view indent) {
         return fmt::format(
-            "(\n{}{})",
-            vhdl_slices(preset, preset.layouts[i].*members, fields, fmt::format("{}  ", indent)), indent);
+            "(\n{}{})", vhdl_slices(preset, preset.layouts[i].*members, fields, fmt::format("{}  ", indent)),
+            indent);
       });
     }
     const bool channels = !presets[0].layouts[i].channel.empty();
@@ -565,9 +565,9 @@ std::string vhdl_package(const std::vector<PresetFormats>& presets) {
     fmt::format_to(to_body, "{} is\n", bits);
     body += by_preset(presets, [&](const PresetFormats& preset, std::string_view) {
       const std::string header = fmt::format("{}", total_bits(preset, preset.layouts[i].header));
-      return channels ? fmt::format("{} + channels * {}", header,
-                                    total_bits(preset, preset.layouts[i].channel))
-                      : header;
+      return channels
+                 ? fmt::format("{} + channels * {}", header, total_bits(preset, preset.layouts[i].channel))
+                 : header;
     });
   }
   return out + body + "end package body;\n";

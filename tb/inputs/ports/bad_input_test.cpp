@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets that are none, at the ports of words_to_fragments in Verilator: random words, random vectors, faults
-// in good packets, and frames without their last packets. Each frame must end within a bounded number of
-// clocks. The next good frame must have the golden model's fragments, without a reset in between.
+// Packets that are none, at the ports of words_to_fragments in Verilator: random words, random vectors,
+// faults in good packets, and frames without their last packets. Each frame must end within a bounded number
+// of clocks. The next good frame must have the golden model's fragments, without a reset in between.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -74,8 +74,8 @@ begin
       generic map (g_file => c_file, g_widths => (0 => out_token'length))
       port map (clk, reset, in_valid, in_ready, in_token, out_valid, out_ready, out_token, busy, '0');
 
-    -- One token that loads no light is taken per clock, except in a stall and in the clock after it. The first token leaves
-    -- after the promised time.
+      -- One token that loads no light is taken per clock, except in a stall and in the clock after it. The first token leaves
+      -- after the promised time.
     pace : process (clk) is
       constant c_header  : pixel_header_t := pixel_header(c_config.exact);
       constant c_latency : positive       := times(c_config, c_kind, c_light).leave;

@@ -41,8 +41,8 @@ begin
       generic map (g_file => c_file, g_fault => to_flag(c_wrong), g_passes => true, g_pace => 3, g_widths => (0 => token'length))
       port map (clk, reset, in_valid, in_ready, in_vector, token_valid, token_ready, token, busy, fault);
 
-    -- A load is output in the clock in which it is offered, if no triangle is inside. The first triangle's first token is
-    -- output 3 clocks after the triangle is offered.
+      -- A load is output in the clock in which it is offered, if no triangle is inside. The first triangle's first token is
+      -- output 3 clocks after the triangle is offered.
     latency : if not c_wrong generate
       measure : process is
         variable clocks : natural := 0;
