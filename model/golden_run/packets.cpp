@@ -39,13 +39,14 @@ void append_packet(std::vector<std::uint32_t>& packets, PacketKind kind,
 
 }  // namespace
 
-PacketWriter::PacketWriter(const HardwareKey& key) : key_(key), golden_(make_golden_model(key_)) {}
-
-std::size_t PacketWriter::words_of(PacketKind kind) const {
+PacketWriter::PacketWriter(const HardwareKey& key) : key_(key), golden_(make_golden_model(key_)) {
   const int init_bits = static_cast<int>(golden_->init_bits());
-  const int bits = key_.preset == Preset::exact ? bits_of<words::Exact>(key_, kind, init_bits)
-                                                : bits_of<words::Published>(key_, kind, init_bits);
-  return static_cast<std::size_t>(bits + 31) / 32;
+  for (const PacketKind kind :
+       {PacketKind::triangle, PacketKind::record, PacketKind::load, PacketKind::walk}) {
+    const int bits = key_.preset == Preset::exact ? bits_of<words::Exact>(key_, kind, init_bits)
+                                                  : bits_of<words::Published>(key_, kind, init_bits);
+    words_[static_cast<std::size_t>(kind)] = static_cast<std::size_t>(bits + 31) / 32;
+  }
 }
 
 PacketKind PacketWriter::kind_of(std::span<const std::uint32_t> vector) {
@@ -65,7 +66,7 @@ void PacketWriter::append(std::vector<std::uint32_t>& packets, std::span<const s
   for (; !init_words.empty(); init_words = init_words.subspan(vector_words)) {
     const auto vector = init_words.first(vector_words);
     const PacketKind kind = kind_of(vector);
-    append_packet(packets, kind, vector.first(words_of(kind)));
+    append_packet(packets, kind, vector.first(words_[static_cast<std::size_t>(kind)]));
   }
 }
 

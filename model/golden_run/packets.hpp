@@ -3,7 +3,10 @@
 // them.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,11 +35,10 @@ class PacketWriter {
 
  private:
   PacketKind kind_of(std::span<const std::uint32_t> vector);
-  /// Words of the vectors of this kind.
-  std::size_t words_of(PacketKind kind) const;
 
   HardwareKey key_;
   std::unique_ptr<GoldenModel> golden_;
+  std::array<std::size_t, 5> words_{};  ///< of the vectors of each kind
   std::size_t records_ = 0;  ///< line records that come next
 };
 

@@ -47,6 +47,12 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
   return list;
 }
 
+std::vector<std::pair<std::string, std::string>> HardwareKey::stream_generics() const {
+  auto list = generics();
+  list.emplace_back("g_shader", to_string(shader));
+  return list;
+}
+
 std::string HardwareKey::vhdl_init_bits() const {
   switch (shader) {
     case Shader::quadratic:

@@ -69,6 +69,9 @@ struct ProcessorUnits {
   unsigned lights() const { return directional + positional + spots; }
 };
 
+/// Entity in rtl/axi: a shader with AXI4-Stream ports.
+inline constexpr const char* c_stream_top = "words_to_fragments";
+
 struct HardwareKey {
   Shader shader = Shader::quadratic;
   Preset preset = Preset::exact;
@@ -84,6 +87,8 @@ struct HardwareKey {
   std::string entity() const;
   /// Generics of the top entity, in the form of the option `-g`, in a fixed order.
   std::vector<std::pair<std::string, std::string>> generics() const;
+  /// Those of c_stream_top, which contains the top entity.
+  std::vector<std::pair<std::string, std::string>> stream_generics() const;
   /// The width of the top's port init_data, as a VHDL expression of its generics.
   std::string vhdl_init_bits() const;
   /// For example quadratic_shader-exact-c3. Also the name of the cached build.

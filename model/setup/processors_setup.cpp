@@ -371,15 +371,22 @@ class ProcessorsSetup final : public Setup {
 
   static PlaneFit plane_fit(const ScreenTriangle& t) { return PlaneFit(screen_points(t), c_subpixel_bits); }
 
-  // Words of a plane that start at a pixel. The value is that of the triangle's origin, moved by the rounded
-  // changes: where a strip begins then makes no difference.
-  DepthWords plane_words(const PlaneFit& fit, const ScreenTriangle& t,
-                         const std::array<std::int64_t, 3>& values, const DifferenceStart& first,
-                         std::int64_t half, int bits) const {
-    if (!has_strips()) return fit.words(values, fit.at(first), half);
+  // Where the words of a vector's planes are computed, and the pixels from there to the vector's start.
+  struct PlaneStart {
+    BarycentricStart computed;
+    std::int64_t columns = 0, lines = 0;
+  };
+  // In strips the words are computed at the triangle's origin: where a strip begins then makes no difference.
+  PlaneStart plane_start(const PlaneFit& fit, const ScreenTriangle& t, const DifferenceStart& first) const {
+    if (!has_strips()) return {fit.at(first)};
     const DifferenceStart origin = origin_of(t);
-    DepthWords words = fit.words(values, fit.at(origin), half);
-    words.value += (first.x - origin.x) * words.dx + (first.y - origin.y) * words.de0;
+    return {fit.at(origin), first.x - origin.x, first.y - origin.y};
+  }
+  // Words of a plane of `bits` bits. The rounded changes move the value to the vector's start.
+  DepthWords plane_words(const PlaneFit& fit, const std::array<std::int64_t, 3>& values,
+                         const PlaneStart& start, std::int64_t half, int bits) const {
+    DepthWords words = fit.words(values, start.computed, half);
+    words.value += start.columns * words.dx + start.lines * words.de0;
     // With subpixels, which need eighths of a change, de1 has the three bits above those of dx and of de0.
     // Object processors do not step by de1.
     if (chain_.filtered()) words.de1 = (words.dx >> bits & 7) | (words.de0 >> bits & 7) << 3;
@@ -396,8 +403,8 @@ class ProcessorsSetup final : public Setup {
             pixel(std::min({v[0].y, v[1].y, v[2].y}), frame_.height), 0, false};
   }
 
-  DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const DifferenceStart& first) const {
-    return plane_words(fit, t, fixed_depths(t), first, half(Exact::c_depth_sum_fraction_bits),
+  DepthWords depth_words(const PlaneFit& fit, const ScreenTriangle& t, const PlaneStart& start) const {
+    return plane_words(fit, fixed_depths(t), start, half(Exact::c_depth_sum_fraction_bits),
                        Exact::c_depth_sum_bits);
   }
 
@@ -456,12 +463,13 @@ class ProcessorsSetup final : public Setup {
   void draw(const ScreenTriangle& t, const PlaneFit& fit, const Surface& surface,
             const DifferenceStart& first, const Walk& walk, std::vector<std::uint32_t>& words,
             SetupCounts& counts) const {
+    const PlaneStart start = plane_start(fit, t, first);
     InitVector init = request(words, Command::new_object, counts);
-    put_header(init, t.source, walk, depth_words(fit, t, first), layout_.walk_low());
+    put_header(init, t.source, walk, depth_words(fit, t, start), layout_.walk_low());
     init.put(Request::normalize, surface.normalize);
     for (int plane = 0; plane < layout_.planes(); ++plane) {
       // Without positions the layout has only the planes of N.
-      const DepthWords of_plane = plane_words(fit, t, surface.planes[static_cast<std::size_t>(plane)], first,
+      const DepthWords of_plane = plane_words(fit, surface.planes[static_cast<std::size_t>(plane)], start,
                                               c_half_vector, P::c_plane_sum_bits);
       const int low = layout_.plane_low(plane);
       init.put(Plane::value, of_plane.value, low);
@@ -480,7 +488,10 @@ class ProcessorsSetup final : public Setup {
     InitVector init = request(words, Command::shadow, counts, static_cast<int>(shadow.polygon.light) + 1);
     init.put(Request::opens, shadow.polygon.opens);
     DepthWords depth{0, 0, 0, 0};
-    if (!shadow.before_near) depth = depth_words(plane_fit(t), t, first);
+    if (!shadow.before_near) {
+      const PlaneFit fit = plane_fit(t);
+      depth = depth_words(fit, t, plane_start(fit, t, first));
+    }
     put_header(init, t.source, walk, depth, layout_.walk_low());
   }
 

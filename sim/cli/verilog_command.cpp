@@ -47,8 +47,7 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 Generics generics_of(const HardwareKey& key, const std::string& top, unsigned multiplier_bits) {
-  auto generics = key.generics();
-  if (top != key.entity()) generics.emplace_back("g_shader", to_string(key.shader));
+  auto generics = top == key.entity() ? key.generics() : key.stream_generics();
   if (synth::takes_multiplier_bits(top))
     generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
   return generics;
@@ -76,7 +75,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
-  const std::string top = command.axi ? "words_to_fragments" : key.entity();
+  const std::string top = command.axi ? c_stream_top : key.entity();
   const Generics generics = generics_of(key, top, command.multiplier_bits);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = must(mend_netlist(must(library.synthesize(top, generics))));

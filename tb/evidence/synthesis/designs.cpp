@@ -29,8 +29,8 @@ ListedDesign shader(const std::string& name, const HardwareKey& key) {
 // The shader with AXI4-Stream ports.
 ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
   ListedDesign top = shader(name, key);
-  top.design.entity = "words_to_fragments";
-  top.design.generics.emplace_back("g_shader", to_string(key.shader));
+  top.design.entity = c_stream_top;
+  top.design.generics = key.stream_generics();
   top.design.key.clear();
   return top;
 }

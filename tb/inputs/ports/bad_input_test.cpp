@@ -47,9 +47,8 @@ void PrintTo(const Case& c, std::ostream* out) {
 }
 
 SharedLibrary build(const HardwareKey& key, int limit_bits) {
-  const std::string top = "words_to_fragments";
-  auto generics = key.generics();
-  generics.emplace_back("g_shader", to_string(key.shader));
+  const std::string top = c_stream_top;
+  auto generics = key.stream_generics();
   generics.emplace_back("g_limit_bits", std::to_string(limit_bits));
   const std::filesystem::path folder = c_folders.source / "tb/inputs/ports";
   return must(
