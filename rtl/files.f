@@ -105,3 +105,4 @@ memory/block_tester.vhd
 memory/block_writer.vhd
 memory/fragments_to_memory.vhd
 memory/memory_port.vhd
+core/core_registers_pkg.vhd

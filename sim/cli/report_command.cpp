@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "sim/cli/options.hpp"
-#include "sim/files/page_part.hpp"
 #include "sim/os/csv.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/page_part.hpp"
 #include "sim/report/front_plot.hpp"
 #include "sim/report/report.hpp"
 #include "sim/report/times.hpp"

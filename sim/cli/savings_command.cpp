@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim/cli/options.hpp"
-#include "sim/files/page_part.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/page_part.hpp"
 #include "sim/study/savings.hpp"
 
 namespace halfway::cli {

@@ -6,12 +6,32 @@
 #include <algorithm>
 
 #include "sim/generator/core_file.hpp"
+#include "sim/generator/core_registers.hpp"
 #include "sim/os/file.hpp"
+#include "sim/os/must.hpp"
+#include "sim/os/page_part.hpp"
 #include "words/generator/formats.hpp"
 #include "words/generator/functions.hpp"
 #include "words/generator/layout_page.hpp"
 
 namespace halfway::tables {
+namespace {
+
+constexpr const char* c_registers = "rtl/core/core_registers.toml";
+constexpr const char* c_core_page = "docs/rtl/core.md";
+
+std::string core_page(const std::filesystem::path& checkout, const CoreRegisters& core) {
+  std::string page = must(read_file(checkout / c_core_page));
+  for (const auto& [part, table] :
+       {std::pair{"registers", register_table(core)}, std::pair{"command", command_table(core)}}) {
+    Result<std::string> with = with_page_part(page, part, table);
+    if (!with) throw Failure{bad_input(fmt::format("{}: {}", c_core_page, with.error().message))};
+    page = std::move(*with);
+  }
+  return page;
+}
+
+}  // namespace
 
 std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout, const CosineSizes& sizes) {
   const auto presets = preset_formats();
@@ -20,7 +40,14 @@ std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout
                                       {"rtl/tables/function_pkg.vhd", function_vhdl_package()},
                                       {"docs/rtl/init-vectors.md", layout_page(presets)}};
   if (const auto list = read_file(checkout / "rtl/files.f"))
-    files.push_back({"halfway.core", core_text(*list, HALFWAY_VERSION)});
+    files.push_back({"halfway.core", core_text(*list, HALFWAY_VERSION), "rtl/files.f"});
+  if (const auto toml = read_file(checkout / c_registers)) {
+    const CoreRegisters core = core_registers(*toml, c_registers);
+    files.push_back({"rtl/core/core_registers_pkg.vhd", core_registers_vhdl(core, HALFWAY_VERSION), c_registers});
+    files.push_back({"sim/extras/library/halfway_core_registers.h", core_registers_header(core, HALFWAY_VERSION),
+                     c_registers});
+    files.push_back({c_core_page, core_page(checkout, core), c_registers});
+  }
   return files;
 }
 
@@ -31,10 +58,11 @@ std::vector<GeneratedFile> cpp_headers(const CosineSizes& sizes, bool exact, con
 }
 
 Status write_files(const std::filesystem::path& folder, const std::vector<GeneratedFile>& files) {
-  for (const auto& [path, text] : files) {
-    if (const auto present = read_file(folder / path); present && *present == text) continue;
-    if (Status made = make_folders((folder / path).parent_path()); !made) return made;
-    if (Status written = write_file(folder / path, text); !written) return written;
+  for (const GeneratedFile& file : files) {
+    const std::filesystem::path path = folder / file.path;
+    if (const auto present = read_file(path); present && *present == file.text) continue;
+    if (Status made = make_folders(path.parent_path()); !made) return made;
+    if (Status written = write_file(path, file.text); !written) return written;
   }
   return Ok{};
 }
@@ -61,7 +89,7 @@ std::vector<std::string> stale_files(const std::filesystem::path& checkout, cons
     if (const std::size_t line = first_different_line(checkout, file); line != 0)
       messages.push_back(fmt::format(
           "{}:{}: not what the generator writes; edit {}, then run `make tables`", file.path.string(), line,
-          file.path.extension() == ".core" ? "rtl/files.f" : "model/words/generator"));
+          file.source));
   }
   return messages;
 }

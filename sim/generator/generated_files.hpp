@@ -16,9 +16,11 @@ namespace halfway::tables {
 struct GeneratedFile {
   std::filesystem::path path;  ///< relative to the checkout's root, or to a folder of headers
   std::string text;
+  std::string source = "model/words/generator";  ///< what to edit
 };
 
-/// The files for this checkout. halfway.core is made only if the checkout has rtl/files.f.
+/// The files for this checkout. halfway.core is made only if the checkout has rtl/files.f, and the files of
+/// registers only if it has rtl/core/core_registers.toml. Throws Failure.
 std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout, const CosineSizes& sizes);
 
 /// words/formats.hpp, words/cosine_tables.hpp and words/function_tables.hpp. `words`: lengths of preset
@@ -35,7 +37,7 @@ CosineSizes sizes_of(const std::filesystem::path& checkout);
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file);
 
 /// "path:line: not what the generator writes; ..." for each file of the checkout that differs. Without
-/// `all` only for sources.
+/// `all` only for sources. Throws Failure.
 std::vector<std::string> stale_files(const std::filesystem::path& checkout, const CosineSizes& sizes,
                                      bool all = true);
 

@@ -7,8 +7,8 @@
 #include <mutex>
 
 #include "sim/files/load_scene.hpp"
-#include "sim/files/page_part.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/page_part.hpp"
 #include "sim/os/threads.hpp"
 #include "sim/run/simulation_cost.hpp"
 

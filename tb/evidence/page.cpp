@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "sim/files/page_part.hpp"
 #include "sim/files/template.hpp"
+#include "sim/os/page_part.hpp"
 
 namespace halfway::page {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "pages.hpp"
 #include "sim/cost/bitstream.hpp"
-#include "sim/files/page_part.hpp"
 #include "sim/files/template.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/page_part.hpp"
 
 namespace halfway::synth {
 namespace {

@@ -9,8 +9,8 @@
 #include "pages.hpp"
 #include "sim/cost/netlist_identity.hpp"
 #include "sim/cost/synthesis.hpp"
-#include "sim/files/page_part.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/page_part.hpp"
 #include "sim/study/hardware.hpp"
 
 namespace halfway::synth {

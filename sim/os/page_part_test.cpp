@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/files/page_part.hpp"
+#include "sim/os/page_part.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
