@@ -7,6 +7,7 @@ arithmetic/shading_pkg.vhd
 arithmetic/vector_pkg.vhd
 tables/function_rom.vhd
 stream/parameter_register.vhd
+stream/stream_pkg.vhd
 stream/stream_register.vhd
 stream/delay_line.vhd
 stream/stream_queue.vhd

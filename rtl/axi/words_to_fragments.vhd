@@ -3,7 +3,8 @@
 -- Purpose     A shader with AXI4-Stream ports: words of packets in, fragments out.
 -- Contract    aclk, aresetn: rising edge; synchronous reset, active low, for at least one rising edge. All outputs depend
 --             on registers only.
---             s_axis: the packets of frames; those of a frame are in the order of the host's set-up.
+--             s_axis: the packets of frames; those of a frame are in the order of the host's set-up. A word that waits
+--             does not change (a simulation stops otherwise).
 --             m_axis: one fragment per transfer, as in axi_adapter.
 --             g_shader selects the shader, which has its generics. The others are not used.
 --             After a fault the processors have no light: the next frame is drawn if it begins with new_frame and defines
@@ -23,6 +24,7 @@ use work.formats_pkg.all;
 use work.axi_pkg.all;
 use work.cosine_pkg.all;
 use work.shader_pkg.all;
+use work.stream_pkg.all;
 
 entity words_to_fragments is
   generic (
@@ -91,6 +93,16 @@ architecture rtl of words_to_fragments is
 begin
 
   reset <= not aresetn;
+
+  -- Report a broken contract in the user's simulation.
+  check_words : process (aclk)
+    variable waiting : std_logic_vector(g_bus_bits + 1 downto 0);
+  begin
+    if rising_edge(aclk) then
+      check_stream("words_to_fragments: s_axis", reset, s_axis_tready,
+        s_axis_tvalid & s_axis_tlast & s_axis_tdata, waiting);
+    end if;
+  end process;
 
   quadratic_core : if g_shader = quadratic generate
 

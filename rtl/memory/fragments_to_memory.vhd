@@ -13,7 +13,8 @@
 --             responses. fault = '1': since start a response had an error, or tuser was not 0 in the transfer with tlast.
 --             It stays until the next start. A frame with errors ends as any other. The data of a read with an error are
 --             compared; its fragments are kept or not.
---             s_axis: fragments as of axi_adapter, and a cause of a fault as tuser in the transfer with tlast.
+--             s_axis: fragments as of axi_adapter, and a cause of a fault as tuser in the transfer with tlast. What waits
+--             does not change (a simulation stops otherwise).
 --             Nothing outside width, height and scissor is written, by fragments and by the clear. Depth test: a fragment
 --             is kept if its depth in memory is less than the stored one. Rows must not overlap, nor the two buffers.
 --             m_axi: AXI4, one identifier for all reads and one for all writes, so there are no ports for it. INCR bursts
@@ -32,6 +33,7 @@ use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.axi_pkg.all;
 use work.memory_pkg.all;
+use work.stream_pkg.all;
 
 entity fragments_to_memory is
   generic (
@@ -148,6 +150,15 @@ begin
         and frame.depth_base(c_shift - 1 downto 0) = 0 and frame.depth_stride(c_shift - 1 downto 0) = 0)
         report "fragments_to_memory: a base or a stride is not a multiple of " & integer'image(2 ** c_shift) & " bytes"
         severity failure;
+    end if;
+  end process;
+
+  check_fragments : process (clk)
+    variable waiting : std_logic_vector(s_axis_tdata'length + s_axis_tkeep'length + s_axis_tuser'length + 1 downto 0);
+  begin
+    if rising_edge(clk) then
+      check_stream("fragments_to_memory: s_axis", reset, s_axis_tready,
+        s_axis_tvalid & s_axis_tlast & s_axis_tuser & s_axis_tkeep & s_axis_tdata, waiting);
     end if;
   end process;
 

@@ -14,6 +14,7 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
+use work.stream_pkg.all;
 
 entity stream_register is
   generic (
@@ -68,17 +69,10 @@ begin
 
   -- Report a broken contract in the user's simulation.
   check_input : process (clk)
-    variable waits : boolean; -- the word was not taken in the clock before
-    variable word  : std_logic_vector(in_data'range);
+    variable waiting : std_logic_vector(g_bits downto 0);
   begin
     if rising_edge(clk) then
-      assert not waits or reset = '1' or (in_valid = '1' and in_data = word)
-        report "stream_register: in_valid or in_data changes while the word waits"
-        severity failure;
-      waits := in_valid = '1' and free = '0' and reset = '0';
-      if waits then
-        word := in_data;
-      end if;
+      check_stream("stream_register: in", reset, free, in_valid & in_data, waiting);
     end if;
   end process;
 
