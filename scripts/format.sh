@@ -79,22 +79,24 @@ format_vhdl() {
   has ghdl 5 || return 0
   sources '\.vhd$' >"$scratch/vhdl"
   compile_order | awk '!seen[$0]++' >"$scratch/order"
-  mkdir "$scratch/work"
+  mkdir "$scratch/work" "$scratch/halfway"
+  # The designs of users take the RTL from the library halfway.
+  sed 's|^|rtl/|' rtl/files.f | xargs ghdl -a --std=08 --work=halfway --workdir="$scratch/halfway" >"$scratch/errors" 2>&1 || true
   # Its messages for a broken file are repeated below.
   while read -r file; do if [ -f "$file" ]; then printf '%s\0' "$file"; fi; done <"$scratch/order" |
-    xargs -0 ghdl -a --std=08 --workdir="$scratch/work" >"$scratch/errors" 2>&1 || true
+    xargs -0 ghdl -a --std=08 --workdir="$scratch/work" -P"$scratch/halfway" >"$scratch/errors" 2>&1 || true
   while read -r file; do
     if [ ! -f "$file" ]; then
       report "$file" "rtl/files.f lists it, but the file does not exist: correct the list"
       continue
     fi
-    if ! ghdl -s --std=08 --workdir="$scratch/work" "$file" 2>"$scratch/errors"; then
+    if ! ghdl -s --std=08 --workdir="$scratch/work" -P"$scratch/halfway" "$file" 2>"$scratch/errors"; then
       cat "$scratch/errors" >&2
       report "$file" "GHDL cannot analyse it: mend that first"
       continue
     fi
     if ! grep -qxF -e "$file" "$scratch/vhdl"; then continue; fi
-    if ! ghdl fmt --std=08 --workdir="$scratch/work" "$file" >"$scratch/new.vhd" 2>"$scratch/errors" ||
+    if ! ghdl fmt --std=08 --workdir="$scratch/work" -P"$scratch/halfway" "$file" >"$scratch/new.vhd" 2>"$scratch/errors" ||
       ! ghdl compare-tokens "$file" "$scratch/new.vhd" >"$scratch/errors" 2>&1; then
       cat "$scratch/errors" >&2
       report "$file" "ghdl fmt failed"

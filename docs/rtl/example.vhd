@@ -9,11 +9,11 @@
 -- Source      ours; the vectors are those of
 --             halfway init sim/report/timing.toml --size 16x12 --highlight-test none --preset published
 
-library ieee;
+library ieee, halfway;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.formats_pkg.all;
-use work.quadratic_pkg.all;
+use halfway.formats_pkg.all;
+use halfway.quadratic_pkg.all;
 
 entity example is
   port (
@@ -63,7 +63,7 @@ architecture rtl of example is
 
 begin
 
-  shader : entity work.quadratic_shader
+  shader : entity halfway.quadratic_shader
     generic map (
       g_exact    => c_exact,
       g_channels => 1

@@ -17,6 +17,7 @@ std::string core_text(std::string_view files, std::string_view version) {
       "filesets:\n"
       "  rtl:\n"
       "    file_type: vhdlSource-2008\n"
+      "    logical_name: halfway\n"
       "    files:\n",
       version);
   std::istringstream lines{std::string(files)};
@@ -30,7 +31,7 @@ std::string core_text(std::string_view files, std::string_view version) {
          "  check:\n"
          "    default_tool: ghdl\n"
          "    filesets: [rtl]\n"
-         "    toplevel: words_to_fragments\n";
+         "    toplevel: halfway.words_to_fragments\n";
 }
 
 }  // namespace halfway::tables

@@ -17,6 +17,7 @@ TEST(CoreFile, ListsTheFilesInTheirOrder) {
             "filesets:\n"
             "  rtl:\n"
             "    file_type: vhdlSource-2008\n"
+            "    logical_name: halfway\n"
             "    files:\n"
             "      - rtl/b/x_pkg.vhd\n"
             "      - rtl/a/words_to_fragments.vhd\n\n"
@@ -27,7 +28,7 @@ TEST(CoreFile, ListsTheFilesInTheirOrder) {
             "  check:\n"
             "    default_tool: ghdl\n"
             "    filesets: [rtl]\n"
-            "    toplevel: words_to_fragments\n");
+            "    toplevel: halfway.words_to_fragments\n");
 }
 
 }  // namespace

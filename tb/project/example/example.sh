@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # The examples of docs/rtl/using-the-core.md: the design draws the golden model's frame, the program computes the
-# set-up's vectors. example.sh HALFWAY ROOT FOLDER LIBRARY OWN_VECTORS: LIBRARY is the folder of the analysed RTL.
+# set-up's vectors. example.sh HALFWAY ROOT FOLDER LIBRARY OWN_VECTORS: LIBRARY is the folder of the library halfway.
 set -eu
 halfway=$1 root=$2 folder=$3 library=$4 own_vectors=$5
 mkdir -p "$folder"
@@ -23,6 +23,5 @@ done
 awk 'NF == 7 { at = $2 * 16 + $3; if (!(at in z) || $4 < z[at]) { z[at] = $4; colour[at] = $5 } }
   END { for (i = 0; i < 192; ++i) print colour[i] + 0 }' out/timing/quadratic/golden.trace >frame.txt
 [ "$(grep -vc '^0$' frame.txt)" -gt 40 ] || { echo 'example: the golden frame is empty'; exit 1; }
-cp "$library"/*.cf "$library"/*.o . 2>/dev/null || cp "$library"/*.cf .
-ghdl -a --std=08 "$root/docs/rtl/example.vhd" "$root/tb/project/example/example_tb.vhd"
-ghdl --elab-run --std=08 example_tb -gg_frame="$folder/frame.txt" --ieee-asserts=disable-at-0 --assert-level=error
+ghdl -a --std=08 -P"$library" "$root/docs/rtl/example.vhd" "$root/tb/project/example/example_tb.vhd"
+ghdl --elab-run --std=08 -P"$library" example_tb -gg_frame="$folder/frame.txt" --ieee-asserts=disable-at-0 --assert-level=error
