@@ -26,6 +26,15 @@ struct VerilogCommand {
   unsigned multiplier_bits = 18;  // as in most FPGAs
 };
 
+// Before the name of each module and file, which else is that of an entity: users may have a multiplier, too.
+constexpr std::string_view c_prefix = "halfway_";
+
+// The netlist with the prefix at each declaration of a module and at each instance.
+std::string with_prefix(const std::string& netlist) {
+  static const std::regex c_name(R"((?:^|\n)module |\n  (?=\w+ \w+ \(\n))");
+  return std::regex_replace(netlist, c_name, fmt::format("$&{}", c_prefix));
+}
+
 struct Port {
   std::string direction, name;
   unsigned bits;
@@ -54,12 +63,13 @@ Generics generics_of(const HardwareKey& key, const std::string& top, unsigned mu
 }
 
 std::string header(const VerilogCommand& command, const HardwareKey& key, const std::string& top,
-                   const Generics& generics, const std::vector<Port>& ports, const std::string& version) {
+                   const std::string& module, const Generics& generics, const std::vector<Port>& ports,
+                   const std::string& version) {
   std::string text = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}, hardware key {}: written by Halfway {} with\n"
       "//   halfway verilog {} {}{}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
-      top, key.name(), version, printable(command.scene), hardware_options(command.draw),
+      module, key.name(), version, printable(command.scene), hardware_options(command.draw),
       command.axi ? " --axi" : "",
       synth::takes_multiplier_bits(top) ? fmt::format(" --multiplier-bits {}", command.multiplier_bits)
                                         : std::string());
@@ -76,19 +86,20 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
   const std::string top = command.axi ? c_stream_top : key.entity();
+  const std::string module = fmt::format("{}{}", c_prefix, top);
   const Generics generics = generics_of(key, top, command.multiplier_bits);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
-  const auto netlist = must(mend_netlist(must(library.synthesize(top, generics))));
-  const std::vector<Port> ports = ports_of(netlist, top);
+  const auto netlist = with_prefix(must(mend_netlist(must(library.synthesize(top, generics)))));
+  const std::vector<Port> ports = ports_of(netlist, module);
   if (ports.empty())
-    throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), top))};
+    throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), module))};
 
   const std::filesystem::path folder = draw.out / key.name();
-  const std::filesystem::path file = folder / (top + ".v"), list = folder / (top + ".f");
+  const std::filesystem::path file = folder / (module + ".v"), list = folder / (module + ".f");
   must(make_folders(folder));
-  must(write_file(file, header(command, key, top, generics, ports, version) + netlist));
-  must(write_file(list, top + ".v\n"));
-  fmt::print("{}: module {} with {} ports\n{}: the list of files\n", file.string(), top, ports.size(),
+  must(write_file(file, header(command, key, top, module, generics, ports, version) + netlist));
+  must(write_file(list, module + ".v\n"));
+  fmt::print("{}: module {} with {} ports\n{}: the list of files\n", file.string(), module, ports.size(),
              list.string());
 }
 

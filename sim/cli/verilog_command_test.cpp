@@ -29,29 +29,32 @@ class VerilogCommand : public CommandTest {
 };
 
 TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
-  EXPECT_THAT(write({}), Ends(0, HasSubstr("quadratic_shader.v: module quadratic_shader with 16 ports\n")));
-  EXPECT_EQ(text_of("quadratic_shader.f"), "quadratic_shader.v\n");
+  EXPECT_THAT(write({}),
+              Ends(0, HasSubstr("halfway_quadratic_shader.v: module halfway_quadratic_shader with 16 ports\n")));
+  EXPECT_EQ(text_of("halfway_quadratic_shader.f"), "halfway_quadratic_shader.v\n");
   EXPECT_THAT(
-      text_of("quadratic_shader.v"),
-      AllOf(StartsWith("// SPDX-License-Identifier: Apache-2.0\n// quadratic_shader, hardware key "
+      text_of("halfway_quadratic_shader.v"),
+      AllOf(StartsWith("// SPDX-License-Identifier: Apache-2.0\n// halfway_quadratic_shader, hardware key "
                        "quadratic_shader-published-c1: written by Halfway "),
             HasSubstr("--shader quadratic --preset published\n"),
             HasSubstr("\n// Generics: g_exact=false g_channels=1 g_degree=2\n"),
             HasSubstr("\n// Ports, in this order:\n//   input       1  clk\n//   input       1  reset\n//   "
                       "input       1  init_valid\n"),
             HasSubstr("\n//   input     497  init_data\n"), HasSubstr("\n//   output      1  init_ready\n"),
-            HasSubstr("\n//   output     12  fragment_y\n"), HasSubstr("\nmodule quadratic_shader\n")));
+            HasSubstr("\n//   output     12  fragment_y\n"),
+            HasSubstr("\nmodule halfway_quadratic_shader\n")));
 }
 
 TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
   const Outcome outcome = write({"--axi"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_EQ(text_of("words_to_fragments.f"), "words_to_fragments.v\n");
+  EXPECT_EQ(text_of("halfway_words_to_fragments.f"), "halfway_words_to_fragments.v\n");
   EXPECT_THAT(
-      text_of("words_to_fragments.v"),
+      text_of("halfway_words_to_fragments.v"),
       AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"),
             HasSubstr("\n//   input      32  s_axis_tdata\n"),
-            HasSubstr("\n//   output    128  m_axis_tdata\n"), HasSubstr("\nmodule words_to_fragments\n")));
+            HasSubstr("\n//   output    128  m_axis_tdata\n"),
+            HasSubstr("\nmodule halfway_words_to_fragments\n")));
 }
 
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {

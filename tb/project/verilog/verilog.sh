@@ -25,24 +25,27 @@ check() { # top file-of-words bits flag
   list=$(echo ./*/"$1".f)
   key=$(dirname "$list")
   sed "s#^#$key/#" "$list" >"$1.files"
+  # Modules of the user's own, with the names of the VHDL's entities.
+  sed -n 's/^module \(halfway_\)*\(.*\)/module \2 (output foreign); endmodule/p' "$(cat "$1.files")" >"$1.foreign.v"
+  echo "$1.foreign.v" >>"$1.files"
   # GHDL's state machines cause the first two warnings, copies of a grey colour the third.
   verilator --lint-only -Wno-COMBDLY -Wno-CASEINCOMPLETE -Wno-UNOPTFLAT --top-module "$1" -f "$1.files"
-  yosys -q -p "read_verilog $(cat "$1.files"); hierarchy -check -top $1; proc; check -assert"
+  yosys -q -p "read_verilog $(tr '\n' ' ' <"$1.files"); hierarchy -check -top $1; proc; check -assert"
   iverilog -g2005 -Wall -Wno-timescale -s shader_tb -o "$1.vvp" -DTOP="$1" -DFILE="\"$2\"" -DBITS="$3" \
     -DCOUNT="$(wc -l <"$2")" ${4:+-DAXI} "$root/tb/project/verilog/shader_tb.v" -c "$1.files"
   vvp -n "$1.vvp" | awk 'NF != 7 || $0 !~ /^[0-9 ]*$/ { if ($0 !~ /finish/) print > "/dev/stderr"; next } { print }' >"$1.txt"
   cmp golden.txt "$1.txt" || { echo "verilog: $1: not the golden fragments"; exit 1; }
 }
-check "${shader}_shader" vectors.hex "$bits" ""
-top=words_to_fragments
+check "halfway_${shader}_shader" vectors.hex "$bits" ""
+top=halfway_words_to_fragments
 check $top packets.hex 32 --axi
 # The page lists every port.
-sed -n 's#^//   \(input\|output\) .* ##p' "$(cat $top.files)" >ports.txt
+sed -n 's#^//   \(input\|output\) .* ##p' "$(head -n 1 $top.files)" >ports.txt
 [ "$(wc -l <ports.txt)" -gt 10 ] || { echo "verilog: $top: no list of ports"; exit 1; }
 while read -r port; do
   grep -q "^|.*\`$port\`.*|" "$root/docs/rtl/axi.md" || { echo "verilog: docs/rtl/axi.md lacks the port $port"; exit 1; }
 done <ports.txt
-yosys -q -p "read_verilog $(cat $top.files); hierarchy -top $top; proc; flatten; opt_clean; memory -nomap; \
+yosys -q -p "read_verilog $(tr '\n' ' ' <$top.files); hierarchy -top $top; proc; flatten; opt_clean; memory -nomap; \
   delete t:\$dff t:\$sdff* t:\$dffe t:\$adff* t:\$mem*; select -assert-none o:* i:* %coe* %i" ||
   { echo "verilog: $top: an output depends on an input in the same clock"; exit 1; }
 echo "verilog.sh: $shader passed with $(wc -l <golden.txt) fragments"
