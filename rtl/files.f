@@ -107,3 +107,5 @@ memory/block_writer.vhd
 memory/fragments_to_memory.vhd
 memory/memory_port.vhd
 core/core_registers_pkg.vhd
+core/register_port.vhd
+core/core_registers.vhd

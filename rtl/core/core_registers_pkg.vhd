@@ -35,6 +35,34 @@ package core_registers_pkg is
   constant c_address_pixels : natural := 72;
   constant c_address_busy_clocks : natural := 76;
   constant c_address_stalled_clocks : natural := 80;
+
+  -- Access of each word.
+  type access_t is (unmapped, ro, rw, w1c);
+  type accesses_t is array (0 to 63) of access_t;
+  constant c_accesses : accesses_t := (
+    0 => ro,
+    1 => ro,
+    2 => ro,
+    3 => ro,
+    4 => ro,
+    5 => ro,
+    6 => rw,
+    7 => ro,
+    8 => w1c,
+    9 => rw,
+    10 => w1c,
+    11 => rw,
+    12 => rw,
+    13 => rw,
+    14 => ro,
+    15 => ro,
+    16 => ro,
+    17 => ro,
+    18 => ro,
+    19 => ro,
+    20 => ro,
+    others => unmapped);
+
   constant c_command_words : natural := 16;
 
   constant c_command_packets_word : natural := 0;

@@ -17,7 +17,8 @@ namespace halfway::tables {
 namespace {
 
 constexpr std::string_view c_core_notice = "Made by `make tables` from rtl/core/core_registers.toml; edit that.";
-constexpr int c_last_offset = 0xFC, c_last_bit = 31;
+constexpr int c_last_offset = 0xFC, c_bytes = 4, c_last_bit = 31;
+constexpr std::array c_accesses = {"ro", "rw", "w1c"};
 
 // ---- Reads core_registers.toml
 
@@ -96,14 +97,13 @@ class CoreFile {
   }
 
   CoreRegister register_of(const toml::table& table) const {
-    constexpr std::array c_accesses = {"ro", "rw", "w1c"};
     check_keys(table, {"name", "offset", "access", "text", "fields"});
     CoreRegister read{checked_name(table, text(table, "name")),
                       static_cast<int>(number(table, "offset", c_last_offset)),
                       text(table, "access"),
                       text(table, "text"),
                       {}};
-    if (read.offset % 4 != 0) fail(table, "offset {:02X} is no multiple of 4", read.offset);
+    if (read.offset % c_bytes != 0) fail(table, "offset {:02X} is no multiple of {}", read.offset, c_bytes);
     if (std::ranges::find(c_accesses, read.access) == c_accesses.end())
       fail(table, "unknown access '{}'; take {}", read.access, fmt::join(c_accesses, ", "));
     if (table.contains("fields")) read.fields = fields_of(table, 0);
@@ -213,6 +213,14 @@ std::string core_registers_vhdl(const CoreRegisters& core, const std::string& ve
   constant("version_patch", patch);
   out += '\n';
   for (const CoreRegister& r : core.registers) constant("address_" + r.name, r.offset);
+  out += fmt::format(
+      "\n  -- Access of each word.\n  type access_t is (unmapped, {});\n"
+      "  type accesses_t is array (0 to {}) of access_t;\n"
+      "  constant c_accesses : accesses_t := (\n",
+      fmt::join(c_accesses, ", "), c_last_offset / c_bytes);
+  for (const CoreRegister& r : core.registers)
+    out += fmt::format("    {} => {},\n", r.offset / c_bytes, r.access);
+  out += "    others => unmapped);\n\n";
   constant("command_words", core.command_words);
   out += '\n';
   for (const CoreField& field : core.command) constant("command_" + field.name + "_word", field.word);
