@@ -107,5 +107,9 @@ memory/block_writer.vhd
 memory/fragments_to_memory.vhd
 memory/memory_port.vhd
 core/core_registers_pkg.vhd
+core/burst_reader.vhd
+core/read_arbiter.vhd
+core/ring_control.vhd
 core/register_port.vhd
 core/core_registers.vhd
+core/halfway_core.vhd

@@ -4,6 +4,7 @@
 -- Contract    reset: synchronous, for at least one rising edge. All outputs depend on
 --             registers only.
 --             s_axis: words of packets, as packet_reader describes them. A packet without a vector ends the frame.
+--             triangle = '1': in this clock the shader takes a packet of kind 1.
 --             init, fragment, busy, shader_fault, shader_reset: the shader's ports, as axi_control describes them.
 --             m_axis: one fragment per transfer. tlast = '1' marks the frame's last fragment: each end of a frame at
 --             s_axis has one tlast of m_axis. The fragment before it waits until the next fragment or the frame's end is
@@ -21,7 +22,9 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 use work.axi_pkg.all;
+use work.line_pkg.flag;
 
 entity axi_adapter is
   generic (
@@ -37,6 +40,7 @@ entity axi_adapter is
     s_axis_tready  : out std_logic;
     s_axis_tdata   : in  std_logic_vector(g_bus_bits - 1 downto 0);
     s_axis_tlast   : in  std_logic;
+    triangle       : out std_logic;
     init_valid     : out std_logic;
     init_ready     : in  std_logic;
     init_data      : out std_logic_vector(g_init_bits - 1 downto 0);
@@ -63,6 +67,7 @@ architecture rtl of axi_adapter is
   signal is_last                   : std_logic;
   signal item_valid, item_ready    : std_logic;
   signal item_end                  : std_logic;
+  signal item_kind                 : unsigned(15 downto 0);
   signal item_cause, frame_cause   : cause_t;
 
 begin
@@ -83,6 +88,7 @@ begin
       out_valid  => item_valid,
       out_ready  => item_ready,
       out_end    => item_end,
+      out_kind   => item_kind,
       out_cause  => item_cause,
       out_vector => init_data
       );
@@ -131,6 +137,7 @@ begin
       done      => done
       );
 
+  triangle     <= init_valid and init_ready and flag(item_kind = c_triangle_packet);
   m_axis_tkeep <= (others => not is_empty);
   m_axis_tlast <= is_last;
   m_axis_tuser <= frame_cause when is_last = '1' else c_no_fault;

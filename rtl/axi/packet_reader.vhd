@@ -37,6 +37,7 @@ entity packet_reader is
     out_valid  : out std_logic;
     out_ready  : in  std_logic;
     out_end    : out std_logic;
+    out_kind   : out unsigned(15 downto 0);
     out_cause  : out cause_t;
     out_vector : out std_logic_vector(g_bits - 1 downto 0)
   );
@@ -186,6 +187,7 @@ begin
   in_ready   <= r.ready;
   out_valid  <= r.valid;
   out_end    <= r.is_end;
+  out_kind   <= r.kind;
   out_cause  <= r.cause;
   out_vector <= r.vector(g_bits - 1 downto 0);
 

@@ -5,6 +5,7 @@
 --             on registers only.
 --             s_axis: the packets of frames; those of a frame are in the order of the host's set-up. A word that waits
 --             does not change (a simulation stops otherwise).
+--             triangle = '1': in this clock the shader takes a packet of kind 1: counters, outside, count triangles.
 --             m_axis: one fragment per transfer, as in axi_adapter.
 --             g_shader selects the shader, which has its generics. The others are not used.
 --             After a fault the processors have no light: the next frame is drawn if it begins with new_frame and defines
@@ -58,6 +59,7 @@ entity words_to_fragments is
     s_axis_tready : out std_logic;
     s_axis_tdata  : in  std_logic_vector(g_bus_bits - 1 downto 0);
     s_axis_tlast  : in  std_logic;
+    triangle      : out std_logic;
     m_axis_tvalid : out std_logic;
     m_axis_tready : in  std_logic;
     m_axis_tdata  : out fragment_data_t;
@@ -81,7 +83,7 @@ architecture rtl of words_to_fragments is
   signal init_valid, init_ready         : std_logic;
   signal init_data                      : std_logic_vector(c_vector.bits - 1 downto 0);
   signal fragment_valid, fragment_ready : std_logic;
-  signal triangle                       : std_logic_vector(c_formats.triangle.bits - 1 downto 0);
+  signal number                         : std_logic_vector(c_formats.triangle.bits - 1 downto 0);
   signal y                              : std_logic_vector(c_formats.pixel_y.bits - 1 downto 0);
   signal x                              : std_logic_vector(c_formats.pixel_x.bits - 1 downto 0);
   signal z                              : std_logic_vector(c_formats.depth.bits - 1 downto 0);
@@ -120,7 +122,7 @@ begin
         init_data         => init_data,
         fragment_valid    => fragment_valid,
         fragment_ready    => fragment_ready,
-        fragment_triangle => triangle,
+        fragment_triangle => number,
         fragment_y        => y,
         fragment_x        => x,
         fragment_z        => z,
@@ -156,7 +158,7 @@ begin
         init_data         => init_data,
         fragment_valid    => fragment_valid,
         fragment_ready    => fragment_ready,
-        fragment_triangle => triangle,
+        fragment_triangle => number,
         fragment_y        => y,
         fragment_x        => x,
         fragment_z        => z,
@@ -194,7 +196,7 @@ begin
         init_data         => init_data,
         fragment_valid    => fragment_valid,
         fragment_ready    => fragment_ready,
-        fragment_triangle => triangle,
+        fragment_triangle => number,
         fragment_y        => y,
         fragment_x        => x,
         fragment_z        => z,
@@ -207,7 +209,7 @@ begin
 
   end generate;
 
-  fragment <= fragment_data(triangle, y, x, z, red, green, blue);
+  fragment <= fragment_data(number, y, x, z, red, green, blue);
 
   adapter : entity work.axi_adapter
     generic map (
@@ -223,6 +225,7 @@ begin
       s_axis_tready  => s_axis_tready,
       s_axis_tdata   => s_axis_tdata,
       s_axis_tlast   => s_axis_tlast,
+      triangle       => triangle,
       init_valid     => init_valid,
       init_ready     => init_ready,
       init_data      => init_data,

@@ -6,7 +6,8 @@
 -- Contract    Blocks have the slots 0, 1, ... in this order. The input is valid/ready. m_axi_rready depends on registers
 --             only. test_depth is that of test_place one clock ago. The output is valid/ready: blocks whose keep bits are
 --             written; out_any: a pixel is kept, from beat out_first to beat out_last. At most 2**g_slot_bits blocks wait. fault = '1' for one clock: an
---             error response. Its beat is compared as any other.
+--             error response. Its beat is compared as any other. pixels: number of pixels whose keep bits are written in
+--             this clock, without those of a clear.
 -- Formats     memory_pkg: depths, in memory filled with zeros
 -- Latency     4 clocks from the last beat to out_valid
 -- Throughput  1 beat per clock, without a clock between blocks
@@ -56,7 +57,8 @@ entity block_tester is
     out_fill     : out std_logic;
     out_depth    : out unsigned(g_number_bits - 1 downto 0);
     out_colour   : out unsigned(g_number_bits - 1 downto 0);
-    fault        : out std_logic
+    fault        : out std_logic;
+    pixels       : out pixel_count_t
   );
 end entity;
 
@@ -225,5 +227,6 @@ begin
   keep_place  <= r.keep_place;
   keep_bits <= r.keep;
   fault     <= r.came_fault;
+  pixels       <= count_of(r.keep) when r.keep_write = '1' and r.done_places(places_t'high) = '0' else (others => '0');
 
 end architecture;

@@ -50,6 +50,7 @@ entity fragments_to_memory is
     busy          : out std_logic;
     done          : out std_logic;
     fault         : out std_logic;
+    pixels        : out pixel_count_t; -- kept by the depth test in this clock
     s_axis_tvalid : in  std_logic;
     s_axis_tready : out std_logic;
     s_axis_tdata  : in  fragment_data_t;
@@ -295,7 +296,8 @@ begin
       out_fill     => tested.fill,
       out_depth    => tested.depth,
       out_colour   => tested.colour,
-      fault        => read_fault
+      fault        => read_fault,
+      pixels       => pixels
       );
 
   clear_colour <= colour_of(frame.red, frame.green, frame.blue, g_true_colour);

@@ -26,6 +26,7 @@ package memory_pkg is
   subtype address_t is unsigned(c_address_bits - 1 downto 0);
   subtype stride_t is unsigned(c_stride_bits - 1 downto 0);
   subtype channel_t is std_logic_vector(c_channel_bits - 1 downto 0);
+  subtype pixel_count_t is unsigned(2 downto 0); -- of a beat's pixels: 0 to 4
 
   -- Bases and strides are multiples of a block's bytes. Only pixels inside width, height and the scissor
   -- [left, right) x [top, bottom) are written.
@@ -79,6 +80,9 @@ package memory_pkg is
 
   -- '1' in the lane of a pixel of this number.
   function one_hot (pixel : unsigned; bits : natural) return std_logic_vector;
+
+  -- Number of the bits that are '1', of at most 4.
+  function count_of (bits : std_logic_vector) return pixel_count_t;
 
   function lesser (a, b : side_t) return side_t;
 
@@ -170,6 +174,18 @@ package body memory_pkg is
       end loop;
     end loop;
     return lanes;
+  end function;
+
+  function count_of (bits : std_logic_vector) return pixel_count_t is
+    variable count : pixel_count_t;
+  begin
+    count := (others => '0');
+    for i in bits'range loop
+      if bits(i) = '1' then
+        count := count + 1;
+      end if;
+    end loop;
+    return count;
   end function;
 
   function lesser (a, b : side_t) return side_t is

@@ -203,6 +203,8 @@ std::string core_registers_vhdl(const CoreRegisters& core, const std::string& ve
       "words of a\n-- command.\n\n"
       "library ieee;\nuse ieee.std_logic_1164.all;\n\n"
       "package core_registers_pkg is\n\n"
+      "  -- A field of a command: its word, lowest bit and number of bits.\n"
+      "  type command_field_t is record\n    word, low, bits : natural;\n  end record;\n\n"
       "  constant c_identity : std_logic_vector(31 downto 0) := x\"{:08X}\";\n\n",
       c_core_notice, core.identity);
   const auto constant = [&](const std::string& name, int number) {
@@ -223,11 +225,14 @@ std::string core_registers_vhdl(const CoreRegisters& core, const std::string& ve
   out += "    others => unmapped);\n\n";
   constant("command_words", core.command_words);
   out += '\n';
-  for (const CoreField& field : core.command) constant("command_" + field.name + "_word", field.word);
+  for (const CoreField& field : core.command)
+    out += fmt::format("  constant c_command_{} : command_field_t := ({}, {}, {});\n", field.name, field.word, field.low,
+                       field.high - field.low + 1);
   for_each_field(core, [&](const std::string& name, const CoreField& field) {
-    out += '\n';
-    constant(name + "_low", field.low);
-    constant(name + "_bits", field.high - field.low + 1);
+    if (!name.starts_with("command_")) {
+      constant(name + "_low", field.low);
+      constant(name + "_bits", field.high - field.low + 1);
+    }
     for (const auto& [value, number] : field.values) constant(name + "_" + value, number);
   });
   return out + "\nend package;\n";

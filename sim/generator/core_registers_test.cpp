@@ -50,8 +50,7 @@ std::string with(std::string_view old, std::string_view text) {
 
 TEST(CoreRegisters, AreWrittenForVhdl) {
   EXPECT_THAT(core_registers_vhdl(core_registers(c_data, "f"), "1.2.34"),
-              HasSubstr("package core_registers_pkg is\n\n"
-                        "  constant c_identity : std_logic_vector(31 downto 0) := x\"48414C46\";\n\n"
+              HasSubstr("  constant c_identity : std_logic_vector(31 downto 0) := x\"48414C46\";\n\n"
                         "  constant c_version_major : natural := 1;\n"
                         "  constant c_version_minor : natural := 2;\n"
                         "  constant c_version_patch : natural := 34;\n\n"
@@ -65,18 +64,14 @@ TEST(CoreRegisters, AreWrittenForVhdl) {
                         "    13 => w1c,\n"
                         "    others => unmapped);\n\n"
                         "  constant c_command_words : natural := 2;\n\n"
-                        "  constant c_command_first_word : natural := 0;\n"
-                        "  constant c_command_width_word : natural := 1;\n\n"
+                        "  constant c_command_first : command_field_t := (0, 0, 32);\n"
+                        "  constant c_command_width : command_field_t := (1, 0, 13);\n"
                         "  constant c_control_enable_low : natural := 0;\n"
-                        "  constant c_control_enable_bits : natural := 1;\n\n"
+                        "  constant c_control_enable_bits : natural := 1;\n"
                         "  constant c_control_mode_low : natural := 30;\n"
                         "  constant c_control_mode_bits : natural := 2;\n"
                         "  constant c_control_mode_slow : natural := 1;\n"
                         "  constant c_control_mode_fast : natural := 3;\n\n"
-                        "  constant c_command_first_low : natural := 0;\n"
-                        "  constant c_command_first_bits : natural := 32;\n\n"
-                        "  constant c_command_width_low : natural := 0;\n"
-                        "  constant c_command_width_bits : natural := 13;\n\n"
                         "end package;\n"));
 }
 

@@ -35,6 +35,10 @@ package tb_shaders_pkg is
     shadows : boolean := false; unrolled : boolean := true; objects : natural := 0; subpixels : positive := 1)
     return hardware_t;
 
+  -- Their scene is grey. tb/vectors/packets.cpp has the same list.
+  constant c_packet_names : string := "quadratic spherical no_light processors objects";
+  function packet_hardware (index : natural) return hardware_t;
+
   function processors_config (h : hardware_t) return config_t;
 
   function init_bits (h : hardware_t) return positive;
@@ -55,6 +59,18 @@ package body tb_shaders_pkg is
   begin
     return (shader, exact, channels, diffuse, specular, degree, lights, highlight_channels, powers, address_bits, data_bits,
       directional, positional, spots, normalize, shadows, unrolled, objects, subpixels);
+  end function;
+
+  function packet_hardware (index : natural) return hardware_t is
+    constant c_hardware : hardwares_t := (
+      hardware(quadratic, channels => 1),
+      hardware(spherical, exact => false, channels => 1, address_bits => 6, data_bits => 6),
+      hardware(spherical, channels => 1, lights => 0, diffuse => false, specular => false),
+      hardware(processors, channels => 1),
+      hardware(processors, exact => false, channels => 1, shadows => true, objects => 4)
+      );
+  begin
+    return c_hardware(index);
   end function;
 
   function processors_config (h : hardware_t) return config_t is

@@ -2,11 +2,10 @@
 // Files of words_to_fragments for each hardware, frame after frame. packets: the last word of a packet, and
 // the word. fragments: the transfers at the output: last one of the frame, cause of the fault, whether it has
 // a fragment, and the data. A frame with a fault has only its last transfer.
-#include "golden_run/packets.hpp"
+#include "vectors/packet_frames.hpp"
 
 #include <fmt/format.h>
 
-#include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/files/vector_file.hpp"
@@ -19,7 +18,14 @@ namespace {
 // As in rtl/axi/axi_pkg.vhd.
 enum class Cause { none, wrong_kind, wrong_length, shader_fault, limit_reached };
 
-using PacketWords = std::vector<std::uint32_t>;
+// tb/rtl/tb_shaders_pkg.vhd has the same list, with the generics.
+const PacketHardware c_hardware[] = {
+    {"quadratic", {.shader = Shader::quadratic}},
+    {"spherical", {.shader = Shader::spherical, .preset = Preset::published}},
+    {"no_light", {.shader = Shader::spherical}, false},
+    {"processors", {.shader = Shader::processors}},
+    {"objects", {.shader = Shader::processors, .preset = Preset::published, .objects = 4}, true, true},
+};
 
 std::vector<PacketWords> packets_of(const PacketWords& words) {
   std::vector<PacketWords> packets;
@@ -31,22 +37,23 @@ std::vector<PacketWords> packets_of(const PacketWords& words) {
   return packets;
 }
 
+Scene scene_for(const PacketHardware& hardware) {
+  Scene scene = must(load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", {}));
+  scene.shadows = hardware.shadows;
+  if (!hardware.lights) scene.directional.clear();
+  return scene;
+}
+
 class Frames {
  public:
-  Frames(const Scene& scene, const PlanRequest& request, FrameSize size)
-      : key_(must(plan_scene(scene, request)).key), stream_(must(whole_stream(scene, size, key_))) {
-    PacketWords words;
-    PacketWriter(key_).append(words, stream_.words);
-    packets_ = packets_of(words);
-    PacketWords end;
-    PacketWriter::append_end(end);
-    end_ = end;
+  explicit Frames(const PacketHardware& hardware) : frame_(hardware, {16, 12}) {
+    PacketWriter::append_end(end_);
   }
 
   void good() {
-    for (const PacketWords& packet : packets_) send(packet);
+    for (const PacketWords& packet : frame_.packets()) send(packet);
     send(end_);
-    for (const Fragment& f : stream_.golden) transfer(&f, &f == &stream_.golden.back(), Cause::none);
+    for (const Fragment& f : frame_.golden()) transfer(&f, &f == &frame_.golden().back(), Cause::none);
   }
   void empty() {
     send(end_);
@@ -54,16 +61,16 @@ class Frames {
   }
   // A frame of `count` good packets and a bad one. The packets behind it are dropped.
   void bad(std::size_t count, const PacketWords& packet, Cause cause) {
-    for (std::size_t i = 0; i < count; ++i) send(packets_[i]);
+    for (std::size_t i = 0; i < count; ++i) send(frame_.packets()[i]);
     send(packet);
-    for (std::size_t i = count; i < std::min(count + 3, packets_.size()); ++i) send(packets_[i]);
+    for (std::size_t i = count; i < std::min(count + 3, frame_.packets().size()); ++i) send(frame_.packets()[i]);
     send(end_);
     transfer(nullptr, true, cause);
   }
   // Frames with a packet that is wrong in one place.
   void all_bad() {
-    const std::size_t at = packets_.size() / 2;
-    const PacketWords good_packet = packets_[at];
+    const std::size_t at = frame_.packets().size() / 2;
+    const PacketWords good_packet = frame_.packets()[at];
     PacketWords packet = good_packet;
     packet[0] ^= 8U;
     bad(at, packet, Cause::wrong_kind);
@@ -83,19 +90,19 @@ class Frames {
   }
   // A frame that ends before its last line records.
   void without_records() {
-    send(packets_[0]);
+    send(frame_.packets()[0]);
     send(end_);
     transfer(nullptr, true, Cause::limit_reached);
   }
   // An unknown command.
   void with_shader_fault() {
-    PacketWords packet = packets_[0];
+    PacketWords packet = frame_.packets()[0];
     packet[1] &= ~7U;
     bad(1, packet, Cause::shader_fault);
   }
 
-  bool has_records() const { return key_.shader == Shader::spherical && key_.spherical.records(); }
-  bool has_commands() const { return key_.shader == Shader::processors; }
+  bool has_records() const { return frame_.key().shader == Shader::spherical && frame_.key().spherical.records(); }
+  bool has_commands() const { return frame_.key().shader == Shader::processors; }
   void write(const Folder& folder, const char* name) const {
     words_.write(folder / fmt::format("{}_words.txt", name));
     fragments_.write(folder / fmt::format("{}_fragments.txt", name));
@@ -115,34 +122,14 @@ class Frames {
     fragments_.words_of(words, 128).end_vector();
   }
 
-  HardwareKey key_;
-  FrameStream stream_;
-  std::vector<PacketWords> packets_;
+  PacketFrame frame_;
   PacketWords end_;
   VectorFile words_, fragments_;
 };
 
-struct Hardware {
-  const char* name;
-  PlanRequest plan;
-  bool lights = true, shadows = false;
-};
-
-// tb/rtl/axi/words_to_fragments_tb.vhd has the same list, with the generics.
-const Hardware c_hardware[] = {
-    {"quadratic", {.shader = Shader::quadratic}},
-    {"spherical", {.shader = Shader::spherical, .preset = Preset::published}},
-    {"no_light", {.shader = Shader::spherical}, false},
-    {"processors", {.shader = Shader::processors}},
-    {"objects", {.shader = Shader::processors, .preset = Preset::published, .objects = 4}, true, true},
-};
-
 void write_words_to_fragments(const Folder& folder) {
-  for (const Hardware& hardware : c_hardware) {
-    Scene scene = must(load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", {}));
-    scene.shadows = hardware.shadows;
-    if (!hardware.lights) scene.directional.clear();
-    Frames frames(scene, hardware.plan, {16, 12});
+  for (const PacketHardware& hardware : c_hardware) {
+    Frames frames(hardware);
     frames.good();
     frames.empty();
     frames.all_bad();
@@ -154,6 +141,18 @@ void write_words_to_fragments(const Folder& folder) {
 }
 
 }  // namespace
+
+std::span<const PacketHardware> packet_hardware() { return c_hardware; }
+
+PacketFrame::PacketFrame(const PacketHardware& hardware, FrameSize size) {
+  const Scene scene = scene_for(hardware);
+  key_ = must(plan_scene(scene, hardware.plan)).key;
+  FrameStream stream = must(whole_stream(scene, size, key_));
+  PacketWords words;
+  PacketWriter(key_).append(words, stream.words);
+  packets_ = packets_of(words);
+  golden_ = std::move(stream.golden);
+}
 
 std::vector<Entity> packets_entities() {
   return {{"words_to_fragments", write_words_to_fragments}};

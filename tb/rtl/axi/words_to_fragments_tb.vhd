@@ -18,23 +18,12 @@ end entity;
 architecture sim of words_to_fragments_tb is
   constant c_limit_bits : positive := 12; -- a frame takes fewer clocks
   constant c_idle_limit : positive := 3 * 2 ** c_limit_bits; -- clocks without a transfer that count as a hang
-
-  -- Their scene is grey. tb/vectors/packets.cpp has the same list.
-  constant c_names : string := "quadratic spherical no_light processors objects";
-
-  constant c_hardware : hardwares_t := (
-    hardware(quadratic, channels => 1),
-    hardware(spherical, exact => false, channels => 1, address_bits => 6, data_bits => 6),
-    hardware(spherical, channels => 1, lights => 0, diffuse => false, specular => false),
-    hardware(processors, channels => 1),
-    hardware(processors, exact => false, channels => 1, shadows => true, objects => 4)
-    );
 begin
-  hardware_runs : for index in c_hardware'range generate
-    constant h : hardware_t := c_hardware(index);
+  hardware_runs : for index in 0 to 4 generate
+    constant h : hardware_t := packet_hardware(index);
   begin
     bus_runs : for lanes in 1 to 2 generate
-      constant c_stem : string := g_folder & "/" & nth_word(c_names, index) & "_";
+      constant c_stem : string := g_folder & "/" & nth_word(c_packet_names, index) & "_";
 
       signal ended                  : boolean   := false;
       signal aclk                   : std_logic := '0';

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scripts for halfway_core: steps of the host and what must come of them, and all of the memory after each frame.
+#include <algorithm>
+#include <span>
+
+#include "golden/frame_memory.hpp"
+#include "sim/extras/library/halfway_core_registers.h"
+#include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
+#include "sim/files/load_scene.hpp"
+#include "sim/files/vector_file.hpp"
+#include "vectors/entities.hpp"
+#include "vectors/packet_frames.hpp"
+
+namespace halfway::vectors {
+namespace {
+
+using golden::FramePlace;
+using golden::PixelFormat;
+
+// The memory of the testbench (axi_memory.vhd), and what the host puts where.
+constexpr std::uint32_t c_window = 0x7FFC'0000, c_window_bytes = 1 << 17;
+constexpr std::uint32_t c_ring = c_window + 0x40, c_ring_bits = 1;
+constexpr std::uint32_t c_packets = c_window + 0x1000, c_buffers = c_window + 0x18000;
+constexpr FrameSize c_size{16, 12};
+
+constexpr std::uint32_t fault(int bit) { return 1U << bit; }
+
+class Script {
+ public:
+  Script(const PacketHardware& hardware, PixelFormat format)
+      : frame_(hardware, c_size), format_(format), bytes_(c_window_bytes), memory_(format, bytes_, c_window) {
+    const std::uint32_t row = 64 * pixel_bytes(format);
+    for (PacketWords packet : frame_.packets()) packets_.insert(packets_.end(), packet.begin(), packet.end());
+    place_ = {.colour_base = c_buffers,
+              .colour_stride = row,
+              .depth_base = c_buffers + 2 * row * c_size.height,
+              .depth_stride = row,
+              .width = c_size.width,
+              .height = c_size.height,
+              .right = c_size.width,
+              .bottom = c_size.height};
+  }
+
+  void run() {
+    begin();
+    constants();
+    draw_frames();
+    refuse_commands();
+    refuse_packets();
+    break_frames();
+    begin();
+    draw(true, true);
+  }
+  void write(const std::filesystem::path& path) const { rows_.write(path); }
+
+ private:
+  // The testbench has the same steps.
+  enum class Step { set, write, read, wait, compare, reset, pass, memory, any, expect };
+
+  void step(Step step, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0) {
+    rows_.word(static_cast<std::uint64_t>(step), 4).word(a, 32).word(b, 32).word(c, 32).end_vector();
+  }
+  void write_register(std::uint32_t offset, std::uint32_t value, bool error = false) {
+    step(Step::write, offset, value, error ? 2 : 0);
+  }
+  void read_register(std::uint32_t offset, std::uint32_t value, bool error = false) {
+    step(Step::read, offset, value, error ? 2 : 0);
+  }
+  void set_word(std::uint32_t address, std::uint32_t word) {
+    step(Step::set, (address - c_window) / 4, word);
+    for (std::uint32_t i = 0; i < 4; ++i)
+      bytes_[address - c_window + i] = expected_[address - c_window + i] =
+          static_cast<std::uint8_t>(word >> (8 * i));
+  }
+  // The words that have changed, and a comparison of all.
+  void compare() {
+    for (std::uint32_t at = 0; at < c_window_bytes; at += 4)
+      if (!std::equal(&bytes_[at], &bytes_[at] + 4, &expected_[at])) {
+        const std::uint8_t* byte = &bytes_[at];
+        step(Step::expect, at / 4, byte[0] | byte[1] << 8 | byte[2] << 16 | std::uint32_t{byte[3]} << 24);
+      }
+    expected_ = bytes_;
+    step(Step::compare);
+  }
+  void set_words(std::uint32_t address, std::span<const std::uint32_t> words) {
+    for (const std::uint32_t word : words) set_word(address, word), address += 4;
+  }
+
+  // Resets the core and sets it up.
+  void begin() {
+    step(Step::reset);
+    done_ = 0;
+    picture_ = 0;
+    write_register(HALFWAY_CORE_RING_BASE, c_ring);
+    write_register(HALFWAY_CORE_RING_SIZE, c_ring_bits);
+    write_register(HALFWAY_CORE_INTERRUPT_ENABLE, 3);
+    write_register(HALFWAY_CORE_CONTROL, 1);
+  }
+
+  void constants() {
+    read_register(HALFWAY_CORE_IDENTITY, 0x48414C46);
+    read_register(HALFWAY_CORE_STATUS, 0);
+    read_register(HALFWAY_CORE_RING_TAIL, 0);
+    read_register(0xFC, 0, true);
+    write_register(0xFC, 1, true);
+    write_register(HALFWAY_CORE_RING_TAIL, 7, true);
+    read_register(HALFWAY_CORE_RING_TAIL, 0);
+  }
+
+  std::vector<std::uint32_t> command(bool clear, bool swap) const {
+    return {c_packets,
+            static_cast<std::uint32_t>(packets_.size()),
+            place_.colour_base,
+            place_.depth_base,
+            place_.colour_stride | place_.depth_stride << 16,
+            place_.width | place_.height << 16,
+            place_.left | place_.right << 16,
+            place_.top | place_.bottom << 16,
+            0x12'34'56U | std::uint32_t{clear} << 24 | std::uint32_t{swap} << 25 | 1U << 28,
+            0, 0, 0, 0, 0, 0, 0};
+  }
+  // Puts a command into the ring: the core may begin.
+  void put(std::span<const std::uint32_t> command, std::uint32_t ahead = 0) {
+    set_words(c_ring + 64 * ((done_ + ahead) % (1U << c_ring_bits)), command);
+    write_register(HALFWAY_CORE_RING_HEAD, done_ + ahead + 1);
+  }
+  // Waits for the end of `commands` commands, the last of them with these faults.
+  void wait_end(std::uint32_t faults, std::uint32_t commands = 1) {
+    done_ += commands;
+    step(Step::wait, done_);
+    read_register(HALFWAY_CORE_FAULTS, faults);
+    read_register(HALFWAY_CORE_INTERRUPTS, faults == 0 ? 1 : 3);
+    write_register(HALFWAY_CORE_FAULTS, faults);
+    write_register(HALFWAY_CORE_INTERRUPTS, 3);
+    read_register(HALFWAY_CORE_FAULTS, 0);
+    read_register(HALFWAY_CORE_INTERRUPTS, 0);
+    read_register(HALFWAY_CORE_PICTURE, picture_);
+  }
+  // What the frame leaves in memory.
+  void expect_frame(bool clear, bool swap) {
+    if (clear) memory_.clear(place_, 0x12, 0x34, 0x56);
+    for (const Fragment& fragment : frame_.golden()) pixels_ += memory_.draw(place_, fragment) ? 1 : 0;
+    fragments_ += static_cast<std::uint32_t>(frame_.golden().size());
+    if (swap) picture_ = place_.colour_base;
+  }
+  void draw(bool clear, bool swap) {
+    set_words(c_packets, packets_);
+    put(command(clear, swap));
+    expect_frame(clear, swap);
+    wait_end(0);
+    compare();
+  }
+
+  void draw_frames() {
+    set_words(c_packets, packets_);
+    draw(true, true);
+    read_register(HALFWAY_CORE_FRAGMENTS, fragments_);
+    read_register(HALFWAY_CORE_PIXELS, pixels_);
+    // Into the second picture, inside a scissor, at a memory that waits.
+    step(Step::memory, 30, 1);
+    place_.colour_base += place_.colour_stride * place_.height;
+    place_.left = 3, place_.right = 11, place_.top = 2, place_.bottom = 40;
+    draw(true, false);
+    draw(false, true);
+    place_.left = 0, place_.right = c_size.width, place_.top = 0;
+    // Two commands at once, and nothing but a clear.
+    put(command(true, true));
+    put(command(false, false), 1);
+    expect_frame(true, true);
+    expect_frame(false, false);
+    wait_end(0, 2);
+    compare();
+    std::vector<std::uint32_t> only_clear = command(true, true);
+    only_clear[1] = 0;
+    put(only_clear);
+    memory_.clear(place_, 0x12, 0x34, 0x56);
+    wait_end(0);
+    compare();
+    step(Step::memory, 1, 0);
+  }
+
+  // Commands with one bad field are skipped: nothing is drawn.
+  void refuse_commands() {
+    const std::vector<std::uint32_t> good = command(true, true);
+    for (const auto& [word, bits] : std::initializer_list<std::pair<std::size_t, std::uint32_t>>{
+             {8, 1U << 29}, {0, 4}, {1, 1}, {1, 1U << 30}, {2, 64}, {3, 8}, {4, 4}, {4, 1U << 20}}) {
+      std::vector<std::uint32_t> bad = good;
+      bad[word] ^= bits;
+      put(bad);
+      wait_end(fault(6));
+      compare();
+    }
+    for (const std::uint32_t sides : {0U, 0x1001U, 0x1001'0001U, 1U}) {
+      std::vector<std::uint32_t> bad = good;
+      bad[5] = sides;
+      put(bad);
+      wait_end(fault(6));
+    }
+    draw(true, true);
+  }
+
+  // A frame with a bad packet ends with its cause; the next one is drawn.
+  void refuse_packets() {
+    const PacketWords good = packets_;
+    const std::size_t at = frame_.packets().front().size();
+    packets_[at] ^= 8U;
+    fail(fault(0));
+    packets_ = good;
+    packets_.resize(packets_.size() - 2);
+    fail(fault(1));
+    packets_ = good;
+    draw(true, true);
+    // A packet of kind 0 ends the frame: what follows is not drawn.
+    PacketWriter::append_end(packets_);
+    packets_.insert(packets_.end(), good.begin(), good.end());
+    draw(true, true);
+    packets_ = good;
+    draw(true, true);
+  }
+  // Draws a frame that ends with these faults. Its pixels are not compared.
+  void fail(std::uint32_t faults) {
+    set_words(c_packets, packets_);
+    put(command(true, true));
+    wait_end(faults);
+  }
+
+  // An abort, error responses of the memory, and a reset in the middle of a frame.
+  void break_frames() {
+    step(Step::memory, 30, 0);
+    for (const std::uint32_t clocks : {1U, 40U, 120U}) {
+      put(command(true, true));
+      step(Step::pass, clocks);
+      write_register(HALFWAY_CORE_CONTROL, 3);
+      wait_end(fault(7));
+      draw(true, true);
+    }
+    for (const std::uint32_t clocks : {20U, 100U, 300U}) {
+      put(command(true, true));
+      step(Step::pass, clocks);
+      begin();
+      draw(true, true);
+    }
+    for (std::uint32_t errors = 1; errors < 6; ++errors) {
+      step(Step::memory, 1, 0, errors);
+      put(command(true, true));
+      step(Step::wait, ++done_);
+      step(Step::memory, 1, 0);
+      step(Step::any, HALFWAY_CORE_FAULTS, fault(4) | fault(5));
+      write_register(HALFWAY_CORE_FAULTS, 0xFF);
+      write_register(HALFWAY_CORE_INTERRUPTS, 3);
+      draw(true, true);
+    }
+  }
+
+  PacketFrame frame_;
+  PixelFormat format_;
+  std::vector<std::uint8_t> bytes_, expected_ = bytes_;  ///< memory, and what the testbench expects of it
+  golden::FrameMemory memory_;
+  FramePlace place_;
+  PacketWords packets_;
+  VectorFile rows_;
+  std::uint32_t done_ = 0, picture_ = 0, fragments_ = 0, pixels_ = 0;
+};
+
+void write_core(const Folder& folder) {
+  int number = 0;
+  for (const PacketHardware& hardware : packet_hardware()) {
+    // As in tb/rtl/core/halfway_core_tb.vhd.
+    Script script(hardware, number++ % 4 < 2 ? PixelFormat::rgb565 : PixelFormat::xrgb8888);
+    script.run();
+    script.write(folder / (std::string(hardware.name) + ".txt"));
+  }
+}
+
+}  // namespace
+
+std::vector<Entity> core_entities() { return {{"halfway_core", write_core}}; }
+
+}  // namespace halfway::vectors

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small frame as packets, for each hardware of the testbenches that take packets.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frame/fragment.hpp"
+#include "golden_run/packets.hpp"
+#include "plan/plan.hpp"
+
+namespace halfway::vectors {
+
+using PacketWords = std::vector<std::uint32_t>;
+
+struct PacketHardware {
+  const char* name;
+  PlanRequest plan;
+  bool lights = true, shadows = false;
+};
+
+/// As c_packet_hardware of tb/rtl/tb_shaders_pkg.vhd.
+std::span<const PacketHardware> packet_hardware();
+
+class PacketFrame {
+ public:
+  PacketFrame(const PacketHardware& hardware, FrameSize size);
+
+  const HardwareKey& key() const { return key_; }
+  /// Without the end of the frame.
+  const std::vector<PacketWords>& packets() const { return packets_; }
+  const std::vector<Fragment>& golden() const { return golden_; }
+
+ private:
+  HardwareKey key_;
+  std::vector<PacketWords> packets_;
+  std::vector<Fragment> golden_;
+};
+
+}  // namespace halfway::vectors
