@@ -4,7 +4,7 @@
 --             each word before it is requested, so that a word on its way never waits at the bus.
 -- Contract    start = '1' while busy = '0' begins to read count * 8 bytes at address, a multiple of 8. busy = '1': words
 --             are requested, on their way, or in the queue. fault = '1': since start a word came with an error response.
---             stop = '1': no further burst is requested; words on their way are still output.
+--             stop = '1': no further burst is begun; words on their way are still output.
 --             out is valid/ready; out_last = '1' with the last word.
 --             AXI4: INCR bursts that end at multiples of 2**g_burst_bits words, so none crosses 4 KiB; m_axi_arvalid and its
 --             address depend on registers only. A word is taken in each clock with m_axi_rvalid = '1'.
@@ -79,10 +79,10 @@ architecture rtl of burst_reader is
 
 begin
 
-  ends <= flag(r.left = 1 or r.address(g_burst_bits - 1 downto 0) = 2 ** g_burst_bits - 1) or stop;
+  ends <= flag(r.left = 1 or r.address(g_burst_bits - 1 downto 0) = 2 ** g_burst_bits - 1);
 
   -- Claim a place for each word. The last word of a burst waits until the request before it is taken. After stop only a
-  -- burst with claimed words goes on.
+  -- burst that has begun goes on.
   claim <= room and flag(r.left /= 0) and not (ends and r.valid) and not (stop and flag(r.claimed = 0));
 
   combinational : process (all)

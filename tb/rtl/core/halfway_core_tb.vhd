@@ -139,6 +139,39 @@ begin
   reset <= not aresetn;
   clk   <= not clk after c_half_period when not ended;
 
+  -- The first frame, at a memory that answers at once: docs/rtl/core.md.
+  latencies : process is
+    constant c_units     : positive := 512 / c_bus_bits; -- words of a command
+    variable clocks      : natural := 0;
+
+    procedure count_clock is
+    begin
+      wait until rising_edge(clk);
+      clocks := clocks + 1;
+    end procedure;
+  begin
+    wait until rising_edge(clk) and bvalid = '1' and awaddr = c_address_ring_head;
+    while m.ar.valid = '0' loop
+      count_clock;
+    end loop;
+    check(c_name, 0, "clocks from the write of ring_head to the request of the command", clocks, c_units + 3);
+    wait until rising_edge(clk) and (s.rvalid and m.rready and s.rlast) = '1';
+    clocks := 0;
+    count_clock;
+    while m.ar.valid = '0' loop
+      count_clock;
+    end loop;
+    check(c_name, 0, "clocks from the command's last word to the request of packets", clocks, 22);
+    while interrupt = '0' loop
+      count_clock;
+      if s.bvalid = '1' and m.bready = '1' then
+        clocks := 0;
+      end if;
+    end loop;
+    check(c_name, 0, "clocks from the last response to the interrupt, more than 7", maximum(clocks, 7), 7);
+    wait;
+  end process;
+
   host : process is
     variable script         : vectors_t;
     variable random         : unsigned(31 downto 0) := to_unsigned(7, 32);
