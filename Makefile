@@ -26,6 +26,7 @@ about_RATE := view,plan frames per second: of the video; make plan: that the sha
 about_TERMINAL := view 1: draw in the terminal
 about_MULTIPLIER_BITS := verilog width of multipliers in the device; 0: products in lookup tables (default: 18)
 about_AXI := verilog 1: make verilog: the top with AXI4-Stream ports
+about_CORE := verilog 1: make verilog: halfway_core, from commands in memory to a picture in memory
 about_PIXEL := why x,y of the pixel that make why explains
 about_MEASURE := plan 1: count cells by Yosys, and cycles and seconds by simulation
 about_OBJECTS_PER_PIXEL := plan objects per pixel that the shading processors draw
@@ -147,8 +148,8 @@ plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEAS
 	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
 	  $(call option,OBJECTS_PER_PIXEL,--objects-per-pixel) $(call option,RATE,--rate) $(call option,DEVICE,--device) $(call option,THREADS,--threads) $(scene)
 
-verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports)
-	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
+verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports; CORE=1: the whole core)
+	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call flag,CORE,--core) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
 
 savings: program ## measure the tables of docs/effects.md again (minutes)
 	@build/halfway savings $(call option,THREADS,--threads)

@@ -23,6 +23,7 @@ struct VerilogCommand {
   DrawOptions draw;
   std::string scene = "spheres";
   bool axi = false;               // words_to_fragments
+  bool core = false;              // halfway_core
   unsigned multiplier_bits = 18;  // as in most FPGAs
 };
 
@@ -31,7 +32,7 @@ constexpr std::string_view c_prefix = "halfway_";
 
 // The netlist with the prefix at each declaration of a module and at each instance.
 std::string with_prefix(const std::string& netlist) {
-  static const std::regex c_name(R"((?:^|\n)module |\n  (?=\w+ \w+ \(\n))");
+  static const std::regex c_name(R"(((?:^|\n)module |\n  (?=\w+ \w+ \(\n))(?!halfway_))");
   return std::regex_replace(netlist, c_name, fmt::format("$&{}", c_prefix));
 }
 
@@ -70,7 +71,7 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
       "//   halfway verilog {} {}{}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
       module, key.name(), version, printable(command.scene), hardware_options(command.draw),
-      command.axi ? " --axi" : "",
+      command.core ? " --core" : command.axi ? " --axi" : "",
       synth::takes_multiplier_bits(top) ? fmt::format(" --multiplier-bits {}", command.multiplier_bits)
                                         : std::string());
   for (const auto& [name, value] : generics) text += fmt::format(" {}={}", name, value);
@@ -85,8 +86,8 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   const auto plan = must(plan_scene(scene, draw.plan));
   const HardwareKey& key = plan.key;
-  const std::string top = command.axi ? c_stream_top : key.entity();
-  const std::string module = fmt::format("{}{}", c_prefix, top);
+  const std::string top = command.core ? c_core_top : command.axi ? c_stream_top : key.entity();
+  const std::string module = top == c_core_top ? top : fmt::format("{}{}", c_prefix, top);
   const Generics generics = generics_of(key, top, command.multiplier_bits);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = with_prefix(must(mend_netlist(must(library.synthesize(top, generics)))));
@@ -112,7 +113,10 @@ void add_verilog(CLI::App& app, const Folders& folders, int&) {
   command->draw.out = "build/verilog";
   sub->add_option("scene", command->scene, "as for sim")->capture_default_str();
   command->draw.add_to(*sub);
-  sub->add_flag("--axi", command->axi, "words_to_fragments: the shader with AXI4-Stream ports");
+  CLI::Option* axi =
+      sub->add_flag("--axi", command->axi, "words_to_fragments: the shader with AXI4-Stream ports");
+  sub->add_flag("--core", command->core, "halfway_core: from commands in memory to a picture in memory")
+      ->excludes(axi);
   sub->add_option("--multiplier-bits", command->multiplier_bits,
                   "width of the device's multipliers; 0: products in lookup tables")
       ->check(CLI::Range(0, 64))

@@ -26,10 +26,10 @@ ListedDesign shader(const std::string& name, const HardwareKey& key) {
   return {.design = std::move(design), .ecp5 = true};
 }
 
-// The shader with AXI4-Stream ports.
-ListedDesign axi_top(const std::string& name, const HardwareKey& key) {
-  ListedDesign top = shader(name, key);
-  top.design.entity = c_stream_top;
+// An entity that contains the shader, and has its generics.
+ListedDesign shader_in(const char* entity, const std::string& name, const HardwareKey& key) {
+  ListedDesign top = shader(fmt::format("{}_{}", entity, name), key);
+  top.design.entity = entity;
   top.design.generics = key.stream_generics();
   top.design.key.clear();
   return top;
@@ -101,8 +101,18 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     all.push_back(shader("spherical_shader_" + p, spherical(preset, 3, exact ? 8 : 2, tables)));
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
     if (exact) {
-      all.push_back(axi_top("words_to_fragments_quadratic_grey_exact", {.channels = 1}));
-      all.push_back(axi_top("words_to_fragments_spherical_grey_exact", spherical(preset, 1, 8, tables)));
+      for (const char* entity : {c_stream_top, c_core_top}) {
+        const bool core = entity == c_core_top;
+        all.push_back(shader_in(entity, "quadratic_grey_exact", {.channels = 1}));
+        all.back().ice40 = !core;
+        all.push_back(shader_in(entity, "spherical_grey_exact", spherical(preset, 1, 8, tables)));
+        all.back().ice40 = !core;
+      }
+    } else {
+      HardwareKey key = processors(preset, ProcessorForm::unrolled);
+      key.channels = 1;
+      all.push_back(shader_in(c_core_top, "processors_grey_published", key));
+      all.back().ice40 = false;
     }
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(

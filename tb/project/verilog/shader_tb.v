@@ -24,10 +24,10 @@ module shader_tb;
   wire [7:0] zero;
   wire [3:0] zero_y, zero_x;
   wire [7:0] zero_z;
-  wire tlast;
+  wire tlast, takes_triangle;
   `TOP top (
       .aclk(clk), .aresetn(!reset),
-      .s_axis_tvalid(init_valid), .s_axis_tready(init_ready), .s_axis_tdata(vectors[index]), .s_axis_tlast(1'b0),
+      .s_axis_tvalid(init_valid), .s_axis_tready(init_ready), .s_axis_tdata(vectors[index]), .s_axis_tlast(1'b0), .triangle(takes_triangle),
       .m_axis_tvalid(fragment_valid), .m_axis_tready(fragment_ready),
       .m_axis_tdata({zero, blue, green, red, triangle, zero_z, z, zero_y, y, zero_x, x}),
       .m_axis_tkeep(keep), .m_axis_tlast(tlast), .m_axis_tuser(fault)

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# The Verilog of `halfway verilog`, without and with AXI4-Stream ports: Verilator's lint, Icarus and Yosys take it; in
-# Icarus it draws the golden model's fragments; with AXI4-Stream ports no output depends on an input in the same clock.
+# The Verilog of `halfway verilog`, without and with AXI4-Stream ports, and the whole core: Verilator's lint, Icarus and
+# Yosys take it; in Icarus it draws the golden model's fragments, the core into memory; with AXI4-Stream ports no output
+# depends on an input in the same clock.
 #   verilog.sh HALFWAY ROOT FOLDER SHADER
 set -eu
 halfway=$1 root=$2 folder=$3 shader=$4
@@ -20,8 +21,8 @@ bits=$(awk 'NR == 1 { print $4 }' init.txt)
 awk 'NF == 7' out/timing/"$shader"/golden.trace >golden.txt
 [ "$(wc -l <golden.txt)" -gt 40 ] || { echo "verilog: $shader: few golden fragments"; exit 1; }
 
-check() { # top file-of-words bits flag
-  "$halfway" verilog "$scene" --shader "$shader" --out . $4 >/dev/null
+check() { # top flag testbench defines...
+  "$halfway" verilog "$scene" --shader "$shader" --out . $2 >/dev/null
   list=$(echo ./*/"$1".f)
   key=$(dirname "$list")
   sed "s#^#$key/#" "$list" >"$1.files"
@@ -31,14 +32,27 @@ check() { # top file-of-words bits flag
   # GHDL's state machines cause the first two warnings, copies of a grey colour the third.
   verilator --lint-only -Wno-COMBDLY -Wno-CASEINCOMPLETE -Wno-UNOPTFLAT --top-module "$1" -f "$1.files"
   yosys -q -p "read_verilog $(tr '\n' ' ' <"$1.files"); hierarchy -check -top $1; proc; check -assert"
-  iverilog -g2005 -Wall -Wno-timescale -s shader_tb -o "$1.vvp" -DTOP="$1" -DFILE="\"$2\"" -DBITS="$3" \
-    -DCOUNT="$(wc -l <"$2")" ${4:+-DAXI} "$root/tb/project/verilog/shader_tb.v" -c "$1.files"
-  vvp -n "$1.vvp" | awk 'NF != 7 || $0 !~ /^[0-9 ]*$/ { if ($0 !~ /finish/) print > "/dev/stderr"; next } { print }' >"$1.txt"
-  cmp golden.txt "$1.txt" || { echo "verilog: $1: not the golden fragments"; exit 1; }
+  top=$1 bench=$3
+  shift 3
+  iverilog -g2005 -Wall -Wno-timescale -s "$bench" -o "$top.vvp" "$@" "$root/tb/project/verilog/$bench.v" -c "$top.files"
+  vvp -n "$top.vvp" | awk '$0 !~ /^[0-9 ]+$/ { if ($0 !~ /finish/) print > "/dev/stderr"; next } { print }' >"$top.txt"
 }
-check "halfway_${shader}_shader" vectors.hex "$bits" ""
+words() { echo "-DFILE=\"$1\" -DCOUNT=$(wc -l <"$1")"; }
+draws() { # top golden
+  cmp "$2" "$1.txt" || { echo "verilog: $1: not the golden picture"; exit 1; }
+}
+top=halfway_${shader}_shader
+check "$top" "" shader_tb -DTOP="$top" $(words vectors.hex) -DBITS="$bits"
+draws "$top" golden.txt
+# The nearest fragment of each pixel, its colour cut to RGB565, its depth to 16 bits.
+awk '{ p = sprintf("%d %d", $2, $3); z = int($4 / 256)
+       if (!(p in nearest) || z < nearest[p]) { nearest[p] = z; colour[p] = int($5 / 8) " " int($6 / 4) " " int($7 / 8) } }
+     END { for (p in colour) if (colour[p] != "0 0 0") print p, colour[p] }' golden.txt | sort -n -k 1,1 -k 2,2 >pixels.txt
+check halfway_core --core core_tb $(words packets.hex) -DWIDTH=16 -DHEIGHT=12
+draws halfway_core pixels.txt
 top=halfway_words_to_fragments
-check $top packets.hex 32 --axi
+check $top --axi shader_tb -DTOP="$top" $(words packets.hex) -DBITS=32 -DAXI
+draws $top golden.txt
 # The page lists every port.
 sed -n 's#^//   \(input\|output\) .* ##p' "$(head -n 1 $top.files)" >ports.txt
 [ "$(wc -l <ports.txt)" -gt 10 ] || { echo "verilog: $top: no list of ports"; exit 1; }
