@@ -157,7 +157,7 @@ begin
 
   clk <= not clk after c_half_period when not ended;
 
-  -- Inputs that change at random, half of the time.
+  -- Inputs that change at random. A command is done in one clock of 32, so that cleared bits are seen.
   inputs : process is
     variable random : unsigned(31 downto 0) := to_unsigned(11, 32);
   begin
@@ -168,9 +168,10 @@ begin
     fragment       <= random(2);
     stalled        <= random(3);
     pixels         <= random(7 downto 4);
-    command_done   <= to_flag(random(9 downto 8) = 0);
-    command_faults <= std_logic_vector(random(17 downto 10) and random(25 downto 18));
-    swap           <= to_flag(random(28 downto 26) = 0);
+    command_done   <= to_flag(random(12 downto 8) = 0);
+    swap           <= to_flag(random(17 downto 13) = 0);
+    random         := next_random(random);
+    command_faults <= std_logic_vector(random(7 downto 0) and random(15 downto 8) and random(23 downto 16));
     picture_base   <= random(15 downto 0) & random(31 downto 16);
   end process;
 
@@ -253,7 +254,8 @@ begin
     clock := clock + 1;
   end process;
 
-  -- Each word with each strobes, and random data: address and data in random order, then the answer.
+  -- Each word twice with each strobes, and random data: address and data in random order, then the answer. The second
+  -- time in reverse order, after other words before and after it were written.
   writes : process is
     constant c_place : string := "core_registers: word";
 
@@ -293,9 +295,14 @@ begin
     end procedure;
   begin
     wait until rising_edge(clk) and reset = '0';
-    for number in 0 to 63 loop
-      for strobes in 0 to 15 loop
-        write_word(number, std_logic_vector(to_unsigned(strobes, 4)));
+    for pass in 0 to 1 loop
+      for number in 0 to 63 loop
+        for strobes in 0 to 15 loop
+          write_word(number * (1 - pass) + (63 - number) * pass, std_logic_vector(to_unsigned(strobes, 4)));
+          -- Clear bits of faults and interrupts, which would soon be all '1'.
+          write_word(c_faults / 4, "0001");
+          write_word(c_interrupts / 4, "0001");
+        end loop;
       end loop;
     end loop;
     all_written <= true;
