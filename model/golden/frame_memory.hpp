@@ -57,7 +57,7 @@ class FrameMemory {
   /// Drops a fragment outside frame or scissor. Keeps another one if its depth, as a word of the format, is
   /// less than the stored one: of equal words the first stays. FrameAssembler has the same rule with 24 bits,
   /// so XRGB8888 gives its frame. With 16 bits, depths that differ in the lower 8 bits are equal, and a
-  /// fragment of the farthest 256 depths is not drawn on a cleared pixel. Returns whether it was kept.
+  /// fragment of the farthest 256 depths is not drawn on a cleared pixel. True: the fragment is kept.
   bool draw(const FramePlace& place, const Fragment& fragment) {
     if (!place.holds(fragment.x, fragment.y)) return false;
     const std::size_t depth = depth_at(place, fragment.x, fragment.y);

@@ -66,12 +66,12 @@ TEST(FrameMemory, ComparesUpperSixteenBits) {
   FrameMemory memory(PixelFormat::rgb565, bytes, c_origin);
   memory.clear(whole_place(), 0, 0, 0);
   const auto colour = [&] { return bytes[0] | bytes[1] << 8; };
-  memory.draw(whole_place(), {.z = 0xFFFF00, .red = 255});
+  EXPECT_FALSE(memory.draw(whole_place(), {.z = 0xFFFF00, .red = 255}));
   EXPECT_EQ(colour(), 0);  // as far as the clear
-  memory.draw(whole_place(), {.z = 0x1234FF, .red = 255});
-  memory.draw(whole_place(), {.z = 0x123400, .green = 255});
+  EXPECT_TRUE(memory.draw(whole_place(), {.z = 0x1234FF, .red = 255}));
+  EXPECT_FALSE(memory.draw(whole_place(), {.z = 0x123400, .green = 255}));
   EXPECT_EQ(colour(), 0xF800);  // equal: the first stays
-  memory.draw(whole_place(), {.z = 0x1233FF, .blue = 255});
+  EXPECT_TRUE(memory.draw(whole_place(), {.z = 0x1233FF, .blue = 255}));
   EXPECT_EQ(colour(), 0x001F);
 }
 

@@ -37,6 +37,7 @@ architecture sim of memory_checker is
   signal frame             : frame_t;
   signal start             : std_logic := '0';
   signal busy, done, fault : std_logic;
+  signal pixels            : pixel_count_t;
   signal tvalid, tlast     : std_logic := '0';
   signal tready            : std_logic;
   signal tdata             : fragment_data_t := (others => '0');
@@ -48,6 +49,7 @@ architecture sim of memory_checker is
   signal pauses, errors    : natural := 0;
   signal number            : natural := 0; -- of the frame
   signal error_seen        : boolean := false;
+  signal drawn             : natural := 0; -- sum of pixels since start
   signal clock             : natural := 0;
   signal idle              : natural := 0;
 
@@ -71,6 +73,7 @@ begin
       busy          => busy,
       done          => done,
       fault         => fault,
+      pixels        => pixels,
       s_axis_tvalid => tvalid,
       s_axis_tready => tready,
       s_axis_tdata  => tdata,
@@ -134,6 +137,10 @@ begin
         idle <= 0;
       end if;
       assert idle < c_limit report "memory_checker: frame " & to_string(number) & " does not end" severity failure;
+      drawn <= drawn + to_integer(pixels);
+      if start = '1' then
+        drawn <= 0;
+      end if;
       -- A fault that the unit must report.
       if start = '1' then
         error_seen <= false;
@@ -151,6 +158,7 @@ begin
     variable random    : unsigned(31 downto 0) := to_unsigned(5 + g_number, 32);
     variable fragments : fragments_t;
     variable count     : natural;
+    variable kept      : natural;
     variable changes   : natural;
 
     procedure read_frame is
@@ -160,6 +168,7 @@ begin
       variable red, green, blue : channel_t;
     begin
       count   := vectors.read_number;
+      kept    := vectors.read_number;
       changes := vectors.read_number;
       vectors.expect_vector("a frame");
       vectors.drive(frame.colour_base);
@@ -360,6 +369,7 @@ begin
         pauses  <= nth(profile, (0, 0, 1, 2));
         draw(nth(profile, (0, 0, 1, 0)), "000");
         compare;
+        check("memory_checker: frame", number, "kept pixels", drawn, kept);
         number <= number + 1;
       end loop;
     end if;
