@@ -155,18 +155,15 @@ architecture rtl of ring_control is
     variable bits : faults_t;
   begin
     bits := (others => '0');
-    case number is
-      when c_wrong_kind =>
-        bits(c_faults_wrong_kind_low) := '1';
-      when c_wrong_length =>
-        bits(c_faults_wrong_length_low) := '1';
-      when c_shader_fault =>
-        bits(c_faults_shader_low) := '1';
-      when c_limit_reached =>
-        bits(c_faults_limit_low) := '1';
-      when others =>
-        null;
-    end case;
+    if number = c_wrong_kind then
+      bits(c_faults_wrong_kind_low) := '1';
+    elsif number = c_wrong_length then
+      bits(c_faults_wrong_length_low) := '1';
+    elsif number = c_shader_fault then
+      bits(c_faults_shader_low) := '1';
+    elsif number = c_limit_reached then
+      bits(c_faults_limit_low) := '1';
+    end if;
     return bits;
   end function;
 

@@ -21,6 +21,7 @@ module core_tb;
   reg [31:0] wdata;
   wire awready, wready, bvalid, arready_lite, rvalid_lite;
   wire [1:0] bresp, rresp_lite;
+  reg [1:0] taken;
   wire [31:0] rdata_lite;
 
   // The memory port.
@@ -99,14 +100,14 @@ module core_tb;
       wvalid = 1;
       awaddr = address;
       wdata = value;
+      // A transfer is at the rising edge after this one, if it is ready now.
       while (awvalid || wvalid) begin
-        @(posedge clk);
-        #1;
-        if (awready) awvalid <= #3 0;
-        if (wready) wvalid <= #3 0;
+        taken = {awready, wready};
         @(negedge clk);
+        awvalid = awvalid && !taken[1];
+        wvalid = wvalid && !taken[0];
       end
-      while (!bvalid) @(posedge clk);
+      while (!bvalid) @(negedge clk);
       if (bresp !== 0) $display("response of register %h is %b", address, bresp);
     end
   endtask
