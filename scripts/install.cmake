@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install build --prefix FOLDER`: the library, its header, the built-in scenes, and the CMake package `halfway`.
+# `cmake --install build --prefix FOLDER`: the library, its headers, the built-in scenes, and the CMake package `halfway`.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/halfway)
@@ -11,7 +11,8 @@ target_link_libraries(libhalfway PRIVATE fmt::fmt Threads::Threads)
 target_include_directories(libhalfway INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
 install(TARGETS libhalfway EXPORT halfway ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES sim/extras/library/halfway.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES sim/extras/library/halfway.h sim/extras/library/halfway_core.h
+  sim/extras/library/halfway_core_registers.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 file(GLOB scenes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sim/scenes/*.toml)
 install(FILES ${scenes} DESTINATION ${scenes_folder})
 

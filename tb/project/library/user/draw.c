@@ -2,6 +2,8 @@
  * draw SCENE SHADER PRESET WIDTH HEIGHT init|trace|ppm: prints a scene's init vectors in hexadecimal, the golden model's
  * fragments, or the frame, in the forms of `halfway init` and `halfway sim`. */
 #include <halfway.h>
+#include <halfway_core.h>
+#include <halfway_core_registers.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
