@@ -86,7 +86,7 @@ architecture rtl of ring_control is
 
   constant c_used_words    : positive := 10; -- of a command: up to its last field, and whole units
   constant c_used_bits     : positive := c_used_words * c_word_bits;
-  constant c_close_words   : positive := 64 / g_data_bits; -- of a packet of kind 0; evaluated at elaboration
+  constant c_close_words   : positive := 2 * c_word_bits / g_data_bits; -- evaluated at elaboration
   constant c_ring_bits     : positive := 2 ** ring_size'length - 1; -- of a command's place
   constant c_command_shift : positive := log2(4 * c_command_words); -- of a command's bytes
   constant c_command_units : unsigned(read_count'range) := to_unsigned(c_command_words / 2, read_count'length); -- evaluated at elaboration
