@@ -32,6 +32,10 @@ ListedDesign shader_in(const char* entity, const std::string& name, const Hardwa
   top.design.entity = entity;
   top.design.generics = key.stream_generics();
   top.design.key.clear();
+  if (top.design.entity == c_core_top) {
+    top.ice40 = false;
+    top.seeds = 1;
+  }
   return top;
 }
 
@@ -102,17 +106,13 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     all.push_back(shader("spherical_shader_grey_" + p, spherical(preset, 1, exact ? 8 : 2, tables)));
     if (exact) {
       for (const char* entity : {c_stream_top, c_core_top}) {
-        const bool core = entity == c_core_top;
         all.push_back(shader_in(entity, "quadratic_grey_exact", {.channels = 1}));
-        all.back().ice40 = !core;
         all.push_back(shader_in(entity, "spherical_grey_exact", spherical(preset, 1, 8, tables)));
-        all.back().ice40 = !core;
       }
     } else {
       HardwareKey key = processors(preset, ProcessorForm::unrolled);
       key.channels = 1;
       all.push_back(shader_in(c_core_top, "processors_grey_published", key));
-      all.back().ice40 = false;
     }
     for (const ProcessorForm form : {ProcessorForm::folded, ProcessorForm::unrolled}) {
       all.push_back(
@@ -188,6 +188,7 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
         add("fragments_to_memory", {{"g_true_colour", colour}}, false, colour[0] == 't' ? "_xrgb8888" : "_rgb565");
         all.back().ice40 = false;
         all.back().ecp5 = true;
+        all.back().seeds = 1;
       }
     }
     if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
