@@ -2,12 +2,7 @@
 #include "sim/extras/board/board_server.hpp"
 
 #include <fmt/format.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <deque>
 #include <memory>
 #include <span>
@@ -20,8 +15,8 @@
 #include "sim/extras/board/spi_packet.hpp"
 #include "sim/extras/board/verilated_board.hpp"
 #include "sim/files/image.hpp"
-#include "sim/os/descriptor.hpp"
 #include "sim/os/file.hpp"
+#include "sim/os/socket_client.hpp"
 
 namespace halfway::board {
 namespace {
@@ -29,25 +24,6 @@ namespace {
 constexpr std::uint32_t c_longest_packet = 4096;
 /// Until the last frame must be shown: two that are being shown or were begun before the swap, and the frame.
 constexpr int c_pictures_at_end = 3;
-
-[[noreturn]] void fail(const std::filesystem::path& socket, const char* what) {
-  throw Failure{tool_failed(fmt::format("{}: {}: {}", socket.string(), what, std::strerror(errno)))};
-}
-
-/// Returns false at the end of the connection.
-bool read_all(int descriptor, void* bytes, std::size_t count) {
-  return count == 0 || ::recv(descriptor, bytes, count, MSG_WAITALL) == static_cast<ssize_t>(count);
-}
-
-bool write_all(int descriptor, const std::vector<std::uint8_t>& bytes) {
-  std::size_t sent = 0;
-  while (sent < bytes.size()) {
-    const ssize_t count = ::send(descriptor, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-    if (count <= 0) return false;
-    sent += static_cast<std::size_t>(count);
-  }
-  return true;
-}
 
 /// The twin of the board for packets: draws them by the golden model, and gives the pictures that the monitor
 /// may show.
@@ -126,37 +102,23 @@ ServerReport serve_board(const std::filesystem::path& socket, const std::filesys
   Pictures pictures(twin, out);
   VerilatedBoard board(folders, [&](const DotPicture& dots) { pictures.add(dots); });
 
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (socket.string().size() >= sizeof address.sun_path)
-    throw Failure{bad_input(socket.string() + ": too long for the name of a socket; use a shorter path")};
-  std::strcpy(address.sun_path, socket.c_str());
-  const Descriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  ::unlink(socket.c_str());
-  if (listener.get() < 0 ||
-      ::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(listener.get(), 1) != 0)
-    fail(socket, "cannot listen");
-  const Descriptor client(::accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC));
-  ::unlink(socket.c_str());
-  if (client.get() < 0) fail(socket, "no client");
-
+  SocketClient client(socket);
   ServerReport report;
   SpiWire wire(0);
   SpiPins pins;
   const auto clock = [&] { pins = wire.clock(board.clock(pins)); };
   std::uint32_t count = 0;
-  for (std::vector<std::uint8_t> packet; read_all(client.get(), &count, sizeof count);) {
+  for (std::vector<std::uint8_t> packet; client.read(&count, sizeof count);) {
     if (count == 0 || count > c_longest_packet)
       throw Failure{bad_input(fmt::format("{}: a packet of {} bytes", socket.string(), count))};
     packet.resize(count);
-    if (!read_all(client.get(), packet.data(), count)) break;
+    if (!client.read(packet.data(), count)) break;
     wire.send(packet);
     while (wire.busy()) clock();
     twin.take(packet, wire.received()[0]);
     ++report.packets;
     if (packet[0] == c_draw) ++report.vectors;
-    if (!write_all(client.get(), wire.received())) break;
+    if (!client.write(wire.received())) break;
   }
   // Show the last frame.
   for (const std::uint64_t end = pictures.count() + c_pictures_at_end; twin.pending() > 0;) {
