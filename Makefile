@@ -6,25 +6,28 @@ MAKEFLAGS += --no-builtin-rules --no-print-directory
 
 # Each variable: the targets that use it, and its help text. A variable on the command line that no given target uses is
 # an error: otherwise it would be ignored.
-about_SCENE := sim,view,board-sim,compare,why,plan,verilog,study a built-in scene, a TOML file or a mesh file (default: all built-in scenes)
-about_SHADER := sim,view,compare,why,plan,verilog quadratic, spherical or processors (default: quadratic)
-about_DEGREE := sim,view,why,plan,verilog degree of the quadratic shader: 2, or 1 for planes (Gouraud shading) (default: 2)
-about_FORM := sim,view,why,plan,verilog folded or unrolled shading processors (default: unrolled)
-about_OBJECTS := sim,view,why,plan,verilog number of object processors before the shading processors (default: the rasterizer; 16 for a scene with shadows)
-about_SUBPIXELS := sim,view,why,plan,verilog with OBJECTS: 1, or 4 or 16 subpixels of a pixel, which is then filtered (default: 1)
-about_PRESET := sim,view,why,plan,verilog,tables,check-tables exact or published (default: exact; make tables: both, or with a size one of them)
-about_SIZE := sim,view,why,plan,verilog,study WIDTHxHEIGHT in pixels (default: 640x480)
+about_SCENE := sim,view,board-sim,core-sim,compare,why,plan,verilog,study a built-in scene, a TOML file or a mesh file (default: all built-in scenes)
+about_SHADER := sim,view,core-sim,compare,why,plan,verilog quadratic, spherical or processors (default: quadratic)
+about_DEGREE := sim,view,core-sim,why,plan,verilog degree of the quadratic shader: 2, or 1 for planes (Gouraud shading) (default: 2)
+about_FORM := sim,view,core-sim,why,plan,verilog folded or unrolled shading processors (default: unrolled)
+about_OBJECTS := sim,view,core-sim,why,plan,verilog number of object processors before the shading processors (default: the rasterizer; 16 for a scene with shadows)
+about_SUBPIXELS := sim,view,core-sim,why,plan,verilog with OBJECTS: 1, or 4 or 16 subpixels of a pixel, which is then filtered (default: 1)
+about_PRESET := sim,view,core-sim,why,plan,verilog,tables,check-tables exact or published (default: exact; make tables: both, or with a size one of them)
+about_SIZE := sim,view,core-sim,why,plan,verilog,study WIDTHxHEIGHT in pixels (default: 640x480)
 about_OWN_TABLES := sim 1: spherical shader with a table for each exponent of the scene: within one colour step
-about_ALL_EFFECTS := sim,view,compare,why,plan,verilog 1: hardware with every effect, whether or not the scene needs it
-about_LIGHTS := sim,view,why,plan,verilog with ALL_EFFECTS: the number of lights of the hardware
+about_ALL_EFFECTS := sim,view,core-sim,compare,why,plan,verilog 1: hardware with every effect, whether or not the scene needs it
+about_LIGHTS := sim,view,core-sim,why,plan,verilog with ALL_EFFECTS: the number of lights of the hardware
 about_SIMULATOR := sim,view,board-sim,plan ghdl, verilator or lanes; make view: auto, verilator or lanes (default: ghdl and verilator; auto)
-about_OUT := sim,view,board-sim,compare,why,verilog,study the folder for results (default: build/out)
-about_THREADS := sim,view,live,plan,savings,study,gallery threads for setup and golden model; make view: for whole frames (default: all cores)
+about_OUT := sim,view,board-sim,core-sim,compare,why,verilog,study the folder for results (default: build/out)
+about_THREADS := sim,view,live,core-sim,plan,savings,study,gallery threads for setup and golden model; make view: for whole frames (default: all cores)
 about_FRAMES := view steps of one turn of the camera (default: 36)
 about_VIDEO := view a file for a video
 about_RATE := view,plan frames per second: of the video; make plan: that the shading processors draw
 about_TERMINAL := view 1: draw in the terminal
 about_MULTIPLIER_BITS := verilog width of multipliers in the device; 0: products in lookup tables (default: 18)
+about_FORMAT := core-sim rgb565 or xrgb8888: pixels in memory, with 16 or 32 bits of depth (default: rgb565)
+about_BUS := core-sim 32 or 64: width of the bus to the memory (default: 64)
+about_LATENCY := core-sim clocks from an address to its first word, and from a write to its response (default: 30)
 about_AXI := verilog 1: make verilog: the top with AXI4-Stream ports
 about_CORE := verilog 1: make verilog: halfway_core, from commands in memory to a picture in memory
 about_PIXEL := why x,y of the pixel that make why explains
@@ -55,7 +58,7 @@ about_SEEDS := synth number of placement seeds (default: 3)
 about_DEVICE := live,plan,study,synth the FPGA whose clocks count: hx8k (iCE40, without multipliers) or ecp5 (default: ecp5; make synth: hx8k)
 about_PAGE := evidence only this page: bounds, cells, accuracy, transcripts, figures, gallery, hard_cases, proofs, mutants; or speed, clocks (default: all but speed and clocks)
 about_AGAIN := evidence 1: measure pages of this commit, too
-about_JOBS := sim,view,live,board-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
+about_JOBS := sim,view,live,board-sim,core-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
 
 variables := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
 comma := ,
@@ -136,6 +139,10 @@ live: program ## write a page in which the RTL draws, live in a browser: build/l
 
 board-sim: program ## draw two frames on the simulated board, from the pins to the picture on a monitor (SCENE)
 	@build/halfway board-sim $(call option,SIMULATOR,--simulator) $(call option,OUT,--out) $(scene)
+
+core-sim: program ## draw scenes by the whole core in Verilator: registers, driver, picture in a simulated memory (SCENE)
+	@build/halfway core-sim $(run_options) $(call option,THREADS,--threads) $(call option,OUT,--out) \
+	  $(call option,FORMAT,--format) $(call option,BUS,--bus) $(call option,LATENCY,--latency) $(scene)
 
 compare: program ## compare the stored results of make sim again
 	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \

@@ -16,6 +16,10 @@ enum class PixelFormat {
   xrgb8888  ///< and a depth of 32 bits: the upper 8 are 0, but for a pixel that is cleared
 };
 
+inline const char* to_string(PixelFormat format) {
+  return format == PixelFormat::rgb565 ? "rgb565" : "xrgb8888";
+}
+
 /// The parameters of a frame, as frame_t of memory_pkg.vhd. Addresses and strides are in bytes.
 struct FramePlace {
   std::uint32_t colour_base = 0, colour_stride = 0, depth_base = 0, depth_stride = 0;

@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   cli::add_why(app, folders, exit_code);
 #ifdef HALFWAY_EXTRAS
   cli::add_board_sim(app, folders, exit_code);
+  cli::add_core_sim(app, folders, exit_code);
 #endif
   cli::add_plan(app, folders, exit_code);
   cli::add_savings(app, folders, exit_code);

@@ -107,5 +107,6 @@ void add_report(CLI::App& app, const Folders& folders, int& exit_code);
 void add_verilog(CLI::App& app, const Folders& folders, int& exit_code);
 void add_why(CLI::App& app, const Folders& folders, int& exit_code);
 void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code);
+void add_core_sim(CLI::App& app, const Folders& folders, int& exit_code);
 
 }  // namespace halfway::cli

@@ -92,6 +92,8 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   if (build.waves) flags.insert(flags.end(), {"-DVM_TRACE_FST=1", "-DHALFWAY_WAVES=1"});
   flags.insert(flags.end(), {"-I" + verilator_root + "/include", "-I" + verilator_root + "/include/vltstd"});
 
+  std::vector<std::string> verilator_flags = c_verilator_flags;
+  verilator_flags.insert(verilator_flags.end(), build.verilator_flags.begin(), build.verilator_flags.end());
   const char* const level = build.fast && std::getenv("HALFWAY_QUICK_BUILDS") == nullptr ? "-O3" : "-O1";
   ContentHash tools;
   tools.add("verilated library 3").add(verilator_version).add(verilator_root).add(compiler.identity);
@@ -99,7 +101,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
   ContentHash hash;
   hash.add(tools.hex()).add(build.netlist).add(build.top).add(harness).add(level);
   for (const auto& header : build.harness_headers) hash.add(read_own_file(header));
-  for (const auto* list : {&c_verilator_flags, &c_link_flags, &build.definitions}) {
+  for (const auto* list : {&std::as_const(verilator_flags), &c_link_flags, &build.definitions}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& flag : *list) hash.add(flag);
   }
@@ -111,7 +113,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
         runtime_of(parent, tools.hex(), compiler.program, verilator_root + "/include", flags);
     must(write_file(fresh / "netlist.v", build.netlist));
     Command verilate{.arguments = {"verilator"}, .working_folder = fresh};
-    verilate.arguments.insert(verilate.arguments.end(), c_verilator_flags.begin(), c_verilator_flags.end());
+    verilate.arguments.insert(verilate.arguments.end(), verilator_flags.begin(), verilator_flags.end());
     verilate.arguments.insert(verilate.arguments.end(), {"--top-module", build.top, "--Mdir", "verilated"});
     if (build.waves) verilate.arguments.emplace_back("--trace-fst");
     verilate.arguments.emplace_back("netlist.v");

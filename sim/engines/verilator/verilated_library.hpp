@@ -20,6 +20,7 @@ struct VerilatedBuild {
   std::filesystem::path include_folder;                ///< the project's root, for the harness's own includes
   std::vector<std::filesystem::path> harness_headers;  ///< headers that the harness depends on
   std::vector<std::string> definitions;                ///< NAME=value for the harness
+  std::vector<std::string> verilator_flags;            ///< more of Verilator's
   bool waves = false;                                  ///< with FST tracing, which is slower
   bool fast = true;                                    ///< optimize, which takes long to compile
   std::string compiler;                                ///< empty: clang++ if installed, otherwise g++
