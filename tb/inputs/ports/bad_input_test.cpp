@@ -16,6 +16,7 @@
 
 #include "golden_run/packets.hpp"
 #include "inputs/ports/axi_harness.hpp"
+#include "inputs/ports/bad_packets.hpp"
 #include "plan/plan.hpp"
 #include "setup/setup.hpp"
 #include "sim/driver/frame_driver.hpp"
@@ -83,23 +84,6 @@ class BadInput : public testing::TestWithParam<Case> {
 
   std::uint32_t random() { return static_cast<std::uint32_t>(engine_()); }
 
-  /// The start of a good frame that only ends too early, or in which random bits are inverted, or whose words
-  /// but for the headers are random, or random words.
-  std::vector<std::uint32_t> bad_frame() {
-    const std::uint32_t kind = random() % 4;
-    const std::size_t most = kind < 2 ? 2000 : 200, count = 1 + random() % std::min(most, good_.size());
-    std::vector<std::uint32_t> words(good_.begin(), good_.begin() + static_cast<std::ptrdiff_t>(count));
-    for (std::uint32_t flips = kind == 1 ? 1 + random() % 20 : 0; flips > 0; --flips)
-      words[random() % words.size()] ^= 1U << random() % 32;
-    for (std::size_t at = 0; kind == 2 && at < words.size();) {
-      const std::size_t end = std::min(words.size(), at + (words[at] >> 16) / 2 * 2 + 2);
-      while (++at < end) words[at] = random();
-    }
-    for (std::uint32_t& word : words)
-      if (kind == 3) word = random();
-    return words;
-  }
-
   /// Draws the frame. Every wait must end within the limit and the clocks of a reset and of an idle shader.
   AxiFrame draw(std::vector<std::uint32_t> words, bool pauses) {
     constexpr std::uint64_t c_more_clocks = 20;
@@ -141,7 +125,7 @@ TEST_P(BadInput, EndsAndTheNextFrameIsGolden) {
   int faults = 0;
   for (int i = 0; i < GetParam().frames; ++i) {
     const bool pauses = i % 4 == 3;
-    faults += draw(bad_frame(), pauses).cause != 0 ? 1 : 0;
+    faults += draw(bad_packets(good_, engine_), pauses).cause != 0 ? 1 : 0;
     draw_good_frame(pauses);
     if (HasFailure()) FAIL() << "bad frame " << i;
   }
