@@ -20,14 +20,7 @@ static int is_socket(int descriptor) {
   return fstat(descriptor, &status) == 0 && S_ISSOCK(status.st_mode);
 }
 
-int spi_open(const char* name) {
-  struct stat status;
-  if (stat(name, &status) != 0) return -1;
-  if (!S_ISSOCK(status.st_mode)) {
-    const int device = open(name, O_RDWR);
-    const uint8_t mode = SPI_MODE_0;
-    return device >= 0 && ioctl(device, SPI_IOC_WR_MODE, &mode) == 0 ? device : -1;
-  }
+int socket_open(const char* name) {
   struct sockaddr_un address = {.sun_family = AF_UNIX};
   if (strlen(name) >= sizeof address.sun_path) {
     errno = ENAMETOOLONG;
@@ -36,6 +29,15 @@ int spi_open(const char* name) {
   strncpy(address.sun_path, name, sizeof address.sun_path - 1);
   const int device = socket(AF_UNIX, SOCK_STREAM, 0);
   return connect(device, (const struct sockaddr*)&address, sizeof address) == 0 ? device : -1;
+}
+
+int spi_open(const char* name) {
+  struct stat status;
+  if (stat(name, &status) != 0) return -1;
+  if (S_ISSOCK(status.st_mode)) return socket_open(name);
+  const int device = open(name, O_RDWR);
+  const uint8_t mode = SPI_MODE_0;
+  return device >= 0 && ioctl(device, SPI_IOC_WR_MODE, &mode) == 0 ? device : -1;
 }
 
 static int transfer(int device, const uint8_t* out, uint8_t* in, size_t count) {

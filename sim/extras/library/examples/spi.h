@@ -6,6 +6,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* Connects to the socket of a simulation. Returns as spi_open. */
+int socket_open(const char* name);
+
 /* Opens a device, /dev/spidevB.C, or a socket. Returns a descriptor; -1: see errno. */
 int spi_open(const char* name);
 
