@@ -309,12 +309,13 @@ class StreamPass {
       : model_(model),
         pace_(pace),
         random_(pace.seed),
-        busy_(design.busy ? model.find("busy") : nullptr),
+        busy_(model.find("busy")),
         idle_(model.find("idle")),
         fault_(model.find("fault")),
         clear_(model.find("clear")),
         stalled_(model.find(design.stalled)),
         input_(model, design.input, set.files[0]),
+        covered_(busy_ != nullptr && design.busy),
         faulty_(set.name.ends_with("fault")) {
     for (std::size_t i = 1; i < set.files.size(); ++i) {
       outputs_.emplace_back(model, design.outputs[i - 1], set.files[i]);
@@ -366,7 +367,7 @@ class StreamPass {
 
   Difference check() {
     const bool ready = Model::is_set(input_.ready);
-    if (taken_ && busy_ != nullptr && !Model::is_set(busy_))
+    if (taken_ && covered_ && !Model::is_set(busy_))
       return input_.differs("follows one that is taken, but busy is '0'");
     if (Model::is_set(idle_) && !ready) return input_.differs("is not ready, but idle is '1'");
     taken_ = input_.waiting && ready;
@@ -378,7 +379,7 @@ class StreamPass {
       if (valid && lane.with != nullptr && !Model::is_set(lane.with))
         return lane.differs("comes without " + lane.stream.with);
       if (valid) {
-        if (busy_ != nullptr && !Model::is_set(busy_)) return lane.differs("comes, but busy is '0'");
+        if (covered_ && !Model::is_set(busy_)) return lane.differs("comes, but busy is '0'");
         if (lane.at_end()) return lane.differs("comes after all that are expected");
         if (auto difference = lane.columns.compare(lane.row(), "fault")) return lane.differs(*difference);
         if (pace_.full() && !lane.waiting)
@@ -429,7 +430,7 @@ class StreamPass {
     if (!input_.at_end()) return false;
     for (const Lane& lane : outputs_)
       if (Model::is_set(lane.valid)) return false;
-    return busy_ != nullptr ? !Model::is_set(busy_) : still_ > c_idle_clocks;
+    return covered_ ? !Model::is_set(busy_) : still_ > c_idle_clocks;
   }
 
   Difference check_idle() {
@@ -460,6 +461,7 @@ class StreamPass {
   const ModelPort *busy_, *idle_, *fault_, *clear_, *stalled_;
   Lane input_;
   std::vector<Lane> outputs_;
+  bool covered_;  ///< busy is '1' whenever a word is inside
   bool faulty_, fault_at_end_ = false, was_idle_ = false, clearing_ = true, clears_now_ = false,
                 taken_ = false;
   std::int64_t clock_ = -1;  ///< 0: the first vector is accepted
