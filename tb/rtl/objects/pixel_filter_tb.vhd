@@ -28,8 +28,8 @@ architecture sim of pixel_filter_tb is
 
   -- tb/vectors/filter.cpp has the same list.
   constant c_cases : cases_t := (
-    (true, 3, 16, c_filter_weights, x"FFC811"), (true, 1, 4, c_filter_weights, x"0000FF"),
-    (true, 3, 1, (1, 0, 0, 0), x"7F8000"), (true, 1, 16, (9, 3, 3, 1), x"00005A"),
+    (true, 3, 16, c_filter_weights, x"FFC811"), (true, 3, 16, c_filter_weights, x"0037EE"),
+    (true, 1, 4, c_filter_weights, x"0000FF"), (true, 3, 1, (1, 0, 0, 0), x"7F8000"), (true, 1, 16, (9, 3, 3, 1), x"00005A"),
     (false, 3, 16, c_filter_weights, x"FE3300"), (false, 1, 1, (1, 0, 0, 0), x"0000FF"),
     (false, 3, 4, (1, 0, 2, 1), x"8001FF"));
 begin
@@ -40,7 +40,7 @@ begin
     constant c_bits    : positive  := token_bits(c_config);
     constant c_file    : string    := g_folder & "/" & preset_name(c_case.exact) & "_"
       & joined((c_case.channels, c_case.subpixels, c_case.weights(c_itself), c_case.weights(c_left),
-      c_case.weights(c_above), c_case.weights(c_above_left)));
+      c_case.weights(c_above), c_case.weights(c_above_left))) & "_" & to_hstring(c_case.background);
 
     signal clk, reset, in_valid, in_ready : std_logic;
     signal in_word                        : std_logic_vector(weight_bits(c_case.subpixels) + c_bits - 1 downto 0);
