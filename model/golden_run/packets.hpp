@@ -39,7 +39,7 @@ class PacketWriter {
   HardwareKey key_;
   std::unique_ptr<GoldenModel> golden_;
   std::array<std::size_t, 5> words_{};  ///< of the vectors of each kind
-  std::size_t records_ = 0;  ///< line records that come next
+  std::size_t records_ = 0;             ///< line records that come next
 };
 
 }  // namespace halfway

@@ -71,7 +71,8 @@ struct ProcessorUnits {
 
 /// Entity in rtl/axi: a shader with AXI4-Stream ports.
 inline constexpr const char* c_stream_top = "words_to_fragments";
-/// Entity in rtl/core, which contains c_stream_top and has its generics: from commands to a picture in memory.
+/// Entity in rtl/core, which contains c_stream_top and has its generics: from commands to a picture in
+/// memory.
 inline constexpr const char* c_core_top = "halfway_core";
 
 struct HardwareKey {

@@ -393,7 +393,7 @@ begin
       m_axis_tuser  => cause
       );
 
-  -- End a frame without the shader: a last transfer without a fragment.
+    -- End a frame without the shader: a last transfer without a fragment.
   memory_valid <= (fragment_valid and passes) or force_last;
   memory_last  <= fragment_last or force_last;
   memory_data  <= fragment when force_last = '0' else (others => '0');

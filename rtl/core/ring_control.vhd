@@ -215,7 +215,7 @@ begin
           v.read_start := '1';
         end if;
 
-      -- Keep the words of the command that are used.
+        -- Keep the words of the command that are used.
       when receive =>
         if words_valid = '1' then
           v.place := r.place + 1;
@@ -227,7 +227,7 @@ begin
           end if;
         end if;
 
-      -- Begin the frame, or refuse it.
+        -- Begin the frame, or refuse it.
       when check =>
         v.place := (others => '0');
         if is_bad = '1' or r.cut = '1' then
@@ -243,7 +243,7 @@ begin
           end if;
         end if;
 
-      -- Pass the packets, then a packet of kind 0.
+        -- Pass the packets, then a packet of kind 0.
       when draw =>
         if moves = '1' and words_last = '1' then
           v.phase := close;

@@ -71,7 +71,9 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
       "//   halfway verilog {} {}{}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
       module, key.name(), version, printable(command.scene), hardware_options(command.draw),
-      command.core ? " --core" : command.axi ? " --axi" : "",
+      command.core  ? " --core"
+      : command.axi ? " --axi"
+                    : "",
       synth::takes_multiplier_bits(top) ? fmt::format(" --multiplier-bits {}", command.multiplier_bits)
                                         : std::string());
   for (const auto& [name, value] : generics) text += fmt::format(" {}={}", name, value);

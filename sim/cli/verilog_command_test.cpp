@@ -29,8 +29,9 @@ class VerilogCommand : public CommandTest {
 };
 
 TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
-  EXPECT_THAT(write({}),
-              Ends(0, HasSubstr("halfway_quadratic_shader.v: module halfway_quadratic_shader with 16 ports\n")));
+  EXPECT_THAT(
+      write({}),
+      Ends(0, HasSubstr("halfway_quadratic_shader.v: module halfway_quadratic_shader with 16 ports\n")));
   EXPECT_EQ(text_of("halfway_quadratic_shader.f"), "halfway_quadratic_shader.v\n");
   EXPECT_THAT(
       text_of("halfway_quadratic_shader.v"),
@@ -49,12 +50,11 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
   const Outcome outcome = write({"--axi"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_EQ(text_of("halfway_words_to_fragments.f"), "halfway_words_to_fragments.v\n");
-  EXPECT_THAT(
-      text_of("halfway_words_to_fragments.v"),
-      AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"),
-            HasSubstr("\n//   input      32  s_axis_tdata\n"),
-            HasSubstr("\n//   output    128  m_axis_tdata\n"),
-            HasSubstr("\nmodule halfway_words_to_fragments\n")));
+  EXPECT_THAT(text_of("halfway_words_to_fragments.v"),
+              AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"),
+                    HasSubstr("\n//   input      32  s_axis_tdata\n"),
+                    HasSubstr("\n//   output    128  m_axis_tdata\n"),
+                    HasSubstr("\nmodule halfway_words_to_fragments\n")));
 }
 
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {

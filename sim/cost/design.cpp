@@ -27,9 +27,9 @@ std::string hardware_text(const Design& design) {
 }
 
 bool takes_multiplier_bits(std::string_view entity) {
-  constexpr std::array<std::string_view, 7> c_entities = {"multiplier",       "diffuse_slice", "specular_slice",
-                                                          "spherical_light",  "spherical_shader",
-                                                          c_stream_top, c_core_top};
+  constexpr std::array<std::string_view, 7> c_entities = {
+      "multiplier",       "diffuse_slice", "specular_slice", "spherical_light",
+      "spherical_shader", c_stream_top,    c_core_top};
   return std::ranges::find(c_entities, entity) != c_entities.end();
 }
 

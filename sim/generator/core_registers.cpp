@@ -16,7 +16,8 @@
 namespace halfway::tables {
 namespace {
 
-constexpr std::string_view c_core_notice = "Made by `make tables` from rtl/core/core_registers.toml; edit that.";
+constexpr std::string_view c_core_notice =
+    "Made by `make tables` from rtl/core/core_registers.toml; edit that.";
 constexpr int c_last_offset = 0xFC, c_bytes = 4, c_last_bit = 31;
 constexpr std::array c_accesses = {"ro", "rw", "w1c"};
 
@@ -141,9 +142,8 @@ class CoreFile {
     if (!table.contains("values")) return field;
     const toml::table& values = table_of(*table.get("values"));
     for (const auto& [key, value] : values)
-      field.values.emplace_back(
-          checked_name(value, key.str()),
-          static_cast<int>(number(values, key.str(), field.mask() >> field.low)));
+      field.values.emplace_back(checked_name(value, key.str()),
+                                static_cast<int>(number(values, key.str(), field.mask() >> field.low)));
     std::ranges::sort(field.values, {}, [](const auto& value) { return value.second; });
     return field;
   }
@@ -226,8 +226,8 @@ std::string core_registers_vhdl(const CoreRegisters& core, const std::string& ve
   constant("command_words", core.command_words);
   out += '\n';
   for (const CoreField& field : core.command)
-    out += fmt::format("  constant c_command_{} : command_field_t := ({}, {}, {});\n", field.name, field.word, field.low,
-                       field.high - field.low + 1);
+    out += fmt::format("  constant c_command_{} : command_field_t := ({}, {}, {});\n", field.name, field.word,
+                       field.low, field.high - field.low + 1);
   for_each_field(core, [&](const std::string& name, const CoreField& field) {
     if (!name.starts_with("command_")) {
       constant(name + "_low", field.low);
@@ -281,7 +281,8 @@ std::string register_table(const CoreRegisters& core) {
 std::string command_table(const CoreRegisters& core) {
   std::string out = "| word | field | bits | meaning |\n| --- | --- | --- | --- |\n";
   for (const CoreField& field : core.command)
-    out += fmt::format("| {} | `{}` | {} | {} |\n", field.word, field.name, bits_of(field), meaning_of(field));
+    out +=
+        fmt::format("| {} | `{}` | {} | {} |\n", field.word, field.name, bits_of(field), meaning_of(field));
   return out;
 }
 

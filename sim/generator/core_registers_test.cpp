@@ -134,7 +134,8 @@ TEST(CoreRegisters, BadDataNamesFileAndLine) {
       {"words = 2\n", "words = 17\n", "f.toml:16: words must be a whole number from 0 to 16"},
   };
   for (const auto& [old, text, expected] : cases)
-    EXPECT_TRUE(is_error(caught([&] { core_registers(with(old, text), "f.toml"); }), ExitCode::bad_input, expected))
+    EXPECT_TRUE(
+        is_error(caught([&] { core_registers(with(old, text), "f.toml"); }), ExitCode::bad_input, expected))
         << old << " -> " << text;
 }
 
@@ -149,7 +150,8 @@ TEST(CoreRegisters, FilesOfTheCheckoutAreCurrent) {
   EXPECT_TRUE(is_error(caught([&] { generated_files(folder.path(), {}); }), "docs/rtl/core.md"));
   must(make_folders(folder.path() / "docs/rtl"));
   must(write_file(folder.path() / "docs/rtl/core.md", "no parts\n"));
-  EXPECT_TRUE(is_error(caught([&] { generated_files(folder.path(), {}); }), "docs/rtl/core.md: wants one part"));
+  EXPECT_TRUE(
+      is_error(caught([&] { generated_files(folder.path(), {}); }), "docs/rtl/core.md: wants one part"));
   for (const std::string& file : files) {
     must(make_folders((folder.path() / file).parent_path()));
     must(write_file(folder.path() / file, must(read_file(c_source_folder / file))));

@@ -43,9 +43,10 @@ std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout
     files.push_back({"halfway.core", core_text(*list, HALFWAY_VERSION), "rtl/files.f"});
   if (const auto toml = read_file(checkout / c_registers)) {
     const CoreRegisters core = core_registers(*toml, c_registers);
-    files.push_back({"rtl/core/core_registers_pkg.vhd", core_registers_vhdl(core, HALFWAY_VERSION), c_registers});
-    files.push_back({"sim/extras/library/halfway_core_registers.h", core_registers_header(core, HALFWAY_VERSION),
-                     c_registers});
+    files.push_back(
+        {"rtl/core/core_registers_pkg.vhd", core_registers_vhdl(core, HALFWAY_VERSION), c_registers});
+    files.push_back({"sim/extras/library/halfway_core_registers.h",
+                     core_registers_header(core, HALFWAY_VERSION), c_registers});
     files.push_back({c_core_page, core_page(checkout, core), c_registers});
   }
   return files;
@@ -87,9 +88,8 @@ std::vector<std::string> stale_files(const std::filesystem::path& checkout, cons
   for (const GeneratedFile& file : generated_files(checkout, sizes)) {
     if (!all && (file.path.extension() == ".md" || file.path.extension() == ".core")) continue;
     if (const std::size_t line = first_different_line(checkout, file); line != 0)
-      messages.push_back(fmt::format(
-          "{}:{}: not what the generator writes; edit {}, then run `make tables`", file.path.string(), line,
-          file.source));
+      messages.push_back(fmt::format("{}:{}: not what the generator writes; edit {}, then run `make tables`",
+                                     file.path.string(), line, file.source));
   }
   return messages;
 }

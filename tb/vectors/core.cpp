@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scripts for halfway_core: steps of the host and what must come of them, and all of the memory after each frame.
+// Scripts for halfway_core: steps of the host and what must come of them, and all of the memory after each
+// frame.
 #include <algorithm>
 #include <span>
 
 #include "golden/frame_memory.hpp"
-#include "sim/extras/library/halfway_core_registers.h"
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
+#include "sim/extras/library/halfway_core_registers.h"
 #include "sim/files/load_scene.hpp"
 #include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
@@ -24,7 +25,9 @@ constexpr std::uint32_t c_ring = c_window + 0x40, c_ring_bits = 1;
 constexpr std::uint32_t c_packets = c_window + 0x1000, c_buffers = c_window + 0x18000;
 constexpr FrameSize c_size{16, 12};
 
-constexpr std::uint32_t fault(int bit) { return 1U << bit; }
+constexpr std::uint32_t fault(int bit) {
+  return 1U << bit;
+}
 
 class Script {
  public:
@@ -118,7 +121,13 @@ class Script {
             place_.left | place_.right << 16,
             place_.top | place_.bottom << 16,
             0x12'34'56U | std::uint32_t{clear} << 24 | std::uint32_t{swap} << 25 | 1U << 28,
-            0, 0, 0, 0, 0, 0, 0};
+            0,
+            0,
+            0,
+            0,
+            0,
+            0,
+            0};
   }
   // Puts a command into the ring: the core may begin.
   void put(std::span<const std::uint32_t> command, std::uint32_t ahead = 0) {
@@ -275,6 +284,8 @@ void write_core(const Folder& folder) {
 
 }  // namespace
 
-std::vector<Entity> core_entities() { return {{"halfway_core", write_core}}; }
+std::vector<Entity> core_entities() {
+  return {{"halfway_core", write_core}};
+}
 
 }  // namespace halfway::vectors

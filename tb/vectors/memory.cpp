@@ -94,8 +94,8 @@ void put_frame(VectorFile& file, const FramePlace& place, bool clear, std::uint3
   file.flag(clear).word(colour >> 16, 8).word(colour >> 8, 8).word(colour, 8).end_vector();
 }
 
-// Frames. Of each: a line with the numbers of fragments, of those kept, and of changed words; a line with its parameters;
-// fragments; changed words of memory: index and word.
+// Frames. Of each: a line with the numbers of fragments, of those kept, and of changed words; a line with its
+// parameters; fragments; changed words of memory: index and word.
 void write_frames(const Folder& folder, PixelFormat format, const std::string& name) {
   struct Size {
     std::uint32_t width, height;
@@ -132,7 +132,10 @@ void write_frames(const Folder& folder, PixelFormat format, const std::string& n
     std::vector<std::uint32_t> changed;
     for (std::uint32_t at = 0; at < c_bytes; at += 4)
       if (!std::equal(&bytes[at], &bytes[at] + 4, &before[at])) changed.push_back(at / 4);
-    file.word(fragments.size(), 32).word(static_cast<std::uint64_t>(kept), 32).word(changed.size(), 32).end_vector();
+    file.word(fragments.size(), 32)
+        .word(static_cast<std::uint64_t>(kept), 32)
+        .word(changed.size(), 32)
+        .end_vector();
     put_frame(file, place, clear, colour);
     for (const Fragment& f : fragments)
       file.word(f.triangle, 32)

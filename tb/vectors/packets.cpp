@@ -2,8 +2,6 @@
 // Files of words_to_fragments for each hardware, frame after frame. packets: the last word of a packet, and
 // the word. fragments: the transfers at the output: last one of the frame, cause of the fault, whether it has
 // a fragment, and the data. A frame with a fault has only its last transfer.
-#include "vectors/packet_frames.hpp"
-
 #include <fmt/format.h>
 
 #include "sim/driver/frame_driver.hpp"
@@ -11,6 +9,7 @@
 #include "sim/files/vector_file.hpp"
 #include "sim/os/must.hpp"
 #include "vectors/entities.hpp"
+#include "vectors/packet_frames.hpp"
 
 namespace halfway::vectors {
 namespace {
@@ -63,7 +62,8 @@ class Frames {
   void bad(std::size_t count, const PacketWords& packet, Cause cause) {
     for (std::size_t i = 0; i < count; ++i) send(frame_.packets()[i]);
     send(packet);
-    for (std::size_t i = count; i < std::min(count + 3, frame_.packets().size()); ++i) send(frame_.packets()[i]);
+    for (std::size_t i = count; i < std::min(count + 3, frame_.packets().size()); ++i)
+      send(frame_.packets()[i]);
     send(end_);
     transfer(nullptr, true, cause);
   }
@@ -101,7 +101,9 @@ class Frames {
     bad(1, packet, Cause::shader_fault);
   }
 
-  bool has_records() const { return frame_.key().shader == Shader::spherical && frame_.key().spherical.records(); }
+  bool has_records() const {
+    return frame_.key().shader == Shader::spherical && frame_.key().spherical.records();
+  }
   bool has_commands() const { return frame_.key().shader == Shader::processors; }
   void write(const Folder& folder, const char* name) const {
     words_.write(folder / fmt::format("{}_words.txt", name));
@@ -142,7 +144,9 @@ void write_words_to_fragments(const Folder& folder) {
 
 }  // namespace
 
-std::span<const PacketHardware> packet_hardware() { return c_hardware; }
+std::span<const PacketHardware> packet_hardware() {
+  return c_hardware;
+}
 
 PacketFrame::PacketFrame(const PacketHardware& hardware, FrameSize size) {
   const Scene scene = scene_for(hardware);

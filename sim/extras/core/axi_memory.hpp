@@ -72,10 +72,10 @@ class AxiMemory {
   std::uint32_t random_;
   std::uint32_t refused_first_ = 0, refused_count_ = 0;
   std::uint64_t clock_ = 0, words_read_ = 0, words_written_ = 0;
-  std::deque<Word> reads_;                  ///< words to give
-  std::deque<Burst> writes_;                ///< addresses that were taken
-  std::deque<Word> words_;                  ///< of writes
-  std::deque<std::uint64_t> write_due_;     ///< of writes whose last word was taken
+  std::deque<Word> reads_;               ///< words to give
+  std::deque<Burst> writes_;             ///< addresses that were taken
+  std::deque<Word> words_;               ///< of writes
+  std::deque<std::uint64_t> write_due_;  ///< of writes whose last word was taken
 };
 
 }  // namespace halfway::core

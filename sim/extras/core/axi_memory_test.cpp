@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The memory at the core's port: when it answers, what a read sees, and what it refuses.
+#include "sim/extras/core/axi_memory.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "sim/extras/core/axi_memory.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway::core {
@@ -74,8 +75,11 @@ TEST_F(AxiMemoryTest, AReadSeesTheMemoryAtItsAddressAndAWriteWaitsForItsResponse
 
 TEST_F(AxiMemoryTest, RefusesWhatItDoesNotHave) {
   memory_.refuse(c_origin + 8, 4);
-  for (const auto& [at, response] : {std::pair(c_origin - 4, 2), {c_origin, 0}, {c_origin + 8, 2},
-                                     {c_origin + 12, 0}, {c_origin + 64, 2}}) {
+  for (const auto& [at, response] : {std::pair(c_origin - 4, 2),
+                                     {c_origin, 0},
+                                     {c_origin + 8, 2},
+                                     {c_origin + 12, 0},
+                                     {c_origin + 64, 2}}) {
     address(at);
     clocks_until(in_.m_axi_rvalid);
     EXPECT_EQ(in_.m_axi_rresp, response) << at;

@@ -46,7 +46,8 @@ class Host {
   const std::vector<std::uint8_t>& before() const { return before_; }
   std::uint32_t word(std::uint32_t address) const {
     std::uint32_t word = 0;
-    for (std::uint32_t i = 0; i < 4; ++i) word |= std::uint32_t{before_[address - c_memory_address + i]} << (8 * i);
+    for (std::uint32_t i = 0; i < 4; ++i)
+      word |= std::uint32_t{before_[address - c_memory_address + i]} << (8 * i);
     return word;
   }
   std::uint32_t read(std::uint32_t offset) {
@@ -116,11 +117,12 @@ std::uint64_t compare(Host& host, const FrameStream& stream, FrameSize size, Pix
   for (std::size_t i = expected.size(); i-- > 0;)
     if (host.memory()[i] != expected[i]) ++count, first = i;
   if (count > 0)
-    throw Failure{{ExitCode::differs,
-                   fmt::format("{} bytes of the memory differ; the first, {:08x}, is {:02x} instead of {:02x}; "
-                               "the picture is at {:08x}, depths are at {:08x}",
-                               count, c_memory_address + first, host.memory()[first], expected[first],
-                               place.colour_base, place.depth_base)}};
+    throw Failure{
+        {ExitCode::differs,
+         fmt::format("{} bytes of the memory differ; the first, {:08x}, is {:02x} instead of {:02x}; "
+                     "the picture is at {:08x}, depths are at {:08x}",
+                     count, c_memory_address + first, host.memory()[first], expected[first],
+                     place.colour_base, place.depth_base)}};
   return kept;
 }
 
@@ -134,8 +136,8 @@ CoreFigures check_core(const Scene& scene, const CoreKey& key, const CoreCheckOp
   const halfway_core_layout layout{.width = options.size.width,
                                    .height = options.size.height,
                                    .packet_words = halfway_packet_words(&vectors)};
-  const halfway_core_frame frame{
-      .clear_colour = {to_byte(scene.background.r), to_byte(scene.background.g), to_byte(scene.background.b)}};
+  const halfway_core_frame frame{.clear_colour = {to_byte(scene.background.r), to_byte(scene.background.g),
+                                                  to_byte(scene.background.b)}};
 
   // Draw it.
   Host host(key, options.timing, folders);
@@ -163,8 +165,9 @@ CoreFigures check_core(const Scene& scene, const CoreKey& key, const CoreCheckOp
                             .words_read = host.core().memory().words_read(),
                             .words_written = host.core().memory().words_written()};
   if (figures.fragments != stream.golden.size() || figures.pixels != kept)
-    throw Failure{{ExitCode::differs, fmt::format("the counters have {} fragments and {} pixels instead of {} and {}",
-                                                  figures.fragments, figures.pixels, stream.golden.size(), kept)}};
+    throw Failure{
+        {ExitCode::differs, fmt::format("the counters have {} fragments and {} pixels instead of {} and {}",
+                                        figures.fragments, figures.pixels, stream.golden.size(), kept)}};
   return figures;
 }
 

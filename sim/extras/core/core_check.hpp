@@ -13,7 +13,7 @@ namespace halfway::core {
 
 struct CoreCheckOptions {
   FrameSize size;
-  FrameOptions frame{};    ///< of set-up and golden model
+  FrameOptions frame{};  ///< of set-up and golden model
   MemoryTiming timing{};
   std::filesystem::path picture{};  ///< a file for the picture
 };

@@ -22,7 +22,8 @@ constexpr std::size_t c_shared_bytes = 1 << 24;
 class SharedMemory {
  public:
   explicit SharedMemory(std::filesystem::path file)
-      : file_(std::move(file)), descriptor_(::open(file_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {
+      : file_(std::move(file)),
+        descriptor_(::open(file_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600)) {
     if (descriptor_.get() < 0 || ::ftruncate(descriptor_.get(), c_shared_bytes) != 0) fail();
     address_ = ::mmap(nullptr, c_shared_bytes, PROT_READ | PROT_WRITE, MAP_SHARED, descriptor_.get(), 0);
     if (address_ == MAP_FAILED) fail();

@@ -57,12 +57,13 @@ void draw_scene(const std::string& name, const Folders& folders, const CoreSimCo
   Progress progress("core-sim");
   progress.show(scene.name);
   const auto drawn = caught([&] {
-    return core::check_core(scene, key_for(scene, command),
-                            {.size = draw.size,
-                             .frame = {.setup = draw.setup, .workers = on_threads(draw.threads)},
-                             .timing = command.timing,
-                             .picture = ResultFiles::of(draw.out, result_name(name), draw.plan).frame("core")},
-                            {folders.source, folders.cache()});
+    return core::check_core(
+        scene, key_for(scene, command),
+        {.size = draw.size,
+         .frame = {.setup = draw.setup, .workers = on_threads(draw.threads)},
+         .timing = command.timing,
+         .picture = ResultFiles::of(draw.out, result_name(name), draw.plan).frame("core")},
+        {folders.source, folders.cache()});
   });
   progress.clear();
   if (!drawn) throw Failure{{drawn.error().code, fmt::format("{}: {}", scene.name, drawn.error().message)}};
@@ -72,7 +73,8 @@ void draw_scene(const std::string& name, const Folders& folders, const CoreSimCo
   };
   fmt::print(
       "{:<12} {:<10} {:<9} {:>4}x{:<4} {:>8} triangle packets {:>9} fragments | {}, bus {}, latency {}: {} "
-      "clocks, {:.3f} fragments per clock, memory equal | clocks with a word read {:.0f} %, written {:.0f} %, "
+      "clocks, {:.3f} fragments per clock, memory equal | clocks with a word read {:.0f} %, written {:.0f} "
+      "%, "
       "with a waiting fragment {:.0f} %\n",
       printable(scene.name), to_string(draw.plan.shader), to_string(draw.plan.preset), draw.size.width,
       draw.size.height, figures.triangles, figures.fragments, command.format, command.bus_bits,
@@ -88,7 +90,8 @@ void serve(const Folders& folders, const CoreSimCommand& command) {
   const Scene scene = loaded(command.scenes[0], folders);
   const auto report_of = core::serve_core(key_for(scene, command), command.timing, command.socket,
                                           {folders.source, folders.cache()});
-  fmt::print("{}: {} accesses to registers, {} clocks\n", command.socket, report_of.accesses, report_of.clocks);
+  fmt::print("{}: {} accesses to registers, {} clocks\n", command.socket, report_of.accesses,
+             report_of.clocks);
 }
 
 void run(const Folders& folders, const CoreSimCommand& command) {
@@ -121,8 +124,9 @@ void add_core_sim(CLI::App& app, const Folders& folders, int&) {
   sub->add_option("--stalls", command->timing.pause_seed,
                   "pause all channels of the memory at random, with this seed (0: full speed)")
       ->capture_default_str();
-  sub->add_option("--serve", command->socket,
-                  "a Unix socket to listen at: another program accesses the registers (see docs/rtl/core.md)");
+  sub->add_option(
+      "--serve", command->socket,
+      "a Unix socket to listen at: another program accesses the registers (see docs/rtl/core.md)");
   sub->callback([=, &folders] { run(folders, *command); });
 }
 

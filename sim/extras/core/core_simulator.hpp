@@ -26,8 +26,8 @@ inline constexpr std::uint64_t c_most_frame_clocks = 1'000'000'000;
 struct CoreKey {
   HardwareKey shader;
   PixelFormat format = PixelFormat::rgb565;
-  unsigned bus_bits = 64;    ///< 32 or 64
-  unsigned limit_bits = 0;   ///< g_limit_bits of words_to_fragments; 0: the default
+  unsigned bus_bits = 64;   ///< 32 or 64
+  unsigned limit_bits = 0;  ///< g_limit_bits of words_to_fragments; 0: the default
 
   std::vector<std::pair<std::string, std::string>> generics() const;
   std::string name() const;

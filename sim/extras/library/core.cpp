@@ -75,11 +75,9 @@ Status check_layout(const halfway_core_access& access, const halfway_core_layout
     return bad_input(fmt::format("core: {} packet words are too many", layout.packet_words));
   const std::uint32_t identity = read(access, HALFWAY_CORE_IDENTITY);
   if (identity != HALFWAY_CORE_IDENTITY_VALUE)
-    return bad_input(fmt::format("core: the register identity is {:08X}, not {:08X}: no halfway_core is here", identity,
-                                 HALFWAY_CORE_IDENTITY_VALUE));
-  const auto major = [](std::uint32_t version) {
-    return field(version, HALFWAY_CORE_VERSION_MAJOR_MASK);
-  };
+    return bad_input(fmt::format("core: the register identity is {:08X}, not {:08X}: no halfway_core is here",
+                                 identity, HALFWAY_CORE_IDENTITY_VALUE));
+  const auto major = [](std::uint32_t version) { return field(version, HALFWAY_CORE_VERSION_MAJOR_MASK); };
   const std::uint32_t version = read(access, HALFWAY_CORE_VERSION);
   if (major(version) != major(HALFWAY_CORE_VERSION_VALUE))
     return bad_input(fmt::format("core: has version {}, but this driver is for version {}", major(version),
@@ -164,11 +162,14 @@ std::string names_of_faults(std::uint32_t faults) {
     std::uint32_t mask;
     const char* name;
   };
-  constexpr Fault c_faults[] = {
-      {HALFWAY_CORE_FAULTS_WRONG_KIND_MASK, "wrong_kind"}, {HALFWAY_CORE_FAULTS_WRONG_LENGTH_MASK, "wrong_length"},
-      {HALFWAY_CORE_FAULTS_SHADER_MASK, "shader"},         {HALFWAY_CORE_FAULTS_LIMIT_MASK, "limit"},
-      {HALFWAY_CORE_FAULTS_MEMORY_MASK, "memory"},         {HALFWAY_CORE_FAULTS_READ_MASK, "read"},
-      {HALFWAY_CORE_FAULTS_COMMAND_MASK, "command"},       {HALFWAY_CORE_FAULTS_ABORTED_MASK, "aborted"}};
+  constexpr Fault c_faults[] = {{HALFWAY_CORE_FAULTS_WRONG_KIND_MASK, "wrong_kind"},
+                                {HALFWAY_CORE_FAULTS_WRONG_LENGTH_MASK, "wrong_length"},
+                                {HALFWAY_CORE_FAULTS_SHADER_MASK, "shader"},
+                                {HALFWAY_CORE_FAULTS_LIMIT_MASK, "limit"},
+                                {HALFWAY_CORE_FAULTS_MEMORY_MASK, "memory"},
+                                {HALFWAY_CORE_FAULTS_READ_MASK, "read"},
+                                {HALFWAY_CORE_FAULTS_COMMAND_MASK, "command"},
+                                {HALFWAY_CORE_FAULTS_ABORTED_MASK, "aborted"}};
   std::string names;
   for (const Fault& fault : c_faults)
     if ((faults & fault.mask) != 0) names += (names.empty() ? "" : ", ") + std::string(fault.name);
@@ -188,8 +189,8 @@ struct halfway_core {
   std::uint8_t* bytes = nullptr;  ///< at the aligned address
   std::uint32_t address = 0;      ///< the same as the core sees it
   std::uint32_t head = 0;         ///< number of commands that were queued
-  std::size_t picture = 0;  ///< in which the last queued frame is drawn
-  bool queued = false;      ///< a frame was queued
+  std::size_t picture = 0;        ///< in which the last queued frame is drawn
+  bool queued = false;            ///< a frame was queued
 
   std::uint32_t at(std::size_t offset) const { return address + static_cast<std::uint32_t>(offset); }
 
@@ -262,13 +263,14 @@ struct halfway_core {
     if (Status status = check(vectors.key); !status) return status;
     if (frame.left > layout.width || frame.width > layout.width - frame.left || frame.top > layout.height ||
         frame.height > layout.height - frame.top)
-      return bad_input(fmt::format("core: {}x{} pixels at {}, {} are not inside the frame, {}x{}", frame.width,
-                                   frame.height, frame.left, frame.top, layout.width, layout.height));
+      return bad_input(fmt::format("core: {}x{} pixels at {}, {} are not inside the frame, {}x{}",
+                                   frame.width, frame.height, frame.left, frame.top, layout.width,
+                                   layout.height));
     if (frame.keep != 0 && !queued) return bad_input("core: no frame was queued that this one could keep");
     const std::vector<std::uint32_t> packets = packets_of(vectors);
     if (packets.size() > layout.packet_words)
-      return bad_input(fmt::format("core: the frame has {} packet words, but the layout has {}", packets.size(),
-                                   layout.packet_words));
+      return bad_input(fmt::format("core: the frame has {} packet words, but the layout has {}",
+                                   packets.size(), layout.packet_words));
     const Result<std::uint32_t> waiting = wait_for(c_commands - 1);
     if (!waiting) return waiting.error();
     // Not the picture of the last frame; if that had a fault, the one that it was drawn into again.
@@ -359,14 +361,16 @@ halfway_core* halfway_open_core(const halfway_core_access* access, const halfway
                                    memory->size, memory->address, before + core.places.size));
     core.bytes = static_cast<std::uint8_t*>(memory->bytes) + before;
     core.address = memory->address + static_cast<std::uint32_t>(before);
-    if (!stop(*access, polls_of(*layout))) return tool_failed("core: a command of another program does not end");
+    if (!stop(*access, polls_of(*layout)))
+      return tool_failed("core: a command of another program does not end");
     core.head = read(*access, HALFWAY_CORE_RING_TAIL);
     write(*access, HALFWAY_CORE_RING_BASE, core.address);
     write(*access, HALFWAY_CORE_RING_SIZE, c_commands_log2);
     write(*access, HALFWAY_CORE_RING_HEAD, core.head);
     write(*access, HALFWAY_CORE_FAULTS, ~0U);
     write(*access, HALFWAY_CORE_INTERRUPTS, ~0U);
-    write(*access, HALFWAY_CORE_INTERRUPT_ENABLE, access->wait ? HALFWAY_CORE_INTERRUPT_ENABLE_FRAME_MASK : 0);
+    write(*access, HALFWAY_CORE_INTERRUPT_ENABLE,
+          access->wait ? HALFWAY_CORE_INTERRUPT_ENABLE_FRAME_MASK : 0);
     write(*access, HALFWAY_CORE_CONTROL, HALFWAY_CORE_CONTROL_ENABLE_MASK);
     return core;
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The driver of halfway_core against a small model of the core: registers, and commands that are drawn by the golden
-// model. Numbers of registers and bits are those of docs/rtl/core.md.
+// The driver of halfway_core against a small model of the core: registers, and commands that are drawn by the
+// golden model. Numbers of registers and bits are those of docs/rtl/core.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,8 @@ using ::testing::HasSubstr;
 constexpr std::uint32_t c_width = 61, c_height = 35, c_packet_words = 200'000;
 constexpr std::uint32_t c_shader = 0x08, c_lights = 0x0C, c_objects = 0x10, c_memory = 0x14, c_control = 0x18,
                         c_status = 0x1C, c_faults = 0x20, c_interrupt_enable = 0x24, c_interrupts = 0x28,
-                        c_ring_base = 0x2C, c_ring_size = 0x30, c_ring_head = 0x34, c_ring_tail = 0x38, c_picture = 0x3C;
+                        c_ring_base = 0x2C, c_ring_size = 0x30, c_ring_head = 0x34, c_ring_tail = 0x38,
+                        c_picture = 0x3C;
 
 template <class Object>
 using Owned = std::unique_ptr<Object, void (*)(Object*)>;
@@ -57,7 +58,9 @@ class FakeCore {
 
   halfway_core_access access() {
     return {[](void* self, uint32_t offset) { return static_cast<FakeCore*>(self)->read(offset); },
-            [](void* self, uint32_t offset, uint32_t value) { static_cast<FakeCore*>(self)->write(offset, value); },
+            [](void* self, uint32_t offset, uint32_t value) {
+              static_cast<FakeCore*>(self)->write(offset, value);
+            },
             nullptr, this};
   }
   halfway_core_memory memory() { return {memory_.data(), c_origin, memory_.size()}; }
@@ -84,14 +87,15 @@ class FakeCore {
     EXPECT_EQ(registers[c_ring_base] % 64, 0U);
     EXPECT_EQ(command[0] % 8, 0U);
     EXPECT_EQ(command[1] % 2, 0U);
-    for (const std::uint32_t number : {place.colour_base, place.depth_base, place.colour_stride, place.depth_stride})
+    for (const std::uint32_t number :
+         {place.colour_base, place.depth_base, place.colour_stride, place.depth_stride})
       EXPECT_EQ(number % block, 0U);
     EXPECT_EQ(bits(8, 31, 28), 1U);
     for (std::size_t word = 9; word < 16; ++word) EXPECT_EQ(command[word], 0U);
     FrameMemory frame(format_, memory_, c_origin);
     if (bits(8, 24, 24))
-      frame.clear(place, static_cast<std::uint8_t>(bits(8, 23, 16)), static_cast<std::uint8_t>(bits(8, 15, 8)),
-                  static_cast<std::uint8_t>(bits(8, 7, 0)));
+      frame.clear(place, static_cast<std::uint8_t>(bits(8, 23, 16)),
+                  static_cast<std::uint8_t>(bits(8, 15, 8)), static_cast<std::uint8_t>(bits(8, 7, 0)));
     draw_packets(frame, place, words_at(command[0], command[1]));
     if (next_faults == 0 && bits(8, 25, 25)) registers[c_picture] = place.colour_base;
     registers[c_faults] |= next_faults;
@@ -142,7 +146,8 @@ class FakeCore {
     return words;
   }
 
-  void draw_packets(FrameMemory& frame, const FramePlace& place, const std::vector<std::uint32_t>& packets) const {
+  void draw_packets(FrameMemory& frame, const FramePlace& place,
+                    const std::vector<std::uint32_t>& packets) const {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(key_);
     std::vector<std::uint32_t> vectors;
     for (std::size_t i = 0; i < packets.size();) {
@@ -171,7 +176,8 @@ Owned<halfway_vectors> vectors_of(const char* scene_name, int shader, double azi
   const Owned<halfway_hardware> hardware(halfway_plan(scene.get(), &request, &error), halfway_free_hardware);
   EXPECT_TRUE(hardware) << error.text;
   Owned<halfway_vectors> vectors(
-      halfway_scene_vectors(scene.get(), hardware.get(), c_width, c_height, nullptr, &error), halfway_free_vectors);
+      halfway_scene_vectors(scene.get(), hardware.get(), c_width, c_height, nullptr, &error),
+      halfway_free_vectors);
   EXPECT_TRUE(vectors) << error.text;
   return vectors;
 }
@@ -191,7 +197,9 @@ class Expected {
     place.colour_stride = place.depth_stride = golden::pixel_bytes(format) * c_width;
   }
 
-  void clear(std::uint8_t red, std::uint8_t green, std::uint8_t blue) { memory_.clear(place, red, green, blue); }
+  void clear(std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
+    memory_.clear(place, red, green, blue);
+  }
   void draw(const halfway_vectors& vectors) {
     const std::unique_ptr<GoldenModel> golden = make_golden_model(vectors.key);
     const auto drawn = golden->draw(vectors.words);
@@ -234,8 +242,9 @@ std::vector<std::uint8_t> picture_of(halfway_core* core) {
 
 TEST(CoreDriver, DrawsFramesOfEachShaderInBothFormats) {
   for (const PixelFormat format : {PixelFormat::rgb565, PixelFormat::xrgb8888})
-    for (const auto& [scene, shader] :
-         {std::pair{"spheres", HALFWAY_QUADRATIC}, {"matte", HALFWAY_SPHERICAL}, {"spheres", HALFWAY_PROCESSORS}}) {
+    for (const auto& [scene, shader] : {std::pair{"spheres", HALFWAY_QUADRATIC},
+                                        {"matte", HALFWAY_SPHERICAL},
+                                        {"spheres", HALFWAY_PROCESSORS}}) {
       const auto vectors = vectors_of(scene, shader), turned = vectors_of(scene, shader, 30.0);
       FakeCore fake(vectors->key, format);
       halfway_error error;
@@ -251,7 +260,8 @@ TEST(CoreDriver, DrawsFramesOfEachShaderInBothFormats) {
       expected.draw(*turned);
       EXPECT_EQ(picture_of(core.get()), expected.rgb()) << scene;
       // More onto the same picture, inside a rectangle.
-      const halfway_core_frame more = {.keep = 1, .clear_colour = {}, .left = 5, .top = 7, .width = 40, .height = 20};
+      const halfway_core_frame more = {
+          .keep = 1, .clear_colour = {}, .left = 5, .top = 7, .width = 40, .height = 20};
       ASSERT_EQ(halfway_queue_frame(core.get(), vectors.get(), &more, &error), HALFWAY_OK) << error.text;
       ASSERT_EQ(halfway_wait_core(core.get(), &error), HALFWAY_OK) << error.text;
       expected.place.left = 5, expected.place.top = 7, expected.place.right = 45, expected.place.bottom = 27;
@@ -298,7 +308,8 @@ TEST(CoreDriver, WaitsForTheInterrupt) {
 }
 
 TEST(CoreDriver, ReportsFaultsOnceAndKeepsThePicture) {
-  const auto vectors = vectors_of("spheres", HALFWAY_QUADRATIC), turned = vectors_of("spheres", HALFWAY_QUADRATIC, 30.0);
+  const auto vectors = vectors_of("spheres", HALFWAY_QUADRATIC),
+             turned = vectors_of("spheres", HALFWAY_QUADRATIC, 30.0);
   FakeCore fake(vectors->key, PixelFormat::rgb565);
   halfway_error error;
   const Core core = opened(fake, &error);
@@ -307,7 +318,8 @@ TEST(CoreDriver, ReportsFaultsOnceAndKeepsThePicture) {
   ASSERT_EQ(halfway_wait_core(core.get(), &error), HALFWAY_OK) << error.text;
   // A frame with a fault is drawn where the last picture is not, how ever many follow each other.
   const auto before = picture_of(core.get());
-  constexpr const char* c_names[] = {"wrong_kind", "wrong_length", "shader", "limit", "memory", "read", "command", "aborted"};
+  constexpr const char* c_names[] = {"wrong_kind", "wrong_length", "shader",  "limit",
+                                     "memory",     "read",         "command", "aborted"};
   for (std::uint32_t bit = 0; bit < 8; ++bit) {
     fake.next_faults = 1U << bit;
     ASSERT_EQ(halfway_queue_frame(core.get(), turned.get(), nullptr, &error), HALFWAY_OK);
@@ -381,8 +393,9 @@ TEST(CoreDriver, RefusesOtherCoresAndLayouts) {
 }
 
 TEST(CoreDriver, RefusesFramesThatTheCoreCannotDraw) {
-  for (const auto& [scene, shader] :
-       {std::pair{"spheres", HALFWAY_QUADRATIC}, {"lights", HALFWAY_SPHERICAL}, {"lights", HALFWAY_PROCESSORS}}) {
+  for (const auto& [scene, shader] : {std::pair{"spheres", HALFWAY_QUADRATIC},
+                                      {"lights", HALFWAY_SPHERICAL},
+                                      {"lights", HALFWAY_PROCESSORS}}) {
     const auto vectors = vectors_of(scene, shader);
     const halfway_hardware hardware{vectors->key, {}, vectors->key.name(), vectors->init_bits};
     FakeCore fake(vectors->key, PixelFormat::rgb565);
@@ -390,7 +403,8 @@ TEST(CoreDriver, RefusesFramesThatTheCoreCannotDraw) {
     const Core core = opened(fake, &error);
     ASSERT_TRUE(core) << error.text;
     EXPECT_EQ(halfway_check_core(core.get(), &hardware, &error), HALFWAY_OK) << error.text;
-    const std::uint32_t good[] = {fake.registers[c_shader], fake.registers[c_lights], fake.registers[c_objects]};
+    const std::uint32_t good[] = {fake.registers[c_shader], fake.registers[c_lights],
+                                  fake.registers[c_objects]};
     const auto refused = [&](std::uint32_t offset, std::uint32_t flipped, const char* field) {
       fake.registers[offset] ^= flipped;
       EXPECT_EQ(halfway_check_core(core.get(), &hardware, &error), HALFWAY_BAD_INPUT) << field;

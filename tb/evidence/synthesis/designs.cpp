@@ -183,9 +183,11 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     if (exact) add("packet_reader", {{"g_bits", "880"}}, true);
     if (exact) {
       // The smallest one is for docs/board.md: the board's own memory unit is smaller.
-      add("fragments_to_memory", {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}, false, "_small");
+      add("fragments_to_memory", {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}, false,
+          "_small");
       for (const char* colour : {"false", "true"}) {
-        add("fragments_to_memory", {{"g_true_colour", colour}}, false, colour[0] == 't' ? "_xrgb8888" : "_rgb565");
+        add("fragments_to_memory", {{"g_true_colour", colour}}, false,
+            colour[0] == 't' ? "_xrgb8888" : "_rgb565");
         all.back().ice40 = false;
         all.back().ecp5 = true;
         all.back().seeds = 1;

@@ -11,7 +11,8 @@ namespace halfway {
 
 /// The start of a good frame that only ends too early, or in which random bits are inverted, or whose words
 /// but for the headers are random, or random words.
-inline std::vector<std::uint32_t> bad_packets(const std::vector<std::uint32_t>& good, std::mt19937_64& engine) {
+inline std::vector<std::uint32_t> bad_packets(const std::vector<std::uint32_t>& good,
+                                              std::mt19937_64& engine) {
   const auto random = [&] { return static_cast<std::uint32_t>(engine()); };
   const std::uint32_t kind = random() % 4;
   const std::size_t most = kind < 2 ? 2000 : 200, count = 1 + random() % std::min(most, good.size());

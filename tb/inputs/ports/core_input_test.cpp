@@ -106,8 +106,8 @@ class CoreInput : public testing::Test {
     core_.wait(c_most_clocks);
     const std::uint32_t faults = read(HALFWAY_CORE_FAULTS), interrupts = read(HALFWAY_CORE_INTERRUPTS);
     EXPECT_EQ(read(HALFWAY_CORE_RING_TAIL), head_);
-    EXPECT_EQ(interrupts, HALFWAY_CORE_INTERRUPTS_FRAME_MASK |
-                              (faults != 0 ? HALFWAY_CORE_INTERRUPTS_FAULT_MASK : 0));
+    EXPECT_EQ(interrupts,
+              HALFWAY_CORE_INTERRUPTS_FRAME_MASK | (faults != 0 ? HALFWAY_CORE_INTERRUPTS_FAULT_MASK : 0));
     write(HALFWAY_CORE_FAULTS, faults);
     write(HALFWAY_CORE_INTERRUPTS, interrupts);
     for (int i = 0; i < 4; ++i) core_.clock();
@@ -136,9 +136,13 @@ class CoreInput : public testing::Test {
     };
     keep(c_ring, 4 * HALFWAY_CORE_COMMAND_WORDS << c_ring_bits);
     keep(c_packets, 4 * (good_.size() + 2));
-    const golden::FramePlace place{.colour_base = c_colour, .colour_stride = c_stride, .depth_base = c_depth,
-                                   .depth_stride = c_stride, .width = c_frame.width,
-                                   .height = c_frame.height, .right = c_frame.width,
+    const golden::FramePlace place{.colour_base = c_colour,
+                                   .colour_stride = c_stride,
+                                   .depth_base = c_depth,
+                                   .depth_stride = c_stride,
+                                   .width = c_frame.width,
+                                   .height = c_frame.height,
+                                   .right = c_frame.width,
                                    .bottom = c_frame.height};
     golden::FrameMemory memory(key_.format, expected, c_origin);
     memory.clear(place, 0x20, 0x30, 0x40);
@@ -146,7 +150,8 @@ class CoreInput : public testing::Test {
     EXPECT_EQ(bytes_, expected);
   }
 
-  const Scene scene_ = must(load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", c_folders.source / "sim/scenes"));
+  const Scene scene_ =
+      must(load_scene(HALFWAY_SOURCE_DIR "/sim/report/timing.toml", c_folders.source / "sim/scenes"));
   const CoreKey key_{.shader = must(plan_scene(scene_, {})).key, .bus_bits = 32, .limit_bits = c_limit_bits};
   std::vector<std::uint8_t> bytes_ = random_bytes(), before_ = bytes_;
   std::vector<std::uint32_t> good_;  ///< packets
@@ -157,9 +162,9 @@ class CoreInput : public testing::Test {
 
 TEST_F(CoreInput, RegistersRefuseWhatTheyAreNot) {
   constexpr std::uint32_t c_read_only[] = {
-      HALFWAY_CORE_IDENTITY,  HALFWAY_CORE_VERSION, HALFWAY_CORE_SHADER,    HALFWAY_CORE_LIGHTS,
-      HALFWAY_CORE_OBJECTS,   HALFWAY_CORE_MEMORY,  HALFWAY_CORE_STATUS,    HALFWAY_CORE_RING_TAIL,
-      HALFWAY_CORE_PICTURE,   HALFWAY_CORE_PIXELS,  HALFWAY_CORE_TRIANGLES, HALFWAY_CORE_FRAGMENTS,
+      HALFWAY_CORE_IDENTITY,    HALFWAY_CORE_VERSION,       HALFWAY_CORE_SHADER,    HALFWAY_CORE_LIGHTS,
+      HALFWAY_CORE_OBJECTS,     HALFWAY_CORE_MEMORY,        HALFWAY_CORE_STATUS,    HALFWAY_CORE_RING_TAIL,
+      HALFWAY_CORE_PICTURE,     HALFWAY_CORE_PIXELS,        HALFWAY_CORE_TRIANGLES, HALFWAY_CORE_FRAGMENTS,
       HALFWAY_CORE_BUSY_CLOCKS, HALFWAY_CORE_STALLED_CLOCKS};
   for (const std::uint32_t address : c_read_only) {
     const std::uint32_t value = read(address);
@@ -194,18 +199,19 @@ TEST_F(CoreInput, ACommandWithABadFieldIsSkipped) {
     std::uint32_t mask, value;
   };
   constexpr std::uint32_t c_kind = HALFWAY_CORE_COMMAND_KIND_MASK;
-  const BadField fields[] = {{HALFWAY_CORE_COMMAND_KIND_WORD, c_kind, 0},
-                             {HALFWAY_CORE_COMMAND_KIND_WORD, c_kind, 2U << HALFWAY_CORE_COMMAND_KIND_SHIFT},
-                             {HALFWAY_CORE_COMMAND_PACKETS_WORD, 7, 4},
-                             {HALFWAY_CORE_COMMAND_PACKET_WORDS_WORD, 1, 1},
-                             {HALFWAY_CORE_COMMAND_COLOUR_BASE_WORD, 0x7f, 0x40},
-                             {HALFWAY_CORE_COMMAND_DEPTH_BASE_WORD, 0x7f, 0x10},
-                             {HALFWAY_CORE_COMMAND_COLOUR_STRIDE_WORD, 0x7f, 2},
-                             {HALFWAY_CORE_COMMAND_DEPTH_STRIDE_WORD, 0x7f << 16, 1U << 22},
-                             {HALFWAY_CORE_COMMAND_WIDTH_WORD, HALFWAY_CORE_COMMAND_WIDTH_MASK, 0},
-                             {HALFWAY_CORE_COMMAND_WIDTH_WORD, HALFWAY_CORE_COMMAND_WIDTH_MASK, 4097},
-                             {HALFWAY_CORE_COMMAND_HEIGHT_WORD, HALFWAY_CORE_COMMAND_HEIGHT_MASK, 0},
-                             {HALFWAY_CORE_COMMAND_HEIGHT_WORD, HALFWAY_CORE_COMMAND_HEIGHT_MASK, 8191U << 16}};
+  const BadField fields[] = {
+      {HALFWAY_CORE_COMMAND_KIND_WORD, c_kind, 0},
+      {HALFWAY_CORE_COMMAND_KIND_WORD, c_kind, 2U << HALFWAY_CORE_COMMAND_KIND_SHIFT},
+      {HALFWAY_CORE_COMMAND_PACKETS_WORD, 7, 4},
+      {HALFWAY_CORE_COMMAND_PACKET_WORDS_WORD, 1, 1},
+      {HALFWAY_CORE_COMMAND_COLOUR_BASE_WORD, 0x7f, 0x40},
+      {HALFWAY_CORE_COMMAND_DEPTH_BASE_WORD, 0x7f, 0x10},
+      {HALFWAY_CORE_COMMAND_COLOUR_STRIDE_WORD, 0x7f, 2},
+      {HALFWAY_CORE_COMMAND_DEPTH_STRIDE_WORD, 0x7f << 16, 1U << 22},
+      {HALFWAY_CORE_COMMAND_WIDTH_WORD, HALFWAY_CORE_COMMAND_WIDTH_MASK, 0},
+      {HALFWAY_CORE_COMMAND_WIDTH_WORD, HALFWAY_CORE_COMMAND_WIDTH_MASK, 4097},
+      {HALFWAY_CORE_COMMAND_HEIGHT_WORD, HALFWAY_CORE_COMMAND_HEIGHT_MASK, 0},
+      {HALFWAY_CORE_COMMAND_HEIGHT_WORD, HALFWAY_CORE_COMMAND_HEIGHT_MASK, 8191U << 16}};
   for (const auto& [word, mask, value] : fields) {
     Command command = good_command();
     command[word] = (command[word] & ~mask) | value;

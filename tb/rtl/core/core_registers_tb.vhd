@@ -37,7 +37,7 @@ architecture sim of core_registers_tb is
   constant c_words : words_t := (
     0      => x"48414C46",
     1      => std_logic_vector(to_unsigned(c_version_major, 8) & to_unsigned(c_version_minor, 8)
-      & to_unsigned(c_version_patch, 16)),
+    & to_unsigned(c_version_patch, 16)),
     2      => x"12345678",
     3      => x"9ABCDEF0",
     4      => x"0F1E2D3C",
