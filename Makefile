@@ -25,8 +25,8 @@ about_VIDEO := view a file for a video
 about_RATE := view,plan frames per second: of the video; make plan: that the shading processors draw
 about_TERMINAL := view 1: draw in the terminal
 about_MULTIPLIER_BITS := verilog width of multipliers in the device; 0: products in lookup tables (default: 18)
-about_FORMAT := core-sim rgb565 or xrgb8888: pixels in memory, with 16 or 32 bits of depth (default: rgb565)
-about_BUS := core-sim 32 or 64: width of the bus to the memory (default: 64)
+about_FORMAT := core-sim,verilog with CORE=1, and for make core-sim: rgb565 or xrgb8888: pixels in memory, with 16 or 32 bits of depth (default: rgb565)
+about_BUS := core-sim,verilog with CORE=1, and for make core-sim: 32 or 64: width of the bus to the memory (default: 64)
 about_LATENCY := core-sim clocks from an address to its first word, and from a write to its response (default: 30)
 about_AXI := verilog 1: make verilog: the top with AXI4-Stream ports
 about_CORE := verilog 1: make verilog: halfway_core, from commands in memory to a picture in memory
@@ -156,7 +156,7 @@ plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEAS
 	  $(call option,OBJECTS_PER_PIXEL,--objects-per-pixel) $(call option,RATE,--rate) $(call option,DEVICE,--device) $(call option,THREADS,--threads) $(scene)
 
 verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports; CORE=1: the whole core)
-	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call flag,CORE,--core) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
+	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call flag,CORE,--core) $(call option,FORMAT,--format) $(call option,BUS,--bus) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
 
 savings: program ## measure the tables of docs/effects.md again (minutes)
 	@build/halfway savings $(call option,THREADS,--threads)

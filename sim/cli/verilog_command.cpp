@@ -24,6 +24,8 @@ struct VerilogCommand {
   std::string scene = "spheres";
   bool axi = false;               // words_to_fragments
   bool core = false;              // halfway_core
+  std::string format = "rgb565";  // of halfway_core
+  unsigned bus_bits = 64;         // of halfway_core
   unsigned multiplier_bits = 18;  // as in most FPGAs
 };
 
@@ -56,10 +58,14 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
 
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
-Generics generics_of(const HardwareKey& key, const std::string& top, unsigned multiplier_bits) {
+Generics generics_of(const HardwareKey& key, const std::string& top, const VerilogCommand& command) {
   auto generics = top == key.entity() ? key.generics() : key.stream_generics();
+  if (top == c_core_top) {
+    generics.emplace_back("g_true_colour", command.format == "xrgb8888" ? "true" : "false");
+    generics.emplace_back("g_bus_bits", std::to_string(command.bus_bits));
+  }
   if (synth::takes_multiplier_bits(top))
-    generics.emplace_back("g_multiplier_bits", std::to_string(multiplier_bits));
+    generics.emplace_back("g_multiplier_bits", std::to_string(command.multiplier_bits));
   return generics;
 }
 
@@ -71,9 +77,8 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
       "//   halfway verilog {} {}{}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
       module, key.name(), version, printable(command.scene), hardware_options(command.draw),
-      command.core  ? " --core"
-      : command.axi ? " --axi"
-                    : "",
+      command.core ? fmt::format(" --core --format {} --bus {}", command.format, command.bus_bits)
+                   : std::string(command.axi ? " --axi" : ""),
       synth::takes_multiplier_bits(top) ? fmt::format(" --multiplier-bits {}", command.multiplier_bits)
                                         : std::string());
   for (const auto& [name, value] : generics) text += fmt::format(" {}={}", name, value);
@@ -90,7 +95,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const HardwareKey& key = plan.key;
   const std::string top = command.core ? c_core_top : command.axi ? c_stream_top : key.entity();
   const std::string module = top == c_core_top ? top : fmt::format("{}{}", c_prefix, top);
-  const Generics generics = generics_of(key, top, command.multiplier_bits);
+  const Generics generics = generics_of(key, top, command);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = with_prefix(must(mend_netlist(must(library.synthesize(top, generics)))));
   const std::vector<Port> ports = ports_of(netlist, module);
@@ -117,8 +122,17 @@ void add_verilog(CLI::App& app, const Folders& folders, int&) {
   command->draw.add_to(*sub);
   CLI::Option* axi =
       sub->add_flag("--axi", command->axi, "words_to_fragments: the shader with AXI4-Stream ports");
-  sub->add_flag("--core", command->core, "halfway_core: from commands in memory to a picture in memory")
-      ->excludes(axi);
+  CLI::Option* core = sub->add_flag("--core", command->core,
+                                    "halfway_core: from commands in memory to a picture in memory")
+                          ->excludes(axi);
+  sub->add_option("--format", command->format, "with --core: pixels in memory, rgb565 or xrgb8888")
+      ->check(CLI::IsMember({"rgb565", "xrgb8888"}))
+      ->needs(core)
+      ->capture_default_str();
+  sub->add_option("--bus", command->bus_bits, "with --core: width of the bus to the memory, 32 or 64")
+      ->check(CLI::IsMember({32, 64}))
+      ->needs(core)
+      ->capture_default_str();
   sub->add_option("--multiplier-bits", command->multiplier_bits,
                   "width of the device's multipliers; 0: products in lookup tables")
       ->check(CLI::Range(0, 64))

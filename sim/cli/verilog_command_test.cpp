@@ -57,6 +57,17 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
                     HasSubstr("\nmodule halfway_words_to_fragments\n")));
 }
 
+TEST_F(VerilogCommand, WritesTheWholeCore) {
+  const Outcome outcome = write({"--core", "--format", "xrgb8888", "--bus", "32"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(text_of("halfway_core.v"),
+              AllOf(HasSubstr("--core --format xrgb8888 --bus 32 --multiplier-bits 18\n"),
+                    HasSubstr("g_true_colour=true g_bus_bits=32"),
+                    HasSubstr("\n//   output     32  m_axi_wdata\n"), HasSubstr("\nmodule halfway_core\n"),
+                    HasSubstr("\nmodule halfway_packet_reader")));
+  EXPECT_THAT(write({"--axi", "--bus", "32"}), Ends(2, HasSubstr("--core")));
+}
+
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {
   EXPECT_THAT(run({"verilog", "nothing"}), Ends(2, HasSubstr("nothing")));
   EXPECT_THAT(write({"--shader", "raytracer"}), Ends(2, HasSubstr("'raytracer'")));

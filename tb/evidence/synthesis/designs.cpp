@@ -181,18 +181,6 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     if (exact) add("axi_control", {}, true);
     if (exact) add("axi_adapter", {}, true);
     if (exact) add("packet_reader", {{"g_bits", "880"}}, true);
-    if (exact) {
-      // The smallest one is for docs/board.md: the board's own memory unit is smaller.
-      add("fragments_to_memory", {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}, false,
-          "_small");
-      for (const char* colour : {"false", "true"}) {
-        add("fragments_to_memory", {{"g_true_colour", colour}}, false,
-            colour[0] == 't' ? "_xrgb8888" : "_rgb565");
-        all.back().ice40 = false;
-        all.back().ecp5 = true;
-        all.back().seeds = 1;
-      }
-    }
     if (exact) add("delay_line", {{"g_bits", "24"}, {"g_depth", "9"}}, true);
     add("function_rom", {is_exact, {"g_which", "0"}}, true);
     const std::pair<std::string, std::string> clocks{"g_clocks", exact ? "2" : "1"};
