@@ -14,7 +14,7 @@
 --             s_axi: AXI4-Lite, the registers of docs/rtl/core.md. m_axi: AXI4, one identifier for all reads and one for all
 --             writes, so there are no ports for it; INCR bursts of whole words; none crosses 4 KiB. Words of reads come in the
 --             order of their requests.
---             interrupt: a level, as long as an enabled bit of register interrupts is '1'. picture: address of the picture
+--             irq: a level, as long as an enabled bit of register interrupts is '1'. picture: address of the picture
 --             that was drawn last without a fault by a command with swap.
 -- Formats     core_registers_pkg: registers and commands; axi_pkg: packets; memory_pkg: pixels
 -- Latency     docs/rtl/core.md
@@ -63,7 +63,7 @@ entity halfway_core is
   port (
     aclk          : in  std_logic;
     aresetn       : in  std_logic;
-    interrupt     : out std_logic;
+    irq           : out std_logic;
     picture       : out address_t;
     s_axi_awvalid : in  std_logic;
     s_axi_awready : out std_logic;
@@ -279,7 +279,7 @@ begin
       fragment       => fragment_taken,
       pixels         => resize(pixels, 4),
       stalled        => stalled,
-      interrupt      => interrupt
+      interrupt      => irq
       );
 
   control : entity work.ring_control

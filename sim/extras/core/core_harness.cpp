@@ -50,7 +50,7 @@ HALFWAY_EXPORT void halfway_core_clock(void* core, const CoreInputs* inputs, Cor
   top.m_axi_bresp = inputs->m_axi_bresp;
   top.aclk = 0;
   top.eval();
-  *outputs = {.interrupt = top.__SYM__interrupt,  // Verilator's name, as its warning SYMRSVDWORD says
+  *outputs = {.interrupt = top.irq,
               .s_axi_awready = top.s_axi_awready,
               .s_axi_wready = top.s_axi_wready,
               .s_axi_bvalid = top.s_axi_bvalid,

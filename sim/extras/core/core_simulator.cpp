@@ -16,8 +16,8 @@ constexpr int c_reset_clocks = 4;
 /// Of an access to a register.
 constexpr std::uint64_t c_most_access_clocks = 64;
 
-/// Warnings: comparisons whose result depends on generics only, and the name of the port `interrupt`.
-const std::vector<std::string> c_allowed = {"-Wno-CMPCONST", "-Wno-UNSIGNED", "-Wno-SYMRSVDWORD"};
+/// Warnings: comparisons whose result depends on generics only.
+const std::vector<std::string> c_allowed = {"-Wno-CMPCONST", "-Wno-UNSIGNED"};
 
 [[noreturn]] void hangs(const std::string& what, std::uint64_t clocks) {
   throw Failure{{ExitCode::differs, fmt::format("core in Verilator: {} in {} clocks", what, clocks)}};

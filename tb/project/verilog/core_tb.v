@@ -11,7 +11,7 @@ module core_tb;
   reg clk = 0, resetn = 0;
   reg [31:0] file[0:`COUNT-1];
   reg [63:0] memory[0:words-1];
-  wire interrupt;
+  wire irq;
   wire [31:0] picture;
   integer clocks = 0, i, x, y;
 
@@ -38,7 +38,7 @@ module core_tb;
   reg [7:0] left;
 
   halfway_core core (
-      .aclk(clk), .aresetn(resetn), .interrupt(interrupt), .picture(picture),
+      .aclk(clk), .aresetn(resetn), .irq(irq), .picture(picture),
       .s_axi_awvalid(awvalid), .s_axi_awready(awready), .s_axi_awaddr(awaddr), .s_axi_awprot(3'b0),
       .s_axi_wvalid(wvalid), .s_axi_wready(wready), .s_axi_wdata(wdata), .s_axi_wstrb(4'hF),
       .s_axi_bvalid(bvalid), .s_axi_bready(1'b1), .s_axi_bresp(bresp),
@@ -128,7 +128,7 @@ module core_tb;
     write('h2C, ring);
     write('h34, 1);
     write('h18, 1);
-    while (interrupt !== 1) @(posedge clk);
+    while (irq !== 1) @(posedge clk);
     if (picture !== colours) $display("picture is %h", picture);
     for (y = 0; y < `HEIGHT; y = y + 1)
       for (x = 0; x < `WIDTH; x = x + 1) begin

@@ -30,8 +30,8 @@ check() { # top flag testbench defines...
   sed -n 's/^module \(halfway_\)*\(.*\)/module \2 (output foreign); endmodule/p' "$(cat "$1.files")" >"$1.foreign.v"
   echo "$1.foreign.v" >>"$1.files"
   # GHDL's state machines cause the first two warnings, copies of a grey colour the third; in the core, comparisons with a
-  # block's first and last pixel the next two, and the port's name the last one.
-  verilator --lint-only -Wno-COMBDLY -Wno-CASEINCOMPLETE -Wno-UNOPTFLAT -Wno-CMPCONST -Wno-UNSIGNED -Wno-SYMRSVDWORD --top-module "$1" -f "$1.files"
+  # block's first and last pixel the last two.
+  verilator --lint-only -Wno-COMBDLY -Wno-CASEINCOMPLETE -Wno-UNOPTFLAT -Wno-CMPCONST -Wno-UNSIGNED --top-module "$1" -f "$1.files"
   yosys -q -p "read_verilog $(tr '\n' ' ' <"$1.files"); hierarchy -check -top $1; proc; check -assert"
   top=$1 bench=$3
   shift 3

@@ -77,7 +77,7 @@ begin
     port map (
       aclk          => clk,
       aresetn       => aresetn,
-      interrupt     => interrupt,
+      irq           => interrupt,
       picture       => picture,
       s_axi_awvalid => awvalid,
       s_axi_awready => awready,
