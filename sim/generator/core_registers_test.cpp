@@ -147,7 +147,8 @@ TEST(CoreRegisters, FilesOfTheCheckoutAreCurrent) {
   const std::string data = must(read_file(c_source_folder / "rtl/core/core_registers.toml"));
   must(make_folders(folder.path() / "rtl/core"));
   must(write_file(folder.path() / "rtl/core/core_registers.toml", data));
-  EXPECT_TRUE(is_error(caught([&] { generated_files(folder.path(), {}); }), "docs/rtl/core.md"));
+  // A copy of the sources has no pages.
+  for (const GeneratedFile& file : generated_files(folder.path(), {})) EXPECT_NE(file.path, "docs/rtl/core.md");
   must(make_folders(folder.path() / "docs/rtl"));
   must(write_file(folder.path() / "docs/rtl/core.md", "no parts\n"));
   EXPECT_TRUE(

@@ -20,8 +20,7 @@ namespace {
 constexpr const char* c_registers = "rtl/core/core_registers.toml";
 constexpr const char* c_core_page = "docs/rtl/core.md";
 
-std::string core_page(const std::filesystem::path& checkout, const CoreRegisters& core) {
-  std::string page = must(read_file(checkout / c_core_page));
+std::string core_page(std::string page, const CoreRegisters& core) {
   for (const auto& [part, table] :
        {std::pair{"registers", register_table(core)}, std::pair{"command", command_table(core)}}) {
     Result<std::string> with = with_page_part(page, part, table);
@@ -47,7 +46,8 @@ std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout
         {"rtl/core/core_registers_pkg.vhd", core_registers_vhdl(core, HALFWAY_VERSION), c_registers});
     files.push_back({"sim/extras/library/halfway_core_registers.h",
                      core_registers_header(core, HALFWAY_VERSION), c_registers});
-    files.push_back({c_core_page, core_page(checkout, core), c_registers});
+    if (const auto page = read_file(checkout / c_core_page))
+      files.push_back({c_core_page, core_page(*page, core), c_registers});
   }
   return files;
 }
@@ -86,7 +86,8 @@ std::vector<std::string> stale_files(const std::filesystem::path& checkout, cons
                                      bool all) {
   std::vector<std::string> messages;
   for (const GeneratedFile& file : generated_files(checkout, sizes)) {
-    if (!all && (file.path.extension() == ".md" || file.path.extension() == ".core")) continue;
+    const std::filesystem::path kind = file.path.extension();
+    if (!all && (kind == ".md" || kind == ".core" || kind == ".h")) continue;
     if (const std::size_t line = first_different_line(checkout, file); line != 0)
       messages.push_back(fmt::format("{}:{}: not what the generator writes; edit {}, then run `make tables`",
                                      file.path.string(), line, file.source));

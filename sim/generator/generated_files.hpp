@@ -37,7 +37,7 @@ CosineSizes sizes_of(const std::filesystem::path& checkout);
 std::size_t first_different_line(const std::filesystem::path& checkout, const GeneratedFile& file);
 
 /// "path:line: not what the generator writes; ..." for each file of the checkout that differs. Without
-/// `all` only for sources. Throws Failure.
+/// `all` only for what a simulation is made of: no pages, no files for users. Throws Failure.
 std::vector<std::string> stale_files(const std::filesystem::path& checkout, const CosineSizes& sizes,
                                      bool all = true);
 
