@@ -53,6 +53,14 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::stream_generics() 
   return list;
 }
 
+std::vector<std::pair<std::string, std::string>> HardwareKey::core_generics(bool true_colour,
+                                                                            unsigned bus_bits) const {
+  auto list = stream_generics();
+  list.emplace_back("g_true_colour", boolean(true_colour));
+  list.emplace_back("g_bus_bits", std::to_string(bus_bits));
+  return list;
+}
+
 std::string HardwareKey::vhdl_init_bits() const {
   switch (shader) {
     case Shader::quadratic:

@@ -92,6 +92,8 @@ struct HardwareKey {
   std::vector<std::pair<std::string, std::string>> generics() const;
   /// Those of c_stream_top, which contains the top entity.
   std::vector<std::pair<std::string, std::string>> stream_generics() const;
+  /// Those of c_core_top, with pixels of XRGB8888 or RGB565.
+  std::vector<std::pair<std::string, std::string>> core_generics(bool true_colour, unsigned bus_bits) const;
   /// The width of the top's port init_data, as a VHDL expression of its generics.
   std::string vhdl_init_bits() const;
   /// For example quadratic_shader-exact-c3. Also the name of the cached build.

@@ -20,7 +20,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.line_pkg.flag;
-use work.memory_pkg.address_t;
+use work.memory_pkg.all;
 use work.core_registers_pkg.all;
 
 entity core_registers is
@@ -55,7 +55,7 @@ entity core_registers is
     picture        : out address_t;
     triangle       : in  std_logic;
     fragment       : in  std_logic;
-    pixels         : in  unsigned(3 downto 0);
+    pixels         : in  pixel_count_t;
     stalled        : in  std_logic;
     interrupt      : out std_logic
   );
@@ -84,7 +84,7 @@ architecture rtl of core_registers is
     busy             : std_logic; -- inputs of the clock before, as the next four
     triangle         : std_logic;
     fragment         : std_logic;
-    pixels           : unsigned(pixels'range);
+    pixels           : pixel_count_t;
     stalled          : std_logic;
     triangles        : unsigned(31 downto 0);
     fragments        : unsigned(31 downto 0);

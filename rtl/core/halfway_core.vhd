@@ -277,7 +277,7 @@ begin
       picture        => picture,
       triangle       => triangle,
       fragment       => fragment_taken,
-      pixels         => resize(pixels, 4),
+      pixels         => pixels,
       stalled        => stalled,
       interrupt      => irq
       );

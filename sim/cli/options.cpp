@@ -297,6 +297,26 @@ DrawSettings checked(const DrawOptions& o) {
   return s;
 }
 
+void CoreOptions::add_to(CLI::App& command, CLI::Option* needed) {
+  for (CLI::Option* option :
+       {command.add_option("--format", format,
+                           "rgb565, with 16 bits of depth, or xrgb8888, with 32 bits of depth"),
+        command.add_option("--bus", bus_bits, "width of the bus to the memory: 32 or 64")}) {
+    option->capture_default_str();
+    if (needed != nullptr) option->needs(needed);
+  }
+}
+
+CoreSettings checked(const CoreOptions& options) {
+  const bool true_colour = options.format == "xrgb8888";
+  if (!true_colour && options.format != "rgb565")
+    throw Failure{
+        bad_input(fmt::format("--format: '{}' is not a format; take rgb565 or xrgb8888", options.format))};
+  if (options.bus_bits != 32 && options.bus_bits != 64)
+    throw Failure{bad_input(fmt::format("--bus: {} is not 32 or 64", options.bus_bits))};
+  return {true_colour, options.bus_bits};
+}
+
 std::string hardware_options(const DrawOptions& o) {
   std::string line = fmt::format("--shader {} --preset {}", o.shader, o.preset);
   for (const Option& option : options_of_some_shaders())

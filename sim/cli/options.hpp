@@ -45,6 +45,23 @@ struct DrawSettings {
 
 DrawSettings checked(const DrawOptions& options);
 
+/// Options of halfway_core: what its memory has.
+struct CoreOptions {
+  std::string format = "rgb565";  ///< of pixels
+  unsigned bus_bits = 64;
+
+  /// With `needed`, they are refused without this option.
+  void add_to(CLI::App& command, CLI::Option* needed = nullptr);
+};
+
+/// The checked options.
+struct CoreSettings {
+  bool true_colour;  ///< XRGB8888
+  unsigned bus_bits;
+};
+
+CoreSettings checked(const CoreOptions& options);
+
 /// The given options that select the hardware of a scene, as on the command line.
 std::string hardware_options(const DrawOptions& options);
 

@@ -24,8 +24,7 @@ struct VerilogCommand {
   std::string scene = "spheres";
   bool axi = false;               // words_to_fragments
   bool core = false;              // halfway_core
-  std::string format = "rgb565";  // of halfway_core
-  unsigned bus_bits = 64;         // of halfway_core
+  CoreOptions core_options;
   unsigned multiplier_bits = 18;  // as in most FPGAs
 };
 
@@ -59,11 +58,10 @@ std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 Generics generics_of(const HardwareKey& key, const std::string& top, const VerilogCommand& command) {
-  auto generics = top == key.entity() ? key.generics() : key.stream_generics();
-  if (top == c_core_top) {
-    generics.emplace_back("g_true_colour", command.format == "xrgb8888" ? "true" : "false");
-    generics.emplace_back("g_bus_bits", std::to_string(command.bus_bits));
-  }
+  const auto [true_colour, bus_bits] = checked(command.core_options);
+  auto generics = top == c_core_top     ? key.core_generics(true_colour, bus_bits)
+                  : top == c_stream_top ? key.stream_generics()
+                                        : key.generics();
   if (synth::takes_multiplier_bits(top))
     generics.emplace_back("g_multiplier_bits", std::to_string(command.multiplier_bits));
   return generics;
@@ -77,7 +75,8 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
       "//   halfway verilog {} {}{}{}\n"
       "// from the VHDL in rtl/, by GHDL. Do not edit it: change the VHDL.\n// Generics:",
       module, key.name(), version, printable(command.scene), hardware_options(command.draw),
-      command.core ? fmt::format(" --core --format {} --bus {}", command.format, command.bus_bits)
+      command.core ? fmt::format(" --core --format {} --bus {}", command.core_options.format,
+                                 command.core_options.bus_bits)
                    : std::string(command.axi ? " --axi" : ""),
       synth::takes_multiplier_bits(top) ? fmt::format(" --multiplier-bits {}", command.multiplier_bits)
                                         : std::string());
@@ -125,14 +124,7 @@ void add_verilog(CLI::App& app, const Folders& folders, int&) {
   CLI::Option* core = sub->add_flag("--core", command->core,
                                     "halfway_core: from commands in memory to a picture in memory")
                           ->excludes(axi);
-  sub->add_option("--format", command->format, "with --core: pixels in memory, rgb565 or xrgb8888")
-      ->check(CLI::IsMember({"rgb565", "xrgb8888"}))
-      ->needs(core)
-      ->capture_default_str();
-  sub->add_option("--bus", command->bus_bits, "with --core: width of the bus to the memory, 32 or 64")
-      ->check(CLI::IsMember({32, 64}))
-      ->needs(core)
-      ->capture_default_str();
+  command->core_options.add_to(*sub, core);
   sub->add_option("--multiplier-bits", command->multiplier_bits,
                   "width of the device's multipliers; 0: products in lookup tables")
       ->check(CLI::Range(0, 64))

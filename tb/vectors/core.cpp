@@ -25,16 +25,12 @@ constexpr std::uint32_t c_ring = c_window + 0x40, c_ring_bits = 1;
 constexpr std::uint32_t c_packets = c_window + 0x1000, c_buffers = c_window + 0x18000;
 constexpr FrameSize c_size{16, 12};
 
-constexpr std::uint32_t fault(int bit) {
-  return 1U << bit;
-}
-
 class Script {
  public:
   Script(const PacketHardware& hardware, PixelFormat format)
       : frame_(hardware, c_size), format_(format), bytes_(c_window_bytes), memory_(format, bytes_, c_window) {
     const std::uint32_t row = 64 * pixel_bytes(format);
-    for (PacketWords packet : frame_.packets()) packets_.insert(packets_.end(), packet.begin(), packet.end());
+    for (const PacketWords& packet : frame_.packets()) packets_.insert(packets_.end(), packet.begin(), packet.end());
     place_ = {.colour_base = c_buffers,
               .colour_stride = row,
               .depth_base = c_buffers + 2 * row * c_size.height,
@@ -70,19 +66,22 @@ class Script {
   void read_register(std::uint32_t offset, std::uint32_t value, bool error = false) {
     step(Step::read, offset, value, error ? 2 : 0);
   }
+  std::uint32_t word_at(std::uint32_t index) const {
+    const std::uint8_t* byte = &bytes_[4 * std::size_t{index}];
+    return byte[0] | byte[1] << 8 | byte[2] << 16 | std::uint32_t{byte[3]} << 24;
+  }
   void set_word(std::uint32_t address, std::uint32_t word) {
-    step(Step::set, (address - c_window) / 4, word);
+    const std::uint32_t index = (address - c_window) / 4;
+    if (word_at(index) == word) return;
+    step(Step::set, index, word);
     for (std::uint32_t i = 0; i < 4; ++i)
-      bytes_[address - c_window + i] = expected_[address - c_window + i] =
-          static_cast<std::uint8_t>(word >> (8 * i));
+      bytes_[4 * index + i] = expected_[4 * index + i] = static_cast<std::uint8_t>(word >> (8 * i));
   }
   // The words that have changed, and a comparison of all.
   void compare() {
-    for (std::uint32_t at = 0; at < c_window_bytes; at += 4)
-      if (!std::equal(&bytes_[at], &bytes_[at] + 4, &expected_[at])) {
-        const std::uint8_t* byte = &bytes_[at];
-        step(Step::expect, at / 4, byte[0] | byte[1] << 8 | byte[2] << 16 | std::uint32_t{byte[3]} << 24);
-      }
+    for (std::uint32_t index = 0; index < c_window_bytes / 4; ++index)
+      if (!std::equal(&bytes_[4 * index], &bytes_[4 * index] + 4, &expected_[4 * index]))
+        step(Step::expect, index, word_at(index));
     expected_ = bytes_;
     step(Step::compare);
   }
@@ -102,7 +101,8 @@ class Script {
   }
 
   void constants() {
-    read_register(HALFWAY_CORE_IDENTITY, 0x48414C46);
+    read_register(HALFWAY_CORE_IDENTITY, HALFWAY_CORE_IDENTITY_VALUE);
+    read_register(HALFWAY_CORE_VERSION, HALFWAY_CORE_VERSION_VALUE);
     read_register(HALFWAY_CORE_STATUS, 0);
     read_register(HALFWAY_CORE_RING_TAIL, 0);
     read_register(0xFC, 0, true);
@@ -120,14 +120,10 @@ class Script {
             place_.width | place_.height << 16,
             place_.left | place_.right << 16,
             place_.top | place_.bottom << 16,
-            0x12'34'56U | std::uint32_t{clear} << 24 | std::uint32_t{swap} << 25 | 1U << 28,
-            0,
-            0,
-            0,
-            0,
-            0,
-            0,
-            0};
+            0x12'34'56U | (clear ? HALFWAY_CORE_COMMAND_CLEAR_MASK : 0) |
+                (swap ? HALFWAY_CORE_COMMAND_SWAP_MASK : 0) |
+                HALFWAY_CORE_COMMAND_KIND_DRAW << HALFWAY_CORE_COMMAND_KIND_SHIFT,
+            0, 0, 0, 0, 0, 0, 0};
   }
   // Puts a command into the ring: the core may begin.
   void put(std::span<const std::uint32_t> command, std::uint32_t ahead = 0) {
@@ -162,7 +158,6 @@ class Script {
   }
 
   void draw_frames() {
-    set_words(c_packets, packets_);
     draw(true, true);
     read_register(HALFWAY_CORE_FRAGMENTS, fragments_);
     read_register(HALFWAY_CORE_PIXELS, pixels_);
@@ -197,14 +192,14 @@ class Script {
       std::vector<std::uint32_t> bad = good;
       bad[word] ^= bits;
       put(bad);
-      wait_end(fault(6));
+      wait_end(HALFWAY_CORE_FAULTS_COMMAND_MASK);
       compare();
     }
     for (const std::uint32_t sides : {0U, 0x1001U, 0x1001'0001U, 1U}) {
       std::vector<std::uint32_t> bad = good;
       bad[5] = sides;
       put(bad);
-      wait_end(fault(6));
+      wait_end(HALFWAY_CORE_FAULTS_COMMAND_MASK);
     }
     draw(true, true);
   }
@@ -214,10 +209,10 @@ class Script {
     const PacketWords good = packets_;
     const std::size_t at = frame_.packets().front().size();
     packets_[at] ^= 8U;
-    fail(fault(0));
+    fail(HALFWAY_CORE_FAULTS_WRONG_KIND_MASK);
     packets_ = good;
     packets_.resize(packets_.size() - 2);
-    fail(fault(1));
+    fail(HALFWAY_CORE_FAULTS_WRONG_LENGTH_MASK);
     packets_ = good;
     draw(true, true);
     // A packet of kind 0 ends the frame: what follows is not drawn.
@@ -241,7 +236,7 @@ class Script {
       put(command(true, true));
       step(Step::pass, clocks);
       write_register(HALFWAY_CORE_CONTROL, 3);
-      wait_end(fault(7));
+      wait_end(HALFWAY_CORE_FAULTS_ABORTED_MASK);
       draw(true, true);
     }
     for (const std::uint32_t clocks : {20U, 100U, 300U}) {
@@ -255,7 +250,7 @@ class Script {
       put(command(true, true));
       step(Step::wait, ++done_);
       step(Step::memory, 1, 0);
-      step(Step::any, HALFWAY_CORE_FAULTS, fault(4) | fault(5));
+      step(Step::any, HALFWAY_CORE_FAULTS, HALFWAY_CORE_FAULTS_MEMORY_MASK | HALFWAY_CORE_FAULTS_READ_MASK);
       write_register(HALFWAY_CORE_FAULTS, 0xFF);
       write_register(HALFWAY_CORE_INTERRUPTS, 3);
       draw(true, true);

@@ -19,30 +19,22 @@
 namespace halfway::cli {
 namespace {
 
-using core::PixelFormat;
-
 constexpr unsigned c_most_latency = 10'000;
 
 struct CoreSimCommand {
   DrawOptions draw;
   std::vector<std::string> scenes;
-  std::string format = "rgb565";
-  unsigned bus_bits = 64;
+  CoreOptions core;
   core::MemoryTiming timing;
   std::string socket;
 };
 
-PixelFormat checked_format(const std::string& name) {
-  for (const PixelFormat format : {PixelFormat::rgb565, PixelFormat::xrgb8888})
-    if (name == to_string(format)) return format;
-  throw Failure{bad_input(fmt::format("--format: '{}' is not a format; take rgb565 or xrgb8888", name))};
-}
-
 /// The core that the scene needs.
 core::CoreKey key_for(const Scene& scene, const CoreSimCommand& command) {
+  const auto [true_colour, bus_bits] = checked(command.core);
   return {.shader = must(plan_scene(scene, checked(command.draw).plan)).key,
-          .format = checked_format(command.format),
-          .bus_bits = command.bus_bits};
+          .format = true_colour ? core::PixelFormat::xrgb8888 : core::PixelFormat::rgb565,
+          .bus_bits = bus_bits};
 }
 
 Scene loaded(const std::string& name, const Folders& folders) {
@@ -77,7 +69,7 @@ void draw_scene(const std::string& name, const Folders& folders, const CoreSimCo
       "%, "
       "with a waiting fragment {:.0f} %\n",
       printable(scene.name), to_string(draw.plan.shader), to_string(draw.plan.preset), draw.size.width,
-      draw.size.height, figures.triangles, figures.fragments, command.format, command.bus_bits,
+      draw.size.height, figures.triangles, figures.fragments, command.core.format, command.core.bus_bits,
       command.timing.latency, figures.clocks, share(figures.fragments) / 100.0, share(figures.words_read),
       share(figures.words_written), share(figures.stalled_clocks));
   std::fflush(stdout);
@@ -95,8 +87,7 @@ void serve(const Folders& folders, const CoreSimCommand& command) {
 }
 
 void run(const Folders& folders, const CoreSimCommand& command) {
-  if (command.bus_bits != 32 && command.bus_bits != 64)
-    throw Failure{bad_input(fmt::format("--bus: {} is not 32 or 64", command.bus_bits))};
+  checked(command.core);
   if (command.timing.latency < 1 || command.timing.latency > c_most_latency)
     throw Failure{
         bad_input(fmt::format("--latency: {} is not 1 to {}", command.timing.latency, c_most_latency))};
@@ -113,11 +104,7 @@ void add_core_sim(CLI::App& app, const Folders& folders, int&) {
   auto command = std::make_shared<CoreSimCommand>();
   sub->add_option("scene", command->scenes, "as for sim (default: all built-in scenes)");
   command->draw.add_to(*sub);
-  sub->add_option("--format", command->format,
-                  "rgb565, with 16 bits of depth, or xrgb8888, with 32 bits of depth")
-      ->capture_default_str();
-  sub->add_option("--bus", command->bus_bits, "width of the bus to the memory: 32 or 64")
-      ->capture_default_str();
+  command->core.add_to(*sub);
   sub->add_option("--latency", command->timing.latency,
                   "clocks from an address to its first word, and from a write's last word to its response")
       ->capture_default_str();

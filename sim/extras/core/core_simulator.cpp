@@ -11,7 +11,6 @@
 namespace halfway::core {
 namespace {
 
-constexpr const char* c_top = "halfway_core";
 constexpr int c_reset_clocks = 4;
 /// Of an access to a register.
 constexpr std::uint64_t c_most_access_clocks = 64;
@@ -35,8 +34,8 @@ CoreLibrary open_library(const CoreKey& key, const SimulatorFolders& folders) {
   CoreLibrary core{
       .library = must(open_verilated(
           {.name = key.name(),
-           .netlist = must(mend_netlist(must(rtl_library(folders).synthesize(c_top, key.generics())))),
-           .top = c_top,
+           .netlist = must(mend_netlist(must(rtl_library(folders).synthesize(c_core_top, key.generics())))),
+           .top = c_core_top,
            .harness = folder / "core_harness.cpp",
            .include_folder = folders.source,
            .harness_headers = {folder / "core_api.h"},
@@ -50,9 +49,7 @@ CoreLibrary open_library(const CoreKey& key, const SimulatorFolders& folders) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> CoreKey::generics() const {
-  auto list = shader.stream_generics();
-  list.emplace_back("g_true_colour", format == PixelFormat::xrgb8888 ? "true" : "false");
-  list.emplace_back("g_bus_bits", std::to_string(bus_bits));
+  auto list = shader.core_generics(format == PixelFormat::xrgb8888, bus_bits);
   if (limit_bits != 0) list.emplace_back("g_limit_bits", std::to_string(limit_bits));
   return list;
 }

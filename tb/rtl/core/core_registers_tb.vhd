@@ -6,7 +6,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.tb_pkg.all;
-use work.memory_pkg.address_t;
+use work.memory_pkg.all;
 use work.core_registers_pkg.c_version_major;
 use work.core_registers_pkg.c_version_minor;
 use work.core_registers_pkg.c_version_patch;
@@ -85,7 +85,7 @@ architecture sim of core_registers_tb is
   signal command_faults                            : std_logic_vector(7 downto 0) := (others => '0');
   signal picture_base                              : address_t := (others => '0');
   signal triangle, fragment, stalled               : std_logic := '0';
-  signal pixels                                    : unsigned(3 downto 0) := (others => '0');
+  signal pixels                                    : pixel_count_t := (others => '0');
   signal expected_word                             : word_t; -- of the last read
   signal all_written, ended                        : boolean := false;
 begin
@@ -167,7 +167,7 @@ begin
     triangle       <= random(1);
     fragment       <= random(2);
     stalled        <= random(3);
-    pixels         <= random(7 downto 4);
+    pixels         <= random(6 downto 4);
     command_done   <= to_flag(random(12 downto 8) = 0);
     swap           <= to_flag(random(17 downto 13) = 0);
     random         := next_random(random);
@@ -181,7 +181,7 @@ begin
 
     variable clock  : natural := 0;
     variable words  : words_t;
-    variable counts : unsigned(7 downto 0); -- inputs of the clock before: pixels, then the events
+    variable counts : unsigned(6 downto 0); -- inputs of the clock before: pixels, then the events
     variable aborts : std_logic;
     variable mask   : word_t;
     variable events : word_t;
@@ -245,7 +245,7 @@ begin
       end if;
       add(c_counters, counts(0 downto 0));
       add(c_counters + 4, counts(1 downto 1));
-      add(c_counters + 8, counts(7 downto 4));
+      add(c_counters + 8, counts(6 downto 4));
       add(c_counters + 12, counts(2 downto 2));
       add(c_counters + 16, counts(3 downto 3));
       counts := pixels & stalled & busy & fragment & triangle;
