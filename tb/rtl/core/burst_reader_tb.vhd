@@ -221,6 +221,9 @@ begin
       run         <= i;
       latency     <= (i mod 3) * 15 + 1;
       pauses      <= i / 3 mod 3;
+      if i mod 10 = 9 and i mod 7 /= 3 then
+        pauses <= 5; -- a request waits longer than the next burst takes
+      end if;
       other_rests <= 8 - (i / 9 mod 2) * 7;
       errors      <= (i / 25 mod 2) * 4;
       wait_clocks(clk, 2 + (i / 9 mod 2) * 100); -- the other reader ends its burst
