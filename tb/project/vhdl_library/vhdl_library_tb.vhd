@@ -6,14 +6,14 @@ use ieee.std_logic_1164.all;
 use halfway.axi_pkg.all;
 use halfway.memory_pkg.all;
 
-entity core_tb is
+entity vhdl_library_tb is
   generic (
     g_top   : string;
     g_fault : string
   );
 end entity;
 
-architecture sim of core_tb is
+architecture sim of vhdl_library_tb is
 
   constant c_last_clock : positive := 200;
 
@@ -57,9 +57,9 @@ begin
   begin
     wait until clocks = c_last_clock;
     assert waited and (frames > 0 or g_top /= "words_to_fragments")
-      report "core_tb: no word waits, or no frame ends"
+      report "vhdl_library_tb: no word waits, or no frame ends"
       severity failure;
-    report "core_tb: " & integer'image(taken) & " words, " & integer'image(frames) & " frames";
+    report "vhdl_library_tb: " & integer'image(taken) & " words, " & integer'image(frames) & " frames";
     wait;
   end process;
 
@@ -87,7 +87,7 @@ begin
     begin
       if rising_edge(clk) and m_axis_tvalid = '1' then
         assert m_axis_tlast = '1' and m_axis_tkeep = (m_axis_tkeep'range => '0')
-          report "core_tb: not the end of a frame without fragments"
+          report "vhdl_library_tb: not the end of a frame without fragments"
           severity failure;
         frames <= frames + 1;
       end if;
