@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # The Verilog of `halfway verilog`, without and with AXI4-Stream ports, and the whole core: Verilator's lint, Icarus and
-# Yosys take it; in Icarus it draws the golden model's fragments, the core into memory; with AXI4-Stream ports no output
-# depends on an input in the same clock.
+# Yosys take it; in Icarus it draws the golden model's fragments, the core into memory; with AXI4-Stream ports, and of the
+# core, no output depends on an input in the same clock.
 #   verilog.sh HALFWAY ROOT FOLDER SHADER
 set -eu
 halfway=$1 root=$2 folder=$3 shader=$4
@@ -60,7 +60,9 @@ sed -n 's#^//   \(input\|output\) .* ##p' "$(head -n 1 $top.files)" >ports.txt
 while read -r port; do
   grep -q "^|.*\`$port\`.*|" "$root/docs/rtl/axi.md" || { echo "verilog: docs/rtl/axi.md lacks the port $port"; exit 1; }
 done <ports.txt
-yosys -q -p "read_verilog $(tr '\n' ' ' <$top.files); hierarchy -top $top; proc; flatten; opt_clean; memory -nomap; \
-  delete t:\$dff t:\$sdff* t:\$dffe t:\$adff* t:\$mem*; select -assert-none o:* i:* %coe* %i" ||
-  { echo "verilog: $top: an output depends on an input in the same clock"; exit 1; }
+for top in $top halfway_core; do
+  yosys -q -p "read_verilog $(tr '\n' ' ' <$top.files); hierarchy -top $top; proc; flatten; opt_clean; memory -nomap; \
+    delete t:\$dff t:\$sdff* t:\$dffe t:\$adff* t:\$mem*; select -assert-none o:* i:* %coe* %i" ||
+    { echo "verilog: $top: an output depends on an input in the same clock"; exit 1; }
+done
 echo "verilog.sh: $shader passed with $(wc -l <golden.txt) fragments"
