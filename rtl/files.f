@@ -69,7 +69,6 @@ illumination/light_state.vhd
 illumination/schedule_pkg.vhd
 illumination/shading_sequence.vhd
 illumination/shared_multiplier.vhd
-illumination/shared_dot_product.vhd
 illumination/shared_normalizer.vhd
 illumination/shared_adder.vhd
 illumination/shared_weight.vhd

@@ -1,8 +1,6 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     Dot product of two vectors of three components.
---               g_clocks = 1  products and their sum
---               otherwise     the products, in g_clocks - 1 clocks; then their sum
+-- Purpose     Dot product of two vectors of three components: the products, in g_clocks - 1 clocks; then their sum.
 -- Formats     a, b: components of g_bits, signed, x lowest; sum: signed, 2 g_bits + 1
 -- Latency     g_clocks clocks: dot_product_latency of shading_pkg
 -- Throughput  1 vector per clock
@@ -19,7 +17,7 @@ use work.shading_pkg.all;
 entity dot_product is
   generic (
     g_bits   : positive;
-    g_clocks : positive range 1 to 3
+    g_clocks : positive range 2 to 3
   );
   port (
     clk    : in  std_logic;
@@ -41,26 +39,18 @@ begin
 
   axes : for axis in 0 to c_axes - 1 generate
 
-    at_once : if g_clocks = 1 generate
-
-      products(axis) <= std_logic_vector(axis_of(a, axis) * axis_of(b, axis));
-
-    else generate
-
-      multiply : entity work.signed_multiplier
-        generic map (
-          g_a_bits => g_bits,
-          g_b_bits => g_bits,
-          g_clocks => g_clocks - 1
-          )
-        port map (
-          clk     => clk,
-          a       => std_logic_vector(axis_of(a, axis)),
-          b       => std_logic_vector(axis_of(b, axis)),
-          product => products(axis)
-          );
-
-    end generate;
+    multiply : entity work.signed_multiplier
+      generic map (
+        g_a_bits => g_bits,
+        g_b_bits => g_bits,
+        g_clocks => g_clocks - 1
+        )
+      port map (
+        clk     => clk,
+        a       => std_logic_vector(axis_of(a, axis)),
+        b       => std_logic_vector(axis_of(b, axis)),
+        product => products(axis)
+        );
 
   end generate;
 

@@ -8,17 +8,17 @@
 --   P_p / w                  -       1               shared_multiplier
 --   P_p - P                  1       3               shared_adder
 --   shift                    2       4               shared_normalizer
---   square                   3       5               shared_dot_product with itself
+--   square                   3       5               shared_multiplier: dot product with itself
 --   1/sqrt                   4       8               shared_normalizer
 --   scale                    5      15               shared_multiplier
 --   round                    6      17               shared_normalizer: L
 --   L + V, ... H          (all again, from the sum on)
---   N.A                                              shared_dot_product
+--   N.A                                              shared_multiplier
 --   power                                            shared_weight
 --   k I * weight                                     shared_multiplier
 --   sum                                              token_register
 --
--- In all other clocks the multiplier computes k I.
+-- In all other clocks the multipliers compute k I; clock `reflect` is the one whose k I is used.
 
 library ieee;
 use ieee.std_logic_1164.all;
@@ -53,12 +53,16 @@ package schedule_pkg is
     factor   : natural;
     narrow   : natural; -- the vector product takes weight and factor
     narrowed : natural;
+    reflect  : natural; -- the vector product takes k and I
     weigh    : natural; -- the vector product takes k I and weight
     add      : natural;
     leave    : natural; -- the token is offered at the output
   end record;
 
   function schedule (c : config_t; kind, light : natural) return schedule_t;
+
+  -- The processor computes dot products.
+  function has_dot_product (c : config_t; kind, light : natural) return boolean;
 
   -- Bits of the shared multiplier's operands, which are signed, and of its products.
   function factor_a_bits (c : config_t; kind, light : natural) return positive;
@@ -120,11 +124,9 @@ package body schedule_pkg is
       t          := s.round_2 + 1;
     end if;
     if kind = c_ambient then
-      s.add := 1 + c_mul_clocks;
-      if c_shape.second then
-        s.add := s.square_2 + c_mul_clocks;
-      end if;
-      s.leave := larger(t, s.add + 1);
+      s.reflect := larger(s.square_1, s.square_2) + 1;
+      s.add     := s.reflect + c_mul_clocks;
+      s.leave   := larger(t, s.add + 1);
       return s;
     end if;
     s.cosine := t;
@@ -143,9 +145,16 @@ package body schedule_pkg is
       s.narrowed := s.narrow + c_mul_clocks;
       s.weigh    := s.narrowed + 1;
     end if;
-    s.add   := s.weigh + c_mul_clocks;
-    s.leave := s.add + 1;
+    s.reflect := s.weigh - c_mul_clocks;
+    s.add     := s.weigh + c_mul_clocks;
+    s.leave   := s.add + 1;
     return s;
+  end function;
+
+  function has_dot_product (c : config_t; kind, light : natural) return boolean is
+    constant c_shape : shape_t := shape(c, kind, light);
+  begin
+    return kind /= c_ambient or c_shape.first or c_shape.second;
   end function;
 
   function factor_a_bits (c : config_t; kind, light : natural) return positive is
@@ -157,7 +166,7 @@ package body schedule_pkg is
     if kind /= c_ambient then
       bits := larger(bits, larger(c_formats.reflected.bits, c_formats.weight.bits) + 1);
     end if;
-    if c_shape.first or c_shape.second then
+    if has_dot_product(c, kind, light) then
       bits := larger(bits, c_formats.direction.bits);
     end if;
     if c_shape.far then
@@ -174,6 +183,9 @@ package body schedule_pkg is
   begin
     if kind /= c_ambient then
       bits := larger(bits, c_formats.weight.bits + 1);
+    end if;
+    if has_dot_product(c, kind, light) then
+      bits := larger(bits, c_formats.direction.bits);
     end if;
     if c_shape.first or c_shape.second then
       bits := larger(bits, c_formats.root.bits + 2);

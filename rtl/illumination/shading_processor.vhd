@@ -8,9 +8,9 @@
 --                          +-- shading_sequence     the clock of the token: schedule_pkg
 --                          +-- token_register       N, V and the colour change here      --> out_token
 --
---               shared_adder --> shared_normalizer --> shared_dot_product --> shared_weight --> shared_multiplier
---                  ^   P_p - P, L + V    shift, 1/sqrt       squares, N.A         (N.A)**x           |  scale, k I,
---                  +---------------------------------------------------------------------------------+  k I weight
+--               shared_adder --> shared_normalizer <--> shared_multiplier <--> shared_weight
+--                  ^  P_p - P, L + V    shift, 1/sqrt     |  squares, N.A,       (N.A)**x
+--                  +--------------------------------------+  k I, k I weight
 --
 -- Contract    A token moves where valid and ready are both '1' at a rising edge; out_token does not change while it
 --             waits. Every token is output, in order. define, redefine and delete of g_light act on the tokens after
@@ -173,32 +173,15 @@ begin
       token    => token,
       light    => light,
       shifted  => shifted,
+      normal   => direction_of(c_config, token),
+      to_light => to_light,
+      half     => half,
       root     => root,
       weight   => weight,
       factor   => factor,
-      products => products
+      products => products,
+      dot      => dot
       );
-
-  dots : if g_kind /= c_ambient or c_shape.first or c_shape.second generate
-
-    shared_dot_product : entity work.shared_dot_product
-      generic map (g_config => c_config, g_kind => g_kind, g_light => g_light)
-      port map (
-        clk      => clk,
-        cycle    => cycle,
-        shifted  => shifted,
-        normal   => direction_of(c_config, token),
-        to_light => to_light,
-        half     => half,
-        axis     => light_axis(g_exact, light),
-        dot      => dot
-        );
-
-  else generate
-
-    dot <= (others => '0');
-
-  end generate;
 
   normalization : if c_shape.first or c_shape.second generate
 

@@ -68,8 +68,11 @@ begin
   begin
     start <= 1;
     if g_kind = c_ambient then
-      if c_shape.first and c_shape.second and normalize = '0' then
-        start <= c_at.shift_2;
+      if c_shape.first and normalize = '0' then
+        start <= c_at.reflect;
+        if c_shape.second then
+          start <= c_at.shift_2;
+        end if;
       end if;
     elsif positional = '0' then
       start <= c_at.cosine;

@@ -341,41 +341,10 @@ void write_shared_adder(const Folder& folder) {
       });
 }
 
-// A line: operands (0 N and A, 1 and 2 the shifted vector, 3 L and the axis, 4 N and L), shifted vector, N,
-// L, H, axis; whether the product that is due is known, and this product.
-void write_shared_dot_product(const Folder& folder) {
-  const auto has = [](const auto& can) { return can.of_light() || can.normalizes(); };
-  write_units(
-      folder, has,
-      []<class Preset>(const Processor&, const Abilities<Preset>& can, Random& random, VectorFile& file) {
-        golden::DelayLine<std::int64_t> dots(Abilities<Preset>::c_exact ? 3 : 1);
-        for (int i = 0; i < c_lines; ++i) {
-          const auto [normal, to_light] = random_directions<Preset>(random);
-          const auto [half, axis] = random_directions<Preset>(random);
-          const Axes shifted = random_axes(random, Preset::c_direction_bits);
-          auto operands = random.between(0, 4);
-          const bool can_do[] = {can.of_light(), can.first, can.second, can.spots,
-                                 can.term == Term::specular && Abilities<Preset>::c_exact};
-          while (!can_do[operands]) operands = random.between(0, 4);
-          file.word(operands, 32);
-          for (const Axes& v : {shifted, normal, to_light, half, axis})
-            add(file, v, Preset::c_direction_bits);
-          file.flag(dots.full());
-          file.word(dots.full() ? dots.delayed() : 0, 2 * Preset::c_direction_bits + 1).end_vector();
-          const bool highlight = can.term == Term::specular;
-          const Axes& a = operands == 1 || operands == 2 ? shifted : operands == 3 ? to_light : normal;
-          const Axes& b = operands == 1 || operands == 2 ? shifted
-                          : operands == 3                ? axis
-                          : operands == 0 && highlight   ? half
-                                                         : to_light;
-          dots.step(golden::dot_product(a, b));
-        }
-      });
-}
-
 // A line: product (0 k I, 1 and 2 vector times 1/sqrt, 3 place times distance, 4 weight times factor, 5 k I
-// times weight), token, light, shifted vector, 1/sqrt, weight, factor; the number of known components of the
-// product that is due, and its components in 64 bits.
+// times weight; dot products: 6 N and A, 7 and 8 the shifted vector, 9 L and the axis, 10 N and L), token, light,
+// shifted vector, N, L, H, 1/sqrt, weight, factor; the number of known components of the product that is due, and
+// its components in 64 bits; whether the dot product that is due is known, and this product.
 void write_shared_multiplier(const Folder& folder) {
   write_units(
       folder, c_all,
@@ -388,28 +357,48 @@ void write_shared_multiplier(const Folder& folder) {
           std::optional<Words<Preset>> words{};
         };
         golden::DelayLine<Product> products(Abilities<Preset>::c_exact ? 2 : 1);
+        golden::DelayLine<std::optional<std::int64_t>> dots(Abilities<Preset>::c_exact ? 3 : 1);
         for (int i = 0; i < c_lines; ++i) {
           const Words<Preset> w(maker, p);
           const Axes shifted = random_axes(random, Preset::c_direction_bits);
+          const auto [normal, to_light] = random_directions<Preset>(random);
+          const Axes half = random_axes(random, Preset::c_direction_bits);
           const auto root = static_cast<std::int64_t>(random.word(Preset::c_root_bits + 1));
           const auto weight = static_cast<std::uint32_t>(random.word(Preset::c_weight_bits));
           const auto factor = static_cast<std::uint32_t>(random.word(Preset::c_weight_bits));
           const Product due = products.full() ? products.delayed() : Product{};
-          const bool can_do[] = {true,       can.first,
-                                 can.second, can.positional && Abilities<Preset>::c_exact,
-                                 can.spots,  can.of_light() && due.step == 0};
-          auto step = random.between(0, 5);
-          while (!can_do[step]) step = random.between(0, 5);
+          const bool can_do[] = {true,
+                                 can.first,
+                                 can.second,
+                                 can.positional && Abilities<Preset>::c_exact,
+                                 can.spots,
+                                 can.of_light() && due.step == 0,
+                                 can.of_light(),
+                                 can.first,
+                                 can.second,
+                                 can.spots,
+                                 can.term == Term::specular && Abilities<Preset>::c_exact};
+          auto step = random.between(0, 10);
+          while (!can_do[step]) step = random.between(0, 10);
           file.word(step, 32);
+          // In the clock of a cone's axis, the light is no spot.
+          if (step == 9 && !w.light.spot) step = 0;
           add(file, w.token_words);
           add(file, w.light_words);
-          add(file, shifted, Preset::c_direction_bits);
+          for (const Axes& v : {shifted, normal, to_light, half}) add(file, v, Preset::c_direction_bits);
           file.word(root, Preset::c_root_bits + 1);
           file.word(weight, Preset::c_weight_bits).word(factor, Preset::c_weight_bits);
           file.word(due.known, 32);
           for (const std::int64_t component : due.components) file.word(component, 64);
-          file.end_vector();
-          Product now{step, {}, step >= 1 && step <= 3 ? 3 : step == 4 ? 1 : p.config.channels, w};
+          const bool known = dots.full() && dots.delayed();
+          file.flag(known).word(known ? *dots.delayed() : 0, 2 * Preset::c_direction_bits + 1).end_vector();
+          const bool colour = step == 0 || step == 5;
+          Product now{step, {}, colour ? p.config.channels : step == 4 ? 1 : 3, w};
+          std::optional<std::int64_t> sum;
+          const auto multiply = [&](const Axes& a, const Axes& b) {
+            for (std::size_t i = 0; i < a.size(); ++i) now.components[i] = a[i] * b[i];
+            sum = golden::dot_product(a, b);
+          };
           switch (step) {
             case 1:
             case 2:
@@ -429,10 +418,24 @@ void write_shared_multiplier(const Folder& folder) {
                     golden::reflected_term<Preset>(k[c], due.words->light.intensity[c], weight));
               }
               break;
+            case 6:
+              multiply(normal, can.term == Term::specular ? half : to_light);
+              break;
+            case 7:
+            case 8:
+              multiply(shifted, shifted);
+              break;
+            case 9:
+              multiply(to_light, w.light.axis);
+              break;
+            case 10:
+              multiply(normal, to_light);
+              break;
             default:
               now.components = reflections(p, w);
           }
           products.step(now);
+          dots.step(sum);
         }
       });
 }
@@ -518,9 +521,8 @@ void write_shared_weight(const Folder& folder) {
 std::vector<Entity> folded_entities() {
   return {
       {"shading_sequence", write_shading_sequence},   {"token_register", write_token_register},
-      {"shared_adder", write_shared_adder},           {"shared_dot_product", write_shared_dot_product},
-      {"shared_multiplier", write_shared_multiplier}, {"shared_normalizer", write_shared_normalizer},
-      {"shared_weight", write_shared_weight},
+      {"shared_adder", write_shared_adder},           {"shared_multiplier", write_shared_multiplier},
+      {"shared_normalizer", write_shared_normalizer}, {"shared_weight", write_shared_weight},
   };
 }
 

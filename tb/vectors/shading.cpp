@@ -282,7 +282,7 @@ std::vector<Entity> shading_entities() {
                                                                   {30, 22, 2},
                                                                   {28, 30, 2},
                                                                   {36, 27, 2}})},
-      {"dot_product", of_sizes(write_dot_product_of, {{4, 1}, {16, 1}, {16, 2}, {24, 3}, {30, 3}})},
+      {"dot_product", of_sizes(write_dot_product_of, {{4, 2}, {16, 2}, {24, 3}, {30, 3}})},
       {"vector_multiply",
        of_sizes(write_vector_multiply_of, {{2, 5, 1}, {16, 11, 1}, {24, 26, 2}, {28, 30, 2}, {13, 26, 2}})},
       {"vector_shift",

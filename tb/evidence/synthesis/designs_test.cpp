@@ -36,8 +36,8 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
                              "light_weight",  "object_edges",        "object_front",      "object_merge",
                              "object_output", "object_processor",    "object_source",     "pixel_filter",
                              "radiance_sum",  "raster_interpolator", "reflected_term",    "shading_sequence",
-                             "shared_adder",  "shared_dot_product",  "shared_multiplier", "shared_normalizer",
-                             "shared_weight", "token_rasterizer",    "token_register"})
+                             "shared_adder",  "shared_multiplier",   "shared_normalizer", "shared_weight",
+                             "token_rasterizer", "token_register"})
     EXPECT_TRUE(listed.insert(inside).second) << inside;
   // These are measured inside fragments_to_memory and halfway_core.
   for (const char* in_memory :

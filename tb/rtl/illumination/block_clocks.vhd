@@ -172,7 +172,7 @@ architecture sim of block_clocks is
       when term           => return from_to(0, c_at.leave);
       when dot_product    => return from_to(c_at.cosine, c_at.angle - c_at.cosine);
       when power          => return from_to(c_at.angle, c_at.weigh_in - c_at.angle);
-      when reflection     => return from_to(c_at.weigh - vector_multiply_latency(exact), vector_multiply_latency(exact));
+      when reflection     => return from_to(c_at.reflect, vector_multiply_latency(exact));
       when multiplication => return from_to(c_at.weigh, c_at.add - c_at.weigh);
       when addition       => return from_to(c_at.add, c_at.leave - c_at.add);
       when adder          => return both(c_at.sum_1, c_at.shift_1, c_at.sum_2, c_at.shift_2);

@@ -51,7 +51,7 @@ begin
         if c_shape.second then
           return step >= c_at.shift_2 or needs.first = '1';
         end if;
-        return step <= c_at.add or needs.first = '1';
+        return (step >= c_at.reflect and step <= c_at.add) or needs.first = '1';
       elsif step >= c_at.weigh_in and step < c_at.weigh then
         return needs.cone = '1';
       elsif c_shape.second and step >= c_at.sum_2 and step < c_at.cosine then
