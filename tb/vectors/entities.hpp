@@ -46,6 +46,7 @@ void write_objects_shaders(const Folder& folder);
 std::vector<Entity> arithmetic_entities();
 std::vector<Entity> board_entities();
 std::vector<Entity> core_entities();
+std::vector<Entity> core_registers_entities();
 std::vector<Entity> filter_entities();
 std::vector<Entity> folded_entities();
 std::vector<Entity> illumination_entities();

@@ -14,10 +14,11 @@ namespace {
 std::vector<Entity> all_entities() {
   std::vector<Entity> all{{"table4", write_table4}};
   for (const auto& part :
-       {arithmetic_entities(), board_entities(), core_entities(), filter_entities(), folded_entities(),
-        illumination_entities(), interpolation_entities(), memory_entities(), objects_entities(),
-        packets_entities(), processors_entities(), processors_shader_entities(), raster_entities(),
-        shaders_entities(), shading_entities(), stream_entities(), terms_entities()})
+       {arithmetic_entities(), board_entities(), core_entities(), core_registers_entities(),
+        filter_entities(), folded_entities(), illumination_entities(), interpolation_entities(),
+        memory_entities(), objects_entities(), packets_entities(), processors_entities(),
+        processors_shader_entities(), raster_entities(), shaders_entities(), shading_entities(),
+        stream_entities(), terms_entities()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
