@@ -30,7 +30,8 @@ class Script {
   Script(const PacketHardware& hardware, PixelFormat format)
       : frame_(hardware, c_size), format_(format), bytes_(c_window_bytes), memory_(format, bytes_, c_window) {
     const std::uint32_t row = 64 * pixel_bytes(format);
-    for (const PacketWords& packet : frame_.packets()) packets_.insert(packets_.end(), packet.begin(), packet.end());
+    for (const PacketWords& packet : frame_.packets())
+      packets_.insert(packets_.end(), packet.begin(), packet.end());
     place_ = {.colour_base = c_buffers,
               .colour_stride = row,
               .depth_base = c_buffers + 2 * row * c_size.height,
@@ -188,14 +189,15 @@ class Script {
   void refuse_commands() {
     const std::vector<std::uint32_t> good = command(true, true);
     for (const auto& [word, bits] : std::initializer_list<std::pair<std::size_t, std::uint32_t>>{
-             {8, 1U << 29}, {0, 4}, {1, 1}, {1, 1U << 30}, {2, 64}, {3, 8}, {4, 4}, {4, 1U << 20}}) {
+             {8, 1U << 28}, {8, 1U << 29}, {0, 4}, {1, 1}, {1, 1U << 30}, {2, 64}, {3, 8}, {4, 4},
+             {4, 1U << 20}}) {
       std::vector<std::uint32_t> bad = good;
       bad[word] ^= bits;
       put(bad);
       wait_end(HALFWAY_CORE_FAULTS_COMMAND_MASK);
       compare();
     }
-    for (const std::uint32_t sides : {0U, 0x1001U, 0x1001'0001U, 1U}) {
+    for (const std::uint32_t sides : {1U << 16, 1U << 16 | 4097, 1U, 4097U << 16 | 1, 8191U << 16 | 1}) {
       std::vector<std::uint32_t> bad = good;
       bad[5] = sides;
       put(bad);
@@ -232,7 +234,7 @@ class Script {
   // An abort, error responses of the memory, and a reset in the middle of a frame.
   void break_frames() {
     step(Step::memory, 30, 0);
-    for (const std::uint32_t clocks : {1U, 40U, 120U}) {
+    for (const std::uint32_t clocks : {1U, 40U, 120U, 300U}) {
       put(command(true, true));
       step(Step::pass, clocks);
       write_register(HALFWAY_CORE_CONTROL, 3);

@@ -104,12 +104,4 @@ void AxiMemory::clock(CoreInputs& answers, const CoreOutputs& core) {
   answers.m_axi_wready = !pauses();
 }
 
-void AxiMemory::reset(CoreInputs& answers) {
-  reads_.clear();
-  writes_.clear();
-  words_.clear();
-  write_due_.clear();
-  answers.m_axi_rvalid = answers.m_axi_bvalid = 0;
-}
-
 }  // namespace halfway::core

@@ -40,8 +40,6 @@ class AxiMemory {
   /// The rising edge at the end of a clock with these signals. Sets the memory's signals in the next clock.
   /// Throws Failure, of the code `differs`, for a burst that AXI4 does not allow.
   void clock(CoreInputs& answers, const CoreOutputs& core);
-  /// Forgets what is on its way.
-  void reset(CoreInputs& answers);
 
   std::uint64_t words_read() const { return words_read_; }
   std::uint64_t words_written() const { return words_written_; }

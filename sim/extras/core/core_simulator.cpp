@@ -11,7 +11,7 @@
 namespace halfway::core {
 namespace {
 
-constexpr int c_reset_clocks = 4;
+constexpr std::uint64_t c_reset_clocks = 4;
 /// Of an access to a register.
 constexpr std::uint64_t c_most_access_clocks = 64;
 
@@ -75,7 +75,9 @@ struct CoreSimulator::State {
 
 CoreSimulator::CoreSimulator(const CoreKey& key, MemoryTiming timing, const SimulatorFolders& folders)
     : state_(std::make_unique<State>(open_library(key, folders), AxiMemory(key.bus_bits / 8, timing))) {
-  reset();
+  State& s = *state_;
+  for (; s.clocks < c_reset_clocks; ++s.clocks) s.library.clock(s.core, &s.inputs, &s.outputs);
+  s.inputs.aresetn = 1;
 }
 
 CoreSimulator::~CoreSimulator() = default;
@@ -85,15 +87,6 @@ void CoreSimulator::clock() {
   ++s.clocks;
   s.library.clock(s.core, &s.inputs, &s.outputs);
   s.memory.clock(s.inputs, s.outputs);
-}
-
-void CoreSimulator::reset() {
-  State& s = *state_;
-  s.inputs = {};
-  for (int i = 0; i < c_reset_clocks; ++i) s.library.clock(s.core, &s.inputs, &s.outputs);
-  s.clocks += c_reset_clocks;
-  s.memory.reset(s.inputs);
-  s.inputs.aresetn = 1;
 }
 
 CoreSimulator::Answer CoreSimulator::read(std::uint32_t address) {

@@ -40,8 +40,6 @@ class CoreSimulator {
   CoreSimulator(const CoreKey& key, MemoryTiming timing, const SimulatorFolders& folders);
   ~CoreSimulator();
 
-  /// Resets the core and its ports.
-  void reset();
   void clock();
 
   struct Answer {
