@@ -5,6 +5,7 @@
 #include "golden/frame_memory.hpp"
 #include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
+#include "vectors/packet_frames.hpp"
 #include "vectors/random.hpp"
 
 namespace halfway::vectors {
@@ -137,15 +138,7 @@ void write_frames(const Folder& folder, PixelFormat format, const std::string& n
         .word(changed.size(), 32)
         .end_vector();
     put_frame(file, place, clear, colour);
-    for (const Fragment& f : fragments)
-      file.word(f.triangle, 32)
-          .word(f.y, 12)
-          .word(f.x, 12)
-          .word(f.z, 24)
-          .word(f.red, 8)
-          .word(f.green, 8)
-          .word(f.blue, 8)
-          .end_vector();
+    for (const Fragment& fragment : fragments) put_fragment(file, fragment).end_vector();
     for (const std::uint32_t index : changed) {
       const std::uint8_t* byte = &bytes[4 * std::size_t{index}];
       const std::uint32_t word = byte[0] | byte[1] << 8 | byte[2] << 16 | std::uint32_t{byte[3]} << 24;

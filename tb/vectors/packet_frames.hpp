@@ -8,10 +8,14 @@
 #include "frame/fragment.hpp"
 #include "golden_run/packets.hpp"
 #include "plan/plan.hpp"
+#include "sim/files/vector_file.hpp"
 
 namespace halfway::vectors {
 
 using PacketWords = std::vector<std::uint32_t>;
+
+/// Appends a fragment as data of AXI4-Stream: as axi_pkg.vhd places its fields.
+VectorFile& put_fragment(VectorFile& file, const Fragment& fragment);
 
 struct PacketHardware {
   const char* name;

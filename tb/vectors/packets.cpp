@@ -117,11 +117,7 @@ class Frames {
   }
   void transfer(const Fragment* f, bool last, Cause cause) {
     fragments_.flag(last).word(static_cast<std::uint64_t>(cause), 3).flag(f != nullptr);
-    const Fragment data = f != nullptr ? *f : Fragment{};
-    const std::uint32_t words[] = {
-        data.x | std::uint32_t{data.y} << 16, data.z, data.triangle,
-        data.red | std::uint32_t{data.green} << 8 | std::uint32_t{data.blue} << 16};
-    fragments_.words_of(words, 128).end_vector();
+    put_fragment(fragments_, f != nullptr ? *f : Fragment{}).end_vector();
   }
 
   PacketFrame frame_;
@@ -143,6 +139,12 @@ void write_words_to_fragments(const Folder& folder) {
 }
 
 }  // namespace
+
+VectorFile& put_fragment(VectorFile& file, const Fragment& f) {
+  const std::uint32_t words[] = {f.x | std::uint32_t{f.y} << 16, f.z, f.triangle,
+                                 f.red | std::uint32_t{f.green} << 8 | std::uint32_t{f.blue} << 16};
+  return file.words_of(words, 128);
+}
 
 std::span<const PacketHardware> packet_hardware() {
   return c_hardware;

@@ -56,6 +56,8 @@ package axi_words_pkg is
     impure function get (memory, index : natural) return word_t;
     -- A byte of a write at this address, which must be in the window.
     procedure set_byte (memory, address : natural; value : std_logic_vector(7 downto 0));
+    -- All of the memory must be as the other one. The message starts with `place` and `number`.
+    procedure compare (place : string; number : integer; memory, expected : natural);
   end protected;
 
 end package;
@@ -105,6 +107,15 @@ package body axi_words_pkg is
         report "axi_memory: write at " & to_hstring(to_unsigned(address, 32)) severity failure;
       end if;
       words(memory)(c_offset / 4)(c_low + 7 downto c_low) := value;
+    end procedure;
+
+    procedure compare (place : string; number : integer; memory, expected : natural) is
+    begin
+      for index in words_t'range loop
+        if words(memory)(index) /= words(expected)(index) then
+          check(place, number, "word " & to_string(index) & " of memory", words(memory)(index), words(expected)(index));
+        end if;
+      end loop;
     end procedure;
   end protected body;
 

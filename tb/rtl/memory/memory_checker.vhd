@@ -31,6 +31,11 @@ architecture sim of memory_checker is
   constant c_bytes    : positive := g_data_bits / 8;
   constant c_limit    : positive := 20_000; -- clocks without a transfer that count as a hang
 
+  -- Of the memory and of the sender, by turns.
+  constant c_latencies     : integer_vector(0 to 3) := (1, 30, 5, 60);
+  constant c_pauses        : integer_vector(0 to 3) := (0, 0, 1, 2);
+  constant c_source_pauses : integer_vector(0 to 3) := (0, 0, 1, 0);
+
   signal ended             : boolean := false;
   signal clk               : std_logic := '0';
   signal reset             : std_logic := '1';
@@ -52,12 +57,6 @@ architecture sim of memory_checker is
   signal drawn             : natural := 0; -- sum of pixels since start
   signal clock             : natural := 0;
   signal idle              : natural := 0;
-
-  function nth (index : natural; values : integer_vector) return natural is
-    alias list : integer_vector(0 to values'length - 1) is values;
-  begin
-    return list(index);
-  end function;
 begin
   dut : entity work.fragments_to_memory
     generic map (
@@ -162,10 +161,6 @@ begin
     variable changes   : natural;
 
     procedure read_frame is
-      variable triangle         : word_t;
-      variable y, x             : std_logic_vector(c_place_bits - 1 downto 0);
-      variable z                : std_logic_vector(c_depth_bits - 1 downto 0);
-      variable red, green, blue : channel_t;
     begin
       count   := vectors.read_number;
       kept    := vectors.read_number;
@@ -188,14 +183,7 @@ begin
       vectors.expect_end;
       for i in 0 to count - 1 loop
         vectors.expect_vector("a fragment");
-        vectors.read_word(triangle);
-        vectors.read_word(y);
-        vectors.read_word(x);
-        vectors.read_word(z);
-        vectors.read_word(red);
-        vectors.read_word(green);
-        vectors.read_word(blue);
-        fragments(i) := fragment_data(triangle, y, x, z, red, green, blue);
+        vectors.read_word(fragments(i));
       end loop;
     end procedure;
 
@@ -269,16 +257,6 @@ begin
       wait until rising_edge(clk) and done = '1';
       check("memory_checker: frame", number, "fault", fault, to_flag(error_seen));
       check("memory_checker: frame", number, "tready", tready, '0');
-    end procedure;
-
-    procedure compare is
-    begin
-      for index in 0 to c_memory_words - 1 loop
-        if memories.get(c_memory, index) /= memories.get(c_expected, index) then
-          check("memory_checker: frame " & to_string(number) & ", word", index, "memory", memories.get(c_memory, index),
-            memories.get(c_expected, index));
-        end if;
-      end loop;
     end procedure;
 
     -- A reset in the middle of a frame. Memory and unit forget what is on its way.
@@ -365,10 +343,10 @@ begin
         memories.copy(c_expected, c_memory);
 
         apply_changes;
-        latency <= nth(profile, (1, 30, 5, 60));
-        pauses  <= nth(profile, (0, 0, 1, 2));
-        draw(nth(profile, (0, 0, 1, 0)), "000");
-        compare;
+        latency <= c_latencies(profile);
+        pauses  <= c_pauses(profile);
+        draw(c_source_pauses(profile), "000");
+        memories.compare("memory_checker: frame", number, c_memory, c_expected);
         check("memory_checker: frame", number, "kept pixels", drawn, kept);
         number <= number + 1;
       end loop;
