@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers and commands as data: what is written from them, and bad data.
+// Registers and commands as data: bad data, and the files of the checkout.
 #include "sim/generator/core_registers.hpp"
 
 #include <gmock/gmock.h>
@@ -46,65 +46,6 @@ std::string with(std::string_view old, std::string_view text) {
   const std::size_t at = data.find(old);
   EXPECT_NE(at, std::string::npos) << old;
   return data.replace(at, old.size(), text);
-}
-
-TEST(CoreRegisters, AreWrittenForVhdl) {
-  EXPECT_THAT(core_registers_vhdl(core_registers(c_data, "f"), "1.2.34"),
-              HasSubstr("  constant c_identity : std_logic_vector(31 downto 0) := x\"48414C46\";\n\n"
-                        "  constant c_version_major : natural := 1;\n"
-                        "  constant c_version_minor : natural := 2;\n"
-                        "  constant c_version_patch : natural := 34;\n\n"
-                        "  constant c_address_control : natural := 24;\n"
-                        "  constant c_address_head : natural := 52;\n\n"
-                        "  -- Access of each word.\n"
-                        "  type access_t is (unmapped, ro, rw, w1c);\n"
-                        "  type accesses_t is array (0 to 63) of access_t;\n"
-                        "  constant c_accesses : accesses_t := (\n"
-                        "    6 => rw,\n"
-                        "    13 => w1c,\n"
-                        "    others => unmapped);\n\n"
-                        "  constant c_command_words : natural := 2;\n\n"
-                        "  constant c_command_first : command_field_t := (0, 0, 32);\n"
-                        "  constant c_command_width : command_field_t := (1, 0, 13);\n"
-                        "  constant c_control_enable_low : natural := 0;\n"
-                        "  constant c_control_enable_bits : natural := 1;\n"
-                        "  constant c_control_mode_low : natural := 30;\n"
-                        "  constant c_control_mode_bits : natural := 2;\n"
-                        "  constant c_control_mode_slow : natural := 1;\n"
-                        "  constant c_control_mode_fast : natural := 3;\n\n"
-                        "end package;\n"));
-}
-
-TEST(CoreRegisters, AreWrittenForC) {
-  EXPECT_THAT(core_registers_header(core_registers(c_data, "f"), "1.2.34"),
-              HasSubstr("#define HALFWAY_CORE_IDENTITY_VALUE 0x48414C46u\n"
-                        "#define HALFWAY_CORE_VERSION_VALUE 0x01020022u\n\n"
-                        "#define HALFWAY_CORE_CONTROL 0x18u\n"
-                        "#define HALFWAY_CORE_HEAD 0x34u\n"
-                        "#define HALFWAY_CORE_COMMAND_WORDS 2u\n\n"
-                        "#define HALFWAY_CORE_COMMAND_FIRST_WORD 0u\n"
-                        "#define HALFWAY_CORE_COMMAND_WIDTH_WORD 1u\n\n"
-                        "#define HALFWAY_CORE_CONTROL_ENABLE_SHIFT 0u\n"
-                        "#define HALFWAY_CORE_CONTROL_ENABLE_MASK 0x00000001u\n\n"
-                        "#define HALFWAY_CORE_CONTROL_MODE_SHIFT 30u\n"
-                        "#define HALFWAY_CORE_CONTROL_MODE_MASK 0xC0000000u\n"
-                        "#define HALFWAY_CORE_CONTROL_MODE_SLOW 1u\n"
-                        "#define HALFWAY_CORE_CONTROL_MODE_FAST 3u\n\n"
-                        "#define HALFWAY_CORE_COMMAND_FIRST_SHIFT 0u\n"
-                        "#define HALFWAY_CORE_COMMAND_FIRST_MASK 0xFFFFFFFFu\n\n"
-                        "#define HALFWAY_CORE_COMMAND_WIDTH_SHIFT 0u\n"
-                        "#define HALFWAY_CORE_COMMAND_WIDTH_MASK 0x00001FFFu\n\n"
-                        "#endif\n"));
-}
-
-TEST(CoreRegisters, AreWrittenAsTables) {
-  const CoreRegisters core = core_registers(c_data, "f");
-  EXPECT_THAT(register_table(core), HasSubstr("\n| 18 | `control` | rw | |  | start |\n"
-                                              "| | | | `enable` | 0 | take commands |\n"
-                                              "| | | | `mode` | 31:30 | mode: 1 slow, 3 fast |\n"
-                                              "| 34 | `head` | w1c | | 31:0 | number |\n"));
-  EXPECT_THAT(command_table(core), HasSubstr("\n| 0 | `first` | 31:0 | address |\n"
-                                             "| 1 | `width` | 12:0 | columns |\n"));
 }
 
 TEST(CoreRegisters, BadDataNamesFileAndLine) {
