@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <initializer_list>
 #include <iterator>
-#include <optional>
 #include <thread>
 #include <utility>
 

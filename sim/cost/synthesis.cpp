@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <tuple>

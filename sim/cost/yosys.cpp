@@ -8,7 +8,6 @@
 
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/subprocess.hpp"
 
 namespace halfway::synth {
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/driver/vectors_around.hpp"
 
-#include <utility>
-
 #include "words/processors_layout.hpp"
 
 namespace halfway {

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "common/result.hpp"
 #include "frame/frame.hpp"
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"

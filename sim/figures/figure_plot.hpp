@@ -2,7 +2,6 @@
 // Plots as SVG, by gnuplot.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>

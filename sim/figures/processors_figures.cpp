@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
-#include <utility>
 
 #include "plan/processor_count.hpp"
 #include "sim/figures/figure.hpp"

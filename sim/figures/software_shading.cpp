@@ -3,7 +3,7 @@
 
 #include <array>
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
 #include <utility>
 #include <vector>
 

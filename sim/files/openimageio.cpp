@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
-#include <utility>
 
 #include "sim/files/image_library.hpp"
 

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <vector>
-
 #include "sim/files/gnuplot.hpp"
 
 namespace halfway {

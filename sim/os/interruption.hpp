@@ -5,7 +5,6 @@
 #include <array>
 #include <csignal>
 #include <functional>
-#include <mutex>
 #include <shared_mutex>
 #include <thread>
 

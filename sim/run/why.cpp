@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/threads.hpp"

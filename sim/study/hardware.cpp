@@ -3,16 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <utility>
-#include <vector>
 
 #include "plan/own_bells.hpp"
-#include "sim/generator/word_lengths/made_tables.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/threads.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/pictures.hpp"
 
-#include <cstdlib>
-
 #include "projection/project.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"

@@ -7,7 +7,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sim/files/image.hpp"

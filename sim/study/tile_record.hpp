@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
 #include <utility>
 
 #include "sim/study/measure.hpp"
