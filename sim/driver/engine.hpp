@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,28 +32,13 @@ inline constexpr EngineKind c_engine_kinds[] = {EngineKind::ghdl, EngineKind::ve
 
 /// Name in options, files and summaries.
 constexpr const char* to_string(EngineKind kind) {
-  switch (kind) {
-    case EngineKind::ghdl:
-      return "ghdl";
-    case EngineKind::verilator:
-      return "verilator";
-    case EngineKind::lanes:
-      break;
-  }
-  return "lanes";
+  constexpr std::array c_names = {"ghdl", "verilator", "lanes"};
+  return c_names[static_cast<std::size_t>(kind)];
 }
-
 /// Name in sentences.
 constexpr const char* title(EngineKind kind) {
-  switch (kind) {
-    case EngineKind::ghdl:
-      return "GHDL";
-    case EngineKind::verilator:
-      return "Verilator";
-    case EngineKind::lanes:
-      break;
-  }
-  return "lanes";
+  constexpr std::array c_names = {"GHDL", "Verilator", "lanes"};
+  return c_names[static_cast<std::size_t>(kind)];
 }
 
 class Engine {

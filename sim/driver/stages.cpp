@@ -396,7 +396,7 @@ std::set<TracedPart> ShaderStages::parts() const {
 }
 
 std::vector<std::vector<RtlEvent>> ShaderStages::read(const SignalTrace& trace) const {
-  const std::size_t edges = trace.edges();
+  const std::size_t edges = trace.edges;
   const auto is_one = [&](const std::string& path, std::size_t edge) {
     return trace.part(path, edge, 0, 1) == 1U;
   };

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -67,13 +68,11 @@ struct TracedPart {
 };
 
 /// The signals of a simulation: their values before each rising edge of the clock.
-class SignalTrace {
- public:
-  virtual ~SignalTrace() = default;
-  virtual std::size_t edges() const = 0;
+struct SignalTrace {
+  std::size_t edges = 0;
   /// `bits` bits, 64 at most, from bit `low` up; std::nullopt if one of them is neither 0 nor 1.
-  virtual std::optional<std::uint64_t> part(const std::string& path, std::size_t edge, int low,
-                                            int bits) const = 0;
+  std::function<std::optional<std::uint64_t>(const std::string& path, std::size_t edge, int low, int bits)>
+      part{};
 };
 
 /// The stages of a key's shader in pipeline order: line, span, ..., fragment.

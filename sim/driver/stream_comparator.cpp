@@ -50,16 +50,10 @@ void StreamComparator::compare(const Fragment* golden, const Fragment* rtl, std:
 }
 
 void StreamComparator::advance() {
-  const std::size_t count = std::min(pending_golden_.size() - golden_used_, pending_rtl_.size() - rtl_used_);
-  compare(pending_golden_.data() + golden_used_, pending_rtl_.data() + rtl_used_, count);
-  golden_used_ += count;
-  rtl_used_ += count;
-  const auto drop_used = [](std::vector<Fragment>& pending, std::size_t& used) {
-    pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(used));
-    used = 0;
-  };
-  drop_used(pending_golden_, golden_used_);
-  drop_used(pending_rtl_, rtl_used_);
+  const std::size_t count = std::min(pending_golden_.size(), pending_rtl_.size());
+  compare(pending_golden_.data(), pending_rtl_.data(), count);
+  for (std::vector<Fragment>* pending : {&pending_golden_, &pending_rtl_})
+    pending->erase(pending->begin(), pending->begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void StreamComparator::finish() {

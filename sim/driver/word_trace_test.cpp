@@ -8,9 +8,10 @@ namespace {
 
 TEST(WordTrace, HasTheBitsOfEachPartAtEachEdge) {
   // The words of an edge: a flag, bits 44 to 5 of `wide`, bits 75 to 64 of `wide`.
-  const WordTrace trace({{"flag", "flag", 0, 1}, {"wide", "wide", 5, 40}, {"wide", "wide", 64, 12}},
-                        {1, 0x89abcdef, 0x12, 0x345, 0, 0xffffffff, 0, 0xfff});
-  EXPECT_EQ(trace.edges(), 2U);
+  const SignalTrace trace =
+      word_trace({{"flag", "flag", 0, 1}, {"wide", "wide", 5, 40}, {"wide", "wide", 64, 12}},
+                 {1, 0x89abcdef, 0x12, 0x345, 0, 0xffffffff, 0, 0xfff});
+  EXPECT_EQ(trace.edges, 2U);
   EXPECT_EQ(trace.part("flag", 0, 0, 1), 1U);
   EXPECT_EQ(trace.part("flag", 1, 0, 1), 0U);
   EXPECT_EQ(trace.part("wide", 0, 5, 40), 0x1289abcdefU);

@@ -118,6 +118,7 @@ std::vector<Figure> all_figures(const std::filesystem::path& source);
 std::vector<Figure> read_figures(const std::string& toml, const std::string& file,
                                  std::map<std::string, Draw> drawings);
 
+/// In the order of their names in figure.cpp.
 enum class Verdict { agrees, by_construction, ours, differs };
 const char* to_string(Verdict verdict);  ///< "agrees", "by construction", "ours", "differs"
 

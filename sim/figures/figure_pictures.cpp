@@ -18,7 +18,6 @@
 #include "sim/files/image.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/threads.hpp"
-#include "sim/run/verilator_frame.hpp"
 
 namespace halfway::figures {
 namespace {
@@ -74,25 +73,19 @@ Software draw_in_software(const Scene& scene, FrameSize size, unsigned threads) 
 
 Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize size,
                           const PlanRequest& request, const SetupOptions& options) {
-  Hardware drawn{.key = must(plan_scene(scene, request)).key};
+  HardwareKey key = must(plan_scene(scene, request)).key;
   // The option needs the units.
-  if (options.processors.normalize) drawn.key.processors.normalize = true;
+  if (options.processors.normalize) key.processors.normalize = true;
   if (context.quick) {
-    FrameDriver driver(scene, size, drawn.key, {},
+    FrameDriver driver(scene, size, key, {},
                        {.setup = options, .golden_picture = true, .workers = on_threads(context.threads)});
     must(driver.draw());
-    drawn.frame = driver.golden_frame().frame();
-    drawn.fragments = driver.fragments();
-    drawn.counts = driver.counts();
-    return drawn;
+    const FrameAssembler& golden = driver.golden_frame();
+    return {{golden.frame(), golden.mask(), driver.fragments(), 0, driver.counts()}, key};
   }
-  auto by_rtl = draw_in_verilator(scene, size, drawn.key, context.folders,
-                                  {.setup = options, .workers = on_threads(context.threads)});
-  drawn.frame = std::move(by_rtl.frame);
-  drawn.fragments = by_rtl.fragments;
-  drawn.cycles = by_rtl.cycles;
-  drawn.counts = by_rtl.counts;
-  return drawn;
+  return {draw_in_verilator(scene, size, key, context.folders,
+                            {.setup = options, .workers = on_threads(context.threads)}),
+          key};
 }
 
 Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads) {

@@ -14,8 +14,8 @@
 #include "reference/renderer.hpp"
 #include "scene/mesh.hpp"
 #include "scene/scene.hpp"
-#include "setup/setup.hpp"
 #include "sim/figures/figure.hpp"
+#include "sim/run/verilator_frame.hpp"
 
 namespace halfway::figures {
 
@@ -36,12 +36,9 @@ struct Software {
 };
 Software draw_in_software(const Scene& scene, FrameSize size, unsigned threads);
 
-struct Hardware {
-  Frame frame;
-  std::uint64_t fragments = 0;
-  std::uint64_t cycles = 0;  ///< 0 if the golden model drew
+/// A frame and the hardware that drew it. `cycles` is 0 if the golden model drew.
+struct Hardware : VerilatorFrame {
   HardwareKey key;
-  SetupCounts counts;
 };
 /// Draw by the RTL in Verilator. Each fragment is compared with the golden model's; a difference throws
 /// Failure. With Context::quick, draw by the golden model only. With ProcessorsSetupOptions::normalize, the

@@ -2,8 +2,8 @@
 #include "sim/run/stage_trace.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
-#include <utility>
 
 #include "sim/driver/limits.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
@@ -21,28 +21,17 @@ std::string in_testbench(const std::string& path) {
   return "frame_tb/dut/" + path;
 }
 
-// A trace of tb/rtl/frame_tb.vhd. GHDL writes values in full.
-class VcdTrace final : public SignalTrace {
- public:
-  explicit VcdTrace(SampledSignals sampled) : sampled_(std::move(sampled)) {}
-
-  std::size_t edges() const override { return sampled_.edges; }
-  std::optional<std::uint64_t> part(const std::string& path, std::size_t edge, int low,
-                                    int bits) const override {
-    const std::string_view value = sampled_.values.at(in_testbench(path))[edge];
-    std::uint64_t word = 0;
-    for (int i = bits - 1; i >= 0; --i) {
-      const std::size_t from_right = static_cast<std::size_t>(low + i) + 1;
-      const char bit = from_right > value.size() ? 'U' : value[value.size() - from_right];
-      if (bit != '0' && bit != '1') return std::nullopt;
-      word = word << 1 | (bit == '1' ? 1U : 0U);
-    }
-    return word;
+// The part of a value that GHDL writes in full.
+std::optional<std::uint64_t> part_of(std::string_view value, int low, int bits) {
+  std::uint64_t word = 0;
+  for (int i = bits - 1; i >= 0; --i) {
+    const std::size_t from_right = static_cast<std::size_t>(low + i) + 1;
+    const char bit = from_right > value.size() ? 'U' : value[value.size() - from_right];
+    if (bit != '0' && bit != '1') return std::nullopt;
+    word = word << 1 | (bit == '1' ? 1U : 0U);
   }
-
- private:
-  SampledSignals sampled_;
-};
+  return word;
+}
 
 }  // namespace
 
@@ -64,8 +53,11 @@ StageTrace trace_stages(const HardwareKey& key, const ShaderStages& stages, cons
   options.wave_signals.emplace_back(c_clock);
   const auto run = runner.run(init, scratch.path() / "trace", options);
   if (!run && run.error().code != ExitCode::differs) throw Failure{run.error()};
-  return {stages.read(VcdTrace(must(sample_vcd(vcd, c_clock, paths, SIZE_MAX)))),
-          run ? std::string() : run.error().message};
+  const SampledSignals sampled = must(sample_vcd(vcd, c_clock, paths, SIZE_MAX));
+  const auto part = [&](const std::string& path, std::size_t edge, int low, int bits) {
+    return part_of(sampled.values.at(in_testbench(path))[edge], low, bits);
+  };
+  return {stages.read({sampled.edges, part}), run ? std::string() : run.error().message};
 }
 
 }  // namespace halfway

@@ -38,7 +38,7 @@ void for_each_figure(Measured& m, const Visit& visit) {
   visit("mach_edges", m.mach_bands.edges);
   visit("mach_rms", m.mach_bands.rms);
   visit("mach_largest", m.mach_bands.largest);
-  for_each_setup_figure(m.setup, visit);
+  for_each_setup_figure(m.counts, visit);
   visit("host_instructions", m.host_instructions);
 }
 

@@ -7,7 +7,6 @@
 
 #include "sim/files/flip.hpp"
 #include "sim/os/must.hpp"
-#include "sim/run/verilator_frame.hpp"
 #include "sim/study/hardware.hpp"
 
 namespace halfway::study {
@@ -16,11 +15,9 @@ namespace {
 Drawing draw_in_hardware(const DesignPoint& point, const Scene& scene, const SimulatorFolders& folders,
                          const std::optional<Tile>& tile) {
   const PointHardware hardware = drawing_hardware_of(point, scene, folders);
-  const SimulatorFolders rtl_folders = rtl_of(point, scene, folders);
-  VerilatorFrame drawn = draw_in_verilator(scene, point.size, hardware.key, rtl_folders,
-                                           {.setup = point.setup(), .tile = tile, .models = hardware.models});
-  return {std::move(drawn.frame), std::move(drawn.mask), hardware.key.name(),
-          drawn.fragments,        drawn.cycles,          drawn.counts};
+  return {draw_in_verilator(scene, point.size, hardware.key, rtl_of(point, scene, folders),
+                            {.setup = point.setup(), .tile = tile, .models = hardware.models}),
+          hardware.key.name()};
 }
 
 // The pixels of another colour than the background.
@@ -70,16 +67,12 @@ Measurement measure(const Pictures& pictures, std::optional<Drawing> drawing) {
   const Frame& reference = pictures.reference.image.frame;
   m.triangles = scene.triangles.size();
   std::vector<std::uint8_t> mask = pictures.reference.image.mask;
-  if (drawing) {
-    for (std::size_t i = 0; i < drawing->mask.size(); ++i) mask[i] |= drawing->mask[i];
-    m.frame = std::move(drawing->frame);
-    m.fragments = drawing->fragments;
-    m.cycles = drawing->cycles;
-    m.hardware = std::move(drawing->hardware);
-    m.setup = drawing->setup;
-  } else {
+  if (drawing)
+    static_cast<Drawing&>(m) = std::move(*drawing);
+  else
     m.frame = reference;
-  }
+  for (std::size_t i = 0; i < m.mask.size(); ++i) mask[i] |= m.mask[i];
+  m.mask.clear();
   m.picture = must(frame_distance(m.frame, reference, mask));
   m.highlight = must(frame_distance(m.frame, reference, pictures.reference.highlight));
   m.perceived = must(perceived_pixels(m.frame, reference));

@@ -5,27 +5,21 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "frame/frame.hpp"
 #include "frame/metrics.hpp"
-#include "setup/setup.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/mesa/mesa_picture.hpp"
+#include "sim/run/verilator_frame.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/mach_bands.hpp"
 #include "sim/study/pictures.hpp"
 
 namespace halfway::study {
 
-/// The picture of a point's design and its cost, for a frame or a tile.
-struct Drawing {
-  Frame frame;
-  std::vector<std::uint8_t> mask;  ///< of covered pixels; empty: same as the reference's
-  std::string hardware;            ///< the key's name; empty in software
-  std::uint64_t fragments = 0;     ///< 0 in software
-  std::uint64_t cycles = 0;        ///< of the RTL
-  SetupCounts setup;               ///< host
+/// The picture of a point's design and its cost, for a frame or a tile. In software, fragments, cycles and
+/// counts are 0, and an empty mask stands for the reference's.
+struct Drawing : VerilatorFrame {
+  std::string hardware;  ///< the key's name; empty in software
 };
 
 /// The host's work for a frame, in time of one core of the machine that measured it.
@@ -34,17 +28,13 @@ struct HostTime {
   std::uint64_t words = 0;  ///< 32-bit words sent to the hardware; 0 in software
 };
 
-struct Measurement {
-  Frame frame;                  ///< drawn by the RTL if the method is hardware
+/// The drawing of the whole frame, without its mask. With tiles, its figures are their sums.
+struct Measurement : Drawing {
   FrameDistance picture;        ///< compared with the reference, over the pixels that either covers
   FrameDistance highlight;      ///< over the pixels of Reference::highlight
   std::uint64_t perceived = 0;  ///< pixels with a visible difference (FLIP)
   MachBands mach_bands;
   std::uint64_t triangles = 0;  ///< of the scene
-  std::uint64_t fragments = 0;  ///< 0 in software
-  std::string hardware;         ///< the key's name; empty in software
-  std::uint64_t cycles = 0;     ///< of the RTL, for the frame; with tiles: the sum
-  SetupCounts setup;            ///< host
   /// Host instructions for the frame's init vectors; std::nullopt in software, or if not counted.
   std::optional<std::uint64_t> host_instructions;
   /// Not a column of the study's table, because it varies from run to run.

@@ -312,9 +312,9 @@ TEST_F(QueryTest, ComparesCyclesAndHostWithoutCells) {
 TEST_F(QueryTest, ComparesTheHostIfAllInstructionsAreCounted) {
   // Equal to the quadratic shader except for the host: fewer evaluations, more instructions.
   Record record{{.method = Method::spherical}, records_[1].measured};
-  record.measured.setup.shaded = 0;
+  record.measured.counts.shaded = 0;
   record.measured.host_instructions = 90000;
-  records_[1].measured.setup.shaded = 6360;
+  records_[1].measured.counts.shaded = 6360;
   records_.push_back(record);
   EXPECT_THAT(ask({.largest_error = 50.0}),
               AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("front          3 of 4 points"),

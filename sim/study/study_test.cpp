@@ -69,7 +69,7 @@ TEST_F(StudyTest, MeasuresEachMethod) {
   EXPECT_GE(quadratic.cycles, quadratic.fragments);
   EXPECT_GT(quadratic.fragments, 1000U);
   EXPECT_EQ(quadratic.hardware, adaptive.hardware);
-  EXPECT_GT(adaptive.setup.leaves, quadratic.setup.leaves);
+  EXPECT_GT(adaptive.counts.leaves, quadratic.counts.leaves);
 }
 
 TEST_F(StudyTest, ContinuesAfterAnInterruption) {
@@ -317,7 +317,7 @@ TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
   EXPECT_THAT(coarse.hardware, EndsWith("-fraction4"));
   EXPECT_LT(usual.picture.rms, coarse.picture.rms);
   EXPECT_EQ(usual.fragments, coarse.fragments);
-  EXPECT_EQ(usual.setup.shaded, coarse.setup.shaded);
+  EXPECT_EQ(usual.counts.shaded, coarse.counts.shaded);
   EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1,,,,,\n"));
 }
 

@@ -29,7 +29,7 @@ template <class Counts, class Visit>
 void for_each_count(Counts& d, const Visit& visit) {
   visit("fragments", d.fragments);
   visit("cycles", d.cycles);
-  for_each_setup_figure(d.setup, visit);
+  for_each_setup_figure(d.counts, visit);
 }
 
 Frame to_picture(FrameSize size, std::span<const std::uint8_t> red, std::span<const std::uint8_t> green) {
@@ -140,7 +140,8 @@ Reference TileRecords::reference(const DesignPoint& point) const {
 
 Drawing TileRecords::drawing(const DesignPoint& point) const {
   Whole whole = put_together(point, PieceKind::tile);
-  Drawing drawing{.frame = std::move(whole.colours)};
+  Drawing drawing;
+  drawing.frame = std::move(whole.colours);
   if (point.method != Method::gouraud) drawing.mask = mask_of(whole.masks, 0);
   for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
     add_figures(file(point, PieceKind::tile, tile, c_figures), drawing);

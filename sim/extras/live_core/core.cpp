@@ -104,7 +104,7 @@ class HardwareModule final : public Engine {
       fault = "the hardware draws more fragments or takes more clocks than are recorded";
     else if (end != halfway_done)
       fault = fault_of(end).message;
-    return Observation{std::make_unique<WordTrace>(stages.parts(), std::move(words)), fault};
+    return Observation{word_trace(stages.parts(), std::move(words)), fault};
   }
 
  private:

@@ -166,7 +166,7 @@ Result<Way> LiveFrame::way(FramePixel pixel, const Observe& observe) {
   if (way.fragments() == 0) return Way{};
   const auto observed = observe(search.found().words(), way.stages(), way.fragments() + c_most_surplus);
   if (!observed) return observed.error();
-  way.compare(way.stages().read(*observed->trace));
+  way.compare(way.stages().read(observed->trace));
   return Way{way.stories(), way.first(), observed->fault};
 }
 

@@ -49,7 +49,7 @@ enum class Picture {
 
 /// A simulation of the hardware with the signals of its stages.
 struct Observation {
-  std::unique_ptr<SignalTrace> trace;
+  SignalTrace trace;
   std::string fault;  ///< empty: none
 };
 /// Draws init vectors as a single stream from reset, `most` fragments at most.

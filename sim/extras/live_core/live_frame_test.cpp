@@ -106,8 +106,7 @@ TEST(LiveFrame, TheWayOfAPixelIsThatOfItsTriangles) {
     const auto drawn = golden->draw(words);
     observed.assign(drawn.begin(), drawn.end());
     EXPECT_GE(most, observed.size());
-    return Observation{std::make_unique<WordTrace>(stages.parts(), std::vector<std::uint32_t>{}),
-                       "no events"};
+    return Observation{word_trace(stages.parts(), {}), "no events"};
   };
   const auto way = must(live.way({seen.x, seen.y}, observe));
   // The triangles of the pixel and that of the first fragment that differs are drawn, and not all others.
