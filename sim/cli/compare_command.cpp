@@ -13,7 +13,6 @@
 #include "sim/files/trace.hpp"
 #include "sim/files/trace_pair.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/folder_lock.hpp"
 #include "sim/os/must.hpp"
 #include "sim/run/result_files.hpp"
 #include "sim/run/simulate.hpp"
@@ -84,7 +83,7 @@ bool compare_scene(const std::string& scene, const CompareCommand& command, Shad
   };
   std::error_code error;
   if (!std::filesystem::is_directory(files.folder, error)) throw none("no results here");
-  const auto lock = must(FolderLock::take(files.folder, [&] { say_waiting(files.folder); }));
+  const auto lock = must(lock_folder(files.folder, [&] { say_waiting(files.folder); }));
   if (!std::filesystem::exists(files.summary(), error))
     throw none("the run was interrupted, or has not reached this scene yet");
   const auto left = read_summary(files.summary());

@@ -260,7 +260,7 @@ int run(const Folders& folders, const StudyCommand& command) {
                                     .family = command.family,
                                     .on_progress = settings.on_progress});
   });
-  return conclude(plan, study, hardware, {command.clock_mhz});
+  return conclude(plan, study, hardware, command.clock_mhz);
 }
 
 }  // namespace

@@ -22,7 +22,6 @@
 #include "sim/generator/generated_files.hpp"
 #include "sim/generator/word_lengths/compiled_sizes.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/folder_lock.hpp"
 #include "sim/os/interruption.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/printable.hpp"
@@ -275,11 +274,11 @@ class View {
 
  private:
   // Locks the folder while frames are written to it. Without images no folder is locked.
-  std::optional<FolderLock> prepare_folder(const std::string& scene) {
+  std::optional<Descriptor> prepare_folder(const std::string& scene) {
     if (!o_.images) return std::nullopt;
     o_.folder = c_.out_given ? draw_.out : ResultFiles::of(draw_.out, scene, draw_.plan).folder / "view";
     must(TemporaryFolder::make(o_.folder));
-    auto lock = must(FolderLock::take(o_.folder, [&] {
+    auto lock = must(lock_folder(o_.folder, [&] {
       say(fmt::format("waiting for {} (another halfway view draws into it)", o_.folder.string()));
     }));
     forget_frames(o_.folder);

@@ -11,11 +11,6 @@
 
 namespace halfway::synth {
 
-std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end) {
-  return fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing, command.arguments.front(),
-                     end.how(), end.output, to_string(command));
-}
-
 std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
                      const std::string& doing, const char* install) {
   const Command command{

@@ -20,9 +20,6 @@ namespace halfway::synth {
 inline constexpr std::chrono::minutes c_tool_timeout{60};
 inline constexpr const char* c_install_tools = c_hx8k.install;
 
-/// The message for a command that failed while `doing`.
-std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end);
-
 /// What the command prints. If it fails, the error has its output; `doing` and `install` are for the message.
 std::string run_tool(std::vector<std::string> arguments, const std::filesystem::path& folder,
                      const std::string& doing, const char* install = c_install_tools);

@@ -15,8 +15,6 @@
 #include <ctime>
 #include <system_error>
 
-#include "sim/os/descriptor.hpp"
-
 namespace halfway {
 namespace {
 
@@ -140,26 +138,14 @@ Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& paren
   std::string name = (parent / c_folder_prefix).string() + "XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) return cannot(code_of(errno), parent, "make a folder in it", errno);
   ::chmod(name.c_str(), 0755);
-  const int descriptor = ::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor >= 0) mark_in_use(descriptor);
-  return TemporaryFolder(std::filesystem::path(name), descriptor);
-}
-
-TemporaryFolder::TemporaryFolder(TemporaryFolder&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {
-  other.path_.clear();
-}
-
-TemporaryFolder& TemporaryFolder::operator=(TemporaryFolder&& other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
+  Descriptor in_use(::open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  mark_in_use(in_use.get());
+  return TemporaryFolder(std::filesystem::path(name), std::move(in_use));
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
   if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  if (descriptor_ >= 0) ::close(descriptor_);
 }
 
 Status TemporaryFolder::move_to(const std::filesystem::path& target) {
@@ -171,6 +157,19 @@ Status TemporaryFolder::move_to(const std::filesystem::path& target) {
   }
   if (std::filesystem::is_directory(target)) return Ok{};  // another run built the same folder first
   return tool_failed(fmt::format("{}: cannot move the build here: {}", target.string(), error.message()));
+}
+
+Result<Descriptor> lock_folder(const std::filesystem::path& folder, const std::function<void()>& on_wait) {
+  const std::filesystem::path path = folder / ".lock";
+  Descriptor lock(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644));
+  bool locked = lock.get() >= 0 && ::flock(lock.get(), LOCK_EX | LOCK_NB) == 0;
+  if (!locked && lock.get() >= 0) {
+    on_wait();
+    do locked = ::flock(lock.get(), LOCK_EX) == 0;
+    while (!locked && errno == EINTR);
+  }
+  if (locked) return lock;
+  return tool_failed(fmt::format("{}: cannot lock the folder: {}", path.string(), std::strerror(errno)));
 }
 
 Result<LineWriter> LineWriter::open(const std::filesystem::path& path) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// File access: read whole files, write atomically, hash contents, read and write long files line by line.
+// File access: read whole files, write atomically, hash contents, lock folders, read and write long files
+// line by line.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +8,14 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/result.hpp"
+#include "sim/os/descriptor.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -56,8 +59,8 @@ std::string room_note(const std::vector<std::filesystem::path>& folders);
 class TemporaryFolder {
  public:
   static Result<TemporaryFolder> make(const std::filesystem::path& parent);
-  TemporaryFolder(TemporaryFolder&& other) noexcept;
-  TemporaryFolder& operator=(TemporaryFolder&& other) noexcept;
+  TemporaryFolder(TemporaryFolder&& other) noexcept
+      : path_(std::exchange(other.path_, {})), in_use_(std::move(other.in_use_)) {}
   ~TemporaryFolder();
 
   const std::filesystem::path& path() const { return path_; }
@@ -66,10 +69,10 @@ class TemporaryFolder {
   Status move_to(const std::filesystem::path& target);
 
  private:
-  TemporaryFolder(std::filesystem::path path, int descriptor)
-      : path_(std::move(path)), descriptor_(descriptor) {}
+  TemporaryFolder(std::filesystem::path path, Descriptor in_use)
+      : path_(std::move(path)), in_use_(std::move(in_use)) {}
   std::filesystem::path path_;  ///< empty: nothing to remove
-  int descriptor_ = -1;         ///< of the folder; see mark_in_use
+  Descriptor in_use_;           ///< of the folder; see mark_in_use
 };
 
 /// Let `fill(path)` fill a new folder and rename it to `folder`, unless `folder` exists. If `fill` throws,
@@ -81,6 +84,10 @@ void make_once(const std::filesystem::path& folder, const Fill& fill) {
   fill(fresh.path());
   must(fresh.move_to(folder));
 }
+
+/// Lock the folder: another run that locks it waits until the descriptor is closed, or the process ends in
+/// any way. `on_wait` is called once if another run has the lock.
+Result<Descriptor> lock_folder(const std::filesystem::path& folder, const std::function<void()>& on_wait);
 
 /// A file of many lines, written through a large buffer under a temporary name. `commit` renames it to its
 /// final name. Without `commit` the temporary file is removed. The first error is kept and returned by
@@ -115,7 +122,6 @@ class LineReader {
   /// Read the next line without its line end (a last line without a line end counts), valid until the next
   /// call; false at the end of the file.
   Result<bool> next(std::string_view& line);
-  std::size_t line_number() const { return line_number_; }
   /// An error at the current line: `file:line: what`.
   Error at(std::string_view what) const;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/os/folder_lock.hpp"
+#include "sim/os/file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "common/test/is_error.hpp"
-#include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -17,11 +16,11 @@ namespace {
 
 TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
   auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  auto held = std::make_unique<FolderLock>(
-      must(FolderLock::take(folder.path(), [] { FAIL() << "it is not locked"; })));
+  auto held = std::make_unique<Descriptor>(
+      must(lock_folder(folder.path(), [] { FAIL() << "it is not locked"; })));
   std::atomic<bool> waited = false, taken = false;
   std::jthread second([&] {
-    const auto lock = FolderLock::take(folder.path(), [&] { waited = true; });
+    const auto lock = lock_folder(folder.path(), [&] { waited = true; });
     EXPECT_TRUE(lock);
     taken = true;
   });
@@ -34,7 +33,7 @@ TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
 }
 
 TEST(FolderLock, FailsWithoutFolder) {
-  EXPECT_TRUE(is_error(FolderLock::take("/nonexistent/folder", [] {}), "/nonexistent/folder"));
+  EXPECT_TRUE(is_error(lock_folder("/nonexistent/folder", [] {}), "/nonexistent/folder"));
 }
 
 }  // namespace

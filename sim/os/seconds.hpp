@@ -11,32 +11,28 @@
 
 namespace halfway {
 
-inline double seconds_between(std::chrono::steady_clock::time_point start,
-                              std::chrono::steady_clock::time_point end) {
-  return std::chrono::duration<double>(end - start).count();
-}
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
-  return seconds_between(start, std::chrono::steady_clock::now());
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+inline double seconds_of(clockid_t clock) {
+  timespec now{};
+  ::clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 /// Processor seconds of the calling thread since its start.
 inline double thread_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return seconds_of(CLOCK_THREAD_CPUTIME_ID);
+}
+/// Processor seconds of all threads of this process.
+inline double process_seconds() {
+  return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 /// The clocks of this machine.
 inline Clocks host_clocks() {
   const auto start = std::chrono::steady_clock::now();
   return {[start] { return seconds_since(start); }, thread_seconds};
-}
-
-/// Processor seconds of all threads of this process.
-inline double process_seconds() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 /// Processor seconds of all child processes that have ended.

@@ -20,10 +20,8 @@ Result<std::string> run_tool(Command command, const std::string& install, const 
   const auto end = run_process(command, install);
   if (!end) return end.error();
   if (end->succeeded()) return end->output;
-  return tool_failed(
-      fmt::format("{}: {} failed ({}):\n{}\n  while running: {}{}", doing, command.arguments.front(),
-                  end->how(), end->output, to_string(command),
-                  room_note({command.working_folder, std::filesystem::temp_directory_path()})));
+  return tool_failed(failed_text(doing, command, *end) +
+                     room_note({command.working_folder, std::filesystem::temp_directory_path()}));
 }
 
 Result<std::string> ask(const std::vector<std::string>& question, const std::string& install) {

@@ -113,6 +113,11 @@ std::string to_string(const Command& command) {
   return text;
 }
 
+std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end) {
+  return fmt::format("{}: {} failed ({}):\n{}\n  while running: {}", doing, command.arguments.front(),
+                     end.how(), end.output, to_string(command));
+}
+
 std::filesystem::path find_program(const std::string& name) {
   const auto runs = [](const std::filesystem::path& path) {
     struct stat status;

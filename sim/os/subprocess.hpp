@@ -50,5 +50,7 @@ std::filesystem::path find_program(const std::string& name);
 
 /// The command in shell syntax, for messages.
 std::string to_string(const Command& command);
+/// The message for a command that failed while `doing`.
+std::string failed_text(const std::string& doing, const Command& command, const ProcessEnd& end);
 
 }  // namespace halfway

@@ -20,7 +20,6 @@
 #include "sim/files/init_file.hpp"
 #include "sim/files/trace.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/folder_lock.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
@@ -52,7 +51,7 @@ class Simulation {
     const Clock::time_point start = Clock::now();
     summary_.plan = must(plan_scene(scene_, s_.plan));
     must(make_folders(files_.folder));
-    const auto lock = must(FolderLock::take(files_.folder, [this] { s_.on_wait(files_.folder); }));
+    const auto lock = must(lock_folder(files_.folder, [this] { s_.on_wait(files_.folder); }));
     forget_old_results();
     std::future<ReferenceImage> reference =
         std::async(std::launch::async, [this] { return draw_reference(); });
@@ -341,7 +340,7 @@ std::optional<std::string> SceneSummary::nothing_compared() const {
 void forget_summary(const ResultFiles& files, const std::function<void()>& on_wait) {
   std::error_code error;
   if (!std::filesystem::exists(files.summary(), error)) return;
-  const auto lock = must(FolderLock::take(files.folder, on_wait));
+  const auto lock = must(lock_folder(files.folder, on_wait));
   std::filesystem::remove(files.summary(), error);
   if (error)
     throw Failure{

@@ -62,7 +62,7 @@ TEST_F(FrameTimes, HardwareWithoutAClockHasNoTime) {
   EXPECT_EQ(frame_times_of(records_, hardware_, {})[0].times.size(), 1U);
   EXPECT_EQ(frame_times_of(records_, hardware_, {})[0].without_clock, 2U);
   // A clock can be assumed, but not for hardware that does not fit.
-  const auto assumed = frame_times_of(records_, hardware_, {.mhz = 50.0});
+  const auto assumed = frame_times_of(records_, hardware_, 50.0);
   ASSERT_EQ(assumed[0].times.size(), 2U);
   EXPECT_DOUBLE_EQ(*assumed[0].times[1].hardware_ns, 2e6);
   EXPECT_THAT(to_text(assumed[0], records_), HasSubstr("1 of hardware without a clock are left out"));

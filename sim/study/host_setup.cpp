@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,6 +26,7 @@
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/sanitizers.hpp"
+#include "sim/os/seconds.hpp"
 #include "sim/os/subprocess.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/pictures.hpp"
@@ -43,20 +43,14 @@ constexpr std::size_t c_fewest_runs = 3, c_most_runs = 100;
 constexpr double c_enough_ns = 1e8;
 constexpr int c_mesa_runs = 20;  // milliseconds each
 
-double thread_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
 // The quickest run: other work on the machine makes a run longer, never shorter.
 template <class Work>
 double quickest_ns(const Work& work) {
   double quickest = std::numeric_limits<double>::infinity(), whole = 0;
   for (std::size_t run = 0; run < c_fewest_runs || (run < c_most_runs && whole < c_enough_ns); ++run) {
-    const double start = thread_ns();
+    const double start = thread_seconds();
     work();
-    const double taken = thread_ns() - start;
+    const double taken = 1e9 * (thread_seconds() - start);
     quickest = std::min(quickest, taken);
     whole += taken;
   }

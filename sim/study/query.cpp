@@ -8,8 +8,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "sim/os/must.hpp"
@@ -17,23 +19,21 @@
 namespace halfway::study {
 namespace {
 
-struct Quantity {
-  double value;
-  std::string unit;
-};
-
-std::optional<Quantity> read_quantity(const std::string& text) {
-  Quantity quantity{};
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, quantity.value);
-  if (error != std::errc{} || !std::isfinite(quantity.value)) return std::nullopt;
-  quantity.unit.assign(rest, end);
-  while (quantity.unit.starts_with(' ')) quantity.unit.erase(0, 1);
-  return quantity;
-}
-
-Failure bad_option(const char* option, const std::string& text, const char* what) {
-  return Failure{bad_input(fmt::format("{}: '{}' is not valid; {}", option, text, what))};
+// The value of an option, a number with one of the units; std::nullopt: the option is not given. Throws
+// Failure if `is_valid` is false for the number.
+template <class IsValid>
+std::optional<double> read_quantity(const char* option, const std::string& text,
+                                    std::initializer_list<std::pair<std::string_view, double>> units,
+                                    const IsValid& is_valid, const char* what) {
+  if (text.empty()) return std::nullopt;
+  double number = 0;
+  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool right = error == std::errc{} && std::isfinite(number) && is_valid(number);
+  std::string_view unit(rest);
+  while (unit.starts_with(' ')) unit.remove_prefix(1);
+  for (const auto& [name, size] : units)
+    if (right && unit == name) return number * size;
+  throw Failure{bad_input(fmt::format("{}: '{}' is not valid; {}", option, text, what))};
 }
 
 std::string time_text(double seconds) {
@@ -194,37 +194,22 @@ std::string Demand::text() const {
 }
 
 Demand read_demand(const std::string& error, const std::string& psnr, const std::string& time) {
-  Demand demand;
-  if (!error.empty()) {
-    const auto read = read_quantity(error);
-    if (!read || !read->unit.empty() || read->value < 0 || read->value > 255)
-      throw bad_option("--error", error, "take steps of 1/255 from 0 to 255, such as 2");
-    demand.largest_error = read->value;
-  }
-  if (!psnr.empty()) {
-    const auto read = read_quantity(psnr);
-    if (!read || (!read->unit.empty() && read->unit != "dB") || read->value <= 0)
-      throw bad_option("--psnr", psnr, "take decibels above 0, such as 45");
-    demand.psnr_db = read->value;
-  }
-  if (!time.empty()) {
-    constexpr std::array c_units = {std::pair{"s", 1.0}, std::pair{"ms", 1e-3}, std::pair{"us", 1e-6},
-                                    std::pair{"ns", 1e-9}};
-    const auto read = read_quantity(time);
-    const auto unit =
-        std::ranges::find_if(c_units, [&](const auto& known) { return read && read->unit == known.first; });
-    if (unit == c_units.end() || read->value <= 0)
-      throw bad_option("--time", time, "take a time with its unit, s, ms, us or ns, such as 10ms");
-    demand.seconds = read->value * unit->second;
-  }
-  return demand;
+  const auto above_zero = [](double number) { return number > 0; };
+  return {.largest_error = read_quantity(
+              "--error", error, {{"", 1.0}}, [](double steps) { return steps >= 0 && steps <= 255; },
+              "take steps of 1/255 from 0 to 255, such as 2"),
+          .psnr_db = read_quantity("--psnr", psnr, {{"", 1.0}, {"dB", 1.0}}, above_zero,
+                                   "take decibels above 0, such as 45"),
+          .seconds = read_quantity("--time", time, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}},
+                                   above_zero,
+                                   "take a time with its unit, s, ms, us or ns, such as 10ms")};
 }
 
 std::optional<double> mhz_of(const std::string& hardware, const HardwareTable& table, Clock assumed) {
   const auto found = table.find(hardware);
-  if (found == table.end()) return assumed.mhz;
+  if (found == table.end()) return assumed;
   if (!found->second.fits) return std::nullopt;
-  return found->second.mhz ? found->second.mhz : assumed.mhz;
+  return found->second.mhz ? found->second.mhz : assumed;
 }
 
 std::vector<Market> markets_of(std::span<const Record> records, const HardwareTable& hardware, Clock clock) {

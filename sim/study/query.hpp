@@ -50,10 +50,8 @@ struct Market {
   std::vector<Offer> offers;
 };
 
-/// Assumed clock of hardware whose own clock is unknown. std::nullopt: its time is unknown too.
-struct Clock {
-  std::optional<double> mhz;
-};
+/// Assumed clock in MHz of hardware whose own clock is unknown. std::nullopt: its time is unknown too.
+using Clock = std::optional<double>;
 
 /// Clock of the hardware: its own, or the assumed one. std::nullopt if it is unknown, or if the hardware does
 /// not fit the device.

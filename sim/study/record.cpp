@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scene/lights.hpp"
+#include "sim/cost/yosys.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/mesa/mesa_picture.hpp"
 #include "sim/files/image.hpp"
@@ -56,14 +57,6 @@ Json json_of(const Provenance& p) {
           {"program", p.program},
           {"rtl", p.rtl},
           {"tools", p.tools}};
-}
-
-std::string first_line(const std::string& text) {
-  return text.substr(0, text.find('\n'));
-}
-
-std::string version_of(const char* program, const char* install) {
-  return first_line(must(ask({program, "--version"}, install)));
 }
 
 template <class Numbers>
@@ -135,9 +128,12 @@ std::string scene_hash(const Scene& scene) {
 Provenance provenance_of(const Scene& scene, const SimulatorFolders& folders) {
   std::string image_versions;
   must(image_library()).versions(image_versions);
-  std::string tools = fmt::format("{}, {}, {}", version_of("ghdl", c_install_ghdl),
-                                  version_of("verilator", c_install_verilator), image_versions);
-  if (!find_program("valgrind").empty()) tools += ", " + version_of("valgrind", c_install_valgrind);
+  const auto version = [](const char* program, const char* install) {
+    return synth::version_of(program, "--version", install);
+  };
+  std::string tools = fmt::format("{}, {}, {}", version("ghdl", c_install_ghdl),
+                                  version("verilator", c_install_verilator), image_versions);
+  if (!find_program("valgrind").empty()) tools += ", " + version("valgrind", c_install_valgrind);
   ContentHash programs;
   programs.add(must(read_file("/proc/self/exe"))).add(must(read_file(image_library_file())));
   if (mesa_lacks(folders.source).empty()) programs.add(must(read_file(mesa_program(folders.source))));

@@ -19,7 +19,6 @@
 #include "sim/study/host_setup.hpp"
 #include "sim/study/measure.hpp"
 #include "sim/study/pictures.hpp"
-#include "sim/study/pieces.hpp"
 #include "sim/study/tile_record.hpp"
 
 namespace halfway::study {
@@ -27,6 +26,39 @@ namespace {
 
 // A whole frame of a large picture and its reference take gigabytes.
 constexpr unsigned c_most_gathering = 2;
+
+// A part of the study. Any process may measure it, in any order.
+struct Piece {
+  PieceKind kind;
+  std::size_t point;       // index of the point; of a reference tile, the first point of the picture
+  std::size_t points = 1;  // of a reference tile: number of consecutive points of the picture
+  std::size_t tile = 0;    // index of the tile
+};
+
+// In the order of the points. The reference tiles of a picture precede its points.
+std::vector<Piece> pieces_of(std::span<const DesignPoint> points) {
+  std::vector<Piece> pieces;
+  std::size_t picture_end = 0;
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    if (!points[point].in_tiles()) {
+      pieces.push_back({.kind = PieceKind::point, .point = point});
+      continue;
+    }
+    const std::size_t tiles = points[point].tiles().size();
+    if (point >= picture_end) {
+      const std::string picture = points[point].picture();
+      for (picture_end = point; picture_end < points.size() && points[picture_end].picture() == picture;)
+        ++picture_end;
+      for (std::size_t tile = 0; tile < tiles; ++tile)
+        pieces.push_back({PieceKind::reference_tile, point, picture_end - point, tile});
+    }
+    if (is_drawn(points[point].method))
+      for (std::size_t tile = 0; tile < tiles; ++tile)
+        pieces.push_back({.kind = PieceKind::tile, .point = point, .tile = tile});
+    pieces.push_back({.kind = PieceKind::gathering, .point = point});
+  }
+  return pieces;
+}
 
 struct Range {
   std::size_t begin, end;
@@ -48,12 +80,6 @@ void naming(const std::string& name, const std::function<void()>& work) {
 bool is_point(const Piece& piece) {
   return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
 }
-
-// The result of a piece.
-struct Made {
-  std::optional<Record> record{};  // of a point; only figures stay in memory
-  std::size_t tiles = 0;           // tiles drawn
-};
 
 // Makes pieces and finds those that are stored.
 class Bench {
@@ -87,10 +113,11 @@ class Bench {
   }
   bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
 
-  Made make(const Piece& piece) {
-    if (is_point(piece)) return {.record = make_point(point_of(piece), piece.kind == PieceKind::gathering)};
+  // A point's record; only figures stay in memory.
+  std::optional<Record> make(const Piece& piece) {
+    if (is_point(piece)) return make_point(point_of(piece), piece.kind == PieceKind::gathering);
     make_tile(point_of(piece), piece.kind, piece.tile);
-    return {.tiles = 1};
+    return std::nullopt;
   }
 
  private:
@@ -288,13 +315,12 @@ Study run_study(const StudySettings& settings) {
   std::size_t done = 0;
   const auto each = [&](std::size_t at) {
     const Piece& piece = mine[at];
-    Made made{.record = bench.find(piece)};
-    const bool is_new = is_point(piece) ? !made.record : !bench.is_done(piece);
-    if (is_new) naming(settings.points[piece.point].name(), [&] { made = bench.make(piece); });
+    std::optional<Record> record = bench.find(piece);
+    const bool is_new = is_point(piece) ? !record : !bench.is_done(piece);
+    if (is_new) naming(settings.points[piece.point].name(), [&] { record = bench.make(piece); });
     const std::scoped_lock lock(mutex);
-    study.measured += is_new && is_point(piece);
-    study.drawn_tiles += made.tiles;
-    records[at] = std::move(made.record);
+    (is_point(piece) ? study.measured : study.drawn_tiles) += is_new;
+    records[at] = std::move(record);
     settings.on_progress(fmt::format("{} of {} {}", ++done, mine.size(),
                                      all.size() == settings.points.size() ? "points" : "points and tiles"));
   };

@@ -19,7 +19,7 @@ struct StudySettings {
   std::vector<DesignPoint> points;
   std::filesystem::path out;  ///< records of all studies are in out/points, tables in out
   unsigned threads = 1;
-  /// The sequence of pieces (pieces.hpp) is cut into `parts`. Only part `part` is measured. Part 0 of 1: all.
+  /// The sequence of pieces (study.cpp) is cut into `parts`. Only part `part` is measured. Part 0 of 1: all.
   std::size_t part = 0, parts = 1;
   SimulatorFolders folders;
   /// Drawable::hardware, if its placements are pieces of the study too. They are cut into parts separately,

@@ -119,30 +119,26 @@ void TileRecords::add_drawing(const DesignPoint& point, std::size_t tile, const 
             to_picture(drawing.frame.size, drawing.mask, {}), json);
 }
 
-struct TileRecords::Whole {
-  Frame colours, masks;
-};
-
-TileRecords::Whole TileRecords::put_together(const DesignPoint& point, PieceKind kind) const {
-  Whole whole{Frame(point.size), Frame(point.size)};
+std::pair<Frame, Frame> TileRecords::put_together(const DesignPoint& point, PieceKind kind) const {
+  Frame colours(point.size), masks(point.size);
   const std::vector<Tile> tiles = point.tiles();
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    put_tile(whole.colours, read_tile(file(point, kind, i, c_colours), tiles[i].size), tiles[i]);
-    put_tile(whole.masks, read_tile(file(point, kind, i, c_masks), tiles[i].size), tiles[i]);
+    put_tile(colours, read_tile(file(point, kind, i, c_colours), tiles[i].size), tiles[i]);
+    put_tile(masks, read_tile(file(point, kind, i, c_masks), tiles[i].size), tiles[i]);
   }
-  return whole;
+  return {std::move(colours), std::move(masks)};
 }
 
 Reference TileRecords::reference(const DesignPoint& point) const {
-  Whole whole = put_together(point, PieceKind::reference_tile);
-  return {{std::move(whole.colours), mask_of(whole.masks, 0)}, mask_of(whole.masks, 1)};
+  auto [colours, masks] = put_together(point, PieceKind::reference_tile);
+  return {{std::move(colours), mask_of(masks, 0)}, mask_of(masks, 1)};
 }
 
 Drawing TileRecords::drawing(const DesignPoint& point) const {
-  Whole whole = put_together(point, PieceKind::tile);
+  auto [colours, masks] = put_together(point, PieceKind::tile);
   Drawing drawing;
-  drawing.frame = std::move(whole.colours);
-  if (point.method != Method::gouraud) drawing.mask = mask_of(whole.masks, 0);
+  drawing.frame = std::move(colours);
+  if (point.method != Method::gouraud) drawing.mask = mask_of(masks, 0);
   for (std::size_t tile = 0; tile < point.tiles().size(); ++tile)
     add_figures(file(point, PieceKind::tile, tile, c_figures), drawing);
   return drawing;

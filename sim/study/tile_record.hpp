@@ -10,10 +10,17 @@
 
 #include "sim/study/measure.hpp"
 #include "sim/study/pictures.hpp"
-#include "sim/study/pieces.hpp"
 #include "sim/study/record.hpp"
 
 namespace halfway::study {
+
+/// A frame with tiles has one piece per tile, and one that assembles the point from them.
+enum class PieceKind {
+  point,           ///< a whole point without tiles
+  reference_tile,  ///< a tile of the reference, shared by all points of the picture
+  tile,            ///< a tile of the point's drawing
+  gathering,       ///< assembles a point; needs the tiles of the reference and of the drawing
+};
 
 /// Tiles of one study in a folder. Tiles of another provenance are ignored.
 class TileRecords {
@@ -38,8 +45,8 @@ class TileRecords {
   Drawing drawing(const DesignPoint& point) const;
 
  private:
-  struct Whole;
-  Whole put_together(const DesignPoint& point, PieceKind kind) const;
+  /// The colours and the masks of the whole frame.
+  std::pair<Frame, Frame> put_together(const DesignPoint& point, PieceKind kind) const;
   std::filesystem::path file(const DesignPoint& point, PieceKind kind, std::size_t tile,
                              const char* ending) const;
 

@@ -12,7 +12,6 @@
 #include "sim/generator/word_lengths/compiled_sizes.hpp"
 #include "sim/generator/word_lengths/format_sources.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/folder_lock.hpp"
 #include "sim/os/shared_library.hpp"
 
 namespace halfway {
@@ -69,7 +68,7 @@ Models made_models(const HardwareKey& key, const SimulatorFolders& folders) {
     // Compiling takes half a minute. Other points with the same formats wait for it.
     const fs::path locked = parent / (name + ".lock");
     must(make_folders(locked));
-    const FolderLock lock = must(FolderLock::take(locked, [] {}));
+    const Descriptor lock = must(lock_folder(locked, [] {}));
     make_once(folder, [&](const fs::path& fresh) {
       must(tables::write_files(fresh, headers));
       Command compile{.arguments = {compiler.program}, .working_folder = fresh};
