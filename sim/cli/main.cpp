@@ -29,25 +29,18 @@ int main(int argc, char** argv) {
   app.add_option("--source", folders.source, "the checkout whose rtl, tb and sim are used")
       ->capture_default_str();
   int exit_code = 0;
-  cli::add_sim(app, folders, exit_code);
-  cli::add_view(app, folders, exit_code);
+  // In the order of the help.
+  for (cli::AddCommand* add : {
+           cli::add_sim, cli::add_view,
 #ifdef HALFWAY_EXTRAS
-  cli::add_live(app, folders, exit_code);
+           cli::add_live,
 #endif
-  cli::add_compare(app, folders, exit_code);
-  cli::add_why(app, folders, exit_code);
+           cli::add_compare, cli::add_why,
 #ifdef HALFWAY_EXTRAS
-  cli::add_board_sim(app, folders, exit_code);
-  cli::add_core_sim(app, folders, exit_code);
+           cli::add_board_sim, cli::add_core_sim,
 #endif
-  cli::add_plan(app, folders, exit_code);
-  cli::add_savings(app, folders, exit_code);
-  cli::add_study(app, folders, exit_code);
-  cli::add_report(app, folders, exit_code);
-  cli::add_render(app, folders, exit_code);
-  cli::add_init(app, folders, exit_code);
-  cli::add_verilog(app, folders, exit_code);
-  cli::add_tables(app, folders, exit_code);
-  cli::add_figures(app, folders, exit_code);
+           cli::add_plan, cli::add_savings, cli::add_study, cli::add_report, cli::add_render, cli::add_init,
+           cli::add_verilog, cli::add_tables, cli::add_figures})
+    add(app, folders, exit_code);
   return cli::run_program(app, argc, argv, exit_code);
 }

@@ -109,21 +109,9 @@ class Progress {
   int last_percent_ = -1;
 };
 
-// One function per command. It adds the command to `app`; the command's callback sets `exit_code`.
-void add_sim(CLI::App& app, const Folders& folders, int& exit_code);
-void add_plan(CLI::App& app, const Folders& folders, int& exit_code);
-void add_render(CLI::App& app, const Folders& folders, int& exit_code);
-void add_init(CLI::App& app, const Folders& folders, int& exit_code);
-void add_compare(CLI::App& app, const Folders& folders, int& exit_code);
-void add_figures(CLI::App& app, const Folders& folders, int& exit_code);
-void add_view(CLI::App& app, const Folders& folders, int& exit_code);
-void add_live(CLI::App& app, const Folders& folders, int& exit_code);
-void add_savings(CLI::App& app, const Folders& folders, int& exit_code);
-void add_study(CLI::App& app, const Folders& folders, int& exit_code);
-void add_report(CLI::App& app, const Folders& folders, int& exit_code);
-void add_verilog(CLI::App& app, const Folders& folders, int& exit_code);
-void add_why(CLI::App& app, const Folders& folders, int& exit_code);
-void add_board_sim(CLI::App& app, const Folders& folders, int& exit_code);
-void add_core_sim(CLI::App& app, const Folders& folders, int& exit_code);
+/// A function per command. It adds the command to `app`; the command's callback sets `exit_code`.
+using AddCommand = void(CLI::App& app, const Folders& folders, int& exit_code);
+AddCommand add_sim, add_view, add_live, add_compare, add_why, add_board_sim, add_core_sim, add_plan,
+    add_savings, add_study, add_report, add_render, add_init, add_verilog, add_figures;
 
 }  // namespace halfway::cli

@@ -60,11 +60,6 @@ class Board {
   Progress progress_;
 };
 
-struct Drawn {
-  SceneSummary summary;
-  std::vector<std::string> notes;
-};
-
 // Preset exact of the spherical shader, with a table for each exponent of the scene: in memory for the golden
 // model, and in a copy of the RTL in the cache.
 void take_own_tables(const Scene& scene, SimulateSettings& settings,
@@ -79,8 +74,8 @@ void take_own_tables(const Scene& scene, SimulateSettings& settings,
   settings.plan.own = std::move(own);
 }
 
-Drawn draw_scene(const std::string& name, std::size_t number, const Folders& folders,
-                 SimulateSettings settings, bool own_tables, Board& board) {
+SceneSummary draw_scene(const std::string& name, std::size_t number, const Folders& folders,
+                        SimulateSettings settings, bool own_tables, Board& board) {
   board.show(number, "loading");
   const Scene scene = must(load_scene(name, folders.scenes()));
   std::optional<tables::MadeTables> made;
@@ -94,11 +89,11 @@ Drawn draw_scene(const std::string& name, std::size_t number, const Folders& fol
   };
   auto summary = caught([&] { return simulate(scene, settings); });
   board.show(number, "");
-  return {must(std::move(summary)), scene.notes};
+  return must(std::move(summary));
 }
 
 // The scene's outcome, when it is drawn. Each exception becomes an error.
-Result<Drawn> outcome_of(std::promise<Drawn>& promise) {
+Result<SceneSummary> outcome_of(std::promise<SceneSummary>& promise) {
   try {
     return promise.get_future().get();
   } catch (const Failure& failure) {
@@ -112,21 +107,20 @@ Result<Drawn> outcome_of(std::promise<Drawn>& promise) {
 }
 
 // Returns true if at least one fragment was compared and all are equal.
-bool print(const Drawn& drawn) {
-  for (const auto* notes : {&drawn.notes, &drawn.summary.notes})
-    for (const std::string& note : *notes) say(note);
-  fmt::print("{}\n", printable(to_line(drawn.summary)));
+bool print(const SceneSummary& summary) {
+  for (const std::string& note : summary.notes) say(note);
+  fmt::print("{}\n", printable(to_line(summary)));
   std::fflush(stdout);
-  for (const SimulatorRun& run : drawn.summary.runs) {
+  for (const SimulatorRun& run : summary.runs) {
     if (run.equal()) continue;
-    say(fmt::format("{}: {} differs from the golden model", drawn.summary.scene, run.simulator));
+    say(fmt::format("{}: {} differs from the golden model", summary.scene, run.simulator));
     if (!run.fault.empty()) say("  " + run.fault);
     fmt::print(stderr, "{}", run.description);
     for (const auto& path : run.evidence) say("  see " + path);
   }
-  const auto nothing = drawn.summary.nothing_compared();
-  if (nothing) say(fmt::format("{}: {}", drawn.summary.scene, *nothing));
-  return drawn.summary.equal() && !nothing;
+  const auto nothing = summary.nothing_compared();
+  if (nothing) say(fmt::format("{}: {}", summary.scene, *nothing));
+  return summary.equal() && !nothing;
 }
 
 int run(const Folders& folders, const SimOptions& options) {
@@ -161,7 +155,7 @@ int run(const Folders& folders, const SimOptions& options) {
   const unsigned workers = std::clamp<unsigned>(static_cast<unsigned>(scenes.size()), 1, draw.threads);
   settings.threads = std::max(1U, draw.threads / workers);
   Board board(scenes);
-  std::vector<std::promise<Drawn>> outcomes(scenes.size());
+  std::vector<std::promise<SceneSummary>> outcomes(scenes.size());
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> stop = false;
   std::vector<std::jthread> pool;

@@ -37,24 +37,6 @@ std::string with_prefix(const std::string& netlist) {
   return std::regex_replace(netlist, c_name, fmt::format("$&{}", c_prefix));
 }
 
-struct Port {
-  std::string direction, name;
-  unsigned bits;
-};
-
-// The ports of the module, in the netlist's order.
-std::vector<Port> ports_of(const std::string& netlist, const std::string& top) {
-  static const std::regex c_port(R"((input|output)\s+(?:\[(\d+):0\]\s+)?(\w+))");
-  const std::size_t begin = netlist.find("\nmodule " + top + "\n");
-  if (begin == std::string::npos) return {};
-  const std::string header = netlist.substr(begin, netlist.find(';', begin) - begin);
-  std::vector<Port> ports;
-  for (std::sregex_iterator at(header.begin(), header.end(), c_port), last; at != last; ++at)
-    ports.push_back(
-        {(*at)[1], (*at)[3], (*at)[2].matched ? static_cast<unsigned>(std::stoul((*at)[2].str())) + 1 : 1U});
-  return ports;
-}
-
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 Generics generics_of(const HardwareKey& key, const std::string& top, const VerilogCommand& command) {
@@ -68,7 +50,7 @@ Generics generics_of(const HardwareKey& key, const std::string& top, const Veril
 }
 
 std::string header(const VerilogCommand& command, const HardwareKey& key, const std::string& top,
-                   const std::string& module, const Generics& generics, const std::vector<Port>& ports,
+                   const std::string& module, const Generics& generics, const std::vector<ModulePort>& ports,
                    const std::string& version) {
   std::string text = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}, hardware key {}: written by Halfway {} with\n"
@@ -82,8 +64,8 @@ std::string header(const VerilogCommand& command, const HardwareKey& key, const 
                                         : std::string());
   for (const auto& [name, value] : generics) text += fmt::format(" {}={}", name, value);
   text += "\n// Ports, in this order:\n";
-  for (const Port& port : ports)
-    text += fmt::format("//   {:<6}  {:>5}  {}\n", port.direction, port.bits, port.name);
+  for (const ModulePort& port : ports)
+    text += fmt::format("//   {:<6}  {:>5}  {}\n", port.is_output ? "output" : "input", port.bits, port.name);
   return text;
 }
 
@@ -97,7 +79,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const Generics generics = generics_of(key, top, command);
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = with_prefix(must(mend_netlist(must(library.synthesize(top, generics)))));
-  const std::vector<Port> ports = ports_of(netlist, module);
+  const std::vector<ModulePort> ports = ports_of(netlist, module);
   if (ports.empty())
     throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), module))};
 

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <tuple>
 
 #include "sim/cost/generic_cells.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/engines/verilator/netlist.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
@@ -37,12 +37,6 @@ std::string number_of(std::string_view version) {
   return std::string(version.substr(from, version.find_first_of(" )\n", from) - from));
 }
 
-struct Port {
-  std::string name;
-  bool output = false;
-  unsigned bits = 1;
-};
-
 // A model of the ECP5's multiplier as Yosys's dsp_map.v connects it: without registers. Yosys has none.
 std::string multiplier_model() {
   const auto list = [](char letter, int bits) {
@@ -57,28 +51,14 @@ std::string multiplier_model() {
       list('A', 18), list('B', 18), list('C', 18), list('P', 36));
 }
 
-std::vector<Port> ports_of(std::string_view netlist, std::string_view top) {
-  const std::size_t at = netlist.find(fmt::format("module {}\n", top));
-  const std::size_t end = at == std::string_view::npos ? at : netlist.find(';', at);
-  if (end == std::string_view::npos)
-    throw Failure{tool_failed(fmt::format("{}: the netlist has no such module", top))};
-  static const std::regex c_port(R"((input|output) +(?:\[(\d+):0\] *)?(\w+))");
-  std::vector<Port> ports;
-  const std::string head(netlist.substr(at, end - at));
-  for (std::sregex_iterator it(head.begin(), head.end(), c_port), last; it != last; ++it) {
-    const std::string highest = (*it)[2];
-    ports.push_back({(*it)[3], (*it)[1] == "output",
-                     highest.empty() ? 1U : static_cast<unsigned>(std::stoul(highest)) + 1});
-  }
-  return ports;
-}
-
 }  // namespace
 
 std::string wrapper(std::string_view netlist, std::string_view top, unsigned most_inputs) {
   unsigned inputs = 0, outputs = 0;
   std::string wires, pins, connections;
-  for (const Port& port : ports_of(netlist, top)) {
+  const std::vector<ModulePort> ports = ports_of(netlist, top);
+  if (ports.empty()) throw Failure{tool_failed(fmt::format("{}: the netlist has no such module", top))};
+  for (const ModulePort& port : ports) {
     const bool is_clock = port.name == "clk" || port.name == "aclk";
     connections += fmt::format(",\n    .{}({})", port.name, is_clock ? "clk" : port.name);
     if (is_clock) continue;
@@ -86,7 +66,7 @@ std::string wrapper(std::string_view netlist, std::string_view top, unsigned mos
       wires += fmt::format("  wire [{}:0] {};\n", port.bits - 1, port.name);
     else
       wires += fmt::format("  wire {};\n", port.name);
-    if (port.output) {
+    if (port.is_output) {
       pins = port.name + (pins.empty() ? "" : ", ") + pins;
       outputs += port.bits;
       continue;

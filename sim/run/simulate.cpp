@@ -45,6 +45,7 @@ class Simulation {
     summary_.all_effects = s_.plan.all_effects;
     summary_.size = s_.size;
     summary_.triangles = scene.triangles.size();
+    summary_.notes = scene.notes;
   }
 
   SceneSummary run() {

@@ -47,7 +47,7 @@ struct SceneSummary {
   std::uint64_t fragments = 0;  ///< golden
   std::vector<SimulatorRun> runs;
   FrameDistance accuracy;          ///< golden frame and reference, over the pixels that either covers
-  std::vector<std::string> notes;  ///< remarks for a reader of the figures
+  std::vector<std::string> notes;  ///< of the scene, and remarks for a reader of the figures
   double setup_seconds = 0.0, golden_seconds = 0.0, seconds = 0.0;
   bool equal() const;
   /// std::nullopt if some fragment was compared, or if the scene has none and the reference agrees. Otherwise

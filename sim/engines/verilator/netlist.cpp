@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <regex>
 #include <string>
@@ -109,14 +110,22 @@ bool ends_always(std::string_view text) {
 
 }  // namespace
 
-unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port) {
+std::vector<ModulePort> ports_of(std::string_view netlist, std::string_view top) {
+  static const std::regex c_port(R"((input|output) +(?:\[(\d+):0\] *)?(\w+))");
   const std::size_t begin = netlist.find(fmt::format("module {}\n", top));
-  if (begin == std::string_view::npos) return 0;
-  const std::string_view ports = netlist.substr(begin, netlist.find(");", begin) - begin);
-  const std::regex declaration(fmt::format(R"((input|output) +(\[(\d+):0\] +)?{}\b)", port));
-  std::cmatch found;
-  if (!std::regex_search(ports.data(), ports.data() + ports.size(), found, declaration)) return 0;
-  return found[3].matched ? static_cast<unsigned>(std::stoul(found[3])) + 1 : 1;
+  if (begin == std::string_view::npos) return {};
+  const std::string head(netlist.substr(begin, netlist.find(';', begin) - begin));
+  std::vector<ModulePort> ports;
+  for (std::sregex_iterator at(head.begin(), head.end(), c_port), last; at != last; ++at)
+    ports.push_back({(*at)[3], (*at)[1] == "output",
+                     (*at)[2].matched ? static_cast<unsigned>(std::stoul((*at)[2])) + 1 : 1U});
+  return ports;
+}
+
+unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port) {
+  const std::vector<ModulePort> ports = ports_of(netlist, top);
+  const auto found = std::ranges::find(ports, port, &ModulePort::name);
+  return found == ports.end() ? 0 : found->bits;
 }
 
 Result<std::string> mend_netlist(std::string_view netlist) {

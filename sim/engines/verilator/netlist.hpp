@@ -6,11 +6,19 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/result.hpp"
 
 namespace halfway {
 
+struct ModulePort {
+  std::string name;
+  bool is_output = false;
+  unsigned bits = 1;
+};
+/// The ports of module `top` in the netlist's order; none if the module does not exist.
+std::vector<ModulePort> ports_of(std::string_view netlist, std::string_view top);
 /// The width of a port of module `top`; 0 if the port does not exist.
 unsigned port_bits(std::string_view netlist, std::string_view top, std::string_view port);
 
