@@ -43,6 +43,16 @@ inline std::vector<Tile> tiles_of(FrameSize frame, FrameSize tile) {
   return tiles;
 }
 
+/// The tile's part of the frame.
+inline Frame cut_tile(const Frame& frame, const Tile& tile) {
+  Frame picture(tile.size);
+  for (std::uint32_t y = 0; y < tile.size.height; ++y)
+    std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(tile.x, tile.y + y)),
+                3 * std::size_t{tile.size.width},
+                picture.rgb.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)));
+  return picture;
+}
+
 /// Copies a tile's picture, of the tile's size, to its place in the frame.
 inline void put_tile(Frame& frame, const Frame& picture, const Tile& tile) {
   for (std::uint32_t y = 0; y < tile.size.height; ++y)

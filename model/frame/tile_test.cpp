@@ -47,6 +47,7 @@ TEST(Tiles, AssembleToTheFrame) {
       for (std::uint32_t x = 0; x < tile.size.width; ++x)
         for (std::size_t k = 0; k < 3; ++k)
           part.rgb[part.offset(x, y) + k] = frame.rgb[frame.offset(tile.x + x, tile.y + y) + k];
+    EXPECT_EQ(cut_tile(frame, tile).rgb, part.rgb);
     put_tile(again, part, tile);
   }
   EXPECT_EQ(again.rgb, frame.rgb);

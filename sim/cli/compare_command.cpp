@@ -11,7 +11,6 @@
 #include "sim/driver/stream_comparator.hpp"
 #include "sim/files/image.hpp"
 #include "sim/files/trace.hpp"
-#include "sim/files/trace_pair.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/run/result_files.hpp"
@@ -32,9 +31,7 @@ std::string compare_traces(const std::filesystem::path& golden_path, const std::
                            StreamComparator& comparator) {
   auto golden = must(TraceReader::open(golden_path, {}));
   auto rtl = must(TraceReader::open(rtl_path, golden.key_name()));
-  must(read_side_by_side(
-      golden, &rtl, [&](auto fragments) { comparator.add_golden(fragments); },
-      [&](auto fragments) { comparator.add_rtl(fragments); }));
+  must(read_side_by_side(golden, rtl, [&](auto expected, auto drawn) { comparator.add(expected, drawn); }));
   comparator.finish();
   return golden.key_name();
 }

@@ -12,16 +12,6 @@ std::array<std::uint32_t, 7> fields(const Fragment& f) {
   return {f.triangle, f.y, f.x, f.z, f.red, f.green, f.blue};
 }
 
-void StreamComparator::add_golden(std::span<const Fragment> fragments) {
-  pending_golden_.insert(pending_golden_.end(), fragments.begin(), fragments.end());
-  advance();
-}
-
-void StreamComparator::add_rtl(std::span<const Fragment> fragments) {
-  pending_rtl_.insert(pending_rtl_.end(), fragments.begin(), fragments.end());
-  advance();
-}
-
 void StreamComparator::add(std::span<const Fragment> golden, std::span<const Fragment> rtl) {
   if (pending_golden_.empty() && pending_rtl_.empty()) {
     const std::size_t count = std::min(golden.size(), rtl.size());
@@ -29,8 +19,12 @@ void StreamComparator::add(std::span<const Fragment> golden, std::span<const Fra
     golden = golden.subspan(count);
     rtl = rtl.subspan(count);
   }
-  add_golden(golden);
-  add_rtl(rtl);
+  pending_golden_.insert(pending_golden_.end(), golden.begin(), golden.end());
+  pending_rtl_.insert(pending_rtl_.end(), rtl.begin(), rtl.end());
+  const std::size_t count = std::min(pending_golden_.size(), pending_rtl_.size());
+  compare(pending_golden_.data(), pending_rtl_.data(), count);
+  for (std::vector<Fragment>* pending : {&pending_golden_, &pending_rtl_})
+    pending->erase(pending->begin(), pending->begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void StreamComparator::compare(const Fragment* golden, const Fragment* rtl, std::size_t count) {
@@ -47,13 +41,6 @@ void StreamComparator::compare(const Fragment* golden, const Fragment* rtl, std:
       ++compared_;
     }
   }
-}
-
-void StreamComparator::advance() {
-  const std::size_t count = std::min(pending_golden_.size(), pending_rtl_.size());
-  compare(pending_golden_.data(), pending_rtl_.data(), count);
-  for (std::vector<Fragment>* pending : {&pending_golden_, &pending_rtl_})
-    pending->erase(pending->begin(), pending->begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void StreamComparator::finish() {

@@ -27,9 +27,7 @@ std::array<std::uint32_t, 7> fields(const Fragment& fragment);
 
 class StreamComparator {
  public:
-  void add_golden(std::span<const Fragment> fragments);
-  void add_rtl(std::span<const Fragment> fragments);
-  /// Append equally many fragments of both streams, without copying the equal ones.
+  /// Append fragments of both streams. Those whose counterparts are there are not copied.
   void add(std::span<const Fragment> golden, std::span<const Fragment> rtl);
   /// End both streams. Fragments without a counterpart count as mismatches.
   void finish();
@@ -45,7 +43,6 @@ class StreamComparator {
   std::string describe(std::string_view rtl_name) const;
 
  private:
-  void advance();
   void compare(const Fragment* golden, const Fragment* rtl, std::size_t count);
   void note(const std::optional<Fragment>& golden, const std::optional<Fragment>& rtl);
 

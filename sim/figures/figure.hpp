@@ -109,6 +109,8 @@ struct Figure {
 std::map<std::string, Draw> spherical_drawings();
 std::map<std::string, Draw> quadratic_drawings();
 std::map<std::string, Draw> processors_drawings();
+/// Figure 17 of the spherical paper: timing of its line interpolator, ROM and multiplier, from their delays.
+void draw_figure_17(const Context& context, Drawing& out);
 
 // The functions below throw Failure.
 

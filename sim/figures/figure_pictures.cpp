@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "frame/assemble.hpp"
+#include "frame/tile.hpp"
 #include "reference/visible_pixels.hpp"
 #include "scene/builtin_meshes.hpp"
 #include "scene/camera.hpp"
@@ -125,11 +126,8 @@ Frame sheet(std::span<const Frame> frames, std::uint32_t columns) {
   Frame whole({columns * (one.width + c_gap) - c_gap, rows * (one.height + c_gap) - c_gap});
   std::fill(whole.rgb.begin(), whole.rgb.end(), std::uint8_t{255});
   for (std::uint32_t i = 0; i < count; ++i)
-    for (std::uint32_t y = 0; y < one.height; ++y)
-      std::copy_n(
-          &frames[i].rgb[frames[i].offset(0, y)], std::size_t{3} * one.width,
-          &whole
-               .rgb[whole.offset(i % columns * (one.width + c_gap), i / columns * (one.height + c_gap) + y)]);
+    put_tile(whole, frames[i],
+             {i % columns * (one.width + c_gap), i / columns * (one.height + c_gap), one});
   return whole;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/figures/interpolator_timing.hpp"
-
+// Figure 17 of the spherical paper.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/figures/figure.hpp"
 #include "sim/figures/figure_plot.hpp"
 #include "sim/files/timing_diagram.hpp"
 #include "words/generator/cosine.hpp"

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "plan/processor_count.hpp"
 #include "sim/figures/figure.hpp"
@@ -130,11 +131,8 @@ void draw_table_3(const Context& context, Drawing& out) {
 
 // ---- Table 4 ----
 
-struct Table4Row {
-  const char* what;
-  const char* run;  // name in tb/rtl/illumination/table4_tb.vhd
-};
-constexpr std::array<Table4Row, 8> c_table_4 = {
+// The claims, and the names of the runs in tb/rtl/illumination/table4_tb.vhd.
+constexpr std::array<std::pair<const char*, const char*>, 8> c_table_4 = {
     {{"ambient, version I", "ambient, version I"},
      {"ambient, version II", "ambient, version II"},
      {"ambient, and normalization of N (version II)", "ambient and normalization"},
@@ -168,12 +166,12 @@ std::map<std::string, int> clocks_in_ghdl(const Context& context) {
 void draw_table_4(const Context& context, Drawing& out) {
   if (context.quick) return;
   const auto clocks = clocks_in_ghdl(context);
-  for (const Table4Row& row : c_table_4) {
-    const auto published = clocks.find(fmt::format("{}, published", row.run)),
-               exact = clocks.find(fmt::format("{}, exact", row.run));
+  for (const auto& [what, run] : c_table_4) {
+    const auto published = clocks.find(fmt::format("{}, published", run)),
+               exact = clocks.find(fmt::format("{}, exact", run));
     if (published == clocks.end() || exact == clocks.end())
-      throw Failure{tool_failed(fmt::format("table4_tb: has no run of '{}'", row.run))};
-    out.measured[row.what] = constructed(published->second, "{} (preset exact {})", exact->second);
+      throw Failure{tool_failed(fmt::format("table4_tb: has no run of '{}'", run))};
+    out.measured[what] = constructed(published->second, "{} (preset exact {})", exact->second);
   }
 }
 

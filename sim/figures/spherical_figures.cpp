@@ -22,7 +22,6 @@
 #include "sim/figures/figure.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/figure_plot.hpp"
-#include "sim/figures/interpolator_timing.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/threads.hpp"
 #include "words/generator/cosine.hpp"
@@ -128,10 +127,8 @@ void draw_figure_9(const Context& context, Drawing& out) {
             out);
 }
 
-struct TableRow {
-  double exponent, scale;
-};
-constexpr std::array<TableRow, 7> c_table_1 = {
+// Exponent and scale.
+constexpr std::array<std::pair<double, double>, 7> c_table_1 = {
     {{2, 1.0}, {5, 1.4502}, {10, 1.9845}, {20, 2.7582}, {50, 4.3143}, {100, 6.0791}, {500, 13.5535}}};
 
 // The integral of cos² ax sin x over the bell, by Simpson's rule.
@@ -330,14 +327,6 @@ void draw_figure_14(const Context& context, Drawing& out) {
                "Spheres of exponents 5, 10 and 20: highlights by cosⁿ above, by cos² ax below", out);
 }
 
-Frame cut(const Frame& frame, std::uint32_t left, std::uint32_t top, FrameSize size) {
-  Frame part(size);
-  for (std::uint32_t y = 0; y < size.height; ++y)
-    std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(left, top + y)), 3 * size.width,
-                part.rgb.begin() + static_cast<std::ptrdiff_t>(part.offset(0, y)));
-  return part;
-}
-
 constexpr FrameSize c_rings_frame{640, 480};
 
 // Rings around highlights, caused by small tables. Measured in discs around the highlights of the scene
@@ -386,7 +375,7 @@ void draw_figure_15(const Context& context, Drawing& out) {
   std::vector<Frame> parts;
   const auto draw = [&](const PlanRequest& plan) {
     Frame frame = draw_in_hardware(context, scene, c_rings_frame, plan).frame;
-    parts.push_back(cut(frame, 252, 157, {136, 136}));
+    parts.push_back(cut_tile(frame, {252, 157, {136, 136}}));
     return frame;
   };
   std::array<Rings, 2> rings;

@@ -9,8 +9,10 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "common/to_integer.hpp"
+#include "frame/tile.hpp"
 
 namespace halfway {
 namespace {
@@ -65,37 +67,28 @@ double hyab_distance(glm::dvec3 a, glm::dvec3 b) {
 
 // ---- Filters
 
-// One line of samples. The centre is at index radius().
-struct Kernel {
-  std::vector<double> taps;
-  int radius() const { return static_cast<int>(taps.size() / 2); }
-};
+// One line of samples, the same number on both sides of the centre.
+using Kernel = std::vector<double>;
 
 template <class Function>
 Kernel sampled_kernel(int radius, const Function& f) {
   Kernel kernel;
-  for (int x = -radius; x <= radius; ++x) kernel.taps.push_back(f(static_cast<double>(x)));
+  for (int x = -radius; x <= radius; ++x) kernel.push_back(f(static_cast<double>(x)));
   return kernel;
-}
-
-double sum_of(const Kernel& kernel) {
-  double sum = 0;
-  for (const double tap : kernel.taps) sum += tap;
-  return sum;
 }
 
 using Plane = std::vector<double>;
 
 // Filter each line. Outside the picture its nearest pixel counts.
 Plane filtered_across(const Plane& in, FrameSize size, const Kernel& kernel) {
-  const std::size_t width = size.width, radius = static_cast<std::size_t>(kernel.radius());
+  const std::size_t width = size.width, radius = kernel.size() / 2;
   Plane out(in.size()), line(width + 2 * radius);
   for (std::size_t start = 0; start < in.size(); start += width) {
     std::fill_n(line.begin(), radius, in[start]);
     std::copy_n(&in[start], width, &line[radius]);
     std::fill_n(&line[radius + width], radius, in[start + width - 1]);
-    for (std::size_t tap = 0; tap < kernel.taps.size(); ++tap)
-      for (std::size_t x = 0; x < width; ++x) out[start + x] += kernel.taps[tap] * line[x + tap];
+    for (std::size_t tap = 0; tap < kernel.size(); ++tap)
+      for (std::size_t x = 0; x < width; ++x) out[start + x] += kernel[tap] * line[x + tap];
   }
   return out;
 }
@@ -103,14 +96,14 @@ Plane filtered_across(const Plane& in, FrameSize size, const Kernel& kernel) {
 // Filter each column.
 Plane filtered_down(const Plane& in, FrameSize size, const Kernel& kernel) {
   const std::size_t width = size.width;
-  const int height = static_cast<int>(size.height), radius = kernel.radius();
+  const int height = static_cast<int>(size.height), radius = static_cast<int>(kernel.size() / 2);
   Plane out(in.size());
   for (int y = 0; y < height; ++y)
-    for (std::size_t tap = 0; tap < kernel.taps.size(); ++tap) {
+    for (std::size_t tap = 0; tap < kernel.size(); ++tap) {
       const int from_y = std::clamp(y + static_cast<int>(tap) - radius, 0, height - 1);
       const double* from = &in[static_cast<std::size_t>(from_y) * width];
       double* to = &out[static_cast<std::size_t>(y) * width];
-      for (std::size_t x = 0; x < width; ++x) to[x] += kernel.taps[tap] * from[x];
+      for (std::size_t x = 0; x < width; ++x) to[x] += kernel[tap] * from[x];
     }
   return out;
 }
@@ -137,7 +130,7 @@ Plane seen_plane(const Plane& in, FrameSize size, const Sensitivity& sensitivity
       const double degrees = x / c_pixels_per_degree;
       return std::exp(-pi * pi * degrees * degrees / b);
     });
-    const double weight = a * std::sqrt(pi / b), sum = sum_of(kernel);
+    const double weight = a * std::sqrt(pi / b), sum = std::accumulate(kernel.begin(), kernel.end(), 0.0);
     whole += weight * sum * sum;
     const Plane part = filtered(in, size, kernel, kernel);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += weight * part[i];
@@ -154,8 +147,8 @@ struct FeatureKernels {
 
 Kernel balanced(Kernel kernel) {
   double positive = 0, negative = 0;
-  for (const double tap : kernel.taps) (tap > 0 ? positive : negative) += tap;
-  for (double& tap : kernel.taps) tap /= tap > 0 ? positive : -negative;
+  for (const double tap : kernel) (tap > 0 ? positive : negative) += tap;
+  for (double& tap : kernel) tap /= tap > 0 ? positive : -negative;
   return kernel;
 }
 
@@ -168,8 +161,8 @@ FeatureKernels feature_kernels() {
       sampled_kernel(radius, gaussian),
       balanced(sampled_kernel(radius, [&](double x) { return -x * gaussian(x); })),
       balanced(sampled_kernel(radius, [&](double x) { return (x * x / variance - 1) * gaussian(x); }))};
-  const double sum = sum_of(kernels.smooth);
-  for (double& tap : kernels.smooth.taps) tap /= sum;
+  const double sum = std::accumulate(kernels.smooth.begin(), kernels.smooth.end(), 0.0);
+  for (double& tap : kernels.smooth) tap /= sum;
   return kernels;
 }
 
@@ -186,13 +179,6 @@ Plane feature(const Plane& achromatic, FrameSize size, const Kernel& derivative,
 
 constexpr std::uint32_t c_band = 128;  // lines
 constexpr std::uint32_t c_reach = 10;  // lines that a filter reads above and below a pixel
-
-Frame lines_of(const Frame& frame, std::uint32_t first, std::uint32_t end) {
-  Frame lines({frame.size.width, end - first});
-  std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(0, first)), lines.rgb.size(),
-              lines.rgb.begin());
-  return lines;
-}
 
 struct Parts {
   std::vector<glm::dvec3> colours;  // filtered, in CIELAB with the Hunt effect
@@ -249,7 +235,8 @@ Result<std::vector<double>> flip_errors(const Frame& reference, const Frame& tes
   for (std::uint32_t first = 0; first < height; first += c_band) {
     const std::uint32_t last = std::min(height, first + c_band);
     const std::uint32_t top = first - std::min(first, c_reach), bottom = std::min(height, last + c_reach);
-    const Parts a = parts_of(lines_of(reference, top, bottom)), b = parts_of(lines_of(test, top, bottom));
+    const Tile band{0, top, {width, bottom - top}};
+    const Parts a = parts_of(cut_tile(reference, band)), b = parts_of(cut_tile(test, band));
     for (std::size_t i = std::size_t{first - top} * width; i < std::size_t{last - top} * width; ++i) {
       const double colour = flip_error_of_distance(hyab_distance(a.colours[i], b.colours[i]));
       const double change = std::max(std::abs(a.edges[i] - b.edges[i]), std::abs(a.points[i] - b.points[i]));

@@ -29,9 +29,6 @@ struct InitStream {
 
   std::size_t words_per_vector() const { return (bits + 31) / 32; }
   std::size_t size() const { return bits == 0 ? 0 : words.size() / words_per_vector(); }
-  std::span<const std::uint32_t> vector(std::size_t index) const {
-    return std::span(words).subspan(index * words_per_vector(), words_per_vector());
-  }
 };
 
 inline constexpr unsigned c_most_init_bits = 1U << 16;

@@ -103,6 +103,21 @@ std::function<Result<std::span<const Fragment>>(std::size_t most)> stored_fragme
   };
 }
 
+Status read_side_by_side(
+    TraceReader& golden, TraceReader& rtl,
+    const std::function<void(std::span<const Fragment> golden, std::span<const Fragment> rtl)>& each) {
+  constexpr std::size_t c_chunk = 1 << 16;  // fragments
+  std::vector<Fragment> of_golden, of_rtl;
+  do {
+    of_golden.clear();
+    of_rtl.clear();
+    if (const auto count = golden.read(of_golden, c_chunk); !count) return count.error();
+    if (const auto count = rtl.read(of_rtl, c_chunk); !count) return count.error();
+    each(of_golden, of_rtl);
+  } while (!of_golden.empty() || !of_rtl.empty());
+  return Ok{};
+}
+
 Status write_trace(const std::filesystem::path& path, std::string_view key_name, const Trace& trace) {
   auto writer = TraceWriter::open(path, key_name);
   if (!writer) return writer.error();

@@ -65,6 +65,11 @@ class TraceReader {
 std::function<Result<std::span<const Fragment>>(std::size_t most)> stored_fragments(
     const std::filesystem::path& path);
 
+/// Gives the fragments of both traces to `each`, chunk by chunk, to the ends of both.
+Status read_side_by_side(
+    TraceReader& golden, TraceReader& rtl,
+    const std::function<void(std::span<const Fragment> golden, std::span<const Fragment> rtl)>& each);
+
 Status write_trace(const std::filesystem::path& path, std::string_view key_name, const Trace& trace);
 Result<Trace> read_trace(const std::filesystem::path& path, std::string_view key_name);
 

@@ -29,29 +29,23 @@ struct TablesSettings {
   tables::CosineSizes sizes;
 };
 
-std::optional<int> whole_number(const std::string& text, int smallest, int largest) {
-  int number = 0;
-  const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || rest != text.data() + text.size() || number < smallest || number > largest)
-    return std::nullopt;
-  return number;
-}
-
-Result<TablesSettings> checked(const TablesOptions& o) {
+TablesSettings checked(const TablesOptions& o) {
   if (o.preset != "exact" && o.preset != "published")
-    return bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset));
+    throw Failure{
+        bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset))};
   TablesSettings s{o.preset == "exact", {}};
   tables::CosineSize& size = (s.exact ? s.sizes.exact : s.sizes.published).front();
-  for (const auto& [option, text, bits] :
+  for (const auto& [option, given, bits] :
        {std::tuple{"--address-bits", &o.address_bits, &tables::CosineSize::address_bits},
         std::tuple{"--data-bits", &o.data_bits, &tables::CosineSize::data_bits}}) {
-    if (!*text) continue;
+    if (!*given) continue;
+    const std::string& text = **given;
     const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
-    const std::optional<int> number = whole_number(**text, smallest, largest);
-    if (!number)
-      return bad_input(
-          fmt::format("{}: '{}' is not a whole number from {} to {}", option, **text, smallest, largest));
-    size.*bits = *number;
+    int& number = size.*bits;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || rest != text.data() + text.size() || number < smallest || number > largest)
+      throw Failure{bad_input(
+          fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, smallest, largest))};
   }
   return s;
 }
@@ -95,35 +89,33 @@ std::vector<tables::CosineSize> sizes_that_go(const std::filesystem::path& check
 }
 
 int run(const Folders& folders, const TablesOptions& options) {
-  const Result<TablesSettings> settings = checked(options);
-  if (!settings) return report(settings.error());
+  const TablesSettings settings = checked(options);
   if (options.errors) {
-    print_errors(settings->exact);
+    print_errors(settings.exact);
     return static_cast<int>(ExitCode::equal);
   }
   bool differs = false;
   if (!options.check)
     for (const bool exact : {true, false})
-      for (const tables::CosineSize size : sizes_that_go(folders.source, exact, settings->sizes))
+      for (const tables::CosineSize size : sizes_that_go(folders.source, exact, settings.sizes))
         fmt::print(
             "preset {0}: the tables of {1}/{2} address/data bits go; for them again: make tables PRESET={0} "
             "ADDRESS_BITS={1} DATA_BITS={2}\n",
             exact ? "exact" : "published", size.address_bits, size.data_bits);
   if (options.check)
-    for (const std::string& message : tables::stale_files(folders.source, settings->sizes)) {
+    for (const std::string& message : tables::stale_files(folders.source, settings.sizes)) {
       fmt::print(stderr, "{}\n", message);
       differs = true;
     }
-  for (const tables::GeneratedFile& file : tables::generated_files(folders.source, settings->sizes)) {
+  for (const tables::GeneratedFile& file : tables::generated_files(folders.source, settings.sizes)) {
     if (tables::first_different_line(folders.source, file) == 0) {
       fmt::print("{}: as generated\n", file.path.string());
     } else if (!options.check) {
-      if (const Status status = write_file(folders.source / file.path, file.text); !status)
-        return report(status.error());
+      must(write_file(folders.source / file.path, file.text));
       fmt::print("{}: written\n", file.path.string());
     }
   }
-  print_tables(settings->sizes);
+  print_tables(settings.sizes);
   return static_cast<int>(differs ? ExitCode::differs : ExitCode::equal);
 }
 

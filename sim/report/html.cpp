@@ -22,11 +22,6 @@
 namespace halfway::report {
 namespace {
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-}
-
 using Parser = std::unique_ptr<cmark_parser, decltype(&cmark_parser_free)>;
 using Node = std::unique_ptr<cmark_node, decltype(&cmark_node_free)>;
 
@@ -76,9 +71,8 @@ nlohmann::ordered_json commit_of(const std::filesystem::path& source) {
   return described->output.substr(0, described->output.find('\n'));
 }
 
-std::string script_safe(std::string json) {
-  replace_all(json, "<", "\\u003c");
-  return json;
+std::string script_safe(const std::string& json) {
+  return OIIO::Strutil::replace(json, "<", "\\u003c", true);
 }
 
 std::string from_markdown(std::string_view markdown, std::string_view name) {
@@ -91,12 +85,11 @@ std::string from_markdown(std::string_view markdown, std::string_view name) {
   const std::unique_ptr<char, decltype(&std::free)> html(
       cmark_render_html(document.get(), CMARK_OPT_DEFAULT, cmark_parser_get_syntax_extensions(parser.get())),
       std::free);
-  std::string text = html.get();
-  replace_all(text, "<table>",
-              fmt::format(R"(<div class="scroll" role="region" aria-label="{}: table" tabindex="0"><table>)",
-                          kainjow::mustache::html_escape(std::string(name))));
-  replace_all(text, "</table>", "</table></div>");
-  return text;
+  const std::string box =
+      fmt::format(R"(<div class="scroll" role="region" aria-label="{}: table" tabindex="0"><table>)",
+                  kainjow::mustache::html_escape(std::string(name)));
+  return OIIO::Strutil::replace(OIIO::Strutil::replace(html.get(), "<table>", box, true), "</table>",
+                                "</table></div>", true);
 }
 
 std::string inline_svg(const std::string& svg, const std::string& prefix, const std::string& label,
@@ -114,7 +107,7 @@ std::string inline_svg(const std::string& svg, const std::string& prefix, const 
     else if (key.ends_with("href") && value.starts_with('#') && !value.starts_with("#point-"))
       value.insert(1, prefix);
     else
-      replace_all(value, "url(#", "url(#" + prefix);
+      value = OIIO::Strutil::replace(value, "url(#", "url(#" + prefix, true);
     // Replace black and white by the page's text and background colours.
     if (value == "black" || value == "#000000" || value == "rgb(  0,   0,   0)")
       value = "currentColor";

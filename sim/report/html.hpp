@@ -19,7 +19,7 @@ std::string data_uri(const std::filesystem::path& file, std::string_view media_t
 nlohmann::ordered_json commit_of(const std::filesystem::path& source);
 
 /// JSON that can be placed in a `script` element: no text in it ends the element.
-std::string script_safe(std::string json);
+std::string script_safe(const std::string& json);
 
 /// HTML of a Markdown page (GitHub's dialect, by cmark-gfm). Headings move down two levels. Tables are in
 /// scrolling boxes named `name`. Links to the project's own files become plain text. HTML in the page is

@@ -36,6 +36,12 @@ using Clock = std::chrono::steady_clock;
 // In multiples of white: brighter lights get a note.
 constexpr double c_bright = 2.0;
 
+void forget(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove_all(path, error);
+  if (error) throw Failure{tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()))};
+}
+
 class Simulation {
  public:
   Simulation(const Scene& scene, const SimulateSettings& settings)
@@ -105,12 +111,6 @@ class Simulation {
       if (name.find(".part") != std::string::npos || name.starts_with(".halfway-")) forget(entry.path());
     }
     forget(files_.summary());
-  }
-  static void forget(const std::filesystem::path& path) {
-    std::error_code error;
-    std::filesystem::remove_all(path, error);
-    if (error)
-      throw Failure{tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()))};
   }
 
   void note(std::string text) { summary_.notes.push_back(scene_.name + ": " + std::move(text)); }
@@ -342,10 +342,7 @@ void forget_summary(const ResultFiles& files, const std::function<void()>& on_wa
   std::error_code error;
   if (!std::filesystem::exists(files.summary(), error)) return;
   const auto lock = must(lock_folder(files.folder, on_wait));
-  std::filesystem::remove(files.summary(), error);
-  if (error)
-    throw Failure{
-        tool_failed(fmt::format("{}: cannot remove: {}", files.summary().string(), error.message()))};
+  forget(files.summary());
 }
 
 SceneSummary simulate(const Scene& scene, const SimulateSettings& settings) {

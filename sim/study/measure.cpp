@@ -30,15 +30,6 @@ std::vector<std::uint8_t> mask_of(const Frame& frame, const Scene& scene) {
   return mask;
 }
 
-Frame cut_tile(const Frame& frame, const Tile& tile) {
-  Frame picture(tile.size);
-  for (std::uint32_t y = 0; y < tile.size.height; ++y)
-    std::copy_n(frame.rgb.begin() + static_cast<std::ptrdiff_t>(frame.offset(tile.x, tile.y + y)),
-                3 * std::size_t{tile.size.width},
-                picture.rgb.begin() + static_cast<std::ptrdiff_t>(picture.offset(0, y)));
-  return picture;
-}
-
 }  // namespace
 
 MesaRequest mesa_request(const DesignPoint& point, const std::string& scene) {

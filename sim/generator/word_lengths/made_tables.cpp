@@ -16,28 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Paths relative to rtl/, and the files' contents.
-using Packages = std::map<std::string, std::string>;
-
 CosineSizes sizes_with(bool exact, CosineSize size, const std::vector<double>& own) {
   CosineSizes sizes;
   sizes.own = own;
   (exact ? sizes.exact : sizes.published) = {size};
   return sizes;
-}
-
-struct Source {
-  fs::path path;  // relative to rtl/
-  std::string text;
-};
-
-std::vector<Source> rtl_sources(const fs::path& rtl, const Packages& packages) {
-  std::vector<Source> sources;
-  for (const fs::path& path : must(files_below(rtl))) {
-    const auto made = packages.find(path.string());
-    sources.push_back({path, made != packages.end() ? made->second : must(read_file(rtl / path))});
-  }
-  return sources;
 }
 
 }  // namespace
@@ -61,24 +44,25 @@ bool compiled_in(bool exact, CosineSize size) {
 
 fs::path rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,
                   const fs::path& checkout, const fs::path& cache, const std::vector<double>& own) {
-  Packages packages;
+  std::map<fs::path, std::string> sources;  // by their paths relative to rtl/
+  for (const fs::path& path : must(files_below(checkout / "rtl")))
+    sources[path] = must(read_file(checkout / "rtl" / path));
   std::string name = exact ? "exact" : "published";
   if (size) {
-    packages["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size, own));
+    sources["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size, own));
     name += fmt::format("-{}x{}{}", size->address_bits, size->data_bits, own.empty() ? "" : "-own");
   }
   if (words.any()) {
-    packages["tables/formats_pkg.vhd"] = vhdl_package(preset_formats(exact, words));
-    packages["tables/function_pkg.vhd"] = function_vhdl_package(function_tables(exact, words));
+    sources["tables/formats_pkg.vhd"] = vhdl_package(preset_formats(exact, words));
+    sources["tables/function_pkg.vhd"] = function_vhdl_package(function_tables(exact, words));
     name += "-" + words.name();
   }
-  const std::vector<Source> sources = rtl_sources(checkout / "rtl", packages);
   ContentHash hash;
   hash.add(fs::absolute(checkout).string());
-  for (const Source& source : sources) hash.add(source.path.string()).add(source.text);
+  for (const auto& [path, text] : sources) hash.add(path.string()).add(text);
   const fs::path folder = fs::absolute(cache) / "tables" / fmt::format("{}-{}", name, hash.hex());
   make_once(folder, [&](const fs::path& fresh) {
-    for (const Source& source : sources) must(write_file(fresh / "rtl" / source.path, source.text));
+    for (const auto& [path, text] : sources) must(write_file(fresh / "rtl" / path, text));
     for (const char* kept : {"sim", "tb"}) {
       std::error_code error;
       fs::create_directory_symlink(fs::absolute(checkout) / kept, fresh / kept, error);

@@ -6,7 +6,6 @@
 #include "frame/assemble.hpp"
 #include "inputs/random/fuzz.hpp"
 #include "sim/driver/stream_comparator.hpp"
-#include "sim/files/trace_pair.hpp"
 
 namespace halfway::fuzz {
 namespace {
@@ -47,9 +46,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto other = TraceReader::open(copy, key);
   demand(bool(other), "the copy opens");
   StreamComparator comparator;
-  demand(bool(read_side_by_side(
-             *reader, &*other, [&](auto fragments) { comparator.add_golden(fragments); },
-             [&](auto fragments) { comparator.add_rtl(fragments); })),
+  demand(bool(read_side_by_side(*reader, *other,
+                                [&](auto golden, auto rtl) { comparator.add(golden, rtl); })),
          "both read to their ends");
   comparator.finish();
   demand(comparator.mismatches() == 0, "equal to itself");

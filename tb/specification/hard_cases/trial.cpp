@@ -112,8 +112,7 @@ void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<co
     });
     if (fault) return;  // after a fault the fragments have no meaning
     StreamComparator comparator;
-    comparator.add_golden(golden);
-    comparator.add_rtl(drawn);
+    comparator.add(golden, drawn);
     comparator.finish();
     require(comparator.mismatches() == 0,
             [&] { return fmt::format("{}: {}", key.name(), comparator.describe(name)); });
