@@ -180,7 +180,7 @@ MesaRun run_mesa(const WayInput& input, int repetitions) {
 
 Go make_way(Way way, const WayInput& input) {
   if (const std::string program = lacking(way, input.folders); !program.empty())
-    throw Failure{tool_failed(fmt::format("{} is not here", program))};
+    throw_tool_failed("{} is not here", program);
   switch (way) {
     case Way::ghdl:
       return in_ghdl(way, input);

@@ -54,7 +54,7 @@ LeftSummary read_summary(const std::filesystem::path& summary) {
     left.in_view = setup.at("on_screen").get<std::uint64_t>() + setup.at("degenerate").get<std::uint64_t>();
     left.reference_pixels = json.at("accuracy").at("pixels").get<std::uint64_t>();
   } catch (const nlohmann::json::exception& error) {
-    throw Failure{bad_input(fmt::format("{}: not a summary: {}", summary.string(), error.what()))};
+    throw_bad_input("{}: not a summary: {}", summary.string(), error.what());
   }
   return left;
 }
@@ -71,7 +71,7 @@ std::string make_sim(const std::string& scene, const CompareCommand& command) {
 // Compare all results of a scene. False if something differs or nothing was drawn.
 bool compare_scene(const std::string& scene, const CompareCommand& command, Shader shader) {
   if (const std::string name = result_name(scene); name.empty() || name == "." || name == "..")
-    throw Failure{bad_input(fmt::format("'{}' is not the name of a scene", scene))};
+    throw_bad_input("'{}' is not the name of a scene", scene);
   const ResultFiles files = ResultFiles::of(command.out, result_name(scene),
                                             {.shader = shader, .all_effects = command.all_effects});
   const auto none = [&](const std::string& what) {

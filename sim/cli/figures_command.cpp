@@ -27,8 +27,7 @@ std::vector<figures::Figure> chosen(std::vector<figures::Figure> all, const std:
   for (const figures::Figure& f : all) names.push_back(f.id);
   for (const std::string& name : only)
     if (std::ranges::none_of(names, [&](const std::string& id) { return id.starts_with(name); }))
-      throw Failure{bad_input(
-          fmt::format("'{}' is not a figure; give the start of one of {}", name, fmt::join(names, ", ")))};
+      throw_bad_input("'{}' is not a figure; give the start of one of {}", name, fmt::join(names, ", "));
   if (!only.empty())
     std::erase_if(all, [&](const figures::Figure& f) {
       return std::ranges::none_of(only, [&](const std::string& name) { return f.id.starts_with(name); });

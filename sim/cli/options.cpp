@@ -42,9 +42,7 @@ struct Given {
   const char* flag;
   const std::string& text;
 
-  [[noreturn]] void fail(std::string_view what) const {
-    throw Failure{bad_input(fmt::format("{}: {}", flag, what))};
-  }
+  [[noreturn]] void fail(std::string_view what) const { throw_bad_input("{}: {}", flag, what); }
 
   int whole_number(int least, int most) const {
     int value = 0;
@@ -149,7 +147,7 @@ const std::vector<Option>& options_of_some_shaders() {
                    "of the scene, at least one)",
                    c_most_lights),
        [](const Given& given, DrawSettings& s) {
-         if (!s.plan.all_effects) throw Failure{bad_input("--lights goes with --all-effects; give both")};
+         if (!s.plan.all_effects) throw_bad_input("--lights goes with --all-effects; give both");
          s.plan.lights = static_cast<unsigned>(given.whole_number(1, c_most_lights));
        }},
       {"--degree",
@@ -185,8 +183,7 @@ const std::vector<Option>& options_of_some_shaders() {
          const int subpixels = given.whole_number(1, 16);
          if (subpixels != 1 && subpixels != 4 && subpixels != 16)
            given.fail(fmt::format("{} is not 1, 4 or 16", subpixels));
-         if (s.plan.objects == 0)
-           throw Failure{bad_input("--subpixels goes with --object-processors; give both")};
+         if (s.plan.objects == 0) throw_bad_input("--subpixels goes with --object-processors; give both");
          s.plan.subpixels = static_cast<unsigned>(subpixels);
        }},
       {"--span-ends",
@@ -216,8 +213,7 @@ void check_hardware(const Option& option, Shader shader, Preset preset) {
   std::vector<std::string> names;
   std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
   const std::string owners = fmt::format("{}", fmt::join(names, " and "));
-  throw Failure{bad_input(
-      fmt::format("{} in preset {}", of_other_hardware(option.flag, owners, shader), to_string(preset)))};
+  throw_bad_input("{} in preset {}", of_other_hardware(option.flag, owners, shader), to_string(preset));
 }
 
 // The options of some shaders that are given, in the order of the table.
@@ -227,10 +223,10 @@ void apply_options(const DrawOptions& o, DrawSettings& s) {
   for (const Option& option : options_of_some_shaders())
     if (const auto text = text_of(o, option.flag)) option.apply({option.flag, *text}, s);
   if (text_of(o, "--address-bits").has_value() != text_of(o, "--data-bits").has_value())
-    throw Failure{bad_input("--address-bits and --data-bits go together; give both")};
+    throw_bad_input("--address-bits and --data-bits go together; give both");
   if (text_of(o, "--threshold") && s.plan.shader == Shader::spherical &&
       s.setup.spherical.ends == SpanEnds::slerped_along_edges)
-    throw Failure{bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut")};
+    throw_bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut");
 }
 
 }  // namespace
@@ -259,19 +255,16 @@ void DrawOptions::add_to(CLI::App& command) {
 Shader checked_shader(const std::string& name) {
   for (const Shader shader : c_shaders)
     if (name == to_string(shader)) return shader;
-  throw Failure{bad_input(
-      fmt::format("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names))};
+  throw_bad_input("--shader: '{}' is not a shader of this program; take {}", name, c_shader_names);
 }
 
 FrameSize checked_size(const std::string& text, const char* option) {
   const std::optional<FrameSize> size = parse_frame_size(text);
-  if (!size)
-    throw Failure{
-        bad_input(fmt::format("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", option, text))};
+  if (!size) throw_bad_input("{}: '{}' is not WIDTHxHEIGHT in pixels, such as 640x480", option, text);
   if (size->width < 1 || size->height < 1 || size->width > c_max_frame_side ||
       size->height > c_max_frame_side)
-    throw Failure{bad_input(fmt::format("{}: {} is out of range; width and height are 1 to {} pixels", option,
-                                        text, c_max_frame_side))};
+    throw_bad_input("{}: {} is out of range; width and height are 1 to {} pixels", option, text,
+                    c_max_frame_side);
   return *size;
 }
 
@@ -279,19 +272,18 @@ DrawSettings checked(const DrawOptions& o) {
   DrawSettings s;
   s.plan.shader = checked_shader(o.shader);
   if (o.preset != "exact" && o.preset != "published")
-    throw Failure{
-        bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset))};
+    throw_bad_input("--preset: '{}' is not a preset; take exact or published", o.preset);
   s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
   s.plan.all_effects = o.all_effects;
   s.size = checked_size(o.size);
   s.setup.quadratic.test =
       s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
   apply_options(o, s);
-  if (o.threads > 1024) throw Failure{bad_input(fmt::format("--threads: {} is more than 1024", o.threads))};
+  if (o.threads > 1024) throw_bad_input("--threads: {} is more than 1024", o.threads);
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
-  if (o.out.empty()) throw Failure{bad_input("--out: the folder has no name")};
+  if (o.out.empty()) throw_bad_input("--out: the folder has no name");
   if (std::ranges::any_of(o.out, [](unsigned char c) { return std::iscntrl(c); }))
-    throw Failure{bad_input("--out: the folder's name holds a control character")};
+    throw_bad_input("--out: the folder's name holds a control character");
   s.out = o.out;
   return s;
 }
@@ -309,10 +301,9 @@ void CoreOptions::add_to(CLI::App& command, CLI::Option* needed) {
 CoreSettings checked(const CoreOptions& options) {
   const bool true_colour = options.format == "xrgb8888";
   if (!true_colour && options.format != "rgb565")
-    throw Failure{
-        bad_input(fmt::format("--format: '{}' is not a format; take rgb565 or xrgb8888", options.format))};
+    throw_bad_input("--format: '{}' is not a format; take rgb565 or xrgb8888", options.format);
   if (options.bus_bits != 32 && options.bus_bits != 64)
-    throw Failure{bad_input(fmt::format("--bus: {} is not 32 or 64", options.bus_bits))};
+    throw_bad_input("--bus: {} is not 32 or 64", options.bus_bits);
   return {true_colour, options.bus_bits};
 }
 
@@ -335,9 +326,8 @@ std::vector<EngineKind> checked_simulators(const std::vector<std::string>& names
   }
   for (const std::string& name : names)
     if (std::ranges::find(known_names, name) == known_names.end())
-      throw Failure{bad_input(fmt::format("--simulator: '{}' is not a simulator; take {} or {}", name,
-                                          fmt::join(known_names.begin(), known_names.end() - 1, ", "),
-                                          known_names.back()))};
+      throw_bad_input("--simulator: '{}' is not a simulator; take {} or {}", name,
+                      fmt::join(known_names.begin(), known_names.end() - 1, ", "), known_names.back());
   return chosen;
 }
 
@@ -348,8 +338,8 @@ void add_device(CLI::App& command, const synth::Family*& family) {
           [&family](const std::string& name) {
             family = synth::family_of(name);
             if (family == nullptr)
-              throw Failure{bad_input(fmt::format("--device: '{}' is not a device; take {}", name,
-                                                  fmt::join(synth::device_options(), " or ")))};
+              throw_bad_input("--device: '{}' is not a device; take {}", name,
+                              fmt::join(synth::device_options(), " or "));
           },
           "the FPGA whose clocks and cells count: hx8k (iCE40 HX8K) or ecp5 (ECP5 LFE5U-85F)")
       ->default_str(std::string(family->device->option));
@@ -361,8 +351,7 @@ std::vector<std::string> builtin_scenes(const Folders& folders) {
   for (const auto& entry : std::filesystem::directory_iterator(folders.scenes(), error))
     if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
   if (error || names.empty())
-    throw Failure{bad_input(
-        fmt::format("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string()))};
+    throw_bad_input("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string());
   std::ranges::sort(names);
   return names;
 }

@@ -353,8 +353,7 @@ int run(const Folders& folders, const PlanCommand& command) {
   const std::vector<EngineKind> simulators = checked_simulators(command.simulators, c_measured);
   for (const auto& [name, given, most] : {std::tuple{"--objects-per-pixel", command.objects, c_most_objects},
                                           std::tuple{"--rate", command.rate, c_most_rate}})
-    if (given && (*given < 1 || *given > most))
-      throw Failure{bad_input(fmt::format("{}: {} is not 1 to {}", name, *given, most))};
+    if (given && (*given < 1 || *given > most)) throw_bad_input("{}: {} is not 1 to {}", name, *given, most);
   const Scene scene = must(load_scene(command.scene, folders.scenes()));
   const Plan plan = must(plan_scene(scene, draw.plan));
   const SimulatorFolders simulator_folders{folders.source, folders.cache()};

@@ -53,8 +53,7 @@ void run(const Folders& folders, const RenderCommand& command) {
   if (spherical) options_given.shader = to_string(Shader::spherical);
   const auto draw = checked(options_given);
   if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
-    throw Failure{bad_input(
-        fmt::format("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", ")))};
+    throw_bad_input("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "));
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   for (const std::string& note : scene.notes) say(note);
 

@@ -36,7 +36,7 @@ void write_front(const ReportCommand& command) {
   const TemporaryFolder scratch = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   const std::size_t designs = report::write_front(study, command.front, scratch.path());
   if (designs == 0)
-    throw Failure{bad_input(command.study + ": no design in it has both a cost and an error; make study")};
+    throw_bad_input("{}: no design in it has both a cost and an error; make study", command.study);
   write_part(command.page, "front", [&] { return report::page_front(report::front_of(study)); });
   fmt::print("{}: the front of {} designs\n", (std::filesystem::path(command.front) / "front.svg").string(),
              designs);

@@ -126,7 +126,7 @@ bool print(const SceneSummary& summary) {
 int run(const Folders& folders, const SimOptions& options) {
   const DrawSettings draw = checked(options.draw);
   if (options.own_tables && (draw.plan.shader != Shader::spherical || draw.plan.preset != Preset::exact))
-    throw Failure{bad_input("--own-tables belongs to the spherical shader in preset exact")};
+    throw_bad_input("--own-tables belongs to the spherical shader in preset exact");
   SimulateSettings settings{.plan = draw.plan,
                             .size = draw.size,
                             .setup = draw.setup,
@@ -141,10 +141,9 @@ int run(const Folders& folders, const SimOptions& options) {
   for (std::size_t i = 0; i < scenes.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (result_name(scenes[i]) == result_name(scenes[j]))
-        throw Failure{
-            bad_input(fmt::format("{}: its results would overwrite those of {}; draw them one at a time, or "
-                                  "into another --out",
-                                  scenes[i], scenes[j]))};
+        throw_bad_input(
+            "{}: its results would overwrite those of {}; draw them one at a time, or into another --out",
+            scenes[i], scenes[j]);
 
   for (const std::string& scene : scenes) {
     const auto files = ResultFiles::of(settings.out, result_name(scene), settings.plan);

@@ -60,20 +60,18 @@ StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   const std::filesystem::path studies = folders.source / "sim" / "study" / "spaces";
   StudyPlan plan;
   plan.demand = study::read_demand(command.error, command.psnr, command.time);
-  if (command.clock_mhz && !(*command.clock_mhz > 0)) throw Failure{bad_input("--clock: takes MHz above 0")};
+  if (command.clock_mhz && !(*command.clock_mhz > 0)) throw_bad_input("--clock: takes MHz above 0");
   const synth::Device& device = *command.family->device;
   if (command.place && (find_program("yosys").empty() || find_program(std::string(device.placer)).empty()))
-    throw Failure{tool_failed(
-        fmt::format("--place: yosys or {} is not found; install both: {}", device.placer, device.install))};
+    throw_tool_failed("--place: yosys or {} is not found; install both: {}", device.placer, device.install);
   if (command.executor != "local" && command.executor != "slurm")
-    throw Failure{
-        bad_input("--executor: '" + command.executor + "' is not an executor; take local or slurm")};
+    throw_bad_input("--executor: '{}' is not an executor; take local or slurm", command.executor);
   study::StudySettings& settings = plan.settings;
   if (!command.part.empty() &&
       (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
        settings.part >= settings.parts))
-    throw Failure{bad_input("--part: '" + command.part + "' is not a part; take I/N, I from 0 to N - 1")};
-  if (command.parts == 0) throw Failure{bad_input("--parts: takes 1 or more")};
+    throw_bad_input("--part: '{}' is not a part; take I/N, I from 0 to N - 1", command.part);
+  if (command.parts == 0) throw_bad_input("--parts: takes 1 or more");
   settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
   settings.out = command.out;
   settings.family = command.family;
@@ -92,8 +90,8 @@ StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   if (!command.tile.empty()) {
     const FrameSize tile = checked_size(command.tile, "--tile");
     if (std::min(tile.width, tile.height) < study::c_least_tile)
-      throw Failure{bad_input(fmt::format("--tile: {} is too small; width and height are {} pixels at least",
-                                          command.tile, study::c_least_tile))};
+      throw_bad_input("--tile: {} is too small; width and height are {} pixels at least", command.tile,
+                      study::c_least_tile);
     for (study::DesignPoint& point : points) point.tile = tile;
   }
   settings.points = study::ordered(std::move(points));
@@ -107,8 +105,7 @@ void leave_out(study::StudySettings& settings, const std::string& space, bool pl
   settings.points = std::move(drawable.points);
   if (place) settings.placed = std::move(drawable.hardware);
   if (settings.points.empty())
-    throw Failure{
-        bad_input(fmt::format("{}: no point of it can be drawn: {}", space, drawable.reasons.front()))};
+    throw_bad_input("{}: no point of it can be drawn: {}", space, drawable.reasons.front());
   if (drawable.left_out > 0 && settings.parts == 1) {
     say(fmt::format("{} points are left out:", drawable.left_out));
     for (const std::string& reason : drawable.reasons) say("  " + reason);
@@ -142,8 +139,7 @@ void set_up(const study::StudySettings& settings, const std::string& names) {
   must(load_scene(settings.scene, scenes));
   study::in_processes(names, [&](const std::string& name) {
     const auto point = std::ranges::find(settings.points, name, &study::DesignPoint::name);
-    if (point == settings.points.end())
-      throw Failure{bad_input("--set-up: '" + name + "' is not a point of the space")};
+    if (point == settings.points.end()) throw_bad_input("--set-up: '{}' is not a point of the space", name);
     const Scene scene = study::drawn_scene(settings.scene, scenes, *point);
     const auto hardware = study::drawing_hardware_of(*point, scene, settings.folders);
     study::set_up_frame(scene, point->size, hardware.key, study::frame_setup(*point, scene), hardware.models);

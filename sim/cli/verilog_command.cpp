@@ -80,8 +80,7 @@ void run(const Folders& folders, const VerilogCommand& command, const std::strin
   const GhdlLibrary library = rtl_library({folders.source, folders.cache()});
   const auto netlist = with_prefix(must(mend_netlist(must(library.synthesize(top, generics)))));
   const std::vector<ModulePort> ports = ports_of(netlist, module);
-  if (ports.empty())
-    throw Failure{tool_failed(fmt::format("{}: GHDL's netlist has no module {}", key.name(), module))};
+  if (ports.empty()) throw_tool_failed("{}: GHDL's netlist has no module {}", key.name(), module);
 
   const std::filesystem::path folder = draw.out / key.name();
   const std::filesystem::path file = folder / (module + ".v"), list = folder / (module + ".f");

@@ -78,7 +78,7 @@ struct Outputs {
 
 void check_range(const char* option, const std::optional<std::int64_t>& value, std::int64_t greatest) {
   if (value && (*value < 1 || *value > greatest))
-    throw Failure{bad_input(fmt::format("{}: {} is not 1 to {}", option, *value, greatest))};
+    throw_bad_input("{}: {} is not 1 to {}", option, *value, greatest);
 }
 
 TerminalColours colours_of_terminal() {
@@ -94,30 +94,30 @@ Outputs checked(const ViewCommand& c) {
   Outputs o;
   o.images = c.out_given || (!c.video && !c.terminal);
   if (c.format && !o.images)
-    throw Failure{bad_input("--format is of images, and none are asked for; give --out as well")};
+    throw_bad_input("--format is of images, and none are asked for; give --out as well");
   if (c.format && *c.format != "png" && *c.format != "ppm")
-    throw Failure{bad_input(fmt::format("--format: '{}' is not a format; take png or ppm", *c.format))};
+    throw_bad_input("--format: '{}' is not a format; take png or ppm", *c.format);
   o.ppm = c.format == "ppm";
-  if (c.rate && !c.video) throw Failure{bad_input("--rate goes with --video; give both")};
+  if (c.rate && !c.video) throw_bad_input("--rate goes with --video; give both");
   if (c.rate) o.rate = static_cast<unsigned>(*c.rate);
   if (c.video) {
     o.video = *c.video;
     VideoWriter::check(*o.video);
   }
-  if (c.columns && !c.terminal) throw Failure{bad_input("--columns goes with --terminal; give both")};
-  if (c.colours && !c.terminal) throw Failure{bad_input("--colours goes with --terminal; give both")};
+  if (c.columns && !c.terminal) throw_bad_input("--columns goes with --terminal; give both");
+  if (c.colours && !c.terminal) throw_bad_input("--colours goes with --terminal; give both");
   o.terminal = c.terminal;
   if (c.columns) o.columns = static_cast<std::uint32_t>(*c.columns);
   if (o.terminal && !o.columns && isatty(STDOUT_FILENO) == 0)
-    throw Failure{bad_input(
-        "--terminal: standard output is no terminal; with --columns the pictures are still written")};
+    throw_bad_input(
+        "--terminal: standard output is no terminal; with --columns the pictures are still written");
   o.colours = colours_of_terminal();
   if (c.colours == "24bit")
     o.colours = TerminalColours::full;
   else if (c.colours == "256")
     o.colours = TerminalColours::palette;
   else if (c.colours)
-    throw Failure{bad_input(fmt::format("--colours: '{}' is not a kind; take 24bit or 256", *c.colours))};
+    throw_bad_input("--colours: '{}' is not a kind; take 24bit or 256", *c.colours);
   return o;
 }
 
@@ -126,7 +126,7 @@ std::optional<EngineKind> checked_engine(const std::string& name) {
   if (name == "auto") return std::optional<EngineKind>();
   for (const EngineKind kind : {EngineKind::verilator, EngineKind::lanes})
     if (name == to_string(kind)) return std::optional(kind);
-  throw Failure{bad_input(fmt::format("--simulator: '{}' is none of auto, verilator and lanes", name))};
+  throw_bad_input("--simulator: '{}' is none of auto, verilator and lanes", name);
 }
 
 // Removes the frames of an earlier turn, which may have had more frames, and unfinished files of a killed
@@ -140,9 +140,7 @@ void forget_frames(const std::filesystem::path& folder) {
     if (error || !std::regex_match(path.filename().string(), ours)) continue;
     if (!std::filesystem::remove(path, error) && error) break;
   }
-  if (error)
-    throw Failure{
-        tool_failed(fmt::format("{}: cannot remove old frames: {}", folder.string(), error.message()))};
+  if (error) throw_tool_failed("{}: cannot remove old frames: {}", folder.string(), error.message());
 }
 
 // Half blocks on standard output. On a terminal each picture overwrites the previous one.
@@ -170,7 +168,7 @@ class Screen {
     else
       text += caption + "\n";
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-      throw Failure{tool_failed(fmt::format("standard output: {}", std::strerror(errno)))};
+      throw_tool_failed("standard output: {}", std::strerror(errno));
   }
   /// Restores the terminal below the last picture.
   void leave() {

@@ -77,15 +77,13 @@ void print_stage(const StageState& stage, const Widths& widths) {
 int run(const Folders& folders, const WhyCommand& command) {
   const auto draw = checked(command.draw);
   const auto pixel = parse_pixel(command.pixel);
-  if (!pixel)
-    throw Failure{bad_input(fmt::format("--pixel: '{}' is not x,y, such as 120,45", command.pixel))};
+  if (!pixel) throw_bad_input("--pixel: '{}' is not x,y, such as 120,45", command.pixel);
   if (pixel->x >= draw.size.width || pixel->y >= draw.size.height)
-    throw Failure{bad_input(fmt::format("--pixel: {} lies outside the frame of {}x{}", command.pixel,
-                                        draw.size.width, draw.size.height))};
+    throw_bad_input("--pixel: {} lies outside the frame of {}x{}", command.pixel, draw.size.width,
+                    draw.size.height);
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   if (must(plan_scene(scene, draw.plan)).key.processors.objects > 0)
-    throw Failure{
-        bad_input("why explains pixels of the rasterizer; leave out --object-processors, and the shadows")};
+    throw_bad_input("why explains pixels of the rasterizer; leave out --object-processors, and the shadows");
   Progress progress(scene.name);
   WhySettings settings;
   settings.plan = draw.plan;

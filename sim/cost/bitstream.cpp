@@ -58,12 +58,11 @@ BoardFigures read_figures(const std::filesystem::path& folder) {
     for (const auto& [clock, speed] : report.at("fmax").items()) figures.mhz = speed.at("achieved");
     figures.strobe_ns = strobe_delay(report);
   } catch (const json::exception& error) {
-    throw Failure{tool_failed(fmt::format("not what Yosys 0.23 and nextpnr 0.4 report: {}", error.what()))};
+    throw_tool_failed("not what Yosys 0.23 and nextpnr 0.4 report: {}", error.what());
   }
   if (figures.strobe_ns <= 0 || figures.strobe_ns > c_strobe_ns)
-    throw Failure{tool_failed(
-        fmt::format("{}: the strobes of the SRAM take {:.1f} ns to the late clock; {} ns are the limit",
-                    c_top, figures.strobe_ns, c_strobe_ns))};
+    throw_tool_failed("{}: the strobes of the SRAM take {:.1f} ns to the late clock; {} ns are the limit",
+                      c_top, figures.strobe_ns, c_strobe_ns);
   return figures;
 }
 

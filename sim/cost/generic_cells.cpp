@@ -87,9 +87,8 @@ Cells read_cells(const Yosys& yosys, const std::filesystem::path& folder) {
   const std::string text = read_own_file(folder / c_multipliers);
   const std::vector<MultiplierShape> shapes = read_multiplier_shapes(text, c_multiplier);
   if (shapes.size() != cells.multipliers)
-    throw Failure{
-        tool_failed(fmt::format("{}: {} multipliers, not {}: delete it and try again",
-                                (folder / c_multipliers).string(), shapes.size(), cells.multipliers))};
+    throw_tool_failed("{}: {} multipliers, not {}: delete it and try again",
+                      (folder / c_multipliers).string(), shapes.size(), cells.multipliers);
   for (const MultiplierShape& shape : shapes) {
     cells.product_bits += shape.product_bits;
     cells.multiplier_luts += luts_of(yosys, shape);

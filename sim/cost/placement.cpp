@@ -116,8 +116,7 @@ Placement read_placement(std::string_view report, std::string_view netlist, unsi
   try {
     const Registers registers(design.at("modules").at("wrapped"), names);
     if (figures.at("fmax").size() != 1)
-      throw Failure{
-          tool_failed(fmt::format("nextpnr reports {} clocks, not one", figures.at("fmax").size()))};
+      throw_tool_failed("nextpnr reports {} clocks, not one", figures.at("fmax").size());
     const auto clock = figures.at("fmax").begin();
     placement.mhz = clock->at("achieved");
     for (const json& path : figures.at("critical_paths")) {
@@ -126,7 +125,7 @@ Placement read_placement(std::string_view report, std::string_view netlist, unsi
       placement.path = read_path(path.at("path"), registers, names);
     }
   } catch (const json::exception& error) {
-    throw Failure{tool_failed(fmt::format("not what nextpnr 0.4 reports: {}", error.what()))};
+    throw_tool_failed("not what nextpnr 0.4 reports: {}", error.what());
   }
   return placement;
 }
@@ -137,7 +136,7 @@ std::uint64_t read_packing(std::string_view said, const PlacedNames& names) {
   if (at == std::string_view::npos ||
       std::sscanf(std::string(said.substr(at + names.logic_cell.size() + 1, 40)).c_str(), "%llu / %llu",
                   &used, &there) != 2)
-    throw Failure{tool_failed(fmt::format("not what nextpnr 0.4 says of a device's utilisation:\n{}", said))};
+    throw_tool_failed("not what nextpnr 0.4 says of a device's utilisation:\n{}", said);
   return used;
 }
 

@@ -57,7 +57,7 @@ std::string wrapper(std::string_view netlist, std::string_view top, unsigned mos
   unsigned inputs = 0, outputs = 0;
   std::string wires, pins, connections;
   const std::vector<ModulePort> ports = ports_of(netlist, top);
-  if (ports.empty()) throw Failure{tool_failed(fmt::format("{}: the netlist has no such module", top))};
+  if (ports.empty()) throw_tool_failed("{}: the netlist has no such module", top);
   for (const ModulePort& port : ports) {
     const bool is_clock = port.name == "clk" || port.name == "aclk";
     connections += fmt::format(",\n    .{}({})", port.name, is_clock ? "clk" : port.name);
@@ -77,7 +77,7 @@ std::string wrapper(std::string_view netlist, std::string_view top, unsigned mos
     wires += fmt::format("  assign {} = {{{}}};\n", port.name, bits);
     inputs += port.bits;
   }
-  if (outputs == 0) throw Failure{tool_failed(fmt::format("{}: has no output to register", top))};
+  if (outputs == 0) throw_tool_failed("{}: has no output to register", top);
   inputs = std::max(std::min(inputs, most_inputs), 1U);
   return fmt::format(
       "module wrapped (input clk, input serial_in, output serial_out);\n"
@@ -175,7 +175,7 @@ std::string Synthesizer::wrapped(const Design& design) const {
   std::string netlist = from_mapped(design, script, c_wrapped, around);
   if (device().prepare == nullptr) return netlist;
   const auto prepared = device().prepare(netlist);
-  if (!prepared) throw Failure{tool_failed(fmt::format("{}: {}", design.name, prepared.error().message))};
+  if (!prepared) throw_tool_failed("{}: {}", design.name, prepared.error().message);
   return *prepared;
 }
 
@@ -234,8 +234,8 @@ Placement Synthesizer::place(const Design& design, unsigned seed, std::chrono::s
         if (end.signal == SIGXCPU)
           must(write_file(fresh / c_no_end, ""));
         else if (!end.succeeded() && end.output.find(c_too_large) == std::string::npos)
-          throw Failure{
-              tool_failed(failed_text(fmt::format("{}: {}", design.name, device().placer), placer, end))};
+          throw_tool_failed("{}",
+                            failed_text(fmt::format("{}: {}", design.name, device().placer), placer, end));
       });
   if (std::filesystem::exists(folder / c_no_end)) return {.seed = seed, .ended = false};
   if (!std::filesystem::exists(folder / c_report)) return {.seed = seed};

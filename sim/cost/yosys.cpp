@@ -17,7 +17,7 @@ std::string run_tool(std::vector<std::string> arguments, const std::filesystem::
       .arguments = std::move(arguments), .working_folder = folder, .timeout = c_tool_timeout};
   const ProcessEnd end = must(run_process(command, install));
   if (end.succeeded()) return end.output;
-  throw Failure{tool_failed(failed_text(doing, command, end))};
+  throw_tool_failed("{}", failed_text(doing, command, end));
 }
 
 std::string version_of(const std::string& tool, const std::string& option, const char* install) {
@@ -55,8 +55,7 @@ nlohmann::json read_statistics(const std::filesystem::path& folder) {
   const auto whole = nlohmann::json::parse(read_own_file(path), nullptr, false);
   nlohmann::json design = whole.is_object() ? whole.value("design", nlohmann::json()) : nlohmann::json();
   if (design.is_object() && design.value("num_cells_by_type", nlohmann::json()).is_object()) return design;
-  throw Failure{
-      tool_failed(fmt::format("{}: not the output of Yosys's stat; delete it and try again", path.string()))};
+  throw_tool_failed("{}: not the output of Yosys's stat; delete it and try again", path.string());
 }
 
 Cells count_cells(const std::filesystem::path& folder, std::span<const CellKind> kinds) {
@@ -67,8 +66,7 @@ Cells count_cells(const std::filesystem::path& folder, std::span<const CellKind>
     const auto kind = std::ranges::find_if(
         kinds, [&, &name = type](const CellKind& each) { return name.starts_with(each.prefix); });
     if (kind == kinds.end())
-      throw Failure{
-          tool_failed(fmt::format("{}: cells of type {}, which nothing counts", folder.string(), type))};
+      throw_tool_failed("{}: cells of type {}, which nothing counts", folder.string(), type);
     if (kind->number != nullptr) cells.*kind->number += kind->weight * count.get<std::uint64_t>();
   }
   return cells;

@@ -45,7 +45,7 @@ class Fields {
     if (!table_.empty()) fail(fmt::format("unknown key '{}'", std::string(table_.begin()->first.str())));
   }
   [[noreturn]] void fail(const std::string& what) const {
-    throw Failure{bad_input(fmt::format("{}:{}: {}", file_, at_.line, what))};
+    throw_bad_input("{}:{}: {}", file_, at_.line, what);
   }
 
  private:

@@ -101,9 +101,7 @@ const std::string& Row::reason() const {
 }
 
 Entry drawn(const Figure& figure, const Context& context) {
-  const auto fail = [&](const std::string& what) {
-    throw Failure{tool_failed(fmt::format("{}: {}", figure.id, what))};
-  };
+  const auto fail = [&](const std::string& what) { throw_tool_failed("{}: {}", figure.id, what); };
   context.on_progress(fmt::format("{}, {}", figure.paper(), figure.number));
   Drawing drawing;
   figure.draw(context, drawing);

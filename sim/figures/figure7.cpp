@@ -39,7 +39,7 @@ Figure7 read_figure7(const std::filesystem::path& file) {
     }
     const bool is_step = kind == "step" && words.size() == 1;
     if (!fields.eof() || words.empty() || !(is_step || kind == "line" || kind == "pixel"))
-      throw Failure{bad_input(fmt::format("{}: cannot be read: {}", file.string(), text))};
+      throw_bad_input("{}: cannot be read: {}", file.string(), text);
     if (is_step)
       figure.step[name] = words.front();
     else

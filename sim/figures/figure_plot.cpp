@@ -29,8 +29,7 @@ std::string described(const std::string& svg, const Plot& plot) {
   pugi::xml_document document;
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_declaration);
   pugi::xml_node root = document.child("svg"), desc = root.child("desc");
-  if (!parsed || !desc)
-    throw Failure{tool_failed(fmt::format("gnuplot's SVG cannot be read: {}", parsed.description()))};
+  if (!parsed || !desc) throw_tool_failed("gnuplot's SVG cannot be read: {}", parsed.description());
   std::string produced = desc.text().get();
   produced.erase(produced.find_last_not_of(' ') + 1);
   root.prepend_attribute("role") = "img";

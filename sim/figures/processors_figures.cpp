@@ -170,7 +170,7 @@ void draw_table_4(const Context& context, Drawing& out) {
     const auto published = clocks.find(fmt::format("{}, published", run)),
                exact = clocks.find(fmt::format("{}, exact", run));
     if (published == clocks.end() || exact == clocks.end())
-      throw Failure{tool_failed(fmt::format("table4_tb: has no run of '{}'", run))};
+      throw_tool_failed("table4_tb: has no run of '{}'", run);
     out.measured[what] = constructed(published->second, "{} (preset exact {})", exact->second);
   }
 }

@@ -41,7 +41,7 @@ std::string run_gnuplot(std::string_view script, const std::filesystem::path& fo
                                      .environment = {{"LC_ALL", "C.UTF-8"}}},
                                     "apt-get install gnuplot-nox"));
   if (!end.succeeded() || !end.output.empty())
-    throw Failure{tool_failed(fmt::format("{}: gnuplot: {}: {}", file.string(), end.how(), end.output))};
+    throw_tool_failed("{}: gnuplot: {}: {}", file.string(), end.how(), end.output);
   std::string svg = must(read_file(picture));
   std::error_code ignored;
   std::filesystem::remove(picture, ignored);

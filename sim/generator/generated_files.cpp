@@ -24,7 +24,7 @@ std::string core_page(std::string page, const CoreRegisters& core) {
   for (const auto& [part, table] :
        {std::pair{"registers", register_table(core)}, std::pair{"command", command_table(core)}}) {
     Result<std::string> with = with_page_part(page, part, table);
-    if (!with) throw Failure{bad_input(fmt::format("{}: {}", c_core_page, with.error().message))};
+    if (!with) throw_bad_input("{}: {}", c_core_page, with.error().message);
     page = std::move(*with);
   }
   return page;

@@ -31,8 +31,7 @@ struct TablesSettings {
 
 TablesSettings checked(const TablesOptions& o) {
   if (o.preset != "exact" && o.preset != "published")
-    throw Failure{
-        bad_input(fmt::format("--preset: '{}' is not a preset; take exact or published", o.preset))};
+    throw_bad_input("--preset: '{}' is not a preset; take exact or published", o.preset);
   TablesSettings s{o.preset == "exact", {}};
   tables::CosineSize& size = (s.exact ? s.sizes.exact : s.sizes.published).front();
   for (const auto& [option, given, bits] :
@@ -44,8 +43,7 @@ TablesSettings checked(const TablesOptions& o) {
     int& number = size.*bits;
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (error != std::errc{} || rest != text.data() + text.size() || number < smallest || number > largest)
-      throw Failure{bad_input(
-          fmt::format("{}: '{}' is not a whole number from {} to {}", option, text, smallest, largest))};
+      throw_bad_input("{}: '{}' is not a whole number from {} to {}", option, text, smallest, largest);
   }
   return s;
 }

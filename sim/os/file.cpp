@@ -83,7 +83,7 @@ Result<std::string> read_file(const std::filesystem::path& path) {
 
 std::string read_own_file(const std::filesystem::path& path) {
   auto content = read_file(path);
-  if (!content) throw Failure{tool_failed(content.error().message)};
+  if (!content) throw_tool_failed("{}", content.error().message);
   return std::move(*content);
 }
 

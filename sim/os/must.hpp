@@ -3,6 +3,8 @@
 // that a browser runs, or that is called through a C interface, returns errors instead.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <exception>
 #include <type_traits>
 #include <utility>
@@ -16,6 +18,17 @@ struct Failure : std::exception {
   const char* what() const noexcept override { return error.message.c_str(); }
   Error error;
 };
+
+/// Throw Failure: the fault is in the input, or a tool is missing or broke. The message is made by
+/// fmt::format.
+template <class... Values>
+[[noreturn]] void throw_bad_input(fmt::format_string<Values...> message, Values&&... values) {
+  throw Failure{bad_input(fmt::format(message, std::forward<Values>(values)...))};
+}
+template <class... Values>
+[[noreturn]] void throw_tool_failed(fmt::format_string<Values...> message, Values&&... values) {
+  throw Failure{tool_failed(fmt::format(message, std::forward<Values>(values)...))};
+}
 
 /// Return the value, or throw Failure on an error.
 template <class T>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/os/socket_client.hpp"
 
-#include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -15,7 +14,7 @@ namespace halfway {
 namespace {
 
 [[noreturn]] void fail(const std::filesystem::path& socket, const char* what) {
-  throw Failure{tool_failed(fmt::format("{}: {}: {}", socket.string(), what, std::strerror(errno)))};
+  throw_tool_failed("{}: {}: {}", socket.string(), what, std::strerror(errno));
 }
 
 }  // namespace
@@ -24,7 +23,7 @@ SocketClient::SocketClient(const std::filesystem::path& socket) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   if (socket.string().size() >= sizeof address.sun_path)
-    throw Failure{bad_input(socket.string() + ": too long for the name of a socket; use a shorter path")};
+    throw_bad_input("{}: too long for the name of a socket; use a shorter path", socket.string());
   std::strcpy(address.sun_path, socket.c_str());
   const Descriptor listener(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   ::unlink(socket.c_str());

@@ -2,7 +2,6 @@
 // Files of TOML. An error of the syntax names file and line.
 #pragma once
 
-#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <filesystem>
@@ -19,7 +18,7 @@ inline toml::table parse_toml(std::string_view text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& error) {
-    throw Failure{bad_input(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()))};
+    throw_bad_input("{}:{}: {}", file, error.source().begin.line, error.description());
   }
 }
 

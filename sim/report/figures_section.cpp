@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Section with the papers' figures, from figures.json.
-#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
@@ -35,7 +34,7 @@ std::pair<int, int> size_of(const std::filesystem::path& picture) {
   double width = 0.0, height = 0.0;
   if (std::sscanf(document.child("svg").attribute("viewBox").value(), "%*f %*f %lf %lf", &width, &height) !=
       2)
-    throw Failure{bad_input(picture.string() + ": not an SVG with a viewBox; run make figures again")};
+    throw_bad_input("{}: not an SVG with a viewBox; run make figures again", picture.string());
   return std::pair(to_integer<int>(std::round(width)), to_integer<int>(std::round(height)));
 }
 
@@ -77,7 +76,7 @@ void add_figures(Page& page) {
       ++page.report.figures;
     }
   } catch (const Json::exception& bad) {
-    throw Failure{bad_input(fmt::format("{}: {}; run make figures again", file.string(), bad.what()))};
+    throw_bad_input("{}: {}; run make figures again", file.string(), bad.what());
   }
 }
 

@@ -124,8 +124,7 @@ void add_frames(Page& page) {
       try {
         runs.push_back(run_of(scene_name, shader, summary));
       } catch (const Json::exception& bad) {
-        throw Failure{
-            bad_input(fmt::format("{}: {}; run make sim again", files.summary().string(), bad.what()))};
+        throw_bad_input("{}: {}; run make sim again", files.summary().string(), bad.what());
       }
       Json layers = Json::array();
       for (const auto& [file, name] : c_layers) {

@@ -107,7 +107,7 @@ Table front_of(const Table& study) {
 
 std::string draw_front(const Table& front, const std::filesystem::path& scratch) {
   const Plot plot = front_plot(front);
-  if (plot.points.empty()) throw Failure{bad_input("front: no design has both a cost and an error to plot")};
+  if (plot.points.empty()) throw_bad_input("front: no design has both a cost and an error to plot");
   return draw_plot(plot, scratch);
 }
 
@@ -115,8 +115,8 @@ std::string page_front(const Table& front) {
   const Plot plot = front_plot(front);
   for (const PlotPoint& point : plot.points)
     if (!front.number(point.number, c_cells))
-      throw Failure{bad_input("front: not all cells are counted; install Yosys")};
-  if (plot.front.size() < 2) throw Failure{bad_input("front: no two designs to join")};
+      throw_bad_input("front: not all cells are counted; install Yosys");
+  if (plot.front.size() < 2) throw_bad_input("front: no two designs to join");
   const auto name = [&](const PlotPoint& point) {
     const std::string& text = front.text(point.number, "point");
     return text.substr(0, text.find(fmt::format(", {}x{}", front.text(point.number, "width"),

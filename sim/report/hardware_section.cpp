@@ -27,8 +27,7 @@ std::string under(const std::string& markdown, const std::string& heading,
                   const std::filesystem::path& file) {
   const std::string mark = "\n## " + heading + "\n";
   const std::size_t at = markdown.find(mark);
-  if (at == std::string::npos)
-    throw Failure{bad_input(fmt::format("{}: has no heading '## {}'", file.string(), heading))};
+  if (at == std::string::npos) throw_bad_input("{}: has no heading '## {}'", file.string(), heading);
   const std::size_t begin = at + mark.size();
   return markdown.substr(begin, markdown.find("\n## ", begin) - begin);
 }

@@ -97,7 +97,7 @@ std::string inline_svg(const std::string& svg, const std::string& prefix, const 
   pugi::xml_document document;
   const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
   pugi::xml_node root = document.child("svg");
-  if (!parsed || !root) throw Failure{bad_input(prefix + ": not an SVG: " + parsed.description())};
+  if (!parsed || !root) throw_bad_input("{}: not an SVG: {}", prefix, parsed.description());
   for (const pugi::xpath_node& found : root.select_nodes("descendant-or-self::*/@*")) {
     pugi::xml_attribute attribute = found.attribute();
     const std::string_view key = attribute.name();

@@ -158,15 +158,13 @@ std::string draw_plot(const Plot& plot, const std::filesystem::path& scratch) {
   pugi::xml_document document;
   if (const auto parsed = document.load_string(svg.c_str(), pugi::parse_default | pugi::parse_ws_pcdata);
       !parsed)
-    throw Failure{
-        tool_failed(std::string("gnuplot: wrote SVG that cannot be read: ") + parsed.description())};
+    throw_tool_failed("gnuplot: wrote SVG that cannot be read: {}", parsed.description());
   // Titles of curves would appear as tooltips.
   for (const pugi::xpath_node& title : document.select_nodes("//g/title"))
     title.parent().remove_child(title.node());
   const pugi::xpath_node_set marks = document.select_nodes("//g[@id='gnuplot_plot_2']//use");
   if (marks.size() != points.size())
-    throw Failure{
-        tool_failed(fmt::format("gnuplot: drew {} marks for {} points", marks.size(), points.size()))};
+    throw_tool_failed("gnuplot: drew {} marks for {} points", marks.size(), points.size());
   for (std::size_t at = 0; at < points.size(); ++at) {
     const pugi::xml_node mark = marks[at].node();
     pugi::xml_node link = mark.parent().insert_child_before("a", mark);

@@ -213,13 +213,13 @@ std::string plot_name(const Table& picture) {
 
 std::string readme_times(const Table& times) {
   const std::vector<Table> pictures = pictures_of(times);
-  if (pictures.empty()) throw Failure{bad_input("times: no design has a known time")};
+  if (pictures.empty()) throw_bad_input("times: no design has a known time");
   const Table& picture = pictures.front();
   const std::vector<std::size_t> front = front_rows(picture);
   std::vector<std::size_t> hardware;
   std::ranges::copy_if(front, std::back_inserter(hardware),
                        [&](std::size_t row) { return is_hardware(picture, row); });
-  if (hardware.size() < 2) throw Failure{bad_input("times: fewer than two designs of hardware to compare")};
+  if (hardware.size() < 2) throw_bad_input("times: fewer than two designs of hardware to compare");
   std::string text = fmt::format(
       "![Rms error against milliseconds per frame, {0} designs](docs/results/gallery/{1})\n\n"
       "*{0} designs draw one grey sphere of {2} triangles at {3}. A frame takes the longer of two times: the "
@@ -252,7 +252,7 @@ std::string page_times(const Table& times) {
         fmt::format("{0}![Rms error against milliseconds per frame: {4} at {1}](results/gallery/{2})\n\n{3}",
                     text.empty() ? "" : "\n", size_of(picture), plot_name(picture),
                     table_of(picture, by_time(picture)), picture.text(0, "scene"));
-  if (text.empty()) throw Failure{bad_input("times: no design has a known time")};
+  if (text.empty()) throw_bad_input("times: no design has a known time");
   return text;
 }
 

@@ -118,7 +118,7 @@ ShaderTiming draw_shader_timing(Shader shader, const SimulatorFolders& folders) 
   const auto& ready = sampled.values.at("frame_tb/init_ready");
   std::size_t first = 0;
   while (first < sampled.edges && !(offered[first] == "1" && ready[first] == "1")) ++first;
-  if (first == sampled.edges) throw Failure{tool_failed(trace.string() + ": no vector is taken")};
+  if (first == sampled.edges) throw_tool_failed("{}: no vector is taken", trace.string());
   const auto& drawn = sampled.values.at("frame_tb/fragment_valid");
   std::size_t last = first;
   for (std::size_t fragments = 0; last < sampled.edges && fragments < c_fragments; ++last)

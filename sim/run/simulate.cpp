@@ -39,7 +39,7 @@ constexpr double c_bright = 2.0;
 void forget(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::remove_all(path, error);
-  if (error) throw Failure{tool_failed(fmt::format("{}: cannot remove: {}", path.string(), error.message()))};
+  if (error) throw_tool_failed("{}: cannot remove: {}", path.string(), error.message());
 }
 
 class Simulation {

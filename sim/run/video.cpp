@@ -43,7 +43,7 @@ TemporaryFolder temporary_beside(const std::filesystem::path& file) {
 }  // namespace
 
 void VideoWriter::check(const std::filesystem::path& file) {
-  const auto refuse = [](const std::string& why) { throw Failure{bad_input("--video: " + why)}; };
+  const auto refuse = [](const std::string& why) { throw_bad_input("--video: {}", why); };
   if (!file.has_filename() || !file.has_extension())
     refuse(fmt::format("'{}' is not the name of a video; give a file such as turn.mp4", file.string()));
   if (!is_ending(file.extension().string()))
@@ -53,8 +53,7 @@ void VideoWriter::check(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, error))
     refuse(fmt::format("{} is a folder; name a file", file.string()));
   if (find_program("ffmpeg").empty())
-    throw Failure{
-        tool_failed(fmt::format("ffmpeg: not found, and --video needs it; install it with: {}", c_install))};
+    throw_tool_failed("ffmpeg: not found, and --video needs it; install it with: {}", c_install);
   temporary_beside(file);
 }
 
@@ -63,7 +62,7 @@ VideoWriter::VideoWriter(const std::filesystem::path& file, FrameSize size, unsi
   // A socket instead of a pipe: writing after ffmpeg's end then returns an error without a signal.
   int ends[2];
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw Failure{tool_failed(fmt::format("ffmpeg: cannot be given frames: {}", std::strerror(errno)))};
+    throw_tool_failed("ffmpeg: cannot be given frames: {}", std::strerror(errno));
   input_.reset(ends[0]);
   Command command{
       .arguments = {"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y"},
@@ -92,7 +91,7 @@ void VideoWriter::add(const Frame& frame) {
     if (sent < 0 && errno == EINTR) continue;
     if (sent < 0) {
       finish();
-      throw Failure{tool_failed("ffmpeg: stopped reading frames without a message")};
+      throw_tool_failed("ffmpeg: stopped reading frames without a message");
     }
     bytes += sent;
     left -= static_cast<std::size_t>(sent);
@@ -103,17 +102,15 @@ void VideoWriter::finish() {
   input_.reset();
   const ProcessEnd end = must(ffmpeg_.get());
   if (!end.succeeded())
-    throw Failure{tool_failed(fmt::format("{}: ffmpeg could not make it ({}):\n{}{}", file_.string(),
-                                          end.how(), end.output, room_note({folder_of(file_)})))};
+    throw_tool_failed("{}: ffmpeg could not make it ({}):\n{}{}", file_.string(), end.how(), end.output,
+                      room_note({folder_of(file_)}));
 }
 
 void VideoWriter::commit() {
   finish();
   std::error_code error;
   std::filesystem::rename(folder_.path() / file_.filename(), file_, error);
-  if (error)
-    throw Failure{
-        tool_failed(fmt::format("{}: cannot move the video here: {}", file_.string(), error.message()))};
+  if (error) throw_tool_failed("{}: cannot move the video here: {}", file_.string(), error.message());
 }
 
 void VideoWriter::abandon() const {

@@ -65,9 +65,9 @@ class Easel {
   DrawnFrame draw(std::uint32_t number) {
     scene_.camera = turned(first_camera_, number, s_.frames);
     if (!has_view(scene_.camera))
-      throw Failure{bad_input(fmt::format(
+      throw_bad_input(
           "{}: frame {} has no view: the camera's eye is too near its target, or to the axis through that",
-          scene_.name, number))};
+          scene_.name, number);
     again_.reset();
     DrawnFrame drawn;
     SimulatorRun run = draw_in(driver_, drawn);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/run/waveform.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <vector>
 
@@ -23,10 +21,10 @@ constexpr std::size_t c_vectors_a_read = 64;
 // The simulators write waveforms directly to the given name and do not report a full disk.
 std::filesystem::path put_in_place(const std::filesystem::path& written, const std::filesystem::path& path) {
   if (const std::string note = room_note({path.parent_path()}); !note.empty())
-    throw Failure{tool_failed(path.string() + ": may be cut off" + note)};
+    throw_tool_failed("{}: may be cut off{}", path.string(), note);
   std::error_code error;
   std::filesystem::rename(written, path, error);
-  if (error) throw Failure{tool_failed(fmt::format("{}: cannot write: {}", path.string(), error.message()))};
+  if (error) throw_tool_failed("{}: cannot write: {}", path.string(), error.message());
   return path;
 }
 

@@ -27,7 +27,7 @@ class Sweep {
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
     const toml::node* node = table_.get(key);
     const auto line = (node == nullptr ? table_.source() : node->source()).begin.line;
-    throw Failure{bad_input(fmt::format("{}:{}: {} {}", file_, line, key, what))};
+    throw_bad_input("{}:{}: {} {}", file_, line, key, what);
   }
 
   void allow(const std::vector<std::string_view>& keys) const {
@@ -359,7 +359,7 @@ std::vector<DesignPoint> read_space(const std::filesystem::path& path) {
   top.allow({"sweep"});
   const toml::array* sweeps = root["sweep"].as_array();
   if (sweeps == nullptr || sweeps->empty())
-    throw Failure{bad_input(path.string() + ": no sweep; give it a [[sweep]] with a method")};
+    throw_bad_input("{}: no sweep; give it a [[sweep]] with a method", path.string());
   std::vector<DesignPoint> points;
   for (const toml::node& node : *sweeps) {
     if (node.as_table() == nullptr) top.fail("sweep", "must be a table: [[sweep]]");

@@ -34,7 +34,7 @@ std::vector<double> own_exponents_of(const DesignPoint& point, const Scene& scen
 
 PointHardware hardware_of(const DesignPoint& point, const Scene& scene) {
   if (point.filtered() && point.in_tiles())
-    throw Failure{bad_input("filtered frames are not drawn in tiles; give a larger tile")};
+    throw_bad_input("filtered frames are not drawn in tiles; give a larger tile");
   PointHardware hardware;
   PlanRequest request = point.plan();
   request.own = own_exponents_of(point, scene);
@@ -46,8 +46,8 @@ PointHardware hardware_of(const DesignPoint& point, const Scene& scene) {
   if (point.method == Method::processors_1 || point.method == Method::processors_2) {
     ProcessorUnits& units = hardware.key.processors;
     if (point.method == Method::processors_1 && units.positional + units.spots > 0)
-      throw Failure{bad_input(scene.name +
-                              ": version I of the processors has directional lights only; take version II")};
+      throw_bad_input("{}: version I of the processors has directional lights only; take version II",
+                      scene.name);
     units.normalize = point.method == Method::processors_2 && units.lights() > 0;
   }
   return hardware;

@@ -105,13 +105,13 @@ HostTime host_time(const DesignPoint& point, const std::string& scene_name, cons
 
 void in_processes(const std::filesystem::path& names, const std::function<void(const std::string&)>& each) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(names.c_str(), "r"), &std::fclose);
-  if (!file) throw Failure{bad_input(fmt::format("{}: {}", names.string(), std::strerror(errno)))};
+  if (!file) throw_bad_input("{}: {}", names.string(), std::strerror(errno));
   std::array<char, c_longest_name> line{};
   // This process allocates nothing from here on.
   while (std::fgets(line.data(), static_cast<int>(line.size()), file.get()) != nullptr) {
     line[std::strcspn(line.data(), "\n")] = '\0';
     const pid_t child = fork();
-    if (child < 0) throw Failure{tool_failed(fmt::format("fork: {}", std::strerror(errno)))};
+    if (child < 0) throw_tool_failed("fork: {}", std::strerror(errno));
     if (child == 0) {
       const Status done = caught([&] { each(line.data()); });
       if (!done) fmt::print(stderr, "{}\n", done.error().message);
@@ -122,7 +122,7 @@ void in_processes(const std::filesystem::path& names, const std::function<void(c
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (status != 0) throw Failure{tool_failed(std::string(line.data()) + ": could not be set up")};
+    if (status != 0) throw_tool_failed("{}: could not be set up", line.data());
     dprintf(STDOUT_FILENO, "%d %s\n", child, line.data());
   }
 }
@@ -146,8 +146,7 @@ std::optional<std::vector<std::uint64_t>> host_instructions(std::vector<std::str
   worker.insert(worker.end(), {"--set-up", "/dev/stdin"});
   command.arguments.insert(command.arguments.end(), worker.begin(), worker.end());
   command.standard_input = ::open(list.c_str(), O_RDONLY | O_CLOEXEC);
-  if (command.standard_input < 0)
-    throw Failure{tool_failed(fmt::format("{}: {}", list.string(), std::strerror(errno)))};
+  if (command.standard_input < 0) throw_tool_failed("{}: {}", list.string(), std::strerror(errno));
   const ProcessEnd end = must(run_process(command, c_install_valgrind));
   const auto failed = [&](const std::string& what) {
     return Failure{tool_failed(fmt::format("valgrind: {}\n  while running: {}", what, to_string(command)))};

@@ -33,7 +33,7 @@ std::optional<double> read_quantity(const char* option, const std::string& text,
   while (unit.starts_with(' ')) unit.remove_prefix(1);
   for (const auto& [name, size] : units)
     if (right && unit == name) return number * size;
-  throw Failure{bad_input(fmt::format("{}: '{}' is not valid; {}", option, text, what))};
+  throw_bad_input("{}: '{}' is not valid; {}", option, text, what);
 }
 
 std::string time_text(double seconds) {

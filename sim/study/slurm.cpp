@@ -60,7 +60,7 @@ void run_job_array(const JobArray& array) {
                         said->size() > c_shown ? said->substr(said->size() - c_shown) : *said);
     break;
   }
-  throw Failure{tool_failed(what)};
+  throw_tool_failed("{}", what);
 }
 
 }  // namespace halfway::study

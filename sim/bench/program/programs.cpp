@@ -25,8 +25,7 @@ std::size_t cached_builds() {
 // The command's output; throws if it fails.
 std::string output_of(const Command& command) {
   const ProcessEnd end = must(run_process(command, "apt-get install make cmake"));
-  if (!end.succeeded())
-    throw Failure{tool_failed(fmt::format("{} failed: {}", fmt::join(command.arguments, " "), end.output))};
+  if (!end.succeeded()) throw_tool_failed("{} failed: {}", fmt::join(command.arguments, " "), end.output);
   return end.output;
 }
 
@@ -89,7 +88,7 @@ void measure_view(Json& speed) {
       command.arguments.insert(command.arguments.end(), view.options.begin(), view.options.end());
       const std::string output = output_of(command);
       std::smatch found;
-      if (!std::regex_search(output, found, line)) throw Failure{tool_failed("halfway view said: " + output)};
+      if (!std::regex_search(output, found, line)) throw_tool_failed("halfway view said: {}", output);
       if (repetition == 0) continue;
       const double rate = std::stod(found[1]);
       fmt::print(stderr, "view, {}, {}: {:.1f} frames a second\n", view.shader, view.what, rate);

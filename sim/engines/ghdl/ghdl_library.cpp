@@ -30,10 +30,10 @@ void check_choices(const std::string& entity, std::string_view vhdl, std::string
     if (value.find(" downto 0 => 'X')") != std::string_view::npos) continue;
     const std::size_t where = vhdl.rfind("  -- ", at);
     const std::string_view place = vhdl.substr(where + 5, vhdl.find('\n', where) - where - 5);
-    throw Failure{
-        tool_failed(fmt::format("{}: synthesis of {}: GHDL's Verilog omits `when others`; "
-                                "write every choice out and 'X' under others, or if and elsif",
-                                place, entity))};
+    throw_tool_failed(
+        "{}: synthesis of {}: GHDL's Verilog omits `when others`; "
+        "write every choice out and 'X' under others, or if and elsif",
+        place, entity);
   }
 }
 
@@ -121,9 +121,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
       constexpr auto c_whole =
           std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing;
       std::filesystem::copy(rtl.folder(), fresh, c_whole, error);
-      if (error)
-        throw Failure{
-            tool_failed(fmt::format("{}: cannot be copied: {}", rtl.folder().string(), error.message()))};
+      if (error) throw_tool_failed("{}: cannot be copied: {}", rtl.folder().string(), error.message());
       first = first_testbench;
     }
     Command analyse{.arguments = {tool.program, "-a"}, .working_folder = fresh};

@@ -77,7 +77,7 @@ void main() {
 )";
 
 [[noreturn]] void fail(const std::string& what) {
-  throw Failure{tool_failed(what)};
+  throw_tool_failed("{}", what);
 }
 
 /// Create a context without a window. It stays current until the process ends.

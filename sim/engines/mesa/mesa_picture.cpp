@@ -51,12 +51,11 @@ MesaPicture draw_by_mesa(const MesaRequest& request, const std::filesystem::path
   MesaPicture picture{.frame = Frame(request.size)};
   std::istringstream said(end.output);
   if (!end.succeeded() || !(said >> picture.seconds >> picture.elapsed_seconds))
-    throw Failure{tool_failed(fmt::format("halfway_mesa: {}: {}", end.how(), end.output))};
+    throw_tool_failed("halfway_mesa: {}: {}", end.how(), end.output);
   said.ignore();
   std::getline(said, picture.renderer);
   const std::string rgb = must(read_file(file));
-  if (rgb.size() != picture.frame.rgb.size())
-    throw Failure{tool_failed("halfway_mesa: a frame of another size")};
+  if (rgb.size() != picture.frame.rgb.size()) throw_tool_failed("halfway_mesa: a frame of another size");
   std::copy(rgb.begin(), rgb.end(), picture.frame.rgb.begin());
   return picture;
 }

@@ -30,7 +30,7 @@ std::vector<std::string> generated_sources(const std::filesystem::path& folder) 
   std::vector<std::string> names;
   for (const auto& file : must(files_below(folder, ".cpp")))
     if (file.string().find("__ALL") == std::string::npos) names.push_back(file.string());
-  if (names.empty()) throw Failure{tool_failed(folder.string() + ": Verilator wrote no C++ here")};
+  if (names.empty()) throw_tool_failed("{}: Verilator wrote no C++ here", folder.string());
   return names;
 }
 

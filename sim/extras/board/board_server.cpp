@@ -110,7 +110,7 @@ ServerReport serve_board(const std::filesystem::path& socket, const std::filesys
   std::uint32_t count = 0;
   for (std::vector<std::uint8_t> packet; client.read(&count, sizeof count);) {
     if (count == 0 || count > c_longest_packet)
-      throw Failure{bad_input(fmt::format("{}: a packet of {} bytes", socket.string(), count))};
+      throw_bad_input("{}: a packet of {} bytes", socket.string(), count);
     packet.resize(count);
     if (!client.read(packet.data(), count)) break;
     wire.send(packet);

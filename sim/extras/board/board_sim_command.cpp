@@ -93,8 +93,7 @@ void serve(const Folders& folders, const BoardSimCommand& command) {
 
 void run(const Folders& folders, const BoardSimCommand& command) {
   if (!command.socket.empty()) return serve(folders, command);
-  if (!(command.threshold > 0.0))
-    throw Failure{bad_input(fmt::format("--threshold: {} is not above 0", command.threshold))};
+  if (!(command.threshold > 0.0)) throw_bad_input("--threshold: {} is not above 0", command.threshold);
   for (const BoardSimulation& simulation : simulations(command, folders))
     simulate_board(simulation, command, folders);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/extras/board/verilated_board.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
 
 #include "sim/engines/verilator/netlist.hpp"
@@ -43,8 +41,7 @@ BoardLibrary open_library(const SimulatorFolders& folders) {
   must(board.library.bind(board.version, "board_version", board.create, "board_create", board.clock,
                           "board_clock", board.destroy, "board_destroy"));
   if (board.version() != HALFWAY_BOARD_VERSION)
-    throw Failure{tool_failed(
-        fmt::format("{}: of another version; delete it and try again", board.library.file().string()))};
+    throw_tool_failed("{}: of another version; delete it and try again", board.library.file().string());
   return board;
 }
 

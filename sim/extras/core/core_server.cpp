@@ -2,7 +2,6 @@
 #include "sim/extras/core/core_server.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -38,7 +37,7 @@ class SharedMemory {
 
  private:
   [[noreturn]] void fail() const {
-    throw Failure{tool_failed(fmt::format("{}: cannot share it: {}", file_.string(), std::strerror(errno)))};
+    throw_tool_failed("{}: cannot share it: {}", file_.string(), std::strerror(errno));
   }
   std::filesystem::path file_;
   Descriptor descriptor_;
@@ -65,7 +64,7 @@ CoreServerReport serve_core(const CoreKey& key, MemoryTiming timing, const std::
     else if (kind == wait)
       core.wait(c_most_frame_clocks);
     else
-      throw Failure{bad_input(fmt::format("{}: a request of kind {}", socket.string(), kind))};
+      throw_bad_input("{}: a request of kind {}", socket.string(), kind);
     const std::array<std::uint32_t, 2> words = {answer.value, answer.response};
     if (!client.write({reinterpret_cast<const std::uint8_t*>(words.data()), sizeof words})) break;
   }

@@ -77,8 +77,7 @@ void draw_scene(const std::string& name, const Folders& folders, const CoreSimCo
 
 /// Simulates the core of a scene for another program.
 void serve(const Folders& folders, const CoreSimCommand& command) {
-  if (command.scenes.size() != 1)
-    throw Failure{bad_input("--serve: give one scene, for which the core is made")};
+  if (command.scenes.size() != 1) throw_bad_input("--serve: give one scene, for which the core is made");
   const Scene scene = loaded(command.scenes[0], folders);
   const auto report_of = core::serve_core(key_for(scene, command), command.timing, command.socket,
                                           {folders.source, folders.cache()});
@@ -89,8 +88,7 @@ void serve(const Folders& folders, const CoreSimCommand& command) {
 void run(const Folders& folders, const CoreSimCommand& command) {
   checked(command.core);
   if (command.timing.latency < 1 || command.timing.latency > c_most_latency)
-    throw Failure{
-        bad_input(fmt::format("--latency: {} is not 1 to {}", command.timing.latency, c_most_latency))};
+    throw_bad_input("--latency: {} is not 1 to {}", command.timing.latency, c_most_latency);
   if (!command.socket.empty()) return serve(folders, command);
   for (const std::string& scene : command.scenes.empty() ? builtin_scenes(folders) : command.scenes)
     draw_scene(scene, folders, command);

@@ -24,7 +24,7 @@ std::set<unsigned> ends_of(const Bits& bits) {
 }  // namespace
 
 void BitOperations::fail(const std::string& what) {
-  throw Failure{tool_failed(what)};
+  throw_tool_failed("{}", what);
 }
 
 /// The value of a piece of a constant. Bits above the node's vector are zero.

@@ -51,8 +51,7 @@ std::vector<ObservedPart> in_netlist(const LanePorts& ports, const LaneNetlist& 
   for (const auto& [name, driver] : netlist.drivers) add(name);
   for (ObservedPart& part : parts) {
     const auto name = by_path.find(part.path);
-    if (name == by_path.end())
-      throw Failure{tool_failed(part.path + ": the netlist has no such signal to observe")};
+    if (name == by_path.end()) throw_tool_failed("{}: the netlist has no such signal to observe", part.path);
     part.path = name->second;
   }
   return parts;

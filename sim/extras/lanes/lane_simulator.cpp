@@ -244,15 +244,13 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
 
 LaneBuild lane_build_of(const HardwareKey& key, const SimulatorFolders& folders, const LaneOptions& options) {
   if (key.processors.objects > 0)
-    throw Failure{bad_input(fmt::format(
+    throw_bad_input(
         "{}: lanes do not simulate object processors, which shadows need: their netlist is too large; use "
         "another simulator",
-        key.name()))};
+        key.name());
   std::string netlist = netlist_of(key, folders);
   const unsigned init_bits = port_bits(netlist, key.entity(), "init_data");
-  if (init_bits == 0)
-    throw Failure{
-        tool_failed(fmt::format("{}: the netlist has no module with the port init_data", key.name()))};
+  if (init_bits == 0) throw_tool_failed("{}: the netlist has no module with the port init_data", key.name());
   const bool stalls = options.stall_seed != 0;
   std::map<std::string, bool> fixed;
   std::vector<std::string> definitions = {fmt::format("HALFWAY_INIT_BITS={}", init_bits)};

@@ -43,7 +43,7 @@ class NetlistReader {
   }
 
  private:
-  [[noreturn]] static void fail(const std::string& what) { throw Failure{tool_failed(what)}; }
+  [[noreturn]] static void fail(const std::string& what) { throw_tool_failed("{}", what); }
 
   void read_types(pugi::xml_node table) {
     for (const pugi::xml_node type : table.children()) {
@@ -180,7 +180,7 @@ LaneNetlist read_lane_netlist(std::string_view xml) {
   LaneNetlist netlist;
   netlist.document = std::make_unique<pugi::xml_document>();
   if (const auto parsed = netlist.document->load_buffer(xml.data(), xml.size()); !parsed)
-    throw Failure{tool_failed(fmt::format("Verilator's XML cannot be read: {}", parsed.description()))};
+    throw_tool_failed("Verilator's XML cannot be read: {}", parsed.description());
   NetlistReader(netlist).read();
   return netlist;
 }

@@ -58,7 +58,7 @@ class Scheduler {
     for (Group& group : schedule_.groups) find_uses(group);
     order();
     if (!schedule_.saved.empty() && *schedule_.saved.rbegin() >= c_first_bank)
-      throw Failure{tool_failed("the lanes do not support memories that read from one another at one edge")};
+      throw_tool_failed("the lanes do not support memories that read from one another at one edge");
     return std::move(schedule_);
   }
 

@@ -92,8 +92,7 @@ void link_libraries(const fs::path& folder) {
   for (const std::string& library : c_libraries) {
     std::error_code fault;
     fs::create_directory_symlink(fs::path("/usr/include") / library, folder / library, fault);
-    if (fault)
-      throw Failure{tool_failed(fmt::format("{}: {}", (folder / library).string(), fault.message()))};
+    if (fault) throw_tool_failed("{}: {}", (folder / library).string(), fault.message());
   }
 }
 

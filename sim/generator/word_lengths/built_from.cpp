@@ -10,7 +10,7 @@
 int main(int argc, char** argv) {
   using namespace halfway;
   const auto written = caught([&] {
-    if (argc != 3) throw Failure{bad_input("halfway_built_from: takes a checkout and the file to write")};
+    if (argc != 3) throw_bad_input("halfway_built_from: takes a checkout and the file to write");
     must(write_file(argv[2], fmt::format("#include \"sim/generator/word_lengths/format_sources.hpp\"\n\n"
                                          "const char* halfway::built_from() {{ return \"{}\"; }}\n",
                                          format_sources_hash(argv[1]))));

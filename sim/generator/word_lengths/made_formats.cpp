@@ -42,10 +42,10 @@ Models made_models(const HardwareKey& key, const SimulatorFolders& folders) {
   const fs::path source = fs::absolute(folders.source);
   const std::string sources = format_sources_hash(source);
   if (sources != built_from())
-    throw Failure{bad_input(fmt::format(
+    throw_bad_input(
         "{}: the program was built from other sources; word lengths other than the preset's need the "
         "same sources: run make program",
-        (source / "model").lexically_normal().string()))};
+        (source / "model").lexically_normal().string());
   const bool exact = key.preset == Preset::exact;
   const tables::WordLengths& words = key.words;
   const auto headers = tables::cpp_headers(tables::compiled_sizes(), exact, words);

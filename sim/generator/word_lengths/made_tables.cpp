@@ -66,7 +66,7 @@ fs::path rtl_with(bool exact, const std::optional<CosineSize>& size, const WordL
     for (const char* kept : {"sim", "tb"}) {
       std::error_code error;
       fs::create_directory_symlink(fs::absolute(checkout) / kept, fresh / kept, error);
-      if (error) throw Failure{tool_failed(fmt::format("{}: {}", fresh.string(), error.message()))};
+      if (error) throw_tool_failed("{}: {}", fresh.string(), error.message());
     }
   });
   return folder;
