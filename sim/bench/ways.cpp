@@ -116,7 +116,7 @@ Go golden_alone(Way way, const WayInput& input) {
 }
 
 ReferenceImage reference_of(const WayInput& input, const std::vector<ScreenTriangle>& triangles) {
-  return render_reference(*input.scene, triangles, {.frame = input.size, .subpixel_bits = 4});
+  return render_reference(*input.scene, triangles, {.frame = input.size});
 }
 
 /// The pixels of which all neighbours are covered too.

@@ -311,8 +311,8 @@ void print_degrees(const Scene& scene, const DrawSettings& draw, const HardwareK
   whole.test = options.test = HighlightTest::conservative;
   whole.max_level = 0;
   const HardwareKey planes = of_degree(key, 1), quadratics = of_degree(key, 2);
-  const ReferenceImage reference = render_reference(scene, Projector(scene, draw.size, {}).project_all(),
-                                                    {.frame = draw.size, .subpixel_bits = 4});
+  const ReferenceImage reference =
+      render_reference(scene, Projector(scene, draw.size, {}).project_all(), {.frame = draw.size});
   const auto draw_by = [&](const HardwareKey& of, const QuadraticSetupOptions& how) {
     return draw_degree(scene, reference, of, how);
   };

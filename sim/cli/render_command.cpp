@@ -58,7 +58,7 @@ void run(const Folders& folders, const RenderCommand& command) {
   for (const std::string& note : scene.notes) say(note);
 
   const std::vector<ScreenTriangle> triangles = Projector(scene, draw.size, {}).project_all();
-  const RenderOptions options{.frame = draw.size, .subpixel_bits = 4, .workers = on_threads(draw.threads)};
+  const RenderOptions options{.frame = draw.size, .workers = on_threads(draw.threads)};
   const ReferenceImage reference = render_reference(scene, triangles, options);
   Frame frame = reference.frame;
   if (command.method == "gouraud") frame = render_gouraud(scene, triangles, options).frame;

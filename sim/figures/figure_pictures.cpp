@@ -64,9 +64,8 @@ Scene teapot_scene(const Context& context) {
 
 Software draw_in_software(const Scene& scene, FrameSize size, unsigned threads) {
   Software software;
-  software.triangles = Projector(scene, size, {.subpixel_bits = c_subpixel_bits}).project_all();
-  const RenderOptions options{
-      .frame = size, .subpixel_bits = c_subpixel_bits, .workers = on_threads(threads)};
+  software.triangles = Projector(scene, size, {}).project_all();
+  const RenderOptions options{.frame = size, .workers = on_threads(threads)};
   software.phong = render_reference(scene, software.triangles, options);
   software.gouraud = render_gouraud(scene, software.triangles, options);
   return software;
@@ -92,10 +91,8 @@ Hardware draw_in_hardware(const Context& context, const Scene& scene, FrameSize 
 Frame draw_mesh(const Scene& scene, FrameSize size, unsigned threads) {
   // pixels: half the width of a line, and the width of its soft edge
   constexpr double c_line = 0.55, c_soft = 0.7;
-  const std::vector<ScreenTriangle> triangles =
-      Projector(scene, size, {.subpixel_bits = c_subpixel_bits}).project_all();
-  const RenderOptions options{
-      .frame = size, .subpixel_bits = c_subpixel_bits, .workers = on_threads(threads)};
+  const std::vector<ScreenTriangle> triangles = Projector(scene, size, {}).project_all();
+  const RenderOptions options{.frame = size, .workers = on_threads(threads)};
   Scene paper = scene;
   paper.background = glm::dvec3(1.0);
   return render_visible(

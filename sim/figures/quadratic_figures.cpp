@@ -203,7 +203,7 @@ constexpr FrameSize c_timed_size{500, 500};
 
 Times software_times(const Scene& scene) {
   constexpr int c_rounds = 15;
-  const auto triangles = Projector(scene, c_timed_size, {.subpixel_bits = 4}).project_all();
+  const auto triangles = Projector(scene, c_timed_size, {}).project_all();
   Times least{1e9, 1e9, 1e9};
   std::array<Frame, 3> frames;
   for (int round = 0; round < c_rounds; ++round)
@@ -216,7 +216,7 @@ Times software_times(const Scene& scene) {
       *seconds = std::min(*seconds, drawn.seconds);
     }
   // The renderers must draw their own method's picture.
-  const RenderOptions options{.frame = c_timed_size, .subpixel_bits = 4};
+  const RenderOptions options{.frame = c_timed_size};
   const ReferenceImage phong = render_reference(scene, triangles, options);
   const Frame gouraud = render_gouraud(scene, triangles, options).frame;
   if (distance(frames[0], gouraud, phong.mask).max_lsb > 1 ||

@@ -281,9 +281,8 @@ Scene smooth_highlights(const Context& context) {
 // Drawn by spherical interpolation in double.
 Frame interpolated(const Scene& scene, FrameSize size, SpanEnds ends, HighlightCurve curve,
                    unsigned threads) {
-  const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
-  return render_spherical(scene, triangles,
-                          {.frame = size, .subpixel_bits = 4, .workers = on_threads(threads)},
+  const auto triangles = Projector(scene, size, {}).project_all();
+  return render_spherical(scene, triangles, {.frame = size, .workers = on_threads(threads)},
                           {.ends = ends, .curve = curve})
       .frame;
 }
@@ -499,8 +498,8 @@ double largest_scheme_angle(const Scene& scene, FrameSize size) {
 }
 
 FrameDistance between_schemes(const Scene& scene, FrameSize size, unsigned threads) {
-  const auto triangles = Projector(scene, size, {.subpixel_bits = 4}).project_all();
-  const RenderOptions options{.frame = size, .subpixel_bits = 4, .workers = on_threads(threads)};
+  const auto triangles = Projector(scene, size, {}).project_all();
+  const RenderOptions options{.frame = size, .workers = on_threads(threads)};
   const auto by = [&](VectorScheme scheme) {
     return render_spherical(scene, triangles, options, {scheme, SpanEnds::slerped_along_edges});
   };

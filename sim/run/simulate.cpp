@@ -197,7 +197,7 @@ class Simulation {
 
   ReferenceImage draw_reference() const {
     const std::vector<ScreenTriangle> triangles = Projector(scene_, s_.size, {}).project_all();
-    const RenderOptions options{.frame = s_.size, .subpixel_bits = 4, .workers = on_threads(s_.threads)};
+    const RenderOptions options{.frame = s_.size, .workers = on_threads(s_.threads)};
     if (words::has_filter(static_cast<int>(s_.plan.subpixels)))
       return render_filtered(scene_, triangles, options, words::c_filter_weights);
     return render_reference(scene_, triangles, options);

@@ -87,8 +87,8 @@ class Easel {
 
  private:
   std::uint64_t count_reference_pixels() const {
-    const ReferenceImage reference = render_reference(scene_, Projector(scene_, s_.size, {}).project_all(),
-                                                      {.frame = s_.size, .subpixel_bits = 4});
+    const ReferenceImage reference =
+        render_reference(scene_, Projector(scene_, s_.size, {}).project_all(), {.frame = s_.size});
     return static_cast<std::uint64_t>(std::ranges::count(reference.mask, 1));
   }
 

@@ -97,7 +97,7 @@ HostTime host_time(const DesignPoint& point, const std::string& scene_name, cons
         [&] { time.words = set_up_frame(scene, point.size, hardware.key, options, hardware.models).words; });
     return time;
   }
-  const RenderOptions options{.frame = point.size, .subpixel_bits = 4};
+  const RenderOptions options{.frame = point.size};
   const auto draw = point.method == Method::gouraud ? render_gouraud : render_reference;
   return {.ns = quickest_ns([&] { draw(scene, Projector(scene, point.size, {}).project_all(), options); }),
           .words = 0};

@@ -46,9 +46,7 @@ Drawing draw(const DesignPoint& point, const Subject& subject, const SimulatorFo
     drawing.mask = mask_of(drawing.frame, subject.scene);
     return drawing;
   }
-  drawing.frame = render_gouraud(subject.scene, subject.triangles,
-                                 {.frame = point.size, .subpixel_bits = 4, .tile = tile})
-                      .frame;
+  drawing.frame = render_gouraud(subject.scene, subject.triangles, {.frame = point.size, .tile = tile}).frame;
   return drawing;
 }
 

@@ -37,7 +37,7 @@ Scene drawn_scene(const std::string& scene, const std::filesystem::path& scenes_
 }
 
 Reference render(const Subject& subject, const DesignPoint& point, const std::optional<Tile>& tile) {
-  const RenderOptions options{.frame = point.size, .subpixel_bits = 4, .tile = tile};
+  const RenderOptions options{.frame = point.size, .tile = tile};
   Reference reference;
   reference.image = draw(subject.scene, subject, options, point.filtered());
   reference.highlight = highlight_mask(subject, options, reference.image, point.filtered());
