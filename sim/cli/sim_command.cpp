@@ -16,7 +16,6 @@
 #include "sim/cli/options.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/generator/generated_files.hpp"
-#include "sim/generator/word_lengths/compiled_sizes.hpp"
 #include "sim/generator/word_lengths/made_tables.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/printable.hpp"

@@ -20,7 +20,7 @@
 #include "sim/files/load_scene.hpp"
 #include "sim/files/terminal_picture.hpp"
 #include "sim/generator/generated_files.hpp"
-#include "sim/generator/word_lengths/compiled_sizes.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/interruption.hpp"
 #include "sim/os/must.hpp"

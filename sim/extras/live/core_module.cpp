@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "sim/generator/generated_files.hpp"
-#include "sim/generator/word_lengths/compiled_sizes.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/shared_library.hpp"

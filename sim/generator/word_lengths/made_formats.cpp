@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sim/generator/generated_files.hpp"
-#include "sim/generator/word_lengths/compiled_sizes.hpp"
 #include "sim/generator/word_lengths/format_sources.hpp"
+#include "sim/generator/word_lengths/made_tables.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/shared_library.hpp"
 

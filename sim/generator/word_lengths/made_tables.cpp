@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <map>
 
-#include "sim/generator/word_lengths/compiled_sizes.hpp"
 #include "sim/os/file.hpp"
 #include "words/generator/formats.hpp"
 #include "words/generator/functions.hpp"
@@ -37,9 +36,18 @@ MadeTables::MadeTables(bool exact, CosineSize size, const std::vector<double>& o
 }
 
 bool compiled_in(bool exact, CosineSize size) {
-  const CosineSizes sizes = compiled_sizes();
-  const auto& list = exact ? sizes.exact : sizes.published;
-  return std::ranges::find(list, size) != list.end();
+  return std::ranges::any_of(words::c_cosine_tables, [&](const words::CosineTable& table) {
+    return table.exact == exact && table.size == size;
+  });
+}
+
+CosineSizes compiled_sizes() {
+  CosineSizes sizes{{}, {}};
+  for (const words::CosineTable& table : words::c_cosine_tables) {
+    auto& list = table.exact ? sizes.exact : sizes.published;
+    if (std::ranges::find(list, table.size) == list.end()) list.push_back(table.size);
+  }
+  return sizes;
 }
 
 fs::path rtl_with(bool exact, const std::optional<CosineSize>& size, const WordLengths& words,

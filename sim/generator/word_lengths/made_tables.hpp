@@ -30,6 +30,8 @@ class MadeTables {
   std::vector<words::CosineTable> tables_;
 };
 
+/// The sizes of the cosine tables compiled into this program.
+CosineSizes compiled_sizes();
 /// True if the program contains tables of that size.
 bool compiled_in(bool exact, CosineSize size);
 
