@@ -44,21 +44,11 @@ Reference render(const Subject& subject, const DesignPoint& point, const std::op
   return reference;
 }
 
-std::shared_ptr<const Subject> PictureShelf::subject(const DesignPoint& point) {
-  return subjects_.of(point.picture(), [&] {
-    auto made = std::make_shared<Subject>();
-    made->name = scene_;
-    made->scene = drawn_scene(scene_, scenes_folder_, point);
-    made->triangles = Projector(made->scene, point.size, {}).project_all();
-    return made;
-  });
-}
-
-std::shared_ptr<const Pictures> PictureShelf::of(const DesignPoint& point, const MakeReference& reference) {
-  return pictures_.of(point.picture(), [&] {
-    const auto drawn = subject(point);
-    return std::make_shared<const Pictures>(Pictures{drawn, reference ? reference() : render(*drawn, point)});
-  });
+Subject subject_of(const std::string& scene, const std::filesystem::path& scenes_folder,
+                   const DesignPoint& point) {
+  Subject subject{scene, drawn_scene(scene, scenes_folder, point), {}};
+  subject.triangles = Projector(subject.scene, point.size, {}).project_all();
+  return subject;
 }
 
 }  // namespace halfway::study

@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <span>
+#include <utility>
 
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
@@ -81,6 +84,36 @@ bool is_point(const Piece& piece) {
   return piece.kind == PieceKind::point || piece.kind == PieceKind::gathering;
 }
 
+// Thread-safe cache of named values. Each value is made once and shared. The oldest values are dropped first.
+template <class Value>
+class Shelf {
+ public:
+  // `make` returns the value, or throws; then the next caller makes it.
+  template <class Make>
+  std::shared_ptr<const Value> of(const std::string& name, const Make& make) {
+    std::shared_ptr<Thing> thing;
+    {
+      const std::scoped_lock lock(mutex_);
+      const auto found =
+          std::ranges::find(kept_, name, &std::pair<std::string, std::shared_ptr<Thing>>::first);
+      thing = found == kept_.end() ? std::make_shared<Thing>() : found->second;
+      if (found == kept_.end()) kept_.emplace_back(name, thing);
+      if (kept_.size() > c_most_kept) kept_.pop_front();
+    }
+    std::call_once(thing->once, [&] { thing->made = std::make_shared<const Value>(make()); });
+    return thing->made;
+  }
+
+ private:
+  static constexpr std::size_t c_most_kept = 8;
+  struct Thing {
+    std::once_flag once;
+    std::shared_ptr<const Value> made;
+  };
+  std::mutex mutex_;
+  std::deque<std::pair<std::string, std::shared_ptr<Thing>>> kept_;
+};
+
 // Makes pieces and finds those that are stored.
 class Bench {
  public:
@@ -88,8 +121,7 @@ class Bench {
       : settings_(settings),
         provenance_(provenance_of(must(load_scene(settings.scene, scenes())), settings.folders)),
         kept_(points(), provenance_),
-        tiles_(points(), provenance_),
-        shelf_(settings.scene, scenes()) {
+        tiles_(points(), provenance_) {
     must(make_folders(points()));
     if (!settings.placed.empty())
       placements_.emplace(settings.scene, settings.placed, settings.folders, provenance_.rtl,
@@ -125,8 +157,12 @@ class Bench {
   std::filesystem::path scenes() const { return settings_.folders.source / "sim" / "scenes"; }
   std::filesystem::path points() const { return settings_.out / "points"; }
 
+  std::shared_ptr<const Subject> subject_of(const DesignPoint& point) {
+    return subjects_.of(point.picture(), [&] { return study::subject_of(settings_.scene, scenes(), point); });
+  }
+
   void make_tile(const DesignPoint& point, PieceKind kind, std::size_t number) {
-    const auto subject = shelf_.subject(point);
+    const auto subject = subject_of(point);
     const Tile tile = point.tiles()[number];
     if (kind == PieceKind::reference_tile)
       tiles_.add_reference(point, number, render(*subject, point, tile));
@@ -135,9 +171,10 @@ class Bench {
   }
 
   Record make_point(const DesignPoint& point, bool of_tiles) {
-    PictureShelf::MakeReference reference;
-    if (of_tiles) reference = [&] { return tiles_.reference(point); };
-    const auto pictures = shelf_.of(point, reference);
+    const auto pictures = pictures_.of(point.picture(), [&] {
+      const auto subject = subject_of(point);
+      return Pictures{subject, of_tiles ? tiles_.reference(point) : render(*subject, point)};
+    });
     std::optional<Drawing> drawing;
     if (is_drawn(point.method))
       drawing = of_tiles ? tiles_.drawing(point) : draw(point, *pictures->subject, settings_.folders);
@@ -154,7 +191,8 @@ class Bench {
   Records kept_;
   TileRecords tiles_;
   std::optional<Placements> placements_;
-  PictureShelf shelf_;
+  Shelf<Subject> subjects_;
+  Shelf<Pictures> pictures_;
 };
 
 // Make this part's placements.
