@@ -30,78 +30,65 @@ double least_of(const Pass& pass) {
   return least;
 }
 
-class Measurement {
- public:
-  Measurement(const Scene& scene, const HardwareKey& key, const CostSettings& settings)
-      : scene_(scene), key_(key), s_(settings) {}
+FrameDriver driver_of(const Scene& scene, const HardwareKey& key, const CostSettings& s,
+                      std::vector<std::shared_ptr<Engine>> engines) {
+  return {
+      scene,
+      s.size,
+      key,
+      std::move(engines),
+      {.setup = s.setup, .golden_picture = true, .workers = on_threads(s.threads), .clocks = host_clocks()}};
+}
 
-  SimulationCost run() {
-    const TemporaryFolder scratch = must(TemporaryFolder::make(s_.folders.cache));
-    const std::filesystem::path init = scratch.path() / "init.txt";
-    if (s_.ghdl) write_init(init);
-    if (s_.verilator) cost_.verilator_seconds = least_of([&] { return verilator_pass(); });
-    if (s_.ghdl) cost_.ghdl_seconds = least_of([&] { return ghdl_pass(init); });
-    return cost_;
-  }
+// Write the init vectors to the file. Return the golden model's frame.
+Frame write_init(const Scene& scene, const HardwareKey& key, const CostSettings& s,
+                 const std::filesystem::path& path) {
+  s.on_progress(fmt::format("setup for {}", key.name()));
+  FrameDriver driver = driver_of(scene, key, s, {});
+  InitFileWriter file = must(InitFileWriter::open(path, key.name(), driver.init_bits()));
+  must(driver.draw([&](const Batch& batch) {
+    file.write(batch.init_words);
+    return Status(Ok{});
+  }));
+  must(file.commit());
+  return driver.golden_frame().frame();
+}
 
- private:
-  FrameDriver driver_of(std::vector<std::shared_ptr<Engine>> engines) const {
-    return {scene_,
-            s_.size,
-            key_,
-            std::move(engines),
-            {.setup = s_.setup,
-             .golden_picture = true,
-             .workers = on_threads(s_.threads),
-             .clocks = host_clocks()}};
-  }
+// Return the seconds of one pass.
+double verilator_pass(const Scene& scene, const HardwareKey& key, const CostSettings& s,
+                      SimulationCost& cost) {
+  s.on_progress(fmt::format("Verilator simulates {}", key.name()));
+  FrameDriver driver = driver_of(scene, key, s, {must(open_engine(EngineKind::verilator, key, s.folders))});
+  must(driver.draw());
+  const SimulatorRun run = driver.frame().result();
+  if (!run.fault.empty()) throw Failure{{ExitCode::differs, fmt::format("{}: {}", key.name(), run.fault)}};
+  cost.fragments = run.fragments;
+  cost.cycles = *run.cycles;
+  cost.frame = driver.frame().assembler().frame();
+  return driver.frame().seconds().rtl;
+}
 
-  // Also the golden frame.
-  void write_init(const std::filesystem::path& path) {
-    s_.on_progress(fmt::format("setup for {}", key_.name()));
-    FrameDriver driver = driver_of({});
-    InitFileWriter file = must(InitFileWriter::open(path, key_.name(), driver.init_bits()));
-    must(driver.draw([&](const Batch& batch) {
-      file.write(batch.init_words);
-      return Status(Ok{});
-    }));
-    cost_.frame = driver.golden_frame().frame();
-    must(file.commit());
-  }
-
-  double ghdl_pass(const std::filesystem::path& init) {
-    s_.on_progress(fmt::format("GHDL simulates {}", key_.name()));
-    const GhdlRunner runner = must(GhdlRunner::open(key_, s_.folders));
-    const double begin = children_seconds();
-    const GhdlRun ran =
-        must(runner.run(init, init.parent_path() / "trace", {.idle_limit = idle_limit(key_)}));
-    cost_.cycles = ran.cycles;
-    cost_.fragments = ran.fragments;
-    return children_seconds() - begin;
-  }
-
-  double verilator_pass() {
-    s_.on_progress(fmt::format("Verilator simulates {}", key_.name()));
-    FrameDriver driver = driver_of({must(open_engine(EngineKind::verilator, key_, s_.folders))});
-    must(driver.draw());
-    const SimulatorRun run = driver.frame().result();
-    if (!run.fault.empty()) throw Failure{{ExitCode::differs, fmt::format("{}: {}", key_.name(), run.fault)}};
-    cost_.fragments = run.fragments;
-    cost_.cycles = *run.cycles;
-    cost_.frame = driver.frame().assembler().frame();
-    return driver.frame().seconds().rtl;
-  }
-
-  const Scene& scene_;
-  const HardwareKey& key_;
-  const CostSettings& s_;
-  SimulationCost cost_;
-};
+double ghdl_pass(const std::filesystem::path& init, const HardwareKey& key, const CostSettings& s,
+                 SimulationCost& cost) {
+  s.on_progress(fmt::format("GHDL simulates {}", key.name()));
+  const GhdlRunner runner = must(GhdlRunner::open(key, s.folders));
+  const double begin = children_seconds();
+  const GhdlRun ran = must(runner.run(init, init.parent_path() / "trace", {.idle_limit = idle_limit(key)}));
+  cost.cycles = ran.cycles;
+  cost.fragments = ran.fragments;
+  return children_seconds() - begin;
+}
 
 }  // namespace
 
-SimulationCost simulation_cost(const Scene& scene, const HardwareKey& key, const CostSettings& settings) {
-  return Measurement(scene, key, settings).run();
+SimulationCost simulation_cost(const Scene& scene, const HardwareKey& key, const CostSettings& s) {
+  SimulationCost cost;
+  const TemporaryFolder scratch = must(TemporaryFolder::make(s.folders.cache));
+  const std::filesystem::path init = scratch.path() / "init.txt";
+  if (s.ghdl) cost.frame = write_init(scene, key, s, init);
+  if (s.verilator) cost.verilator_seconds = least_of([&] { return verilator_pass(scene, key, s, cost); });
+  if (s.ghdl) cost.ghdl_seconds = least_of([&] { return ghdl_pass(init, key, s, cost); });
+  return cost;
 }
 
 }  // namespace halfway
