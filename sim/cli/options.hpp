@@ -11,11 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "plan/plan.hpp"
-#include "setup/setup.hpp"
 #include "sim/cost/families.hpp"
 #include "sim/driver/engine.hpp"
 #include "sim/os/program.hpp"
+#include "sim/run/draw_request.hpp"
 
 namespace halfway::cli {
 
@@ -35,12 +34,8 @@ struct DrawOptions {
 };
 
 /// The checked options.
-struct DrawSettings {
-  PlanRequest plan;
-  FrameSize size;
-  SetupOptions setup;
-  unsigned threads;
-  std::filesystem::path out;
+struct DrawSettings : DrawRequest {
+  std::filesystem::path out{};
 };
 
 DrawSettings checked(const DrawOptions& options);

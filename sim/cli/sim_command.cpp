@@ -126,14 +126,8 @@ int run(const Folders& folders, const SimOptions& options) {
   const DrawSettings draw = checked(options.draw);
   if (options.own_tables && (draw.plan.shader != Shader::spherical || draw.plan.preset != Preset::exact))
     throw_bad_input("--own-tables belongs to the spherical shader in preset exact");
-  SimulateSettings settings{.plan = draw.plan,
-                            .size = draw.size,
-                            .setup = draw.setup,
-                            .threads = draw.threads,
-                            .engines = checked_simulators(options.simulators),
-                            .stall_seed = options.stall_seed,
-                            .out = draw.out,
-                            .folders = {folders.source, folders.cache()}};
+  SimulateSettings settings{draw, checked_simulators(options.simulators), options.stall_seed, draw.out};
+  settings.folders = {folders.source, folders.cache()};
   const std::vector<std::string> scenes = options.scenes.empty() ? builtin_scenes(folders) : options.scenes;
 
   // Results are stored under the scene's name, so two scenes must not have the same one.

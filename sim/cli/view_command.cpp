@@ -213,11 +213,7 @@ class View {
     // Load the library now: it takes as long as many small frames, and it may be missing.
     if (o_.images && !o_.ppm) must(image_library());
 
-    ViewSettings settings;
-    settings.plan = draw_.plan;
-    settings.size = draw_.size;
-    settings.setup = draw_.setup;
-    settings.threads = draw_.threads;
+    ViewSettings settings{draw_};
     settings.frames = static_cast<std::uint32_t>(c_.frames);
     settings.compare = !c_.no_compare;
     settings.folders = {folders_.source, folders_.cache()};

@@ -85,11 +85,7 @@ int run(const Folders& folders, const WhyCommand& command) {
   if (must(plan_scene(scene, draw.plan)).key.processors.objects > 0)
     throw_bad_input("why explains pixels of the rasterizer; leave out --object-processors, and the shadows");
   Progress progress(scene.name);
-  WhySettings settings;
-  settings.plan = draw.plan;
-  settings.size = draw.size;
-  settings.setup = draw.setup;
-  settings.threads = draw.threads;
+  WhySettings settings{draw};
   settings.pixel = *pixel;
   settings.folders = {folders.source, folders.cache()};
   settings.on_progress = [&](double done) { progress.show(done); };

@@ -11,25 +11,20 @@
 #include <vector>
 
 #include "frame/metrics.hpp"
-#include "plan/plan.hpp"
-#include "setup/setup.hpp"
 #include "sim/driver/engine.hpp"
 #include "sim/driver/rtl_frame.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/ghdl/hardware_units.hpp"
+#include "sim/run/draw_request.hpp"
 #include "sim/run/result_files.hpp"
 
 namespace halfway {
 
-struct SimulateSettings {
-  PlanRequest plan;
-  FrameSize size;
-  SetupOptions setup;
-  unsigned threads = 1;
+struct SimulateSettings : DrawRequest {
   std::vector<EngineKind> engines{EngineKind::ghdl, EngineKind::verilator};  ///< in the order of EngineKind
   std::uint32_t stall_seed = 0;  ///< not 0: both streams stall at random
-  std::filesystem::path out;
-  SimulatorFolders folders;
+  std::filesystem::path out{};
+  SimulatorFolders folders{};
   /// Called with the current step and its progress: 0 to 1, or below 0 if unknown.
   std::function<void(const std::string& what, double done)> on_progress = [](const std::string&, double) {};
   /// Called with the folder of results if another run has locked it.

@@ -9,26 +9,21 @@
 #include <vector>
 
 #include "frame/frame.hpp"
-#include "plan/plan.hpp"
 #include "scene/scene.hpp"
-#include "setup/setup.hpp"
 #include "sim/driver/engine.hpp"
 #include "sim/driver/rtl_frame.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/run/draw_request.hpp"
 
 namespace halfway {
 
 inline constexpr std::uint32_t c_most_view_frames = 10'000;
 
-struct ViewSettings {
-  PlanRequest plan;
-  FrameSize size;
-  SetupOptions setup;
-  unsigned threads = 1;
-  std::uint32_t frames = 36;         ///< of one turn; 1 to c_most_view_frames
-  bool compare = true;               ///< false: the golden model does not draw
-  std::optional<EngineKind> engine;  ///< std::nullopt: lanes if possible and faster, otherwise Verilator
-  SimulatorFolders folders;
+struct ViewSettings : DrawRequest {
+  std::uint32_t frames = 36;           ///< of one turn; 1 to c_most_view_frames
+  bool compare = true;                 ///< false: the golden model does not draw
+  std::optional<EngineKind> engine{};  ///< std::nullopt: lanes if possible and faster, otherwise Verilator
+  SimulatorFolders folders{};
   /// Called with the key and the engine before the hardware is built.
   std::function<void(const std::string& key, EngineKind engine)> on_build = [](const std::string&,
                                                                                EngineKind) {};

@@ -11,22 +11,17 @@
 #include <vector>
 
 #include "plan/hardware_key.hpp"
-#include "plan/plan.hpp"
 #include "scene/scene.hpp"
-#include "setup/setup.hpp"
 #include "sim/driver/pixel_way.hpp"
 #include "sim/driver/stream_comparator.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/run/draw_request.hpp"
 
 namespace halfway {
 
-struct WhySettings {
-  PlanRequest plan;
-  FrameSize size;
-  SetupOptions setup;
-  unsigned threads = 1;
+struct WhySettings : DrawRequest {
   FramePixel pixel{0, 0};
-  SimulatorFolders folders;
+  SimulatorFolders folders{};
   std::function<void(double done)> on_progress = [](double) {};
 };
 
