@@ -17,6 +17,7 @@
 
 #include "common/to_integer.hpp"
 #include "frame/frame.hpp"
+#include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "words/generator/cosine.hpp"
 
@@ -346,13 +347,9 @@ void add_device(CLI::App& command, const synth::Family*& family) {
 }
 
 std::vector<std::string> builtin_scenes(const Folders& folders) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folders.scenes(), error))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  if (error || names.empty())
+  std::vector<std::string> names = scene_names(folders.scenes());
+  if (names.empty())
     throw_bad_input("{}: no built-in scenes here; is the checkout whole?", folders.scenes().string());
-  std::ranges::sort(names);
   return names;
 }
 

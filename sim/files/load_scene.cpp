@@ -8,9 +8,7 @@
 #include <cctype>
 #include <exception>
 #include <new>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "mesh_files/mesh_file.hpp"
 #include "sim/files/load_mesh.hpp"
@@ -52,18 +50,22 @@ Result<Scene> load_mesh_as_scene(const std::filesystem::path& path) {
 }
 
 std::string known_scenes(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code fault;
-  for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
-       entry.increment(fault)) {
-    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
+  const std::vector<std::string> names = scene_names(folder);
   return names.empty() ? "none: no scene file in " + folder.string()
                        : fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace
+
+std::vector<std::string> scene_names(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code fault;
+  for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
+       entry.increment(fault))
+    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
 
 Result<Scene> load_scene(std::string_view name_or_path, const std::filesystem::path& scenes_folder,
                          const LoadOptions& options) {
