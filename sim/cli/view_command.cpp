@@ -193,124 +193,105 @@ void print_difference(const ViewSummary& s) {
                   eye.x, eye.y, eye.z));
 }
 
-class View {
- public:
-  View(const ViewCommand& command, const Folders& folders, const DrawSettings& draw,
-       std::optional<EngineKind> engine, Outputs outputs)
-      : c_(command),
-        folders_(folders),
-        draw_(draw),
-        engine_(engine),
-        o_(std::move(outputs)),
-        screen_(o_),
-        progress_("view") {}
+// Locks the folder while frames are written to it. Without images no folder is locked.
+std::optional<Descriptor> prepare_folder(Outputs& o, const ViewCommand& c, const DrawSettings& draw,
+                                         const std::string& scene) {
+  if (!o.images) return std::nullopt;
+  o.folder = c.out_given ? draw.out : ResultFiles::of(draw.out, scene, draw.plan).folder / "view";
+  must(TemporaryFolder::make(o.folder));
+  auto lock = must(lock_folder(o.folder, [&] {
+    say(fmt::format("waiting for {} (another halfway view draws into it)", o.folder.string()));
+  }));
+  forget_frames(o.folder);
+  return lock;
+}
 
-  /// True if all frames were compared and are equal.
-  bool run() {
-    const auto scene = must(load_scene(c_.scene, folders_.scenes()));
-    for (const std::string& note : scene.notes) say(note);
-    const auto lock = prepare_folder(scene.name);
-    // Load the library now: it takes as long as many small frames, and it may be missing.
-    if (o_.images && !o_.ppm) must(image_library());
+// Prints the summary and names the files. Returns true if all frames were compared and are equal.
+bool print_results(const ViewSummary& summary, const Outputs& o, std::optional<VideoWriter>& video) {
+  for (const std::string& note : summary.notes) say(note);
+  fmt::print("{}", printable(to_lines(summary)));
+  const auto nothing = summary.nothing_compared();
+  if (nothing) say(fmt::format("{}: {}", summary.scene, *nothing));
+  if (summary.difference) {
+    print_difference(summary);
+    video.reset();
+  }
+  if (o.images)
+    fmt::print("{} to {}\n", printable((o.folder / o.name_of(0)).string()),
+               o.name_of(std::max(summary.frames, 1U) - 1));
+  if (video) {
+    video->commit();
+    fmt::print("{}: {} frames a second\n", printable(o.video->string()), o.rate);
+  }
+  return !summary.difference.has_value() && !nothing;
+}
 
-    ViewSettings settings{draw_};
-    settings.frames = static_cast<std::uint32_t>(c_.frames);
-    settings.compare = !c_.no_compare;
-    settings.folders = {folders_.source, folders_.cache()};
-    settings.engine = engine_;
-    settings.on_build = [&](const std::string& key, EngineKind engine) {
-      progress_.show(fmt::format("building {} for {}", key, title(engine)));
-    };
-    std::optional<Interruption> interruption;
-    settings.on_ready = [&] {
-      progress_.clear();
-      interruption.emplace([this] { tidy(); });
-      start_ = Clock::now();
-      if (!o_.video) return;
+bool draw_turn(const ViewCommand& command, const Folders& folders, const DrawSettings& draw,
+               std::optional<EngineKind> engine, Outputs& o) {
+  const auto scene = must(load_scene(command.scene, folders.scenes()));
+  for (const std::string& note : scene.notes) say(note);
+  const auto lock = prepare_folder(o, command, draw, scene.name);
+  // Load the library now: it takes as long as many small frames, and it may be missing.
+  if (o.images && !o.ppm) must(image_library());
+
+  Screen screen(o);
+  Progress progress("view");
+  std::optional<VideoWriter> video;
+  Clock::time_point start;
+  std::optional<Interruption> interruption;
+  ViewSettings settings{draw};
+  settings.frames = static_cast<std::uint32_t>(command.frames);
+  settings.compare = !command.no_compare;
+  settings.folders = {folders.source, folders.cache()};
+  settings.engine = engine;
+  settings.on_build = [&](const std::string& key, EngineKind of) {
+    progress.show(fmt::format("building {} for {}", key, title(of)));
+  };
+  settings.on_ready = [&] {
+    progress.clear();
+    // Called before a signal ends the process.
+    interruption.emplace([&] {
+      if (video) video->abandon();
+      if (o.terminal) screen.leave();
+    });
+    start = Clock::now();
+    if (!o.video) return;
+    const auto writing = interruption->writing();
+    video.emplace(*o.video, draw.size, o.rate);
+  };
+  if (o.images)
+    settings.on_drawn = [&](std::uint32_t number, const Frame& frame) {
       const auto writing = interruption->writing();
-      video_.emplace(*o_.video, draw_.size, o_.rate);
+      const auto path = o.folder / o.name_of(number);
+      must(o.ppm ? write_ppm(path, frame) : write_png(path, frame, Compression::quick));
     };
-    if (o_.images)
-      settings.on_drawn = [&](std::uint32_t number, const Frame& frame) {
-        const auto writing = interruption->writing();
-        const auto path = o_.folder / o_.name_of(number);
-        must(o_.ppm ? write_ppm(path, frame) : write_png(path, frame, Compression::quick));
-      };
-    settings.on_next = [&](std::uint32_t number, const Frame& frame) {
-      const auto writing = interruption->writing();
-      next(number, frame);
-    };
+  settings.on_next = [&](std::uint32_t number, const Frame& frame) {
+    const auto writing = interruption->writing();
+    const std::string so_far = fmt::format("frame {} of {}, {:.1f} frames a second", number + 1,
+                                           command.frames, (number + 1) / seconds_since(start));
+    if (video) video->add(frame);
+    if (o.terminal)
+      screen.show(frame, so_far);
+    else
+      progress.show(so_far);
+  };
 
-    auto drawn = caught([&] { return view(scene, settings); });
-    // Not acquired after a signal: the interrupted work must not be reported as an error.
-    std::shared_lock<std::shared_timed_mutex> writing;
-    if (interruption) writing = interruption->writing();
-    progress_.clear();
-    const ViewSummary summary = must(std::move(drawn));
-    if (o_.terminal) screen_.leave();
-    for (const std::string& note : summary.notes) say(note);
-    fmt::print("{}", printable(to_lines(summary)));
-    const auto nothing = summary.nothing_compared();
-    if (nothing) say(fmt::format("{}: {}", summary.scene, *nothing));
-    if (summary.difference) {
-      print_difference(summary);
-      video_.reset();
-    }
-    if (o_.images)
-      fmt::print("{} to {}\n", printable((o_.folder / o_.name_of(0)).string()),
-                 o_.name_of(std::max(summary.frames, 1U) - 1));
-    if (video_) {
-      video_->commit();
-      fmt::print("{}: {} frames a second\n", printable(o_.video->string()), o_.rate);
-    }
-    return !summary.difference.has_value() && !nothing;
-  }
-
- private:
-  // Locks the folder while frames are written to it. Without images no folder is locked.
-  std::optional<Descriptor> prepare_folder(const std::string& scene) {
-    if (!o_.images) return std::nullopt;
-    o_.folder = c_.out_given ? draw_.out : ResultFiles::of(draw_.out, scene, draw_.plan).folder / "view";
-    must(TemporaryFolder::make(o_.folder));
-    auto lock = must(lock_folder(o_.folder, [&] {
-      say(fmt::format("waiting for {} (another halfway view draws into it)", o_.folder.string()));
-    }));
-    forget_frames(o_.folder);
-    return lock;
-  }
-
-  void next(std::uint32_t number, const Frame& frame) {
-    const double seconds = seconds_since(start_);
-    const std::string so_far =
-        fmt::format("frame {} of {}, {:.1f} frames a second", number + 1, c_.frames, (number + 1) / seconds);
-    if (video_) video_->add(frame);
-    if (o_.terminal) return screen_.show(frame, so_far);
-    progress_.show(so_far);
-  }
-
-  // Called before a signal ends the process.
-  void tidy() {
-    if (video_) video_->abandon();
-    if (o_.terminal) screen_.leave();
-  }
-
-  const ViewCommand& c_;
-  const Folders& folders_;
-  const DrawSettings& draw_;
-  std::optional<EngineKind> engine_;
-  Outputs o_;
-  Screen screen_;
-  Progress progress_;
-  std::optional<VideoWriter> video_;
-  Clock::time_point start_;
-};
+  auto drawn = caught([&] { return view(scene, settings); });
+  // Not acquired after a signal: the interrupted work must not be reported as an error.
+  std::shared_lock<std::shared_timed_mutex> writing;
+  if (interruption) writing = interruption->writing();
+  progress.clear();
+  const ViewSummary summary = must(std::move(drawn));
+  if (o.terminal) screen.leave();
+  return print_results(summary, o, video);
+}
 
 int run(const Folders& folders, const ViewCommand& command) {
   const DrawSettings draw = checked(command.draw);
   const std::optional<EngineKind> engine = checked_engine(command.engine);
   Outputs outputs = checked(command);
   keep_freed_memory();
-  bool right = View(command, folders, draw, engine, std::move(outputs)).run();
+  bool right = draw_turn(command, folders, draw, engine, outputs);
   // As in sim_command.cpp: frames may be equal although a generated file was changed.
   for (const std::string& message : tables::stale_files(folders.source, tables::compiled_sizes(), false)) {
     fmt::print(stderr, "{}\n", message);
