@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <optional>
 
 namespace halfway {
@@ -61,37 +60,11 @@ std::uint32_t palette_index(const Colour& colour) {
   return distance(colour, {level, level, level}) < distance(colour, in_cube) ? c_grey + grey : c_cube + index;
 }
 
-// Sets the colours of a half block when they change.
-class Pen {
- public:
-  Pen(std::string& text, TerminalColours colours) : text_(text), colours_(colours) {}
-
-  void draw(const Colour& upper, const std::optional<Colour>& lower) {
-    if (upper != upper_) set(38, upper);
-    if (lower && lower != lower_) set(48, *lower);
-    if (!lower && lower_) text_ += "\033[49m";
-    upper_ = upper;
-    lower_ = lower;
-    text_ += "\u2580";
-  }
-  void end_line() {
-    text_ += "\033[0m\n";
-    upper_.reset();
-    lower_.reset();
-  }
-
- private:
-  void set(int what, const Colour& colour) {
-    if (colours_ == TerminalColours::full)
-      fmt::format_to(std::back_inserter(text_), "\033[{};2;{};{};{}m", what, colour[0], colour[1], colour[2]);
-    else
-      fmt::format_to(std::back_inserter(text_), "\033[{};5;{}m", what, palette_index(colour));
-  }
-
-  std::string& text_;
-  TerminalColours colours_;
-  std::optional<Colour> upper_, lower_;
-};
+// The escape sequence that sets the colour of a half block: `what` is 38 for the upper half, 48 for the lower.
+std::string colour_code(int what, const Colour& colour, TerminalColours colours) {
+  if (colours == TerminalColours::palette) return fmt::format("\033[{};5;{}m", what, palette_index(colour));
+  return fmt::format("\033[{};2;{};{};{}m", what, colour[0], colour[1], colour[2]);
+}
 
 }  // namespace
 
@@ -108,16 +81,23 @@ FrameSize fitting_size(FrameSize frame, std::uint32_t columns, std::uint32_t lin
 
 std::string terminal_picture(const Frame& frame, FrameSize size, TerminalColours colours) {
   std::string text;
-  Pen pen(text, colours);
   for (std::uint32_t y = 0; y < size.height; y += 2) {
+    std::optional<Colour> last_upper, last_lower;
     for (std::uint32_t x = 0; x < size.width; ++x) {
       const Range columns = range_of(x, size.width, frame.size.width);
-      const auto pixel = [&](std::uint32_t line) {
+      const auto pixel = [&](std::uint32_t line) -> std::optional<Colour> {
+        if (line >= size.height) return std::nullopt;
         return mean(frame, columns, range_of(line, size.height, frame.size.height));
       };
-      pen.draw(pixel(y), y + 1 < size.height ? std::optional(pixel(y + 1)) : std::nullopt);
+      const auto upper = pixel(y), lower = pixel(y + 1);
+      if (upper != last_upper) text += colour_code(38, *upper, colours);
+      if (lower && lower != last_lower) text += colour_code(48, *lower, colours);
+      if (!lower && last_lower) text += "\033[49m";
+      last_upper = upper;
+      last_lower = lower;
+      text += "\u2580";
     }
-    pen.end_line();
+    text += "\033[0m\n";
   }
   return text;
 }
