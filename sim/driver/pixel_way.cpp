@@ -22,31 +22,26 @@ std::vector<StageValue> values_of(const std::vector<PlacedField>& fields,
   return values;
 }
 
-// A word and the number that it represents.
-struct WordText {
-  std::string hexadecimal, number;
-};
-WordText word_text(std::uint64_t word, int bits, int fraction_bits, bool is_signed) {
+// A word in hexadecimal and the number that it represents, in this form.
+std::string word_text(fmt::format_string<std::string, std::string> form, std::uint64_t word, int bits,
+                      int fraction_bits, bool is_signed) {
   const std::int64_t value = is_signed ? static_cast<std::int64_t>(word << (64 - bits)) >> (64 - bits)
                                        : static_cast<std::int64_t>(word);
-  WordText text{fmt::format("{:0{}x}", word, (bits + 3) / 4), std::to_string(value)};
+  std::string number = std::to_string(value);
   if (fraction_bits != 0)
-    text.number = fmt::format(
-        "{:.6f}", static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << fraction_bits));
-  return text;
+    number = fmt::format("{:.6f}",
+                         static_cast<double>(value) / static_cast<double>(std::uint64_t{1} << fraction_bits));
+  return fmt::format(form, fmt::format("{:0{}x}", word, (bits + 3) / 4), std::move(number));
 }
 
 std::string shown(const std::optional<std::uint64_t>& word, const StageWord& w) {
-  if (!word) return "no number";
-  const WordText text = word_text(*word, w.bits, w.fraction_bits, w.is_signed);
-  return fmt::format("{} ({})", text.hexadecimal, text.number);
+  return word ? word_text("{} ({})", *word, w.bits, w.fraction_bits, w.is_signed) : "no number";
 }
 
 }  // namespace
 
 std::string text_of(std::uint64_t word, const StageValue& value) {
-  const WordText text = word_text(word, value.bits, value.fraction_bits, value.is_signed);
-  return fmt::format("{} = {}", text.hexadecimal, text.number);
+  return word_text("{} = {}", word, value.bits, value.fraction_bits, value.is_signed);
 }
 
 std::string FirstDifference::text() const {

@@ -60,7 +60,7 @@ std::uint32_t palette_index(const Colour& colour) {
   return distance(colour, {level, level, level}) < distance(colour, in_cube) ? c_grey + grey : c_cube + index;
 }
 
-// The escape sequence that sets the colour of a half block: `what` is 38 for the upper half, 48 for the lower.
+// The escape sequence that sets a colour: `what` is 38 for the upper half of a block, 48 for the lower one.
 std::string colour_code(int what, const Colour& colour, TerminalColours colours) {
   if (colours == TerminalColours::palette) return fmt::format("\033[{};5;{}m", what, palette_index(colour));
   return fmt::format("\033[{};2;{};{};{}m", what, colour[0], colour[1], colour[2]);
