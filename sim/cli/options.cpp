@@ -213,8 +213,8 @@ void check_hardware(const Option& option, Shader shader, Preset preset) {
     return;
   std::vector<std::string> names;
   std::ranges::transform(option.belongs_to, std::back_inserter(names), name_of);
-  const std::string owners = fmt::format("{}", fmt::join(names, " and "));
-  throw_bad_input("{} in preset {}", of_other_hardware(option.flag, owners, shader), to_string(preset));
+  throw_bad_input("{} belongs to {}, and does not apply to the {} shader in preset {}", option.flag,
+                  fmt::join(names, " and "), to_string(shader), to_string(preset));
 }
 
 // The options of some shaders that are given, in the order of the table.
@@ -231,11 +231,6 @@ void apply_options(const DrawOptions& o, DrawSettings& s) {
 }
 
 }  // namespace
-
-std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader) {
-  return fmt::format("{} belongs to {}, and does not apply to the {} shader", option, owners,
-                     to_string(shader));
-}
 
 void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--shader", shader, c_shader_names)->capture_default_str();

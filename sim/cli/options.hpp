@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sim/cost/families.hpp"
@@ -67,8 +66,6 @@ FrameSize checked_size(const std::string& text, const char* option = "--size");
 inline constexpr const char* c_shader_names = "quadratic, spherical or processors";
 /// Finds a shader by its name.
 Shader checked_shader(const std::string& name);
-/// The message for an option that belongs to another shader; `owners`: such as "the quadratic shader".
-std::string of_other_hardware(std::string_view option, std::string_view owners, Shader shader);
 
 /// Adds --device. Its value is the family of the device; before, that of the default.
 void add_device(CLI::App& command, const synth::Family*& family);
