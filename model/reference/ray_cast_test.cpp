@@ -132,38 +132,6 @@ TEST(ShadowRays, AConvexSolidNeverShadowsItsLitSide) {
   EXPECT_GT(dark, 50'000);
 }
 
-TEST(ShadowRays, AShadowOnTheGroundHasTheExpectedOutline) {
-  Scene scene;
-  scene.positions_world = {{-9, 0, 9}, {9, 0, 9}, {9, 0, -9}, {-9, 0, -9}};
-  scene.normals_world = {{0, 1, 0}};
-  scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}, {{0, 2, 3}, {0, 0, 0}, 0}};
-  Mesh box = make_box({2.0, 1.0, 2.0}, 1);
-  for (glm::dvec3& p : box.positions) p += glm::dvec3(0.0, 0.5, 0.0);  // on the ground
-  add_mesh(scene, box);
-  scene.directional = {{glm::normalize(glm::dvec3(-1, 1, 0)), {}}};
-  scene.positional = {{{0, 3, 0}, {}}};  // the shadow of the top's edge is at 1.5
-  scene.spots = {{{0, 3, 0}, {0, -1, 0}, 1.0, 0.0, {}}};
-  const ShadowRays rays(scene);
-  for (const auto& [x, sun, lamp] : {std::tuple{-1.4, true, false},
-                                     {-1.6, true, true},
-                                     {-1.000001, true, false},
-                                     {1.000001, false, false},
-                                     {1.4, false, false},
-                                     {1.6, false, true},
-                                     {1.99, false, true},
-                                     {2.01, true, true}}) {
-    const std::uint32_t ground = 0;
-    EXPECT_EQ(rays.reaches(c_sun, {x, 0, 0.1}, ground), sun) << x;
-    EXPECT_EQ(rays.reaches(c_lamp, {x, 0, 0.1}, ground), lamp) << x;
-    EXPECT_EQ(rays.reaches({LightKind::spot, 0}, {x, 0, 0.1}, ground), lamp) << x;
-  }
-  // Nothing is between a lamp and a point close to it. A point exactly at the lamp has no ray.
-  scene.positional = {{{1.2, 0.0, 0.1}, {}}};
-  EXPECT_TRUE(rays.reaches(c_lamp, {1.2, 0.0, 0.1}, 0));
-  EXPECT_TRUE(rays.reaches(c_lamp, {1.3, 0.0, 0.1}, 0));
-  EXPECT_FALSE(rays.reaches(c_lamp, {-1.2, 0.0, 0.1}, 0));
-}
-
 // A sheet that touches the ground does not shadow it. Slightly above the ground it does.
 TEST(ShadowRays, TouchingIsNotShadowing) {
   for (const double height : {0.0, 1e-12, 1e-7, 0.1}) {

@@ -110,20 +110,6 @@ TEST(Shade, LightsBelowTheHorizonContributeNothing) {
   EXPECT_EQ(specular_factor(cook_torrance(0.9, 0.9), c_up, c_up, at(0.0, 0.0)), 0.0);
 }
 
-TEST(Shade, PowersAtKnownAngles) {
-  Material material;
-  material.exponent = 7.0;
-  const glm::dvec3 l{std::sin(0.5), 0.0, std::cos(0.5)};
-  EXPECT_NEAR(specular_factor(material, c_up, l, c_up), std::pow(std::cos(0.25), 7.0), 1e-15);
-  material.brdf = Brdf::phong;
-  EXPECT_NEAR(specular_factor(material, c_up, l, c_up), std::pow(std::cos(0.5), 7.0), 1e-15);
-  for (Brdf brdf : {Brdf::blinn, Brdf::phong}) {  // the mirror direction: 1 at any exponent
-    material.brdf = brdf;
-    material.exponent = 1.0;
-    EXPECT_NEAR(specular_factor(material, c_up, l, {-l.x, 0.0, l.z}), 1.0, 1e-15);
-  }
-}
-
 TEST(Shade, BlinnWithoutAHalfwayVectorIsZero) {
   const Material material;
   const glm::dvec3 n = glm::normalize(glm::dvec3(1.0, 0.0, 1.0));
@@ -144,69 +130,6 @@ TEST(Shade, BeckmannIsAProjectedDensity) {
   }
   EXPECT_EQ(beckmann(0.0, 1.0, 0.3), 0.0);
   EXPECT_EQ(beckmann(1e-200, 1.0, 0.3), 0.0);
-}
-
-TEST(Shade, SpotFallsSmoothlyFromInnerToOuter) {
-  LightCone light{.axis_world = {0, 0, 1}, .cos_inner = 0.75, .cos_outer = 0.25};
-  EXPECT_EQ(cone_share(light, 0.75), 1.0);
-  EXPECT_EQ(cone_share(light, 0.5), 0.5);
-  EXPECT_EQ(cone_share(light, 0.375), 0.15625);  // 3/16 - 2/64
-  EXPECT_EQ(cone_share(light, 0.25), 0.0);
-  EXPECT_EQ(cone_share(light, -1.0), 0.0);
-  light.cos_outer = 0.75;
-  EXPECT_EQ(cone_share(light, 0.75), 1.0);
-  EXPECT_EQ(cone_share(light, std::nextafter(0.75, 0.0)), 0.0);
-}
-
-TEST(Shade, RadianceSumsTheTermsOfEachLight) {
-  Scene scene;
-  scene.camera.eye_world = {0, 0, 10};
-  scene.ambient = {0.5, 0.25, 0.125};
-  Material material;
-  material.colour = {1.0, 0.5, 0.25};
-  material.specular_colour = {0.5, 1.0, 0.0};
-  material.ambient = 0.5;
-  material.diffuse = 0.25;
-  material.specular = 2.0;
-  const glm::dvec3 ambient{0.25, 0.0625, 0.015625};
-  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient);
-  // The eye looks straight down and the light comes from behind it: N.L = N.H = 1.
-  const glm::dvec3 intensity{4.0, 2.0, 1.0};
-  const glm::dvec3 lit{4.0 * (0.25 + 1.0), 2.0 * (0.125 + 2.0), 1.0 * 0.0625};
-  scene.directional = {{c_up, intensity}};
-  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + lit);
-  scene.positional = {{{0, 0, 3}, intensity}};
-  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + 2.0 * lit);
-  scene.spots = {{{0, 0, 3}, {0, 0, -1}, 0.9, 0.8, intensity}};
-  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + 3.0 * lit);
-  scene.spots[0].axis_world = {0, 0, 1};
-  EXPECT_EQ(radiance(scene, material, {}, c_up), ambient + 2.0 * lit);
-  EXPECT_EQ(radiance(scene, material, {}, -c_up), ambient);
-}
-
-TEST(Shade, ABlockedLightContributesNothing) {
-  Scene scene;
-  scene.ambient = {0.5, 0.25, 0.125};
-  // Each light has its own colour channel. The second light of each kind has the weight of the next digit.
-  scene.directional = {{c_up, {1, 0, 0}}, {c_up, {8, 0, 0}}};
-  scene.positional = {{{0, 0, 1}, {0, 1, 0}}, {{0, 0, 2}, {0, 8, 0}}};
-  scene.spots = {{{0, 0, 3}, -c_up, 0.9, 0.8, {0, 0, 1}}, {{0, 0, 4}, -c_up, 0.9, 0.8, {0, 0, 8}}};
-  Material material;
-  material.ambient = material.diffuse = 1.0;
-  material.specular = 0.0;
-  const auto seen = [&](const LightFilter& reaches) { return radiance(scene, material, {}, c_up, reaches); };
-  EXPECT_EQ(seen({}), scene.ambient + glm::dvec3(9.0));
-  EXPECT_EQ(seen([](LightRef) { return true; }), scene.ambient + glm::dvec3(9.0));
-  EXPECT_EQ(seen([](LightRef) { return false; }), scene.ambient);
-  int kind = 0;
-  for (const LightKind kept : {LightKind::directional, LightKind::positional, LightKind::spot}) {
-    for (std::size_t index : {0, 1}) {
-      glm::dvec3 expected = scene.ambient;
-      expected[kind] += index == 0 ? 1.0 : 8.0;
-      EXPECT_EQ(seen([&](LightRef light) { return light == LightRef{kept, index}; }), expected);
-    }
-    ++kind;
-  }
 }
 
 TEST(Shade, RadianceIsFiniteForEveryScene) {
