@@ -17,9 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/builtin_meshes.hpp"
 #include "scene/mesh.hpp"
-#include "scene/test/add_mesh.hpp"
 #include "scene/test/sides_apart.hpp"
 #include "setup/test/pixels.hpp"
 
@@ -71,25 +69,6 @@ Scene one_triangle(std::array<glm::dvec3, 3> corners) {
   scene.normals_world = {{0, 0, 1}};
   scene.triangles = {{{0, 1, 2}, {0, 0, 0}, 0}};
   return scene;
-}
-
-TEST(Project, AVertexLandsWhereTheCameraPutsIt) {
-  // Vertical field of view 90 degrees: at distance 5 the frame is 10 high, 64 pixels. x points right, y down.
-  Scene scene = one_triangle({{{0, 0, 0}, {2.5, 0, 0}, {0, 1.25, 0}}});
-  scene.camera.vertical_fov_degrees = 90.0;
-  const Projector projector(scene, {96, 64}, {});
-  const auto triangles = projector.project_all();
-  ASSERT_EQ(triangles.size(), 1u);
-  const auto& [a, b, c] = triangles[0].vertex;  // reversed order: y points down
-  EXPECT_EQ(a.x, 48 * 16);
-  EXPECT_EQ(a.y, 32 * 16);
-  EXPECT_EQ(b.x, 48 * 16);
-  EXPECT_EQ(b.y, 24 * 16);
-  EXPECT_EQ(c.x, 64 * 16);
-  EXPECT_EQ(c.y, 32 * 16);
-  EXPECT_DOUBLE_EQ(a.inverse_w, 0.2);
-  EXPECT_DOUBLE_EQ(a.z, 100.0 * 4.5 / (5.0 * 99.5));
-  EXPECT_EQ(a.position_world, glm::dvec3(0.0));
 }
 
 TEST(Project, WithoutSubpixelsAVertexIsThePixelItFallsIn) {
@@ -244,33 +223,31 @@ struct GroundView {
   ViewBasis basis;
   double focal;
 
-  GroundView(std::mt19937& random, unsigned seed, FrameSize size, glm::dvec3 down, double near)
+  GroundView(std::mt19937& random, unsigned seed, FrameSize size)
       : scene(ground_scene(seed, 5, 40.0)), frame(size) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     Camera& camera = scene.camera;
-    camera.eye_world = {3.0 * unit(random), down.y < 0.0 ? 1.0 : -1.0, 3.0 * unit(random)};
-    camera.target_world = camera.eye_world + glm::dvec3(unit(random), 0.0, 0.0) + down;
+    camera.eye_world = {3.0 * unit(random), 1.0, 3.0 * unit(random)};
+    camera.target_world = camera.eye_world + glm::dvec3(unit(random), -0.45, -1.0);
     camera.up_world = {0.6 * unit(random), 1.0, 0.0};
     camera.vertical_fov_degrees = 75.0;
-    camera.near = near;
+    camera.near = 0.8;
     camera.far = 12.0;
     basis = view_basis(camera);
     focal = 0.5 * frame.height / std::tan(glm::radians(37.5));
   }
-  enum Depth { no_ground, before_near, visible, beyond_far };
-  /// What the ray through this place of the screen meets.
-  Depth at(double x, double y) const {
+  /// True if the ray through this place of the screen meets ground between the near and the far plane.
+  bool shows(double x, double y) const {
     const glm::dvec3 ray = (x - 0.5 * frame.width) / focal * basis.right_world -
                            (y - 0.5 * frame.height) / focal * basis.up_world - basis.backward_world;
     const double distance = -scene.camera.eye_world.y / ray.y;  // along the viewing axis
-    if (!(distance > 0.0)) return no_ground;
-    return distance < scene.camera.near ? before_near : distance <= scene.camera.far ? visible : beyond_far;
+    return distance >= scene.camera.near && distance <= scene.camera.far;
   }
-  /// What the rays around a pixel's centre meet. Snapped borders move by up to 1/32 of a pixel.
-  std::array<Depth, 4> around(std::uint32_t x, std::uint32_t y) const {
+  /// How many of four rays around a pixel's centre do. Snapped borders move by up to 1/32 of a pixel.
+  int shown_around(std::uint32_t x, std::uint32_t y) const {
     constexpr double c_low = 0.5 - 1.0 / 16.0, c_high = 0.5 + 1.0 / 16.0;
-    return {at(x + c_low, y + c_low), at(x + c_low, y + c_high), at(x + c_high, y + c_low),
-            at(x + c_high, y + c_high)};
+    return shows(x + c_low, y + c_low) + shows(x + c_low, y + c_high) + shows(x + c_high, y + c_low) +
+           shows(x + c_high, y + c_high);
   }
 };
 
@@ -279,8 +256,7 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   std::mt19937 random(99);
   int clipped_at_guard = 0, clipped_at_near = 0;
   for (unsigned round = 0; round < 60; ++round) {
-    const GroundView view(random, round, {round % 2 ? 120u : 1000u, round % 2 ? 90u : 700u},
-                          {0.0, -0.45, -1.0}, 0.8);
+    const GroundView view(random, round, {round % 2 ? 120u : 1000u, round % 2 ? 90u : 700u});
     for (bool clip_to_frame : {false, true}) {
       const ProjectionOptions options{.subpixel_bits = 4, .clip_to_frame = clip_to_frame};
       const auto triangles = Projector(view.scene, view.frame, options).project_all();
@@ -296,9 +272,8 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
       for (std::uint32_t y = 0; y < view.frame.height; ++y)
         for (std::uint32_t x = 0; x < view.frame.width; ++x) {
           const int here = count[std::size_t{y} * view.frame.width + x];
-          const bool inside = view.at(x + 0.5, y + 0.5) == GroundView::visible;
-          const auto around = view.around(x, y);
-          if (std::ranges::count(around, GroundView::visible) == (inside ? 4 : 0)) {
+          const bool inside = view.shows(x + 0.5, y + 0.5);
+          if (view.shown_around(x, y) == (inside ? 4 : 0)) {
             ASSERT_EQ(here, inside ? 1 : 0) << "round " << round << " pixel " << x << ',' << y;
           } else {
             ASSERT_LE(here, 1);
@@ -309,95 +284,6 @@ TEST(Project, GroundThroughNearPlaneAndGuardBandIsWatertight) {
   // The scenes must contain enough such cases for the test to be meaningful.
   EXPECT_GT(clipped_at_guard, 100);
   EXPECT_GT(clipped_at_near, 100);
-}
-
-// Vertices that neighbours share are projected once. Frame, near plane and guard band cut some triangles.
-TEST(MeshProjector, ProjectsAsItsProjector) {
-  Scene scene = empty_scene();
-  add_mesh(scene, make_uv_sphere(60, 30, 1.0));
-  scene.camera.eye_world = {0.0, 0.0, 2.0};
-  std::size_t whole = 0, pieces = 0;
-  for (const double near : {0.1, 1.05, 1.2})
-    for (const ProjectionOptions options : {ProjectionOptions{4, false}, ProjectionOptions{0, true}}) {
-      scene.camera.near = near;
-      const Projector projector(scene, {97, 61}, options);
-      MeshProjector mesh_projector(projector);
-      ProjectionCounts counts, expected_counts;
-      for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-        const std::span<const ScreenTriangle> triangles = mesh_projector.project(i, counts);
-        std::vector<ScreenTriangle> expected;
-        projector.project(i, expected, expected_counts);
-        ASSERT_EQ(triangles.size(), expected.size());
-        for (std::size_t k = 0; k < expected.size(); ++k) {
-          const ScreenTriangle &got = triangles[k], &want = expected[k];
-          whole += got.is_whole;
-          ++pieces;
-          ASSERT_EQ(got.source, want.source);
-          for (std::size_t v = 0; v < 3; ++v) {
-            const ScreenVertex &a = got.vertex[v], &b = want.vertex[v];
-            ASSERT_EQ(std::tuple(a.x, a.y, a.z, a.inverse_w), std::tuple(b.x, b.y, b.z, b.inverse_w));
-            ASSERT_EQ(a.position_world, b.position_world);
-            ASSERT_EQ(a.normal_world, b.normal_world);
-            const std::uint32_t corner = scene.triangles[i].position[(3 - v) % 3];
-            if (got.is_whole) {
-              ASSERT_EQ(a.position_world, scene.positions_world[corner]);
-            }
-          }
-        }
-      }
-      const auto all = [](const ProjectionCounts& n) {
-        return std::tuple(n.visible, n.back_facing, n.left_out, n.behind_near, n.cut_by_near, n.outside,
-                          n.degenerate, n.unrepresentable);
-      };
-      EXPECT_EQ(all(counts), all(expected_counts));
-      EXPECT_GT(counts.back_facing, 0U);
-    }
-  EXPECT_GT(whole, 500U);
-  EXPECT_GT(pieces, whole + 100);
-}
-
-TEST(Project, TwoSidedAddsTheBackFaces) {
-  const FrameSize frame{160, 120};
-  for (const double x : {-3.0, -1.0, 0.5, 2.5}) {
-    Scene scene = empty_scene();
-    add_mesh(scene, make_uv_sphere(24, 16, 1.0));
-    scene.camera.eye_world = {x, 1.5, 3.0};
-    const Projector projector(scene, frame, {});
-    int fronts = 0, backs = 0;
-    for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-      std::vector<ScreenTriangle> seen;
-      projector.project(i, seen);
-      const auto& [a, b, c] = scene.triangles[i].position;
-      const auto& p = scene.positions_world;
-      for (const bool is_turned : {false, true}) {
-        std::vector<TwoSidedTriangle> both;
-        ProjectionCounts counts;
-        projector.project_two_sided({p[a], p[is_turned ? c : b], p[is_turned ? b : c]}, i,
-                                    DepthSlice::visible, both, counts);
-        ASSERT_LE(both.size(), 1u);
-        ASSERT_EQ(counts.visible + counts.degenerate, 1u);
-        ASSERT_EQ(counts.visible, both.size());
-        if (both.empty()) {
-          ASSERT_TRUE(seen.empty());
-          continue;
-        }
-        ASSERT_GT(both[0].triangle.twice_area(), 0);
-        ASSERT_EQ(both[0].triangle.source, i);
-        ASSERT_EQ(both[0].faces_eye, seen.empty() == is_turned);
-        ++(both[0].faces_eye ? fronts : backs);
-        if (seen.empty()) continue;
-        for (const ScreenVertex& v : both[0].triangle.vertex) {
-          const auto same = std::find_if(seen[0].vertex.begin(), seen[0].vertex.end(),
-                                         [&](const auto& s) { return s.position_world == v.position_world; });
-          ASSERT_NE(same, seen[0].vertex.end());
-          ASSERT_EQ(std::tuple(same->x, same->y, same->z, same->inverse_w),
-                    std::tuple(v.x, v.y, v.z, v.inverse_w));
-        }
-      }
-    }
-    EXPECT_EQ(fronts, backs);
-    EXPECT_GT(fronts, 400);
-  }
 }
 
 // The corners of a polygon, whichever of them its fan starts from.
@@ -493,60 +379,6 @@ TEST(Project, CountsBacksThatAreLeftOutAlthoughInView) {
     }
 }
 
-// The part in front of the near plane and the visible part meet without a gap, and cover everything that a
-// ray from the eye meets before the far plane.
-TEST(Project, TheSliceBeforeTheNearPlaneContinuesTheVisibleOne) {
-  std::mt19937 random(31);
-  int in_both_slices = 0;
-  for (unsigned round = 0; round < 40; ++round) {
-    const GroundView view(random, round, {120, 90}, {0.0, round % 2 ? -0.7 : 0.7, -1.0}, 2.0);
-    const Projector projector(view.scene, view.frame, {});
-    ProjectionCounts counts;
-    // How often each pixel is covered, by slice. A sliver reversed by snapping counts negatively: its
-    // neighbours cover the same pixels twice.
-    std::array<std::vector<int>, 2> covered;
-    covered.fill(std::vector<int>(std::size_t{view.frame.width} * view.frame.height));
-    for (std::uint32_t i = 0; i < view.scene.triangles.size(); ++i)
-      for (const DepthSlice slice : {DepthSlice::visible, DepthSlice::before_near}) {
-        const bool is_near = slice == DepthSlice::before_near;
-        std::vector<TwoSidedTriangle> pieces;
-        const auto& [a, b, c] = view.scene.triangles[i].position;
-        const auto& p = view.scene.positions_world;
-        projector.project_two_sided({p[a], p[b], p[c]}, i, slice, pieces, counts);
-        for (const TwoSidedTriangle& piece : pieces) {
-          expect_sound(std::span(&piece.triangle, 1), view.frame, {});
-          if (HasFatalFailure()) return;
-          for (const ScreenVertex& v : piece.triangle.vertex) ASSERT_TRUE(v.z == 0.0 || !is_near) << v.z;
-          const int sign = piece.faces_eye == (view.scene.camera.eye_world.y > 0.0) ? 1 : -1;
-          for_each_pixel(piece.triangle, view.frame, [&](std::uint32_t x, std::uint32_t y) {
-            covered[is_near][std::size_t{y} * view.frame.width + x] += sign;
-          });
-        }
-      }
-    ASSERT_EQ(counts.unrepresentable, 0u);
-    for (std::uint32_t y = 0; y < view.frame.height; ++y)
-      for (std::uint32_t x = 0; x < view.frame.width; ++x) {
-        const std::size_t pixel = std::size_t{y} * view.frame.width + x;
-        const auto here = view.at(x + 0.5, y + 0.5);
-        bool near_border = false, near_far_border = false;
-        for (const auto neighbour : view.around(x, y)) {
-          near_border |= neighbour != here;
-          near_far_border |= neighbour != here && std::max(neighbour, here) != GroundView::visible;
-        }
-        const bool is_covered = here == GroundView::before_near || here == GroundView::visible;
-        if (!near_far_border) {
-          ASSERT_EQ(covered[0][pixel] + covered[1][pixel], is_covered) << round << " pixel " << x << ',' << y;
-        }
-        if (!near_border) {
-          ASSERT_EQ(covered[1][pixel], here == GroundView::before_near)
-              << round << " pixel " << x << ',' << y;
-        }
-        in_both_slices += near_border && is_covered;
-      }
-  }
-  EXPECT_GT(in_both_slices, 200);
-}
-
 // Two triangles at one edge, with opposite directions of the edge, in any position: the cut points on the
 // edge are equal.
 TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
@@ -588,70 +420,14 @@ TEST(Project, ASharedEdgeIsCutAtTheSamePoints) {
   EXPECT_GT(cuts, 300);
 }
 
-/// A triangle with vertices exactly on snapped coordinates, projected back from the screen to the world.
-struct Unprojected {
-  Scene scene;
-  ScreenTriangle triangle;
-  ViewBasis basis;
-  double focal;
-  glm::dvec3 ray(double x, double y) const {
-    return (x - 32.0) / focal * basis.right_world - (y - 32.0) / focal * basis.up_world -
-           basis.backward_world;
-  }
-};
-
-Unprojected unprojected(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::uniform_int_distribution<std::int32_t> coordinate(0, 64 * 16);
-  Unprojected u;
-  u.scene.camera.eye_world = {unit(random), unit(random), 5.0};
-  u.scene.camera.near = 1.0;
-  u.scene.camera.far = 20.0;
-  u.basis = view_basis(u.scene.camera);
-  u.focal = 32.0 / std::tan(glm::radians(20.0));
-  do {
-    for (ScreenVertex& v : u.triangle.vertex) {
-      v.x = coordinate(random);
-      v.y = coordinate(random);
-      const double w = 6.0 + 5.0 * unit(random);
-      v.z = 20.0 * (w - 1.0) / (w * 19.0);
-      v.inverse_w = 1.0 / w;
-      v.position_world = u.scene.camera.eye_world + w * u.ray(v.x / 16.0, v.y / 16.0);
-      v.normal_world = glm::normalize(glm::dvec3(unit(random), unit(random), 1.5));
-    }
-  } while (u.triangle.twice_area() < 64 * 256);
-  return u;
-}
-
-TEST(SurfacePoint, IsWhereTheRayMeetsTheTriangle) {
-  std::mt19937 random(17);
-  for (int round = 0; round < 200; ++round) {
-    const Unprojected u = unprojected(random);
-    const auto &a = u.triangle.vertex[0], &b = u.triangle.vertex[1], &c = u.triangle.vertex[2];
-    const glm::dvec3 normal =
-        glm::cross(b.position_world - a.position_world, c.position_world - a.position_world);
-    for_each_span({ScreenPoint{a.x, a.y}, ScreenPoint{b.x, b.y}, ScreenPoint{c.x, c.y}}, 4, {64, 64},
-                  [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
-                    const std::uint32_t x = (begin + end) / 2;
-                    const glm::dvec3 weights =
-                        barycentric_screen(u.triangle, (2 * x + 1) << 4, (2 * y + 1) << 4);
-                    EXPECT_NEAR(weights.x + weights.y + weights.z, 1.0, 1e-15);
-                    const glm::dvec3 ray = u.ray(x + 0.5, y + 0.5);
-                    const glm::dvec3 eye = u.scene.camera.eye_world;
-                    const double w = glm::dot(normal, a.position_world - eye) / glm::dot(normal, ray);
-                    const SurfacePoint point = surface_point(u.triangle, weights);
-                    EXPECT_LT(glm::length(point.position_world - (eye + w * ray)), 1e-10 * w);
-                    EXPECT_NEAR(point.z, 20.0 * (w - 1.0) / (w * 19.0), 1e-11);
-                    EXPECT_NEAR(point.inverse_w * w, 1.0, 1e-11);
-                    EXPECT_NEAR(glm::length(point.normal_world), 1.0, 1e-14);
-                  });
-  }
-}
-
 TEST(SurfacePoint, BarycentricsAreExactAtVerticesAndMidpoints) {
   std::mt19937 random(18);
+  std::uniform_int_distribution<std::int32_t> coordinate(0, 64 * 16);
   for (int round = 0; round < 200; ++round) {
-    const ScreenTriangle t = unprojected(random).triangle;
+    ScreenTriangle t{};
+    do {
+      for (ScreenVertex& v : t.vertex) v.x = coordinate(random), v.y = coordinate(random);
+    } while (t.twice_area() < 64 * 256);
     const auto& [a, b, c] = t.vertex;
     EXPECT_EQ(barycentric_screen(t, 2 * a.x, 2 * a.y), glm::dvec3(1, 0, 0));
     EXPECT_EQ(barycentric_screen(t, 2 * b.x, 2 * b.y), glm::dvec3(0, 1, 0));
