@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <set>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -178,21 +177,19 @@ TEST(DepthFit, EachWordIsTheRationalRoundedOnce) {
   }
 }
 
-void put_words(std::span<std::uint32_t> init, const QuadraticWords& w) {
+void put_words(InitVector& init, const QuadraticWords& w) {
   using At = Exact::init_channel_at;
-  const auto put = [&](const words::Field& field, Int128 value) {
-    words::set_bits(init, field, static_cast<std::uint64_t>(value), Exact::c_init_header_bits);
-  };
-  put(At::value, w.value);
-  put(At::dx, w.dx);
-  put(At::de0, w.de0);
-  put(At::de1, w.de1);
-  put(At::dxx, w.dxx);
-  put(At::dxe0, w.dxe0);
-  put(At::dxe1, w.dxe1);
-  put(At::de0e0, w.de0e0);
-  put(At::de0e1, w.de0e1);
-  put(At::de1e1, w.de1e1);
+  constexpr int c_low = Exact::c_init_header_bits;
+  init.put(At::value, w.value, c_low);
+  init.put(At::dx, w.dx, c_low);
+  init.put(At::de0, w.de0, c_low);
+  init.put(At::de1, w.de1, c_low);
+  init.put(At::dxx, w.dxx, c_low);
+  init.put(At::dxe0, w.dxe0, c_low);
+  init.put(At::dxe1, w.dxe1, c_low);
+  init.put(At::de0e0, w.de0e0, c_low);
+  init.put(At::de0e1, w.de0e1, c_low);
+  init.put(At::de1e1, w.de1e1, c_low);
 }
 
 /// Compares the colour register at each pixel with the colours given for the pixels.
@@ -243,11 +240,12 @@ TEST(PixelFit, EachPixelHasItsColourExactly) {
     const PixelFit fit(pixels);
     PixelComparison comparison(pixels, colours);
     for (const Walk& walk : walks) {
-      std::array<std::uint32_t, Shader::c_init_words> init{};
-      put_walk(init, walk);
+      std::vector<std::uint32_t> words;
+      InitVector init(words, Shader::c_init_bits);
+      put_header(init, 0, walk, {});
       put_words(init, fit.words(colours, {walk.start.pixel, walk.y, walk.start.quotient, walk.backward}, 0));
       Shader shader;
-      shader.draw(init, [](const Fragment&) {}, comparison);
+      shader.draw(words, [](const Fragment&) {}, comparison);
       if (HasFatalFailure()) return;
       backward += walk.backward;
       moved += walk.upper_lines + walk.lower_lines > 1 && (walk.start.quotient != 0 || walk.start.carry);

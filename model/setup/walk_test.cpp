@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the golden triangle walker, with the words of plan_walks, with for_each_span, line by line and
-// pixel by pixel; for a frame, and for columns of it.
+// pixel by pixel.
 #include "setup/walk.hpp"
 
 #include <gtest/gtest.h>
@@ -36,10 +36,8 @@ std::vector<LineSpan> expected_spans(const Points& points, int unit_bits, FrameS
 
 // The spans of one walk as the hardware draws them. Its first and last line cover a pixel.
 void append_walk(const Walk& walk, std::vector<LineSpan>& spans) {
-  std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
-  put_walk(words, walk);
   golden::TriangleWalker<Exact> walker;
-  walker.line_load(words);
+  walker.line_load(header_of(walk));
   EXPECT_FALSE(walker.line_empty()) << "first line";
   for (;;) {
     const std::int64_t start = walker.start().value(), stop = walker.stop().value();
@@ -114,45 +112,6 @@ TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
             c_points * (c_points - 1) * (c_points - 2) / 6);
 }
 
-// Adjacent columns draw the same pixels as the whole frame: each covered pixel is in exactly one column.
-TEST(Walk, EachCoveredPixelIsDrawnByItsColumns) {
-  std::uint64_t pieces_drawn = 0, pieces_empty = 0;
-  for (const FrameSize frame : c_walk_frames)
-    for (const TriangleKind kind : c_triangle_kinds) {
-      RandomTriangles random(100 + static_cast<unsigned>(kind));
-      const int width = static_cast<int>(frame.width);
-      for (int i = 0; i < (frame.height > 1000 ? 6 : 40); ++i) {
-        const Points p = random.next(kind, 4, frame);
-        SCOPED_TRACE(::testing::Message()
-                     << '(' << p[0].x << ',' << p[0].y << ") (" << p[1].x << ',' << p[1].y << ") (" << p[2].x
-                     << ',' << p[2].y << ") frame " << frame.width << 'x' << frame.height);
-        // Arbitrary cuts, two of them adjacent.
-        std::vector<std::int64_t> cuts = {0, width};
-        for (int n = random.within(1, 8); n > 0; --n) cuts.push_back(random.within(0, width));
-        cuts.push_back(std::min<std::int64_t>(width, cuts.back() + 1));
-        std::ranges::sort(cuts);
-        const std::vector<LineSpan> whole = expected_spans(p, 4, frame);
-        for (std::size_t cut = 0; cut + 1 < cuts.size(); ++cut) {
-          const Columns columns{cuts[cut], cuts[cut + 1]};
-          if (columns.width() == 0) continue;
-          std::vector<LineSpan> expected, drawn;
-          for (LineSpan span : whole) {
-            span.begin = std::max(span.begin, columns.begin);
-            span.end = std::min(span.end, columns.end);
-            if (span.begin < span.end) expected.push_back(span);
-          }
-          const Walks walks = plan_walks(p, 4, columns, frame.height);
-          EXPECT_LE(walks.size(), 3u);
-          for (const Walk& walk : walks) append_walk(walk, drawn);
-          ASSERT_EQ(drawn, expected) << "columns [" << columns.begin << ", " << columns.end << ')';
-          ++(drawn.empty() ? pieces_empty : pieces_drawn);
-        }
-      }
-    }
-  EXPECT_GT(pieces_drawn, 3000u);
-  EXPECT_GT(pieces_empty, 1000u);
-}
-
 // A single line of a walk has the same span and sums as in the walk.
 TEST(Walk, ASingleLineEqualsTheLineOfTheWalk) {
   RandomTriangles random(17);
@@ -161,19 +120,15 @@ TEST(Walk, ASingleLineEqualsTheLineOfTheWalk) {
     for (int i = 0; i < 300; ++i) {
       const FrameSize frame = c_walk_frames[static_cast<std::size_t>(i) % c_walk_frames.size()];
       for (const Walk& walk : plan_walks(random.next(kind, 4, frame), 4, frame)) {
-        std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> words{};
-        put_walk(words, walk);
         golden::TriangleWalker<Exact> walker;
-        walker.line_load(words);
+        walker.line_load(header_of(walk));
         for (std::int64_t steps = 0, carried = 0;; ++steps) {
           const WalkLine line = line_of(walk, walk.y + steps);
           ASSERT_EQ(line.steps, steps);
           ASSERT_EQ(line.carries, carried);
           ASSERT_EQ(line.empty(), walker.line_empty());
-          std::array<std::uint32_t, (Exact::c_init_header_bits + 31) / 32> line_words{};
-          put_walk(line_words, line.walk);
           golden::TriangleWalker<Exact> alone;
-          alone.line_load(line_words);
+          alone.line_load(header_of(line.walk));
           ASSERT_EQ(alone.y(), walker.y());
           ASSERT_EQ(alone.backward(), walker.backward());
           ASSERT_EQ(alone.start(), walker.start());

@@ -2,17 +2,16 @@
 // For tests: random triangles on the screen as input of setup, and the header words of their init vectors.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <random>
-#include <span>
+#include <vector>
 
 #include "projection/edge.hpp"
 #include "setup/walk.hpp"
-#include "words/word.hpp"
+#include "setup/walk_header.hpp"
+#include "words/init_vector.hpp"
 
 namespace halfway {
 
@@ -117,42 +116,12 @@ class RandomTriangles {
   std::mt19937 random_;
 };
 
-/// True if `value` fits the field without wrapping.
-inline bool fits(const words::Field& field, std::int64_t value) {
-  const std::int64_t least = field.is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
-  const std::int64_t greatest = (std::int64_t{1} << (field.is_signed ? field.bits - 1 : field.bits)) - 1;
-  return value >= least && value <= greatest;
-}
-
-/// Writes a walk into the header of an init vector; every word must fit its format.
-inline void put_walk(std::span<std::uint32_t> words, const Walk& walk) {
-  using At = words::Exact::init_header_at;
-  const auto put = [&](const words::Field& field, std::int64_t value) {
-    EXPECT_TRUE(fits(field, value)) << field.name << ' ' << value;
-    words::set_bits(words, field, static_cast<std::uint64_t>(value));
-  };
-  put(At::y, walk.y);
-  put(At::upper_lines, walk.upper_lines);
-  put(At::lower_lines, walk.lower_lines);
-  put(At::backward, walk.backward);
-  put(At::start_x, walk.start.pixel);
-  put(At::start_quotient, walk.start.quotient);
-  put(At::start_remainder, walk.start.remainder);
-  put(At::start_divisor, walk.start.divisor);
-  put(At::start_error, walk.start.error);
-  put(At::start_carry, walk.start.carry);
-  put(At::upper_x, walk.upper.pixel);
-  put(At::upper_quotient, walk.upper.quotient);
-  put(At::upper_remainder, walk.upper.remainder);
-  put(At::upper_divisor, walk.upper.divisor);
-  put(At::upper_error, walk.upper.error);
-  put(At::upper_carry, walk.upper.carry);
-  put(At::lower_x, walk.lower.pixel);
-  put(At::lower_quotient, walk.lower.quotient);
-  put(At::lower_remainder, walk.lower.remainder);
-  put(At::lower_divisor, walk.lower.divisor);
-  put(At::lower_error, walk.lower.error);
-  put(At::lower_carry, walk.lower.carry);
+/// The header of the init vector of a walk, without triangle and depth.
+inline std::vector<std::uint32_t> header_of(const Walk& walk) {
+  std::vector<std::uint32_t> words;
+  InitVector init(words, words::Exact::c_init_header_bits);
+  put_header(init, 0, walk, {});
+  return words;
 }
 
 }  // namespace halfway
