@@ -25,7 +25,6 @@
 #include "scene/builtin_meshes.hpp"
 #include "scene/test/random_scenes.hpp"
 #include "shading/test/random_solids.hpp"
-#include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "words/processors_layout.hpp"
 #include "words/word.hpp"
@@ -53,10 +52,6 @@ FrameDistance distance_of_exact(const Scene& scene) {
   const ReferenceImage reference = reference_of(scene, c_small_frame);
   const Drawn drawn = draw_processors(scene, key_of(scene));
   return *frame_distance(frame_of(scene, c_small_frame, drawn.fragments), reference.frame, reference.mask);
-}
-
-Scene builtin(const std::string& name) {
-  return must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
 }
 
 // Lights of the given kind over triangles or a mesh.
@@ -203,61 +198,6 @@ TEST(ProcessorsSetup, ClampedValuesAreNoted) {
       if (f.x == c_small_frame.width / 2 && f.y == c_small_frame.height / 2) {
         EXPECT_EQ(f.red, 255);
       }
-}
-
-// Pixels of a frame, and those where the drawn shadows differ from the reference's, which are cast by rays.
-struct Shadowed {
-  std::uint64_t pixels = 0, differ = 0;
-
-  void add(Scene scene, FrameSize size) {
-    for (Material& m : scene.materials) m.specular = 0.0;
-    HardwareKey key = key_of(scene);
-    key.processors.objects = 64;
-    const Drawn drawn = draw(scene, size, key);
-    EXPECT_FALSE(drawn.fault);
-    const Frame frame = frame_of(scene, size, drawn.fragments);
-    const ReferenceImage reference = reference_of(scene, size);
-    for (std::size_t i = 0; i < reference.mask.size(); ++i) {
-      if (reference.mask[i] == 0) continue;
-      ++pixels;
-      int most = 0;
-      for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-        most = std::max(most, std::abs(int{reference.frame.rgb[c]} - int{frame.rgb[c]}));
-      differ += most > 1;
-    }
-  }
-};
-
-TEST(ProcessorsSetup, ShadowsAreThoseOfRays) {
-  Shadowed sum;
-  sum.add(builtin("shadows"), {640, 480});
-  EXPECT_GT(sum.pixels, 120'000U);
-  EXPECT_LT(sum.differ * 1'000, sum.pixels) << sum.differ << " of " << sum.pixels;
-}
-
-// The near plane cuts volumes and cuts solids open; the eye is in a solid; meshes are open.
-TEST(ProcessorsSetup, ShadowsAreThoseOfRaysWhereInsidesAreVisible) {
-  RandomSolids random(9);
-  std::array<Shadowed, 3> sum;
-  for (std::size_t round = 0; round < 12; ++round) {
-    Scene scene = random.on_a_floor(4);
-    if (round % 3 == 0) {
-      scene.camera.eye_world = 3.0 * random.unit();
-      scene.camera.eye_world.y = std::abs(scene.camera.eye_world.y) - 1.0;
-      scene.camera.near = random.within(1.0, 3.0);
-    } else if (round % 3 == 1) {
-      const auto [a, b, c] = corners_world(scene, scene.triangles[0]);
-      scene.camera.eye_world = (a + b + c) / 3.0 - 0.05 * glm::normalize(glm::cross(b - a, c - a));
-      scene.camera.target_world = random.cube(2.0);
-    } else {
-      for (int i = 0; i < 20; ++i) scene.triangles.erase(scene.triangles.begin() + random.whole(0, 30));
-    }
-    sum[round % 3].add(scene, {160, 120});
-  }
-  for (const Shadowed& kind : sum) {
-    EXPECT_GT(kind.pixels, 20'000U);
-    EXPECT_LT(kind.differ * 500, kind.pixels) << kind.differ << " of " << kind.pixels;
-  }
 }
 
 using Request = words::Exact::request_header_at;

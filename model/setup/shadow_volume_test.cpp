@@ -55,8 +55,7 @@ struct Agreement {
 
 /// For points all over the scene, compares the volumes with the triangles facing away from the light between
 /// point and light.
-void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& random, int points,
-                                          bool is_closed, Agreement& sum) {
+void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& random, Agreement& sum) {
   const std::vector<LightRef> lights = shining_lights(scene);
   const auto triangles = all_corners(scene);
   const BoundingSphere sphere = bounding_sphere(scene);
@@ -64,7 +63,7 @@ void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& rand
     const std::vector<CornersWorld> surface = closed_surface(scene, volumes);
     ASSERT_EQ(unmatched_edges(surface), 0u) << name_of(volumes.light);
     const LightPoint light = light_of(scene, volumes.light).point;
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < 60; ++i) {
       glm::dvec3 point = sphere.centre_world + sphere.radius * random.cube(0.9);
       if (glm::length(point - sphere.centre_world) > sphere.radius) continue;
       if (i == 0) point = scene.camera.eye_world;
@@ -80,46 +79,8 @@ void expect_volumes_are_where_no_light_is(const Scene& scene, RandomSolids& rand
         ASSERT_EQ(static_cast<int>(volumes.around_eye), truth.enters) << name_of(volumes.light);
       }
       sum.shadowed += truth.enters > 0;
-      // Outside a closed mesh, a ray that crosses triangles enters the mesh.
-      const Crossings upward = crossings(triangles, point, {glm::normalize(glm::dvec3(0.3, 0.5, 0.8)), 0.0});
-      if (is_closed && upward.enters == upward.leaves && truth.enters + truth.leaves > 0) {
-        ASSERT_GT(truth.enters, 0) << name_of(volumes.light);
-      }
     }
   }
-}
-
-TEST(ShadowVolume, OfSolidsMatchesTheShadow) {
-  RandomSolids random(1);
-  Agreement sum;
-  for (int round = 0; round < 40; ++round) {
-    const Scene scene = random.scene(1 + round % 4);
-    expect_volumes_are_where_no_light_is(scene, random, 240, true, sum);
-    if (HasFatalFailure()) FAIL() << "round " << round;
-  }
-  EXPECT_GT(sum.points, 14'000);
-  EXPECT_GT(sum.shadowed, 1'500);
-  EXPECT_EQ(sum.in_doubt, 0);
-}
-
-TEST(ShadowVolume, OfALampNextToAndInsideSolids) {
-  RandomSolids random(2);
-  Agreement sum;
-  for (int round = 0; round < 40; ++round) {
-    Scene scene = random.scene(3);
-    scene.directional.clear();
-    scene.spots.clear();
-    // Among the solids, inside one of them, or at a thousandth from a face.
-    const auto [a, b, c] = corners_world(scene, scene.triangles[random.whole(0, 5)]);
-    const double from_face = round % 3 == 1 ? -0.1 : round % 2 ? 1e-3 : -1e-3;
-    const glm::dvec3 at_face = (a + b + c) / 3.0 + from_face * glm::normalize(glm::cross(b - a, c - a));
-    scene.positional = {{round % 3 == 0 ? random.cube(1.5) : at_face, glm::dvec3(1.0)}};
-    expect_volumes_are_where_no_light_is(scene, random, 250, true, sum);
-    if (HasFatalFailure()) FAIL() << "round " << round;
-  }
-  EXPECT_GT(sum.points, 5'000);
-  EXPECT_GT(sum.shadowed, 1'500);
-  EXPECT_LE(sum.in_doubt, 2);
 }
 
 // Open meshes, edges of three triangles, duplicate, reversed and zero-area triangles: every set of triangles
@@ -150,7 +111,7 @@ TEST(ShadowVolume, OfAnyTrianglesIsClosed) {
     for (std::uint32_t i = 0; i < copies; ++i) scene.positions_world.push_back(scene.positions_world[i]);
     for (SceneTriangle& t : triangles)
       for (std::uint32_t& p : t.position) p += random.whole(0, 1) * copies;
-    expect_volumes_are_where_no_light_is(scene, random, 60, false, sum);
+    expect_volumes_are_where_no_light_is(scene, random, sum);
     if (HasFatalFailure()) FAIL() << "round " << round;
   }
   EXPECT_GT(sum.points, 5'000);
