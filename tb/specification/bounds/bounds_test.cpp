@@ -24,6 +24,7 @@ std::string number(double value) {
 }
 
 constexpr double c_tight = 0.5;      // least worst case as a part of its bound
+constexpr double c_derived = 0.8;    // least derivation as a part of its bound
 constexpr double c_rounding = 1e-9;  // relative rounding of the doubles in which both sides are computed
 
 std::string number_or_dash(double value) {
@@ -93,6 +94,7 @@ class FormatBounds : public testing::TestWithParam<StatedBound> {
     const double derived = tables::derived(*preset, *format, *bound);
     const double most = bound->value * (1 + c_rounding), worst = std::max(finding.worst, 0.0);
     EXPECT_LE(derived, most) << "its derivation";
+    EXPECT_GE(derived, c_derived * bound->value) << "its derivation";
     EXPECT_LE(worst, most) << "found at " << finding.where;
     EXPECT_LE(finding.proved, bound->value * (1 + 0x1p-9)) << "no less is proved";
     double ratio = bound->value == 0 ? 1.0 : worst / bound->value;
@@ -158,6 +160,7 @@ class TableBounds : public testing::TestWithParam<std::vector<TableFinding> (*)(
     std::vector<std::vector<std::string>> rows;
     for (const TableFinding& f : GetParam()({quick})) {
       EXPECT_LE(f.derived, f.bound * (1 + c_rounding)) << f.table;
+      EXPECT_GE(f.derived, c_derived * f.bound) << f.table;
       EXPECT_LE(f.worst, f.bound) << f.table;
       EXPECT_GE(f.worst, c_tight * f.bound) << f.table << ": nothing comes closer";
       rows.push_back(
