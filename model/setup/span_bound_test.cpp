@@ -7,25 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <random>
 
+#include "scene/test/random_scenes.hpp"
 #include "shading/arc.hpp"
 
 namespace halfway {
 namespace {
-
-class Random {
- public:
-  explicit Random(unsigned seed) : bits_(seed) {}
-  double within(double low, double high) { return std::uniform_real_distribution(low, high)(bits_); }
-  /// Evenly over the decades.
-  double decades(double low, double high) { return std::exp(within(std::log(low), std::log(high))); }
-  glm::dvec3 vector() { return {within(-1, 1), within(-1, 1), within(-1, 1)}; }
-  glm::dvec3 unit() { return glm::normalize(vector()); }
-
- private:
-  std::mt19937_64 bits_;
-};
 
 SurfacePoint point_of(glm::dvec3 position_world, glm::dvec3 interpolated_normal_world, double inverse_w) {
   const double length = glm::length(interpolated_normal_world);
@@ -42,19 +29,19 @@ struct SurfaceSpan {
 };
 
 // Ends that differ by 1e-6 to about 1, seen and lit from near and far, with perspective.
-SurfaceSpan random_span(Random& random) {
-  const double size = random.decades(1e-6, 1.0);
+SurfaceSpan random_span(RandomScenes& random) {
+  const double size = random.log_within(1e-6, 1.0);
   SurfaceSpan span;
-  const glm::dvec3 normal = random.decades(0.3, 1.0) * random.unit();
-  span.begin = point_of(random.vector(), normal, random.decades(0.1, 10.0));
-  span.end = point_of(span.begin.position_world + size * random.vector(),
-                      normal + random.within(0.0, 1.0) * size * random.vector(),
+  const glm::dvec3 normal = random.log_within(0.3, 1.0) * random.unit();
+  span.begin = point_of(random.cube(), normal, random.log_within(0.1, 10.0));
+  span.end = point_of(span.begin.position_world + size * random.cube(),
+                      normal + random.within(0.0, 1.0) * size * random.cube(),
                       span.begin.inverse_w * (1.0 + size * random.within(-0.5, 0.5)));
-  span.eye_world = span.begin.position_world + random.decades(0.1, 100.0) * random.unit();
+  span.eye_world = span.begin.position_world + random.log_within(0.1, 100.0) * random.unit();
   span.light.point =
-      random.within(0, 1) < 0.5
+      random.one_in(2)
           ? LightPoint{random.unit(), 0.0}
-          : LightPoint{span.begin.position_world + random.decades(0.1, 100.0) * random.unit(), 1.0};
+          : LightPoint{span.begin.position_world + random.log_within(0.1, 100.0) * random.unit(), 1.0};
   return span;
 }
 
@@ -79,7 +66,7 @@ Vectors vectors_at(const SurfaceSpan& span, double t) {
 
 // The arcs against the surface at 31 places of random spans.
 TEST(SpanBound, HoldsForRandomSpans) {
-  Random random(5);
+  RandomScenes random(5);
   double closest_diffuse = 0.0, closest_specular = 0.0;
   int bounded = 0;
   for (int i = 0; i < 400'000; ++i) {
