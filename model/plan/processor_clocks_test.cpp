@@ -62,20 +62,6 @@ TEST(Table5, TheSlowestProcessorIsOneThatTheSceneHas) {
     EXPECT_EQ(slowest(plan_of(scene, Preset::published).everything), "spot specular") << scene;
     EXPECT_EQ(slowest(plan_of(scene, Preset::exact).everything), "spot specular") << scene;
   }
-
-  HardwareKey key{.shader = Shader::processors};
-  EXPECT_EQ(slowest(key), "ambient");
-  key.processors.normalize = true;
-  EXPECT_EQ(slowest(key), "ambient, N normalized");
-  key.processors = {.directional = 1, .diffuse = true};
-  EXPECT_EQ(slowest(key), "directional diffuse");
-  key.processors.positional = 1;
-  EXPECT_EQ(slowest(key), "positional diffuse");
-  key.processors.spots = 1;
-  EXPECT_EQ(slowest(key), "spot diffuse");
-  // Slower rows that the key replaces must not count.
-  key.processors = {.directional = 1, .specular = true, .normalize = true};
-  EXPECT_EQ(slowest(key), "directional specular");
 }
 
 // No row of a pipeline takes longer. Here the rows are enumerated by another method.
