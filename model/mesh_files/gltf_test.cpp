@@ -82,7 +82,6 @@ TEST_P(GltfSpelling, IsReadExactlyOrRefusedWithItsPlace) {
   EXPECT_EQ(triangles(GetParam().text), GetParam().wanted);
 }
 
-const std::string c_triangle = "0,0,0 1,0,0 0,1,0";
 const json c_sparse = json::parse(
     R"({"count":1,"indices":{"bufferView":2,"byteOffset":1,"componentType":5121},"values":{"bufferView":3}})");
 
@@ -309,11 +308,7 @@ const std::vector<Spelling> c_spellings = {
      "! a.gltf: the mesh has no faces; export it with faces"},
 };
 
-INSTANTIATE_TEST_SUITE_P(All, GltfSpelling, ::testing::ValuesIn(c_spellings), [](const auto& test) {
-  std::string name = test.param.name;
-  for (char& c : name) c = c == '.' ? '_' : c;
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, GltfSpelling, ::testing::ValuesIn(c_spellings), name_of);
 
 // ---- GLB
 
@@ -350,7 +345,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "! a.gltf: byte 12: chunk 0 is longer than the file; export the file again"},
         Spelling{"binary_first", glb(chunk(c_binary_type, "ab") + chunk("JSON", "{}")),
                  "! a.gltf: byte 12: the first chunk, and no other, must be JSON; export the file again"}),
-    [](const auto& test) { return std::string(test.param.name); });
+    name_of);
 
 // ---- Normals, files, notes
 
