@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -165,17 +164,7 @@ TEST(Plan, KnowsTheMostLightsOfTheHardware) {
 TEST(Plan, LightsFromNoneToOneTooMany) {
   for (const Preset preset : {Preset::exact, Preset::published})
     for (unsigned lights = 0; lights <= 17; ++lights) {
-      Scene scene = grey_scene();
-      for (unsigned i = 0; i < lights; ++i) switch (i % 3) {
-          case 0:
-            scene.directional.push_back({});
-            break;
-          case 1:
-            scene.positional.push_back({});
-            break;
-          default:
-            scene.spots.push_back({});
-        }
+      const Scene scene = with_lights((lights + 2) / 3, (lights + 1) / 3, lights / 3);
       const auto plan = plan_scene(scene, {.shader = Shader::spherical, .preset = preset});
       if (lights > c_most_lights) {
         ASSERT_FALSE(plan);
@@ -482,44 +471,6 @@ TEST(HardwareKey, OnlyTheQuadraticShaderHasDegrees) {
   EXPECT_EQ(planned(grey_scene(), {.degree = 2}).key.name(), "quadratic_shader-exact-c1");
   for (const Shader shader : {Shader::spherical, Shader::processors})
     EXPECT_FALSE(plan_scene(grey_scene(), {.shader = shader, .degree = 1}));
-}
-
-TEST(HardwareKey, GenericsMatchTheKey) {
-  const HardwareKey key{.shader = Shader::spherical,
-                        .preset = Preset::exact,
-                        .channels = 3,
-                        .spherical = {.lights = 5,
-                                      .diffuse = true,
-                                      .specular = true,
-                                      .highlight_channels = 1,
-                                      .powers = 18,
-                                      .tables = {10, 7}}};
-  using Map = std::map<std::string, std::string>;
-  const auto generics = key.generics();
-  EXPECT_EQ(Map(generics.begin(), generics.end()), (Map{{"g_exact", "true"},
-                                                        {"g_channels", "3"},
-                                                        {"g_lights", "5"},
-                                                        {"g_diffuse", "true"},
-                                                        {"g_specular", "true"},
-                                                        {"g_highlight_channels", "1"},
-                                                        {"g_powers", "18"},
-                                                        {"g_address_bits", "10"},
-                                                        {"g_data_bits", "7"}}));
-  EXPECT_EQ(key.entity(), "spherical_shader");
-  EXPECT_EQ(key.name(), "spherical_shader-exact-c3-l5-d-s1-cos2.16-rom10x7");
-  const words::SphericalConfig config = golden_config(key);
-  EXPECT_EQ(config.lights, 5);
-  EXPECT_EQ(config.channels, 3);
-  EXPECT_EQ(config.highlight_channels, 1);
-  EXPECT_EQ(config.powers, 18U);
-  EXPECT_EQ(config.size.address_bits, 10);
-  EXPECT_EQ(config.size.data_bits, 7);
-  EXPECT_TRUE(config.diffuse && config.specular);
-
-  const HardwareKey quadratic{.preset = Preset::published, .channels = 1};
-  const auto few = quadratic.generics();
-  EXPECT_EQ(Map(few.begin(), few.end()), (Map{{"g_exact", "false"}, {"g_channels", "1"}, {"g_degree", "2"}}));
-  EXPECT_EQ(quadratic.name(), "quadratic_shader-published-c1");
 }
 
 }  // namespace

@@ -94,57 +94,5 @@ TEST(Walk, TheHardwareDrawsExactlyTheSpansOfEveryKindOfTriangle) {
   for (const std::size_t walks : {0u, 1u, 2u, 3u}) EXPECT_GT(seen.walks[walks], 50) << walks;
 }
 
-// Every triangle of a small lattice: ties, horizontal edges and crossings of a tiny frame in all
-// combinations.
-TEST(Walk, EveryTriangleOfALatticeAroundATinyFrame) {
-  Seen seen;
-  constexpr int c_side = 6, c_points = c_side * c_side;
-  const auto point = [](int i) {
-    return ScreenPoint{(i % c_side) * 8 - 12, (i / c_side) * 8 - 12};  // half pixels: centres and corners
-  };
-  for (int a = 0; a < c_points; ++a)
-    for (int b = a + 1; b < c_points; ++b)
-      for (int c = b + 1; c < c_points; ++c) {
-        expect_walks({point(a), point(b), point(c)}, 4, {1, 2}, seen);
-        if (::testing::Test::HasFailure()) return;
-      }
-  EXPECT_EQ(seen.walks[0] + seen.walks[1] + seen.walks[2] + seen.walks[3],
-            c_points * (c_points - 1) * (c_points - 2) / 6);
-}
-
-// A single line of a walk has the same span and sums as in the walk.
-TEST(Walk, ASingleLineEqualsTheLineOfTheWalk) {
-  RandomTriangles random(17);
-  std::uint64_t lines = 0, carries = 0;
-  for (const TriangleKind kind : c_triangle_kinds)
-    for (int i = 0; i < 300; ++i) {
-      const FrameSize frame = c_walk_frames[static_cast<std::size_t>(i) % c_walk_frames.size()];
-      for (const Walk& walk : plan_walks(random.next(kind, 4, frame), 4, frame)) {
-        golden::TriangleWalker<Exact> walker;
-        walker.line_load(header_of(walk));
-        for (std::int64_t steps = 0, carried = 0;; ++steps) {
-          const WalkLine line = line_of(walk, walk.y + steps);
-          ASSERT_EQ(line.steps, steps);
-          ASSERT_EQ(line.carries, carried);
-          ASSERT_EQ(line.empty(), walker.line_empty());
-          golden::TriangleWalker<Exact> alone;
-          alone.line_load(header_of(line.walk));
-          ASSERT_EQ(alone.y(), walker.y());
-          ASSERT_EQ(alone.backward(), walker.backward());
-          ASSERT_EQ(alone.start(), walker.start());
-          ASSERT_EQ(alone.stop(), walker.stop());
-          ASSERT_TRUE(alone.line_last());
-          ++lines;
-          if (walker.line_last()) break;
-          carried += walker.carry();
-          carries += walker.carry();
-          walker.line_step();
-        }
-      }
-    }
-  EXPECT_GT(lines, 100'000U);
-  EXPECT_GT(carries, 10'000U);
-}
-
 }  // namespace
 }  // namespace halfway
