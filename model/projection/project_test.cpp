@@ -17,9 +17,10 @@
 #include <utility>
 #include <vector>
 
+#include "projection/edge.hpp"
 #include "scene/mesh.hpp"
 #include "scene/test/sides_apart.hpp"
-#include "setup/test/pixels.hpp"
+#include "setup/walk_header.hpp"
 
 namespace halfway {
 namespace {
@@ -27,8 +28,9 @@ namespace {
 std::vector<int> coverage(std::span<const ScreenTriangle> triangles, FrameSize frame) {
   std::vector<int> count(std::size_t{frame.width} * frame.height);
   for (const ScreenTriangle& t : triangles)
-    for_each_pixel(t, frame,
-                   [&](std::uint32_t x, std::uint32_t y) { ++count[std::size_t{y} * frame.width + x]; });
+    for_each_span(screen_points(t), 4, frame, [&](std::uint32_t y, std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t x = begin; x < end; ++x) ++count[std::size_t{y} * frame.width + x];
+    });
   return count;
 }
 

@@ -13,11 +13,11 @@
 #include <map>
 #include <numbers>
 #include <ostream>
-#include <random>
 #include <utility>
 #include <vector>
 
 #include "common/test/big_real.hpp"
+#include "scene/test/random_scenes.hpp"
 #include "words/generator/cosine.hpp"
 
 namespace halfway {
@@ -25,16 +25,6 @@ namespace {
 
 constexpr double c_pi = std::numbers::pi;
 constexpr std::array c_powers = {1, 2, 4, 8, 16};
-
-class Random {
- public:
-  explicit Random(unsigned seed) : random_(seed) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-  double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0.0, 1.0)); }
-
- private:
-  std::mt19937_64 random_;
-};
 
 // ---- preset published
 
@@ -62,11 +52,11 @@ TEST(PublishedScale, SolvesTheEquation) {
                                    2.0,  std::nextafter(2.0, 3.0),
                                    1e6,  1e9,
                                    1e12, 1e15};
-  Random random(1);
+  RandomScenes random(1);
   for (int i = 0; i < 200; ++i) {
-    exponents.push_back(random.uniform(1.0, 1e6));
-    exponents.push_back(random.log_uniform(1.0, 1e6));
-    exponents.push_back(random.log_uniform(1e6, 1e15));
+    exponents.push_back(random.within(1.0, 1e6));
+    exponents.push_back(random.log_within(1.0, 1e6));
+    exponents.push_back(random.log_within(1e6, 1e15));
   }
   double worst = 0.0;
   for (const double n : exponents) {
@@ -199,12 +189,12 @@ TEST(Bell, ExponentsOutOfRangeAreClamped) {
 
 // ---- the bound
 
-std::vector<Bell> bells_to_bound(double n, Random& random) {
+std::vector<Bell> bells_to_bound(double n, RandomScenes& random) {
   const Bell fitted = fitted_bell(n);
   std::vector<Bell> bells = {fitted, {2, published_scale(n)}};
-  bells.push_back({fitted.power, fitted.scale * random.uniform(0.5, 2.0), random.uniform(0.5, 1.5)});
-  bells.push_back({c_powers[static_cast<std::size_t>(random.uniform(0.0, 4.999))],
-                   random.log_uniform(0.3, 2 * std::sqrt(n)), random.uniform(0.2, 2.0)});
+  bells.push_back({fitted.power, fitted.scale * random.within(0.5, 2.0), random.within(0.5, 1.5)});
+  bells.push_back({c_powers[static_cast<std::size_t>(random.within(0.0, 4.999))],
+                   random.log_within(0.3, 2 * std::sqrt(n)), random.within(0.2, 2.0)});
   return bells;
 }
 
@@ -216,9 +206,9 @@ BigReal exact_error(double n, const Bell& bell, double x) {
 }
 
 TEST(FitError, BoundsExactErrors) {
-  Random random(3);
+  RandomScenes random(3);
   std::vector<double> exponents = {1.0, 1.5, 2.0, 2.5, 1000.0, 1e6, 1e9, 1e15};
-  for (int i = 0; i < 20; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
+  for (int i = 0; i < 20; ++i) exponents.push_back(random.log_within(1.0, 1e6));
   for (const double n : exponents)
     for (const Bell& bell : bells_to_bound(n, random)) {
       const double bound = fit_error(n, bell);
@@ -230,7 +220,7 @@ TEST(FitError, BoundsExactErrors) {
         return static_cast<double>(error);
       };
       EXPECT_GE(expect_bounded(greatest_sampled(n, bell, 20000).x), bound - 1e-5) << "n = " << n;
-      for (int i = 0; i < 60; ++i) expect_bounded(random.uniform(0.0, i % 2 == 0 ? c_pi : 5 / std::sqrt(n)));
+      for (int i = 0; i < 60; ++i) expect_bounded(random.within(0.0, i % 2 == 0 ? c_pi : 5 / std::sqrt(n)));
     }
 }
 
@@ -360,14 +350,14 @@ std::int64_t drawn_colour(const tables::CosineTable& table, double half_bells, d
 /// The largest error of colours by the shader's arithmetic at angles up to `farthest`, including angles that
 /// have drifted. Each is within the sum of the parts.
 double largest_error(double n, const tables::CosineTable& table, double half_bells_per_radian, double gain,
-                     double farthest, double most_drift, const Parts& bound, Random& random) {
+                     double farthest, double most_drift, const Parts& bound, RandomScenes& random) {
   const std::int64_t largest = table.size.largest_entry();
   const std::int64_t factor = std::llround(c_steps * gain * 256.0 * double(largest + 1) / double(largest));
   double worst = 0.0;
   for (int i = 0; i < 20000; ++i) {
-    const double x = std::min(c_pi, random.uniform(-1.0, 1.0) * farthest);
+    const double x = std::min(c_pi, random.within(-1.0, 1.0) * farthest);
     // Anywhere within the drift, often at its limits.
-    const double drift = most_drift * std::clamp(random.uniform(-2.0, 2.0), -1.0, 1.0);
+    const double drift = most_drift * std::clamp(random.within(-2.0, 2.0), -1.0, 1.0);
     const std::int64_t colour = drawn_colour(table, half_bells_per_radian * x, drift, factor);
     const double error = std::abs(double(colour) - c_steps * lobe(n, std::abs(x)));
     worst = std::max(worst, error);
@@ -377,9 +367,9 @@ double largest_error(double n, const tables::CosineTable& table, double half_bel
 }
 
 TEST(Bell, ColoursStayWithinTheSumOfTheParts) {
-  Random random(4);
+  RandomScenes random(4);
   std::vector<double> exponents = {1.0, 2.0, 2.5, 2.646, 2.649, 3.0, 5.0, 16.0, 1000.0, 1e6};
-  for (int i = 0; i < 40; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
+  for (int i = 0; i < 40; ++i) exponents.push_back(random.log_within(1.0, 1e6));
   double nearest = 0.0;
   for (const double n : exponents) {
     const Bell bell = fitted_bell(n);
@@ -444,9 +434,9 @@ TEST(OwnTable, EveryExponentIsWithinOneStep) {
 }
 
 TEST(OwnTable, ColoursStayWithinOneStep) {
-  Random random(5);
+  RandomScenes random(5);
   std::vector<double> exponents = {1.0, 1.305, 2.0, 2.65, 3.0, 5.0, 6.0, 16.0, 20.0, 50.0, 1000.0, 1e6};
-  for (int i = 0; i < 30; ++i) exponents.push_back(random.log_uniform(1.0, 1e6));
+  for (int i = 0; i < 30; ++i) exponents.push_back(random.log_within(1.0, 1e6));
   double worst = 0.0;
   for (const double n : exponents) {
     const double reach = tables::own_reach(n);
