@@ -83,8 +83,6 @@ class RandomSolids {
     return made;
   }
 
-  std::mt19937& generator() { return random_; }
-
  private:
   std::mt19937 random_;
 };
