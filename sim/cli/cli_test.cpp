@@ -9,8 +9,6 @@
 
 #include "sim/cli/command_test.hpp"
 #include "sim/files/trace.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -22,12 +20,10 @@ using ::testing::Not;
 
 class CliTest : public CommandTest {
  protected:
-  std::filesystem::path write(const std::string& name, const std::string& text) const {
-    const std::filesystem::path path = folder_.path() / name;
-    EXPECT_TRUE(write_file(path, text));
-    return path;
+  std::filesystem::path out() const { return at("out"); }
+  nlohmann::json summary_of(const std::filesystem::path& folder) const {
+    return nlohmann::json::parse(text_of(out() / folder / "summary.json"));
   }
-  std::filesystem::path out() const { return folder_.path() / "out"; }
 };
 
 const std::string c_triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -45,7 +41,7 @@ TEST_F(CliTest, HelpGoesToStandardOutputAndExitsZero) {
 }
 
 TEST_F(CliTest, AProgramInACopiedCheckoutReadsTheCopy) {
-  const std::filesystem::path copy = folder_.path() / "copy", program = copy / "build" / "halfway";
+  const std::filesystem::path copy = at("copy"), program = copy / "build" / "halfway";
   write("copy/rtl/files.f", "");
   create_directories(program.parent_path());
   copy_file(HALFWAY_PROGRAM, program);
@@ -96,8 +92,7 @@ TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
   for (const auto& [address, data, expected] : cases) {
     const Outcome outcome =
         run({"sim", "spheres", "--shader", "spherical", "--address-bits", address, "--data-bits", data});
-    EXPECT_EQ(outcome.exit_code, 2) << outcome.output;
-    EXPECT_THAT(outcome.output, HasSubstr(expected));
+    EXPECT_THAT(outcome, Ends(2, HasSubstr(expected)));
     EXPECT_EQ(outcome.output.find("make tables") != std::string::npos, address == "11") << outcome.output;
   }
   for (const char* one : {"--address-bits", "--data-bits"})
@@ -156,14 +151,14 @@ TEST_F(CliTest, BadScenesAndMeshesExitTwoAndLeaveNothing) {
     EXPECT_FALSE(std::filesystem::exists(out())) << name;
   }
   EXPECT_EQ(run({"sim", "no-such-scene", "--out", out()}).exit_code, 2);
-  EXPECT_EQ(run({"sim", folder_.path(), "--out", out()}).exit_code, 2);
+  EXPECT_EQ(run({"sim", here(), "--out", out()}).exit_code, 2);
 }
 
 TEST_F(CliTest, RenderingTheGoldenModelNotesClampedValues) {
   const auto scene = write("bright.toml",
                            "[[directional]]\nto_light = [0, 0, 1]\nintensity = [100, 1, 1]\n[[material]]\n"
                            "name = \"m\"\n[[mesh]]\nkind = \"box\"\nmaterial = \"m\"\n");
-  const auto image = (folder_.path() / "bright.png").string();
+  const auto image = at("bright.png").string();
   EXPECT_THAT(run({"render", scene, "--method", "golden", "--shader", "processors", "--size", "20x15",
                    "--file", image}),
               Ends(0, HasSubstr("directional light 1 is 100 times white and was clamped")));
@@ -224,15 +219,14 @@ TEST_F(CliTest, ARunThatComparesNothingExitsOne) {
   }
 
   // A summary changed by hand: the reference covers pixels, but setup found no triangle.
-  const auto path = out() / "averted" / "quadratic" / "summary.json";
-  const auto summary = must(read_file(path));
-  auto json = nlohmann::json::parse(summary);
+  const auto path = out() / "averted/quadratic/summary.json";
+  auto json = summary_of("averted/quadratic");
   json["accuracy"]["pixels"] = 7;
-  ASSERT_TRUE(write_file(path, json.dump()));
+  write(path, json.dump());
   EXPECT_THAT(run({"compare", "averted", "--out", out()}),
               Ends(1, HasSubstr("no triangle in view, but the reference covers 7 pixels")));
   json["runs"] = nlohmann::json::array();
-  ASSERT_TRUE(write_file(path, json.dump()));
+  write(path, json.dump());
   EXPECT_THAT(run({"compare", "averted", "--out", out()}),
               Ends(1, HasSubstr("nothing was compared: no simulator drew; run `make sim SCENE=averted")));
 }
@@ -241,8 +235,7 @@ TEST_F(CliTest, SummaryHoldsWhatTheRunWas) {
   const auto mesh = write("one.obj", c_triangle);
   const Outcome outcome = run({"sim", mesh, "--out", out(), "--size", "40x30"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
-  const auto text = must(read_file(out() / "one" / "quadratic" / "summary.json"));
-  const auto json = nlohmann::json::parse(text);
+  const auto json = summary_of("one/quadratic");
   EXPECT_EQ(json["scene"], "one");
   EXPECT_EQ(json["shader"], "quadratic");
   EXPECT_EQ(json["preset"], "exact");
@@ -273,8 +266,7 @@ TEST_F(CliTest, UnresolvedLeavesAreCounted) {
   };
   EXPECT_THAT(drawn("5"), Ends(0, Not(HasSubstr("unresolved"))));
   const Outcome rough = drawn("0");
-  const auto summary =
-      nlohmann::json::parse(must(read_file(out() / "highlights" / "quadratic" / "summary.json")));
+  const auto summary = summary_of("highlights/quadratic");
   EXPECT_GT(summary["setup"]["unresolved"], 10);
   EXPECT_THAT(rough, Ends(0, HasSubstr(fmt::format(" | {} unresolved | reference: ",
                                                    summary["setup"]["unresolved"].get<int>()))));
@@ -291,9 +283,8 @@ TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
                                           "--size", "40x30", "--simulator", "verilator"};
     if (all_effects) arguments.push_back("--all-effects");
     EXPECT_EQ(run(arguments).exit_code, 0);
-    const auto folder = out() / "one" / (all_effects ? "quadratic-all-effects" : "quadratic");
-    const auto summary = must(read_file(folder / "summary.json"));
-    EXPECT_EQ(nlohmann::json::parse(summary)["hardware"]["all_effects"], all_effects);
+    const auto summary = summary_of(all_effects ? "one/quadratic-all-effects" : "one/quadratic");
+    EXPECT_EQ(summary["hardware"]["all_effects"], all_effects);
   }
   EXPECT_EQ(compare("--all-effects").exit_code, 0);
   std::filesystem::remove_all(out() / "one" / "quadratic-all-effects");
@@ -333,7 +324,7 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   const auto mesh = write("one.obj", c_triangle);
   ASSERT_EQ(run({"sim", mesh, "--out", out(), "--size", "20x15", "--simulator", "verilator"}).exit_code, 0);
   const std::filesystem::path path = out() / "one" / "quadratic" / "verilator.trace";
-  const auto whole = must(read_file(path));
+  const std::string whole = text_of(path);
 
   // Change the first fragment's blue by one step.
   const std::size_t line_end = whole.find('\n', whole.find('\n') + 1);
@@ -341,7 +332,7 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   const int value = std::stoi(whole.substr(blue, line_end - blue));
   std::string changed = whole;
   changed.replace(blue, line_end - blue, std::to_string(value == 255 ? 254 : value + 1));
-  ASSERT_TRUE(write_file(path, changed));
+  write(path, changed);
   EXPECT_THAT(
       run({"compare", "one", "--out", out()}),
       Ends(1, ContainsRegex("triangle 0, line [0-9]+, pixel [0-9]+, blue: golden [0-9]+, verilator")));
@@ -352,7 +343,7 @@ TEST_F(CliTest, CompareSeesAChangedTraceAndRefusesADamagedOne) {
   for (const std::string& damaged :
        {whole.substr(0, whole.size() / 2), std::string("P6\n20 15\n"), std::string(),
         whole + "1 2 3 4 5 6 7\n", std::string("halfway-trace 1 other-key\nend 0\n")}) {
-    ASSERT_TRUE(write_file(path, damaged));
+    write(path, damaged);
     EXPECT_THAT(run({"compare", "one", "--out", out()}), Ends(2, HasSubstr("verilator.trace")));
   }
 }
@@ -370,24 +361,20 @@ TEST_F(CliTest, CompareSaysWhatIsNotThere) {
                                           ContainsRegex("one +verilator +quadratic_shader.* 0 mismatches"))));
 
   ASSERT_EQ(run(sim).exit_code, 0);
-  const auto summary = must(read_file(folder / "summary.json"));
+  auto json = summary_of("one/quadratic");
   EXPECT_THAT(run(compare).output, Not(HasSubstr("not compared")));
   std::filesystem::remove(folder / "ghdl.trace");
   EXPECT_THAT(run(compare), Ends(2, HasSubstr("ghdl.trace is gone; run `make sim SCENE=one OUT=")));
 
   // The same folder as after an interrupted `sim`, and as after a fault in GHDL.
   std::filesystem::remove(folder / "summary.json");
-  const Outcome broken_off = run(compare);
-  EXPECT_EQ(broken_off.exit_code, 2) << broken_off.output;
-  EXPECT_THAT(
-      broken_off.output,
-      HasSubstr("the run was interrupted, or has not reached this scene yet; run `make sim SCENE=one OUT="));
-  auto json = nlohmann::json::parse(summary);
+  EXPECT_THAT(run(compare), Ends(2, HasSubstr("the run was interrupted, or has not reached this scene yet; "
+                                              "run `make sim SCENE=one OUT=")));
   json["runs"][0]["fault"] = "it hangs";
-  ASSERT_TRUE(write_file(folder / "summary.json", json.dump()));
+  write(folder / "summary.json", json.dump());
   EXPECT_THAT(run(compare), Ends(1, AllOf(ContainsRegex("one +ghdl +differs, as sim found: it hangs\n"),
                                           ContainsRegex("one +verilator .* 0 mismatches"))));
-  ASSERT_TRUE(write_file(folder / "summary.json", "{}"));
+  write(folder / "summary.json", "{}");
   EXPECT_THAT(run(compare), Ends(2, HasSubstr("summary.json: not a summary")));
 }
 
@@ -404,17 +391,10 @@ TEST_F(CliTest, InitSaysWhatSetupMade) {
 
 TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
   const auto mesh = write("one.obj", c_triangle);
-  const auto fake = folder_.path() / "bin";
-  ASSERT_TRUE(make_folders(fake));
-  const Outcome missing =
-      run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"}, {{"PATH", fake}});
-  EXPECT_EQ(missing.exit_code, 3) << missing.output;
-  EXPECT_THAT(missing.output, HasSubstr("apt-get install ghdl"));
-
-  put_program(fake / "ghdl", "#!/bin/sh\nkill -SEGV $$\n");
-  EXPECT_THAT(run({"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"},
-                  {{"PATH", fake.string() + ":/usr/bin:/bin"}}),
-              Ends(3, HasSubstr("ghdl")));
+  const std::vector<std::string> sim = {"sim",    mesh,  "--out",       out(),
+                                        "--size", "8x6", "--simulator", "ghdl"};
+  EXPECT_THAT(run(sim, {{"PATH", at("empty")}}), Ends(3, HasSubstr("apt-get install ghdl")));
+  EXPECT_THAT(run(sim, path_with("ghdl", "#!/bin/sh\nkill -SEGV $$\n")), Ends(3, HasSubstr("ghdl")));
 }
 
 // Printed output is a result, too.
@@ -435,10 +415,9 @@ TEST_F(CliTest, AFullStandardOutputExitsThreeAndIsReported) {
 // A scene's name is that of a file, so it may contain any bytes. The texts of summary.json are UTF-8.
 TEST_F(CliTest, AScenesNameMayBeAnyBytes) {
   const auto scene = write("caf\xe9.toml", "[[mesh]]\nkind = \"box\"\n");
-  const Outcome outcome = run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  const auto summary = must(read_file(out() / "caf\xe9" / "quadratic" / "summary.json"));
-  EXPECT_EQ(nlohmann::json::parse(summary).at("scene"), "caf\xef\xbf\xbd");
+  EXPECT_THAT(run({"sim", scene, "--size", "20x15", "--simulator", "verilator", "--out", out()}),
+              Ends(0, ::testing::_));
+  EXPECT_EQ(summary_of("caf\xe9/quadratic").at("scene"), "caf\xef\xbf\xbd");
 }
 
 TEST_F(CliTest, WhatAFileSaysDoesNotReachTheTerminalRaw) {
@@ -496,7 +475,7 @@ void PrintTo(const Fault& fault, std::ostream* out) {
 
 class WrongRtl : public CliTest, public ::testing::WithParamInterface<Fault> {
  protected:
-  std::filesystem::path copy() const { return folder_.path() / "source"; }
+  std::filesystem::path copy() const { return at("source"); }
   /// Changes the first `from` after `after` in a file of rtl/.
   void change(const std::string& file, const std::string& after, const std::string& from,
               const std::string& to) const {
@@ -532,10 +511,9 @@ TEST_F(RunawayRtl, UncountedCyclesAreNull) {
   change("raster/span_stage.vhd", "", "r.remaining - 1;", "r.remaining;");
   EXPECT_THAT(sim("quadratic", "ghdl"),
               Ends(1, AllOf(ContainsRegex("\\| ghdl: [0-9]+ mismatches \\| "), Not(HasSubstr("cycles,")))));
-  const auto text = must(read_file(out() / "spheres" / "quadratic" / "summary.json"));
-  const auto json = nlohmann::json::parse(text);
-  EXPECT_TRUE(json["runs"][0]["cycles"].is_null()) << text;
-  EXPECT_TRUE(json["runs"][0]["seconds"].is_null()) << text;
+  const auto json = summary_of("spheres/quadratic");
+  EXPECT_TRUE(json["runs"][0]["cycles"].is_null()) << json;
+  EXPECT_TRUE(json["runs"][0]["seconds"].is_null()) << json;
   EXPECT_NE(json["runs"][0]["fault"], "");
   EXPECT_THAT(run({"compare", "spheres", "--out", out()}), Ends(1, HasSubstr("differs, as sim found: ")));
 }

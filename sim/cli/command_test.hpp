@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "sim/os/subprocess.hpp"
+#include "sim/os/test/folder_test.hpp"
+#include "sim/os/test/source_folder.hpp"
 #include "sim/os/test/test_files.hpp"
 
 namespace halfway {
@@ -23,7 +25,7 @@ MATCHER_P2(Ends, code, output, "") {
   return arg.exit_code == code && ::testing::ExplainMatchResult(output, arg.output, result_listener);
 }
 
-class CommandTest : public ::testing::Test {
+class CommandTest : public FolderTest {
  protected:
   using Environment = std::vector<std::pair<std::string, std::string>>;
 
@@ -36,14 +38,12 @@ class CommandTest : public ::testing::Test {
   /// by content.
   std::filesystem::path copy_checkout() const {
     namespace fs = std::filesystem;
-    const fs::path source = HALFWAY_SOURCE_DIR, copy = folder_.path() / "source";
-    for (const char* part : {"rtl", "tb", "sim"}) {
-      fs::create_directories(copy);
-      fs::copy(source / part, copy / part, fs::copy_options::recursive);
-    }
-    fs::create_directories(source / "build" / "cache");
+    const fs::path copy = at("source");
     fs::create_directories(copy / "build");
-    fs::create_directory_symlink(source / "build" / "cache", copy / "build" / "cache");
+    for (const char* part : {"rtl", "tb", "sim"})
+      fs::copy(c_source_folder / part, copy / part, fs::copy_options::recursive);
+    fs::create_directories(c_source_folder / "build" / "cache");
+    fs::create_directory_symlink(c_source_folder / "build" / "cache", copy / "build" / "cache");
     return copy;
   }
 
@@ -51,7 +51,7 @@ class CommandTest : public ::testing::Test {
                  std::chrono::milliseconds timeout = std::chrono::minutes(60)) const {
     Command command;
     command.arguments = std::move(arguments);
-    command.working_folder = folder_.path();
+    command.working_folder = here();
     command.environment = std::move(environment);
     command.timeout = timeout;
     const auto end = run_process(command, "");
@@ -64,28 +64,26 @@ class CommandTest : public ::testing::Test {
     return run_as(std::move(arguments), std::move(environment));
   }
 
-  std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
-
+  /// PATH with a replacement for a program.
+  Environment path_with(const std::string& program, const std::string& script) const {
+    put_program(at("bin") / program, script);
+    return {{"PATH", at("bin").string() + ":" + std::getenv("PATH")}};
+  }
   /// PATH with a replacement for ffmpeg.
   Environment path_with_ffmpeg(const std::string& script) const {
-    const auto bin = folder_.path() / "bin";
-    put_program(bin / "ffmpeg", "#!/bin/sh\n" + script);
-    return {{"PATH", bin.string() + ":" + std::getenv("PATH")}};
+    return path_with("ffmpeg", "#!/bin/sh\n" + script);
   }
 
   /// A triangle that is seen from behind, except in frame 2 of 4.
   void write_averted() const {
-    ASSERT_TRUE(write_file(at("one.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    ASSERT_TRUE(
-        write_file(at("averted.toml"),
-                   "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
-                   "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
-                   "material = \"m\"\ncull = \"back\"\n"));
+    write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write("averted.toml",
+          "ambient = 0.5\n[camera]\neye = [0.3, 0.3, -3]\ntarget = [0.3, 0.3, 0]\n[[directional]]\n"
+          "to_light = [0.4, 0.3, 1]\n[[material]]\nname = \"m\"\n[[mesh]]\nfile = \"one.obj\"\n"
+          "material = \"m\"\ncull = \"back\"\n");
   }
   /// A replacement for ffmpeg that keeps its arguments and its input.
   static inline const std::string c_copy = "for last; do :; done; echo \"$@\" >arguments; cat >\"$last\"\n";
-
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 }  // namespace halfway

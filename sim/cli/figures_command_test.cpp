@@ -3,13 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <string>
-
 #include "sim/cli/command_test.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
-#include "sim/os/test/test_files.hpp"
 
 namespace halfway {
 namespace {
@@ -24,10 +18,8 @@ TEST_F(FiguresCommand, WritesThePageAndItsDataOfWhatIsAskedFor) {
       run({"figures", "spherical-table", "--out", "drawn"}),
       Ends(0, AllOf(HasSubstr("2.7582, 4.3143, 6.0791, 13.5535: agrees (the same)"),
                     HasSubstr("drawn: 1 figures, 2 rows, 1 agree, 0 differ, 1 hold by construction"))));
-  for (const char* name : {"README.md", "figures.json"}) {
-    const auto text = must(read_file(folder_.path() / "drawn" / name));
-    EXPECT_THAT(text, HasSubstr("2.7582"));
-  }
+  for (const char* file : {"drawn/README.md", "drawn/figures.json"})
+    EXPECT_THAT(text_of(file), HasSubstr("2.7582"));
 }
 
 TEST_F(FiguresCommand, RefusesWhatItDoesNotKnow) {
@@ -37,23 +29,20 @@ TEST_F(FiguresCommand, RefusesWhatItDoesNotKnow) {
 }
 
 TEST_F(FiguresCommand, SaysWhatBringsGnuplot) {
-  EXPECT_THAT(run({"figures", "spherical-09"}, {{"PATH", folder_.path().string()}}),
+  EXPECT_THAT(run({"figures", "spherical-09"}, {{"PATH", here().string()}}),
               Ends(3, HasSubstr("gnuplot: not found; install it with: apt-get install gnuplot-nox")));
 }
 
 // A checkout whose table 1 has another number.
 TEST_F(FiguresCommand, FindsAClaimThatIsNotMeasured) {
-  namespace fs = std::filesystem;
-  const fs::path real = HALFWAY_SOURCE_DIR, source = folder_.path() / "source";
-  must(make_folders(source / "sim/figures"));
-  for (const char* name : {"claims.toml", "figures.md.mustache"})
-    fs::copy(real / "sim/figures" / name, source / "sim/figures" / name);
-  replace_in(source / "sim/figures/claims.toml", "1.9845, 2.7582, 4.3143", "1.9845, 2.7584, 4.3143");
+  for (const char* file : {"sim/figures/claims.toml", "sim/figures/figures.md.mustache"})
+    write(std::filesystem::path("source") / file, text_of(c_source_folder / file));
+  replace_in(at("source/sim/figures/claims.toml"), "1.9845, 2.7582, 4.3143", "1.9845, 2.7584, 4.3143");
   EXPECT_THAT(
-      run({"--source", source.string(), "figures", "spherical-table", "--page", "there"}),
+      run({"--source", at("source"), "figures", "spherical-table", "--page", "there"}),
       Ends(1, AllOf(HasSubstr("differs, and no reason is known: published 1.0000, 1.4502, 1.9845, 2.7584"),
                     HasSubstr("claims.toml does not match"))));
-  EXPECT_FALSE(fs::exists(folder_.path() / "there"));
+  EXPECT_FALSE(std::filesystem::exists(at("there")));
 }
 
 }  // namespace

@@ -5,8 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -19,10 +17,10 @@ constexpr const char* c_scene = HALFWAY_SOURCE_DIR "/sim/report/timing.toml";
 
 class VerilogCommand : public CommandTest {
  protected:
-  std::string text_of(const std::string& file) const {
-    return must(read_file(folder_.path() / "v/quadratic_shader-published-c1" / file));
+  std::string written(const std::string& file) const {
+    return text_of("v/quadratic_shader-published-c1/" + file);
   }
-  Outcome write(std::vector<std::string> more) const {
+  Outcome write_verilog(std::vector<std::string> more) const {
     more.insert(more.begin(), {"verilog", c_scene, "--preset", "published", "--out", "v"});
     return run(std::move(more));
   }
@@ -30,11 +28,11 @@ class VerilogCommand : public CommandTest {
 
 TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
   EXPECT_THAT(
-      write({}),
+      write_verilog({}),
       Ends(0, HasSubstr("halfway_quadratic_shader.v: module halfway_quadratic_shader with 16 ports\n")));
-  EXPECT_EQ(text_of("halfway_quadratic_shader.f"), "halfway_quadratic_shader.v\n");
+  EXPECT_EQ(written("halfway_quadratic_shader.f"), "halfway_quadratic_shader.v\n");
   EXPECT_THAT(
-      text_of("halfway_quadratic_shader.v"),
+      written("halfway_quadratic_shader.v"),
       AllOf(StartsWith("// SPDX-License-Identifier: Apache-2.0\n// halfway_quadratic_shader, hardware key "
                        "quadratic_shader-published-c1: written by Halfway "),
             HasSubstr("--shader quadratic --preset published\n"),
@@ -47,10 +45,9 @@ TEST_F(VerilogCommand, WritesTheShaderWithAListOfItsPorts) {
 }
 
 TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
-  const Outcome outcome = write({"--axi"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_EQ(text_of("halfway_words_to_fragments.f"), "halfway_words_to_fragments.v\n");
-  EXPECT_THAT(text_of("halfway_words_to_fragments.v"),
+  EXPECT_THAT(write_verilog({"--axi"}), Ends(0, ::testing::_));
+  EXPECT_EQ(written("halfway_words_to_fragments.f"), "halfway_words_to_fragments.v\n");
+  EXPECT_THAT(written("halfway_words_to_fragments.v"),
               AllOf(HasSubstr("--preset published --axi --multiplier-bits 18\n"),
                     HasSubstr("\n//   input      32  s_axis_tdata\n"),
                     HasSubstr("\n//   output    128  m_axis_tdata\n"),
@@ -58,20 +55,19 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
 }
 
 TEST_F(VerilogCommand, WritesTheWholeCore) {
-  const Outcome outcome = write({"--core", "--format", "xrgb8888", "--bus", "32"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(text_of("halfway_core.v"),
+  EXPECT_THAT(write_verilog({"--core", "--format", "xrgb8888", "--bus", "32"}), Ends(0, ::testing::_));
+  EXPECT_THAT(written("halfway_core.v"),
               AllOf(HasSubstr("--core --format xrgb8888 --bus 32 --multiplier-bits 18\n"),
                     HasSubstr("g_true_colour=true g_bus_bits=32"),
                     HasSubstr("\n//   output     32  m_axi_wdata\n"), HasSubstr("\nmodule halfway_core\n"),
                     HasSubstr("\nmodule halfway_packet_reader")));
-  EXPECT_THAT(write({"--axi", "--bus", "32"}), Ends(2, HasSubstr("--core")));
+  EXPECT_THAT(write_verilog({"--axi", "--bus", "32"}), Ends(2, HasSubstr("--core")));
 }
 
 TEST_F(VerilogCommand, RefusesScenesAndShadersThatDoNotExist) {
   EXPECT_THAT(run({"verilog", "nothing"}), Ends(2, HasSubstr("nothing")));
-  EXPECT_THAT(write({"--shader", "raytracer"}), Ends(2, HasSubstr("'raytracer'")));
-  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "v"));
+  EXPECT_THAT(write_verilog({"--shader", "raytracer"}), Ends(2, HasSubstr("'raytracer'")));
+  EXPECT_FALSE(std::filesystem::exists(at("v")));
 }
 
 }  // namespace

@@ -13,10 +13,8 @@
 #include "scene/turntable.hpp"
 #include "sim/cli/command_test.hpp"
 #include "sim/files/image.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/files/terminal_picture.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -36,7 +34,6 @@ class ViewCommand : public CommandTest {
     return run(std::move(arguments), std::move(environment));
   }
 
-  std::string bytes(const std::string& name) const { return must(read_file(at(name))); }
   std::set<std::string> names(const std::string& folder) const {
     std::set<std::string> found;
     for (const auto& entry : std::filesystem::directory_iterator(at(folder)))
@@ -48,9 +45,8 @@ class ViewCommand : public CommandTest {
 
 // Equal bit for bit, for each shader and any number of threads. The hardware is not reset between frames.
 TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
-  const std::filesystem::path scenes = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes";
-  const auto text = must(read_file(scenes / "matte.toml"));
-  const auto scene = must(load_scene("matte", scenes));
+  const std::string text = text_of(c_built_in_scenes / "matte.toml");
+  const Scene scene = built_in_scene("matte");
   for (const std::string shader : {"quadratic", "spherical", "processors"}) {
     const bool first = shader == "quadratic";
     const std::vector<std::string> thread_counts =
@@ -77,7 +73,7 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
       const std::size_t line = moved.find("eye = ");
       moved.replace(line, moved.find('\n', line) - line,
                     fmt::format("eye = [{:.17g}, {:.17g}, {:.17g}]", eye.x, eye.y, eye.z));
-      ASSERT_TRUE(write_file(at("moved.toml"), moved));
+      write("moved.toml", moved);
       const Outcome sim = run({"sim", "moved.toml", "--size", "64x48", "--shader", shader, "--simulator",
                                "verilator", "--out", "out"});
       ASSERT_EQ(sim.exit_code, 0) << sim.output;
@@ -91,11 +87,10 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
 }
 
 TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
-  ASSERT_TRUE(write_file(at("turn/frame_0002.png"), "old"));
-  ASSERT_TRUE(write_file(at("turn/frame_0009.ppm.part-1-0"), "broken off"));
-  ASSERT_TRUE(write_file(at("turn/frame_x.png"), "mine"));
-  const Outcome drawn = view({"matte", "--frames", "2", "--format", "ppm", "--out", "turn"});
-  EXPECT_EQ(drawn.exit_code, 0) << drawn.output;
+  write("turn/frame_0002.png", "old");
+  write("turn/frame_0009.ppm.part-1-0", "broken off");
+  write("turn/frame_x.png", "mine");
+  EXPECT_THAT(view({"matte", "--frames", "2", "--format", "ppm", "--out", "turn"}), Ends(0, ::testing::_));
   EXPECT_THAT(names("turn"), ElementsAre("frame_0000.ppm", "frame_0001.ppm", "frame_x.png"));
   // The default folder is next to sim's results, named by scene and shader.
   EXPECT_EQ(view({"matte", "--frames", "1"}).exit_code, 0);
@@ -120,11 +115,11 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
       // No user, not even root, can write to this folder.
       {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
       {{"matte", "--out", "file/out"}, "file/out"}};
-  ASSERT_TRUE(write_file(at("file"), "not a folder"));
+  write("file", "not a folder");
   for (const auto& [arguments, expected] : cases) EXPECT_THAT(view(arguments), Ends(2, HasSubstr(expected)));
   EXPECT_THAT(names("."), ElementsAre("file"));
-  const Outcome unwritable = view({"matte", "--video", "/proc/sys/turn.mp4"}, path_with_ffmpeg(c_copy));
-  EXPECT_EQ(unwritable.exit_code, 2) << unwritable.output;
+  EXPECT_THAT(view({"matte", "--video", "/proc/sys/turn.mp4"}, path_with_ffmpeg(c_copy)),
+              Ends(2, ::testing::_));
 }
 
 TEST_F(ViewCommand, AVideoHasEachFrameInOrder) {
@@ -132,11 +127,11 @@ TEST_F(ViewCommand, AVideoHasEachFrameInOrder) {
                     "--out", "turn", "--format", "ppm"},
                    path_with_ffmpeg(c_copy)),
               Ends(0, HasSubstr("films/turn.mp4: 24 frames a second\n")));
-  EXPECT_THAT(bytes("arguments"), HasSubstr("-f rawvideo -pix_fmt rgb24 -s 64x48 -r 24 -i pipe:0 "));
+  EXPECT_THAT(text_of("arguments"), HasSubstr("-f rawvideo -pix_fmt rgb24 -s 64x48 -r 24 -i pipe:0 "));
   std::string frames;
-  for (int n = 0; n < 5; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+  for (int n = 0; n < 5; ++n) frames += text_of(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
   EXPECT_EQ(frames.size(), 5U * 3 * 64 * 48);
-  EXPECT_TRUE(bytes("films/turn.mp4") == frames);
+  EXPECT_TRUE(text_of("films/turn.mp4") == frames);
   EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
 }
 
@@ -149,13 +144,13 @@ TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
 
 // ffmpeg fails early, or only at the end. Its message is printed, and an older video stays.
 TEST_F(ViewCommand, AFailedVideoLeavesNoPartialFile) {
-  ASSERT_TRUE(write_file(at("films/turn.mp4"), "old"));
+  write("films/turn.mp4", "old");
   for (const std::string& script :
        {std::string("echo no such encoder; exit 1\n"), c_copy + "echo no such encoder; exit 1\n"}) {
     EXPECT_THAT(view({"matte", "--frames", "3", "--video", "films/turn.mp4"}, path_with_ffmpeg(script)),
                 Ends(3, AllOf(HasSubstr("films/turn.mp4: ffmpeg could not make it (exit status 1)"),
                               HasSubstr("no such encoder"))));
-    EXPECT_EQ(bytes("films/turn.mp4"), "old");
+    EXPECT_EQ(text_of("films/turn.mp4"), "old");
     EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
   }
 }
@@ -177,8 +172,8 @@ TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
                 "-pix_fmt", "rgb24", "-fps_mode", "passthrough", at("decoded").string()});
     ASSERT_EQ(decoded.exit_code, 0) << decoded.output;
     std::string frames;
-    for (int n = 0; n < 3; ++n) frames += bytes(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
-    const std::string shown = bytes("decoded");
+    for (int n = 0; n < 3; ++n) frames += text_of(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
+    const std::string shown = text_of("decoded");
     ASSERT_EQ(shown.size(), frames.size()) << ending;
     double off = 0;
     for (std::size_t i = 0; i < shown.size(); ++i)

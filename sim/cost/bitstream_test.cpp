@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/os/file.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway::synth {
 namespace {
@@ -17,21 +17,20 @@ constexpr const char* c_pad_netlist =
     "    .DIVR(4'b0001))\n    pll (\n    .LOCK(n1_o));\nendmodule\n";
 
 TEST(VendorCells, LoseTheirEmptyModulesAndHaveTextsAsParameters) {
-  const auto mended = mend_cells(c_pad_netlist);
-  ASSERT_TRUE(mended) << mended.error().message;
-  EXPECT_THAT(*mended, ::testing::Not(::testing::HasSubstr("module SB_")));
-  EXPECT_THAT(*mended, ::testing::HasSubstr("module top\n  (input  clk);"));
-  EXPECT_THAT(*mended, ::testing::HasSubstr(".FEEDBACK_PATH(\"PHAS\"),\n    .DIVR(4'b0001))"));
+  const std::string mended = must(mend_cells(c_pad_netlist));
+  EXPECT_THAT(mended, ::testing::Not(::testing::HasSubstr("module SB_")));
+  EXPECT_THAT(mended, ::testing::HasSubstr("module top\n  (input  clk);"));
+  EXPECT_THAT(mended, ::testing::HasSubstr(".FEEDBACK_PATH(\"PHAS\"),\n    .DIVR(4'b0001))"));
 }
 
 TEST(VendorCells, OtherFaultsOfTheNetlistAreMendedOrRefused) {
   EXPECT_FALSE(mend_cells("module top\n  (input  clk);\n  assign a = \"text\";\nendmodule\n"));
 }
 
-TEST(BoardNetlist, HasTheVendorsCellsAsTheyAre) {
-  const auto cache = TemporaryFolder::make(std::filesystem::temp_directory_path());
-  ASSERT_TRUE(cache) << cache.error().message;
-  const std::string netlist = board_netlist({HALFWAY_SOURCE_DIR, cache->path()});
+using BoardNetlist = FolderTest;
+
+TEST_F(BoardNetlist, HasTheVendorsCellsAsTheyAre) {
+  const std::string netlist = board_netlist({HALFWAY_SOURCE_DIR, here()});
   EXPECT_THAT(netlist, ::testing::HasSubstr("module board_top\n"));
   EXPECT_THAT(netlist, ::testing::HasSubstr("  SB_PLL40_2F_CORE "));
   EXPECT_THAT(netlist, ::testing::Not(::testing::HasSubstr("module SB_")));

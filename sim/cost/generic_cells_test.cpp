@@ -10,21 +10,21 @@
 #include "common/test/is_error.hpp"
 #include "sim/cost/synthesis.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/test_files.hpp"
 
 namespace halfway::synth {
 namespace {
 
-class CellsTest : public ::testing::Test {
+class CellsTest : public FolderTest {
  protected:
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
 
   /// Put a replacement for Yosys at the front of PATH.
   void put_yosys(const std::string& script) {
-    put_program(folder_.path() / "bin/yosys", "#!/bin/sh\n" + script);
-    ::setenv("PATH", ((folder_.path() / "bin").string() + ":" + path_).c_str(), 1);
+    put_program(at("bin/yosys"), "#!/bin/sh\n" + script);
+    ::setenv("PATH", (at("bin").string() + ":" + path_).c_str(), 1);
   }
   Result<Cells> count(const HardwareKey& key) const {
     return caught([&] {
@@ -33,17 +33,13 @@ class CellsTest : public ::testing::Test {
   }
   std::size_t cached() const {
     std::error_code error;
-    std::size_t count = 0;
-    for ([[maybe_unused]] const auto& entry :
-         std::filesystem::directory_iterator(folders_.cache / "synth", error))
-      ++count;
-    return count;
+    const std::filesystem::directory_iterator entries(folders_.cache / "synth", error);
+    return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
   }
 
   const std::string path_ = std::getenv("PATH");
   const HardwareKey grey_{.channels = 1}, coloured_{.channels = 3};
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, folder_.path() / "cache"};
+  SimulatorFolders folders_{HALFWAY_SOURCE_DIR, at("cache")};
 };
 
 TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
@@ -65,7 +61,7 @@ TEST_F(CellsTest, FewerEffectsTakeFewerCells) {
 }
 
 TEST_F(CellsTest, AMissingYosysIsReportedWithItsInstallCommand) {
-  ::setenv("PATH", (folder_.path() / "empty").c_str(), 1);
+  ::setenv("PATH", at("empty").c_str(), 1);
   EXPECT_TRUE(is_error(count(grey_), ExitCode::tool_failed, "apt-get install yosys"));
 }
 
@@ -75,7 +71,7 @@ TEST_F(CellsTest, ChangedRtlIsCountedAgain) {
   ASSERT_TRUE(count(grey_));
   ASSERT_TRUE(count(grey_));
   EXPECT_EQ(cached(), 1U);
-  const std::filesystem::path copy = folder_.path() / "source";
+  const std::filesystem::path copy = at("source");
   ASSERT_TRUE(make_folders(copy));
   std::filesystem::copy(folders_.source / "rtl", copy / "rtl", std::filesystem::copy_options::recursive);
   folders_.source = copy;

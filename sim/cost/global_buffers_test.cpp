@@ -10,22 +10,20 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/test/is_error.hpp"
 #include "sim/cost/synthesis.hpp"
-#include "sim/os/file.hpp"
 #include "sim/os/subprocess.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway::synth {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 // A module with a clock. Tests add enables.
@@ -163,20 +161,19 @@ TEST(SynthGlobalBuffers, DriveOnlyTheRegistersOfAnEnable) {
 
 TEST(SynthGlobalBuffers, ADesignWithoutClockIsRefused) {
   const json netlist = json::parse(Netlist().text());
-  const auto message = [](const std::string& text) {
-    const auto buffered = with_global_buffers(text);
-    return buffered ? std::string() : buffered.error().message;
+  EXPECT_TRUE(with_global_buffers(netlist.dump()));
+  const auto expect_refused = [](const std::string& text) {
+    EXPECT_TRUE(is_error(with_global_buffers(text), "not a netlist to place")) << text;
   };
-  EXPECT_EQ(message(netlist.dump()), "");
   for (const json& change : json::parse(R"([{"modules": null}, {"modules": {"wrapped": null}},
       {"modules": {"wrapped": {"cells": null}}}, {"modules": {"wrapped": {"netnames": null}}},
       {"modules": {"wrapped": {"ports": {"clk": null}}}}, {"modules": {"wrapped": {"ports": {"clk": {"bits": []}}}}},
       {"modules": {"wrapped": {"ports": {"clk": {"bits": ["0"]}}}}}, []])")) {
     json changed = netlist;
     changed.merge_patch(change);
-    EXPECT_THAT(message(changed.dump()), HasSubstr("not a netlist to place")) << change;
+    expect_refused(changed.dump());
   }
-  EXPECT_THAT(message(""), HasSubstr("not a netlist to place"));
+  expect_refused("");
 }
 
 // Two sums with one enable each, and registers with a third enable, to which nextpnr would give a buffer.
@@ -216,21 +213,18 @@ begin
 end architecture;
 )";
 
-TEST(SynthGlobalBuffers, AgreeWithNextpnrsPacking) {
+using PackedGlobalBuffers = FolderTest;
+
+TEST_F(PackedGlobalBuffers, AreThoseOfNextpnr) {
   for (const char* tool : {"ghdl", "yosys", "nextpnr-ice40"})
     ASSERT_FALSE(find_program(tool).empty()) << "no " << tool << ": " << c_install_tools;
-  auto folder = TemporaryFolder::make(fs::temp_directory_path());
-  ASSERT_TRUE(folder) << folder.error().message;
-  const fs::path root = folder->path(), cache = root / "cache";
-  ASSERT_TRUE(make_folders(root / "rtl"));
-  ASSERT_TRUE(write_file(root / "rtl/files.f", "sums.vhd\n"));
-  ASSERT_TRUE(write_file(root / "rtl/sums.vhd", c_buffered_entity));
-  Synthesizer::open(cache, true).pack({.name = "sums", .entity = "sums", .root = root});
-  std::optional<std::string> said;
-  for (const auto& kept : fs::directory_iterator(cache / "synth"))
+  write("rtl/files.f", "sums.vhd\n");
+  write("rtl/sums.vhd", c_buffered_entity);
+  Synthesizer::open(at("cache"), true).pack({.name = "sums", .entity = "sums", .root = here()});
+  std::string said;
+  for (const auto& kept : std::filesystem::directory_iterator(at("cache/synth")))
     if (const auto text = read_file(kept.path() / "packing")) said = *text;
-  ASSERT_TRUE(said);
-  EXPECT_THAT(*said, ::testing::ContainsRegex("SB_GB: +3/ +8 "));
+  EXPECT_THAT(said, ::testing::ContainsRegex("SB_GB: +3/ +8 "));
 }
 
 }  // namespace

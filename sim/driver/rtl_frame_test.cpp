@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/test/is_error.hpp"
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/files/trace.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -126,14 +126,13 @@ TEST(RtlFrame, AFaultEndsTheDrawingAndOtherErrorsAreTheCallers) {
   engine->error = tool_failed("broken");
   frame.clear();
   EXPECT_TRUE(frame.alive());
-  const Status broken = frame.add({}, c_golden);
-  ASSERT_FALSE(broken);
-  EXPECT_EQ(broken.error().message, "broken");
+  EXPECT_TRUE(is_error(frame.add({}, c_golden), "broken"));
 }
 
-TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
-  const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
-  const auto trace = scratch.path() / "golden.trace";
+using StoredRtlFrame = FolderTest;
+
+TEST_F(StoredRtlFrame, ReadsGoldenFragmentsFromATrace) {
+  const auto trace = at("golden.trace");
   const auto finish = [&](std::shared_ptr<StandIn> engine) {
     bool complete = false;
     RtlFrame frame(std::move(engine), {3, 1}, {},
@@ -154,7 +153,7 @@ TEST(RtlFrame, ReadsGoldenFragmentsFromATrace) {
   const auto few = must(finish(stand_in({c_golden[0]}, 1)));
   EXPECT_EQ(few.mismatches, 2U);
   // A truncated trace.
-  ASSERT_TRUE(write_file(trace, "halfway-trace 1 key\n0 0 0 1 10 0 0\n"));
+  write(trace, "halfway-trace 1 key\n0 0 0 1 10 0 0\n");
   EXPECT_FALSE(finish(stand_in(c_golden, 3)));
 }
 
@@ -167,9 +166,9 @@ struct Vectors {
 constexpr FrameSize c_rtl_size{48, 36};
 
 Vectors vectors_of(Shader shader) {
-  const auto scene = load_scene("matte", std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-  const auto plan = plan_scene(*scene, {.shader = shader});
-  FrameStream stream = must(whole_stream(*scene, c_rtl_size, plan->key));
+  const Scene scene = built_in_scene("matte");
+  const auto plan = plan_scene(scene, {.shader = shader});
+  FrameStream stream = must(whole_stream(scene, c_rtl_size, plan->key));
   return {plan->key, std::move(stream.words), std::move(stream.golden)};
 }
 

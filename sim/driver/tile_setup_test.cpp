@@ -15,9 +15,8 @@
 #include "plan/plan.hpp"
 #include "shading/test/random_solids.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
@@ -25,7 +24,7 @@ namespace {
 constexpr FrameSize c_tile_frame{64, 48};
 
 Scene scene_of(const std::string& name) {
-  return must(load_scene(name, c_source_folder / "sim" / "scenes", {.tessellation = 0.25}));
+  return built_in_scene(name, {.tessellation = 0.25});
 }
 
 HardwareKey key_of(const Scene& scene, Shader shader, Preset preset) {

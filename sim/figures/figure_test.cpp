@@ -15,8 +15,7 @@
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/figure_plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/source_folder.hpp"
 
 namespace halfway::figures {
@@ -201,9 +200,10 @@ TEST(Figures, Figure7PublishesTheWordsOfTheTrace) {
   EXPECT_EQ(registers, 5);
 }
 
-TEST(Figures, AreDrawnWithTheirPicturesAndWithoutSlowRowsIfQuick) {
-  const auto folder = must(TemporaryFolder::make(testing::TempDir()));
-  Context context{.out = folder.path()};
+using FiguresOnPage = FolderTest;
+
+TEST_F(FiguresOnPage, AreDrawnWithTheirPicturesAndWithoutSlowRowsIfQuick) {
+  Context context{.out = here()};
   Figure figure{"quadratic-1",
                 "figure 1",
                 "a caption",
@@ -215,7 +215,7 @@ TEST(Figures, AreDrawnWithTheirPicturesAndWithoutSlowRowsIfQuick) {
                   save_picture(with, "x-1", Frame({4, 4}), "black", out);
                 }};
   const std::vector<Entry> whole{drawn(figure, context)};
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "x-1.png"));
+  EXPECT_TRUE(std::filesystem::exists(at("x-1.png")));
   EXPECT_THAT(to_json(whole), HasSubstr("\"value\": null"));
   const std::string page = to_page(whole, c_source_folder);
   EXPECT_THAT(page, HasSubstr("| slow | 1 | 2 | **differs** (the same) |"));

@@ -7,21 +7,18 @@
 
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <string>
 
 #include "common/test/is_error.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Image : public testing::Test {
+class Image : public FolderTest {
  protected:
   static Frame noise(FrameSize size, unsigned seed) {
     Frame frame(size);
@@ -29,67 +26,52 @@ class Image : public testing::Test {
     for (std::uint8_t& byte : frame.rgb) byte = static_cast<std::uint8_t>(random());
     return frame;
   }
-  static std::string bytes_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
-  }
-  const TemporaryFolder made_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  const std::filesystem::path folder_ = made_.path();
+  std::size_t files() const { return must(files_below(here())).size(); }
 };
 
 TEST_F(Image, IsReadBackAsWritten) {
   unsigned seed = 0;
   for (const FrameSize size : {FrameSize{1, 1}, FrameSize{3, 2}, FrameSize{640, 7}, FrameSize{1, 4096}}) {
     const Frame frame = noise(size, ++seed);
-    const fs::path path = folder_ / "a b %04d #.png";
-    const Status written = write_png(path, frame);
-    ASSERT_TRUE(written) << written.error().message;
-    const auto back = must(read_png(path));
-    EXPECT_EQ(back.size.width, size.width);
-    EXPECT_EQ(back.size.height, size.height);
-    EXPECT_EQ(back.rgb, frame.rgb);
-    EXPECT_EQ(files(), 1u);  // no temporary file is left
-    ASSERT_TRUE(write_png(path, frame, Compression::quick));
-    const auto quick = must(read_png(path));
-    EXPECT_EQ(quick.rgb, frame.rgb);
+    const fs::path path = at("a b %04d #.png");
+    for (const Compression compression : {Compression::usual, Compression::quick}) {
+      must(write_png(path, frame, compression));
+      const auto back = must(read_png(path));
+      EXPECT_TRUE(back.size == size);
+      EXPECT_EQ(back.rgb, frame.rgb);
+      EXPECT_EQ(files(), 1u);  // no temporary file is left
+    }
   }
 }
 
 TEST_F(Image, APpmIsItsPixelsAfterAHeader) {
   const Frame frame = noise({3, 2}, 7);
-  const fs::path path = folder_ / "a.ppm";
+  const fs::path path = at("a.ppm");
   ASSERT_TRUE(write_ppm(path, frame));
-  EXPECT_EQ(bytes_of(path), "P6\n3 2\n255\n" + std::string(frame.rgb.begin(), frame.rgb.end()));
+  EXPECT_EQ(text_of(path), "P6\n3 2\n255\n" + std::string(frame.rgb.begin(), frame.rgb.end()));
   EXPECT_EQ(files(), 1u);
   EXPECT_FALSE(write_ppm(path, Frame{}));
 }
 
 TEST_F(Image, SameFrameGivesTheSameBytes) {
-  ASSERT_TRUE(write_png(folder_ / "a.png", noise({50, 40}, 1)));
-  ASSERT_TRUE(write_png(folder_ / "b.png", noise({50, 40}, 1)));
-  EXPECT_EQ(bytes_of(folder_ / "a.png"), bytes_of(folder_ / "b.png"));
+  ASSERT_TRUE(write_png(at("a.png"), noise({50, 40}, 1)));
+  ASSERT_TRUE(write_png(at("b.png"), noise({50, 40}, 1)));
+  EXPECT_EQ(text_of("a.png"), text_of("b.png"));
 }
 
 TEST_F(Image, AnUnwritableFolderIsBadInput) {
-  const Frame frame({2, 2});
   const auto expect_refused = [&](const fs::path& path) {
-    const Status status = write_png(path, frame);
-    ASSERT_FALSE(status) << path;
-    EXPECT_EQ(status.error().code, ExitCode::bad_input);
-    EXPECT_EQ(status.error().message.find(path.string() + ": "), 0u) << status.error().message;
+    EXPECT_TRUE(is_error(write_png(path, Frame({2, 2})), ExitCode::bad_input, path.string() + ": "));
   };
-  expect_refused(folder_ / "missing" / "a.png");
-  std::ofstream(folder_ / "file") << "x";
-  expect_refused(folder_ / "file" / "a.png");
-  expect_refused(folder_);  // the path is a folder
-  if (::geteuid() != 0) {   // root may read every file
-    fs::create_directory(folder_ / "closed");
-    fs::permissions(folder_ / "closed", fs::perms::owner_read | fs::perms::owner_exec);
-    expect_refused(folder_ / "closed" / "a.png");
-    fs::permissions(folder_ / "closed", fs::perms::owner_all);
+  expect_refused(at("missing/a.png"));
+  write("file", "x");
+  expect_refused(at("file/a.png"));
+  expect_refused(here());  // the path is a folder
+  if (::geteuid() != 0) {  // root may read every file
+    fs::create_directory(at("closed"));
+    fs::permissions(at("closed"), fs::perms::owner_read | fs::perms::owner_exec);
+    expect_refused(at("closed/a.png"));
+    fs::permissions(at("closed"), fs::perms::owner_all);
   }
 }
 
@@ -100,9 +82,9 @@ TEST_F(Image, AFullDeviceIsToolFailed) {
 
 // A file size limit stops the writing half way, like a disk that fills up.
 TEST_F(Image, AWriteCutShortLeavesTheOldFile) {
-  const fs::path path = folder_ / "a.png";
+  const fs::path path = at("a.png");
   ASSERT_TRUE(write_png(path, noise({8, 8}, 1)));
-  const std::string before = bytes_of(path);
+  const std::string before = text_of(path);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   rlimit old_limit{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &old_limit), 0);
@@ -114,7 +96,7 @@ TEST_F(Image, AWriteCutShortLeavesTheOldFile) {
   std::signal(SIGXFSZ, old_handler);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, ExitCode::tool_failed);
-  EXPECT_EQ(bytes_of(path), before);
+  EXPECT_EQ(text_of(path), before);
   EXPECT_EQ(files(), 1u);
 }
 
@@ -122,32 +104,27 @@ TEST_F(Image, RefusesInvalidFrames) {
   Frame torn({4, 4});
   torn.rgb.pop_back();
   for (const Frame& frame : {Frame(), Frame({0, 5}), Frame({5, 0}), Frame({4097, 1}), torn}) {
-    EXPECT_TRUE(is_error(write_png(folder_ / "a.png", frame), ExitCode::bad_input));
+    EXPECT_TRUE(is_error(write_png(at("a.png"), frame), ExitCode::bad_input));
   }
   EXPECT_EQ(files(), 0u);
 }
 
 TEST_F(Image, RefusesToReadIncompletePictures) {
-  const fs::path path = folder_ / "a.png";
+  const fs::path path = at("a.png");
   const auto expect_refused = [&] {
-    const auto frame = read_png(path);
-    ASSERT_FALSE(frame);
-    EXPECT_EQ(frame.error().code, ExitCode::bad_input);
-    EXPECT_EQ(frame.error().message.find(path.string() + ": "), 0u) << frame.error().message;
+    EXPECT_TRUE(is_error(read_png(path), ExitCode::bad_input, path.string() + ": "));
   };
   expect_refused();  // missing
   ASSERT_TRUE(write_png(path, noise({64, 48}, 3)));
-  const std::string whole = bytes_of(path);
-  for (const std::size_t length : {std::size_t{0}, std::size_t{7}, std::size_t{40}, whole.size() / 2}) {
-    std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, length);
-    expect_refused();
-  }
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << "P6 1 1 255 abc";
-  expect_refused();
+  const std::string whole = text_of(path);
   std::string damaged = whole;
   damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 0x10);
-  std::ofstream(path, std::ios::binary | std::ios::trunc) << damaged;
-  expect_refused();
+  for (const std::string& bytes :
+       {std::string(), whole.substr(0, 7), whole.substr(0, 40), whole.substr(0, whole.size() / 2),
+        std::string("P6 1 1 255 abc"), damaged}) {
+    write(path, bytes);
+    expect_refused();
+  }
 }
 
 }  // namespace

@@ -6,23 +6,20 @@
 #include <random>
 
 #include "common/test/is_error.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
 
-class InitFile : public testing::Test {
+class InitFile : public FolderTest {
  protected:
   void expect_refused(const std::string& content, const std::string& place, const std::string& what) {
-    ASSERT_TRUE(write_file(path_, content));
-    EXPECT_TRUE(is_error(read_init_file(path_, "key"), ExitCode::bad_input, path_.string() + place + ": "))
-        << content;
-    EXPECT_TRUE(is_error(read_init_file(path_, "key"), what)) << content;
+    const auto refused = read_init_file(write("init.txt", content), "key");
+    EXPECT_TRUE(is_error(refused, ExitCode::bad_input, path_.string() + place + ": ")) << content;
+    EXPECT_TRUE(is_error(refused, what)) << content;
   }
 
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
-  const std::filesystem::path path_ = folder_.path() / "init.txt";
+  const std::filesystem::path path_ = at("init.txt");
 };
 
 TEST_F(InitFile, WritesTheFormat) {

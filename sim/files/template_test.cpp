@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/files/template.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "common/test/is_error.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
 
-class Template : public testing::Test {
+class Template : public FolderTest {
  protected:
   Result<std::string> filled(const std::string& text, const nlohmann::ordered_json& data,
                              Escape escape = Escape::bars) const {
-    EXPECT_TRUE(write_file(file_, text));
-    return filled_template(file_, data, escape);
+    return filled_template(write("page.md.mustache", text), data, escape);
   }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
-  const std::filesystem::path file_ = folder_.path() / "page.md.mustache";
 };
 
 TEST_F(Template, IsFilledWithTextsNumbersListsAndObjects) {
@@ -37,9 +34,8 @@ TEST_F(Template, IsFilledWithTextsNumbersListsAndObjects) {
 }
 
 TEST_F(Template, MustBeCompleteAndUseOnlyExistingData) {
-  const auto unknown = filled("{{#rows}}{{b}}{{/rows}}", {{"rows", {{{"a", 1}}}}});
-  ASSERT_FALSE(unknown);
-  EXPECT_THAT(unknown.error().message, testing::EndsWith("page.md.mustache: the data has no 'b'"));
+  EXPECT_TRUE(is_error(filled("{{#rows}}{{b}}{{/rows}}", {{"rows", {{{"a", 1}}}}}),
+                       "page.md.mustache: the data has no 'b'"));
   EXPECT_FALSE(filled("{{#rows}}", {{"rows", true}}));
 }
 

@@ -9,7 +9,6 @@
 
 #include "sim/cli/command_test.hpp"
 #include "sim/generator/generated_files.hpp"
-#include "sim/os/file.hpp"
 #include "words/processors_layout.hpp"
 
 namespace halfway {
@@ -26,12 +25,7 @@ class TablesCommand : public CommandTest {
     arguments.insert(arguments.begin(), {HALFWAY_PROGRAM, "--source", source(), "tables"});
     return run_as(std::move(arguments));
   }
-  std::filesystem::path source() const { return folder_.path() / "source"; }
-  std::string text_of(const char* name) const {
-    const auto text = read_file(source() / name);
-    EXPECT_TRUE(text) << name;
-    return text ? *text : std::string();
-  }
+  std::filesystem::path source() const { return at("source"); }
 };
 
 constexpr const char* c_files[] = {"rtl/tables/formats_pkg.vhd", "rtl/tables/cosine_pkg.vhd",
@@ -49,9 +43,7 @@ TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
     EXPECT_THAT(lacking.output, HasSubstr(std::string(file) + ":1: not what the generator writes"));
     EXPECT_THAT(written.output, HasSubstr(std::string(file) + ": written\n"));
     EXPECT_THAT(checked.output, HasSubstr(std::string(file) + ": as generated\n"));
-    const auto committed = read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / file);
-    ASSERT_TRUE(committed) << file;
-    EXPECT_TRUE(text_of(file) == *committed) << file << ": run `make tables`";
+    EXPECT_TRUE(text_of(source() / file) == text_of(c_source_folder / file)) << file << ": run `make tables`";
   }
 }
 
@@ -59,7 +51,7 @@ TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
 TEST_F(TablesCommand, WritesTheNumbersOfCommands) {
   using words::Command;
   ASSERT_EQ(run({}).exit_code, 0);
-  const std::string page = text_of("docs/rtl/init-vectors.md");
+  const std::string page = text_of("source/docs/rtl/init-vectors.md");
   for (const auto& [name, command] :
        {std::pair{"new_object", Command::new_object}, std::pair{"new_scanline", Command::new_scanline},
         std::pair{"new_frame", Command::new_frame}, std::pair{"define", Command::define},
@@ -106,7 +98,7 @@ TEST_F(TablesCommand, TakesAddressAndDataBits) {
   EXPECT_THAT(headers.at(1).text,
               AllOf(HasSubstr("c_published_cosine_size{5, 6};"), HasSubstr("c_exact_cosine_size{9, 8};")));
   EXPECT_THAT(
-      text_of("rtl/tables/cosine_pkg.vhd"),
+      text_of("source/rtl/tables/cosine_pkg.vhd"),
       AllOf(HasSubstr("cosine_address_bits (exact : boolean) return positive is\n  begin\n    if exact then\n"
                       "      return 9;\n    end if;\n    return 5;"),
             HasSubstr("cosine_data_bits (exact : boolean) return positive is\n  begin\n    if exact then\n"
@@ -177,10 +169,10 @@ TEST_F(TablesCommand, ErrorsBySizeAreAReportOnly) {
 
 // Change one entry by one at the start, in the middle and at the end of the tables.
 TEST_F(TablesCommand, AFlippedEntryIsCaughtAndLocated) {
-  const std::string file = "rtl/tables/cosine_pkg.vhd";
+  const std::string name = "rtl/tables/cosine_pkg.vhd";
+  const std::filesystem::path file = source() / name;
   ASSERT_EQ(run({}).exit_code, 0);
-  const std::string whole = text_of(file.c_str());
-  const std::regex number("[0-9]+(?=[,)\\n])");
+  const std::string whole = text_of(file);
   const std::size_t first = whole.find("c_exact_cosine_1_"), last = whole.rfind("15, 14, 12");
   ASSERT_NE(first, std::string::npos);
   ASSERT_NE(last, std::string::npos);
@@ -188,15 +180,15 @@ TEST_F(TablesCommand, AFlippedEntryIsCaughtAndLocated) {
     const std::size_t at = whole.find(',', near) - 1;
     std::string changed = whole;
     changed[at] = whole[at] == '9' ? '8' : static_cast<char>(whole[at] + 1);
-    ASSERT_TRUE(write_file(source() / file, changed));
+    write(file, changed);
     const auto line = 1 + std::count(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(at), '\n');
     EXPECT_THAT(run({"--check"}),
-                Ends(1, HasSubstr(file + ":" + std::to_string(line) + ": not what the generator writes")));
-    EXPECT_TRUE(text_of(file.c_str()) == changed) << file << ": --check wrote";
+                Ends(1, HasSubstr(name + ":" + std::to_string(line) + ": not what the generator writes")));
+    EXPECT_TRUE(text_of(file) == changed) << "--check wrote";
   }
   // Also remove the last character of the file.
-  ASSERT_TRUE(write_file(source() / file, whole.substr(0, whole.size() - 1)));
-  EXPECT_EQ(run({"--check"}).exit_code, 1) << file;
+  write(file, whole.substr(0, whole.size() - 1));
+  EXPECT_EQ(run({"--check"}).exit_code, 1);
 }
 
 }  // namespace

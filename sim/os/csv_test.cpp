@@ -4,21 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
 
 using ::testing::HasSubstr;
 
-class TableTest : public ::testing::Test {
+class TableTest : public FolderTest {
  protected:
-  Result<Table> read(const std::string& text) const {
-    EXPECT_TRUE(write_file(folder_.path() / "t.csv", text));
-    return read_csv(folder_.path() / "t.csv");
-  }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  Result<Table> read(const std::string& text) const { return read_csv(write("t.csv", text)); }
 };
 
 TEST_F(TableTest, ReadsQuotedValues) {
@@ -44,7 +39,7 @@ TEST_F(TableTest, ErrorsNameTheLine) {
   EXPECT_THAT(read("a,b\n1,2\n1,2,3\n").error().message, HasSubstr("t.csv:3: has 3 values"));
   EXPECT_THAT(read("a,b\n\"1,2\n").error().message, HasSubstr("t.csv:2: "));
   EXPECT_THAT(read("").error().message, HasSubstr("t.csv:1: "));
-  EXPECT_FALSE(read_csv(folder_.path() / "none.csv"));
+  EXPECT_FALSE(read_csv(at("none.csv")));
 }
 
 }  // namespace

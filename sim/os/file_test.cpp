@@ -7,66 +7,55 @@
 #include <fstream>
 
 #include "common/test/is_error.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
 
-class File : public testing::Test {
+class File : public FolderTest {
  protected:
-  std::filesystem::path operator/(const char* name) const { return folder_.path() / name; }
   std::size_t files() const {
-    const std::filesystem::directory_iterator all(folder_.path());
+    const std::filesystem::directory_iterator all(here());
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(testing::TempDir()));
 };
 
 TEST_F(File, WritesAndReadsWhole) {
   std::string content(3'000'001, 'x');
   content[17] = '\0';
-  ASSERT_TRUE(write_file(*this / "a/b/c", content));
-  const auto read = must(read_file(*this / "a/b/c"));
-  EXPECT_TRUE(read == content);
-  EXPECT_EQ(read_file(*this / "none").error().code, ExitCode::bad_input);
+  ASSERT_TRUE(write_file(at("a/b/c"), content));
+  EXPECT_TRUE(must(read_file(at("a/b/c"))) == content);
+  EXPECT_EQ(read_file(at("none")).error().code, ExitCode::bad_input);
 }
 
 TEST_F(File, ErrorsNameTheFileAndLeaveNothing) {
-  const auto full = LineWriter::open("/proc/halfway/file");
-  ASSERT_FALSE(full);
-  EXPECT_NE(full.error().message.find("/proc/halfway"), std::string::npos);
-  EXPECT_EQ(full.error().code, ExitCode::bad_input);
+  EXPECT_TRUE(is_error(LineWriter::open("/proc/halfway/file"), ExitCode::bad_input, "/proc/halfway"));
   // A folder has the name of the file, so the rename fails after everything was written.
-  ASSERT_TRUE(make_folders(*this / "taken"));
-  EXPECT_FALSE(write_file(*this / "taken", "content"));
+  ASSERT_TRUE(make_folders(at("taken")));
+  EXPECT_FALSE(write_file(at("taken"), "content"));
   EXPECT_EQ(files(), 1U);
 }
 
 TEST_F(File, WithoutCommitThereIsNoFile) {
   {
-    auto writer = must(LineWriter::open(*this / "a"));
+    auto writer = must(LineWriter::open(at("a")));
     writer.append("text");
   }
   EXPECT_EQ(files(), 0U);
 }
 
 TEST_F(File, AreListedByName) {
-  const auto& folder = folder_.path();
-  ASSERT_TRUE(make_folders(folder / "b"));
-  for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"})
-    ASSERT_TRUE(write_file(folder / name, ""));
-  const auto all = files_below(folder), some = files_below(folder, ".vhd");
-  ASSERT_TRUE(all && some);
+  for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"}) write(name, "");
   using Files = std::vector<std::filesystem::path>;
-  EXPECT_EQ(*all, (Files{"a.vhd", "b/a.txt", "b/d.vhd", "c.vhd"}));
-  EXPECT_EQ(*some, (Files{"a.vhd", "b/d.vhd", "c.vhd"}));
-  EXPECT_TRUE(is_error(files_below(folder / "none"), "none: No such file or directory"));
+  EXPECT_EQ(must(files_below(here())), (Files{"a.vhd", "b/a.txt", "b/d.vhd", "c.vhd"}));
+  EXPECT_EQ(must(files_below(here(), ".vhd")), (Files{"a.vhd", "b/d.vhd", "c.vhd"}));
+  EXPECT_TRUE(is_error(files_below(at("none")), "none: No such file or directory"));
 }
 
 TEST_F(File, ReadsLines) {
   const std::string longest(100, 'l');
-  ASSERT_TRUE(write_file(*this / "a", "one\n\nthree\n" + longest + "\nlast"));
-  auto reader = must(LineReader::open(*this / "a", 100));
+  write("a", "one\n\nthree\n" + longest + "\nlast");
+  auto reader = must(LineReader::open(at("a"), 100));
   std::string_view line;
   for (const std::string& expected :
        {std::string("one"), std::string(), std::string("three"), longest, std::string("last")}) {
@@ -78,8 +67,8 @@ TEST_F(File, ReadsLines) {
 
 TEST_F(File, RefusesLinesThatAreTooLong) {
   for (const std::size_t length : {101U, 5'000'000U}) {
-    ASSERT_TRUE(write_file(*this / "a", "short\n" + std::string(length, 'x') + "\n"));
-    auto reader = must(LineReader::open(*this / "a", 100));
+    write("a", "short\n" + std::string(length, 'x') + "\n");
+    auto reader = must(LineReader::open(at("a"), 100));
     std::string_view line;
     ASSERT_TRUE(must(reader.next(line)));
     EXPECT_TRUE(is_error(reader.next(line), "/a:2: "));
@@ -89,8 +78,8 @@ TEST_F(File, RefusesLinesThatAreTooLong) {
 TEST_F(File, ReadsLinesAcrossBuffers) {
   std::string content;
   for (int i = 0; i < 400'000; ++i) content += std::to_string(i) + '\n';
-  ASSERT_TRUE(write_file(*this / "a", content));
-  auto reader = must(LineReader::open(*this / "a"));
+  write("a", content);
+  auto reader = must(LineReader::open(at("a")));
   std::string_view line;
   for (int i = 0; i < 400'000; ++i) {
     ASSERT_TRUE(must(reader.next(line)));
@@ -109,17 +98,17 @@ TEST(ContentHash, SeparatesFields) {
 TEST_F(File, TemporaryFolderIsRemovedUnlessMoved) {
   std::filesystem::path gone;
   {
-    auto made = must(TemporaryFolder::make(*this / "x"));
+    auto made = must(TemporaryFolder::make(at("x")));
     gone = made.path();
     ASSERT_TRUE(write_file(gone / "f", "1"));
   }
   EXPECT_FALSE(std::filesystem::exists(gone));
-  auto first = TemporaryFolder::make(*this / "x"), second = TemporaryFolder::make(*this / "x");
+  auto first = TemporaryFolder::make(at("x")), second = TemporaryFolder::make(at("x"));
   ASSERT_TRUE(write_file(first->path() / "f", "1"));
   ASSERT_TRUE(write_file(second->path() / "f", "2"));
-  ASSERT_TRUE(first->move_to(*this / "kept"));
-  ASSERT_TRUE(second->move_to(*this / "kept"));
-  EXPECT_EQ(*read_file(*this / "kept/f"), "1");
+  ASSERT_TRUE(first->move_to(at("kept")));
+  ASSERT_TRUE(second->move_to(at("kept")));
+  EXPECT_EQ(text_of("kept/f"), "1");
 }
 
 // Make the file so old that it counts as abandoned unless it is locked.
@@ -130,30 +119,30 @@ void age(const std::filesystem::path& path) {
 
 TEST_F(File, LeftoversAreRemovedAndFilesInUseStay) {
   for (const char* name : {"x/.halfway-old", "x/.halfway-new", "x/other"})
-    ASSERT_TRUE(make_folders(*this / name));
-  ASSERT_TRUE(write_file(*this / "x/.halfway-old/f", "1"));
-  std::filesystem::create_directory_symlink(*this / "x/other", *this / "x/.halfway-link");
-  for (const char* name : {"f.part-old", "f.part-new", "g.part-old", "f"}) std::ofstream(*this / name) << "x";
-  for (const char* name : {"x/.halfway-old", "x/other", "f.part-old", "g.part-old", "f"}) age(*this / name);
-  const auto used = must(TemporaryFolder::make(*this / "x"));
-  EXPECT_FALSE(std::filesystem::exists(*this / "x/.halfway-old"));
+    ASSERT_TRUE(make_folders(at(name)));
+  write("x/.halfway-old/f", "1");
+  std::filesystem::create_directory_symlink(at("x/other"), at("x/.halfway-link"));
+  for (const char* name : {"f.part-old", "f.part-new", "g.part-old", "f"}) std::ofstream(at(name)) << "x";
+  for (const char* name : {"x/.halfway-old", "x/other", "f.part-old", "g.part-old", "f"}) age(at(name));
+  const auto used = must(TemporaryFolder::make(at("x")));
+  EXPECT_FALSE(std::filesystem::exists(at("x/.halfway-old")));
   for (const char* name : {"x/.halfway-new", "x/other", "x/.halfway-link"})
-    EXPECT_TRUE(std::filesystem::exists(*this / name)) << name;
+    EXPECT_TRUE(std::filesystem::exists(at(name))) << name;
   age(used.path());
-  const auto next = TemporaryFolder::make(*this / "x");
+  const auto next = TemporaryFolder::make(at("x"));
   EXPECT_TRUE(std::filesystem::exists(used.path()));
 
-  auto writer = must(LineWriter::open(*this / "f"));
-  EXPECT_FALSE(std::filesystem::exists(*this / "f.part-old"));
+  auto writer = must(LineWriter::open(at("f")));
+  EXPECT_FALSE(std::filesystem::exists(at("f.part-old")));
   for (const char* name : {"f.part-new", "g.part-old", "f"})
-    EXPECT_TRUE(std::filesystem::exists(*this / name)) << name;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_TRUE(std::filesystem::exists(at(name))) << name;
+  for (const auto& entry : std::filesystem::directory_iterator(here()))
     if (entry.path().filename().string().starts_with("f.part-")) age(entry.path());
   writer.append("whole");
-  ASSERT_TRUE(write_file(*this / "f", "another"));
+  write("f", "another");
   ASSERT_TRUE(writer.commit());
-  EXPECT_EQ(*read_file(*this / "f"), "whole");
-  EXPECT_FALSE(std::filesystem::exists(*this / "f.part-new"));
+  EXPECT_EQ(text_of("f"), "whole");
+  EXPECT_FALSE(std::filesystem::exists(at("f.part-new")));
 }
 
 }  // namespace

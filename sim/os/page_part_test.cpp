@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/os/page_part.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "common/test/is_error.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -38,20 +34,19 @@ TEST(PagePart, ExistsOnceAndHasAnEnd) {
   }
 }
 
-TEST(PagePart, IsRewrittenInItsFileOrTheFileIsUnchanged) {
-  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  const std::filesystem::path path = folder.path() / "page.md";
+using PagePartOfFile = FolderTest;
+
+TEST_F(PagePartOfFile, IsRewrittenOrTheFileIsUnchanged) {
+  const std::filesystem::path path = at("page.md");
   const auto with_one = [](const char* name) {
     return [name](const std::string& page) { return with_page_part(page, name, "new\n"); };
   };
   EXPECT_FALSE(rewrite_page(path, with_one("one"))) << "there is no page";
-  ASSERT_TRUE(write_file(path, std::string(c_page)));
-  const Status failed = rewrite_page(path, with_one("three"));
-  ASSERT_FALSE(failed);
-  EXPECT_THAT(failed.error().message, ::testing::StartsWith(path.string() + ": wants one part"));
-  EXPECT_EQ(*read_file(path), c_page);
+  write(path, c_page);
+  EXPECT_TRUE(is_error(rewrite_page(path, with_one("three")), path.string() + ": wants one part"));
+  EXPECT_EQ(text_of(path), c_page);
   ASSERT_TRUE(rewrite_page(path, with_one("one")));
-  EXPECT_EQ(*read_file(path), *with_page_part(c_page, "one", "new\n"));
+  EXPECT_EQ(text_of(path), *with_page_part(c_page, "one", "new\n"));
 }
 
 }  // namespace

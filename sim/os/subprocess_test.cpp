@@ -9,8 +9,7 @@
 #include <csignal>
 
 #include "common/test/is_error.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -59,9 +58,7 @@ TEST(Subprocess, ReportsTheSignal) {
 TEST(Subprocess, ReportsAMissingProgram) {
   const auto end =
       run_process({.arguments = {"halfway-no-such-program"}, .working_folder = {}}, "apt-get install it");
-  ASSERT_FALSE(end);
-  EXPECT_EQ(end.error().code, ExitCode::tool_failed);
-  EXPECT_NE(end.error().message.find("apt-get install it"), std::string::npos);
+  EXPECT_TRUE(is_error(end, ExitCode::tool_failed, "apt-get install it"));
 }
 
 TEST(Subprocess, ReportsAMissingFolder) {
@@ -93,15 +90,15 @@ TEST(Subprocess, KeepsStartAndEndOfLongOutput) {
   EXPECT_LT(end.output.size(), 200'000U);
 }
 
-TEST(Subprocess, SetsFolderEnvironmentAndOutputFile) {
-  const auto folder = must(TemporaryFolder::make(testing::TempDir()));
+using SubprocessInFolder = FolderTest;
+
+TEST_F(SubprocessInFolder, HasAnEnvironmentAndAnOutputFile) {
   Command command = shell("echo $HALFWAY_TEST; pwd; echo err >&2");
-  command.working_folder = folder.path();
+  command.working_folder = here();
   command.environment = {{"HALFWAY_TEST", "a b"}};
-  command.standard_output = folder.path() / "out";
+  command.standard_output = at("out");
   EXPECT_EQ(run(command).output, "err\n");
-  EXPECT_EQ(*read_file(folder.path() / "out"),
-            "a b\n" + std::filesystem::canonical(folder.path()).string() + "\n");
+  EXPECT_EQ(text_of("out"), "a b\n" + std::filesystem::canonical(here()).string() + "\n");
 }
 
 TEST(Subprocess, Polls) {

@@ -9,20 +9,14 @@
 
 #include "plan/hardware_key.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/subprocess.hpp"
+#include "sim/os/test/source_folder.hpp"
 
 namespace halfway::report {
 namespace {
 
 using ::testing::ElementsAreArray;
 
-const std::filesystem::path c_rtl = std::filesystem::path(HALFWAY_SOURCE_DIR) / "rtl";
-
-std::string text_of(const std::filesystem::path& file) {
-  const auto text = read_file(file);
-  EXPECT_TRUE(text) << file;
-  return text ? *text : "";
-}
+const std::filesystem::path c_rtl = c_source_folder / "rtl";
 
 std::set<std::string> found(const std::string& text, const char* pattern) {
   std::set<std::string> all;
@@ -48,7 +42,7 @@ std::set<std::string> tree_of(const std::string& top) {
     open.pop_back();
     if (!tree.insert(entity).second) continue;
     if (entity.starts_with("skewed_") || entity == "stream_register") continue;
-    for (const std::string& part : found(text_of(c_files.at(entity)), R"(entity work\.(\w+))"))
+    for (const std::string& part : found(must(read_file(c_files.at(entity))), R"(entity work\.(\w+))"))
       open.push_back(part);
   }
   return tree;
@@ -57,7 +51,7 @@ std::set<std::string> tree_of(const std::string& top) {
 class Diagram : public ::testing::TestWithParam<Shader> {
  protected:
   std::string name_ = to_string(GetParam());
-  std::string dot_ = text_of(c_rtl / "diagrams" / (name_ + ".dot"));
+  std::string dot_ = must(read_file(c_rtl / "diagrams" / (name_ + ".dot")));
 };
 INSTANTIATE_TEST_SUITE_P(Of, Diagram, ::testing::ValuesIn(c_shaders),
                          [](const auto& shader) { return to_string(shader.param); });
@@ -77,7 +71,7 @@ TEST_P(Diagram, LinksConnectItsNodes) {
 }
 
 TEST_P(Diagram, IsDrawnFromItsText) {
-  const std::string svg = text_of(c_rtl / "diagrams" / (name_ + ".svg"));
+  const std::string svg = must(read_file(c_rtl / "diagrams" / (name_ + ".svg")));
   // Check each line of a label, in the label formats of all Graphviz versions.
   for (const std::string& label : found(dot_, R"re(label="([^"]*)")re"))
     for (std::size_t at = 0; at != std::string::npos;) {

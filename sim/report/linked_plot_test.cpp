@@ -9,9 +9,8 @@
 
 #include "sim/files/gnuplot.hpp"
 #include "sim/files/timing_diagram.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway::report {
 namespace {
@@ -38,19 +37,18 @@ std::map<std::string, std::pair<double, double>> places_in(const std::string& sv
   return places;
 }
 
-class PlotTest : public ::testing::Test {
+class PlotTest : public FolderTest {
  protected:
   void SetUp() override {
     ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
   }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
   Plot plot{.x_label = "clocks \"of\" a frame", .y_label = "error"};
   plot.points = {{10, 1, 2, 0, "far < below"}, {1000, 100, 0, 1, "above"}, {100, 10, 2, 2, "between", true}};
   plot.front = {{10, 1}, {1000, 100}};
-  const std::string svg = draw_plot(plot, folder_.path());
+  const std::string svg = draw_plot(plot, here());
   const auto places = places_in(svg);
   ASSERT_EQ(places.size(), 3U);
   const auto below = places.at("#point-0 far < below"), above = places.at("#point-1 above"),
@@ -67,12 +65,12 @@ TEST_F(PlotTest, EachPointIsALinkAtItsPosition) {
 TEST_F(PlotTest, PointsHaveLabelsAndRings) {
   Plot plot{.x_label = "ms", .y_label = "error", .legend = {"one"}, .looks = {{"#123456", 7}}};
   plot.points = {{1, 1, 0, 0, "first"}, {10, 2, 0, 1, "second"}};
-  const std::string plain = draw_plot(plot, folder_.path());
+  const std::string plain = draw_plot(plot, here());
   EXPECT_THAT(plain, HasSubstr("rgb( 18,  52,  86)"));
   plot.ring_legend = "it waits";
   plot.points[0].label = "named";
   plot.points[1].ring = true;
-  const std::string svg = draw_plot(plot, folder_.path());
+  const std::string svg = draw_plot(plot, here());
   const auto marks = [](const std::string& text) {
     std::size_t count = 0;
     for (std::size_t at = 0; (at = text.find("<use", at)) != std::string::npos; ++at) ++count;
@@ -99,7 +97,7 @@ TEST_F(PlotTest, ZeroHasASeparatePosition) {
                  {20, 300, 1, 3, "most"}};
   plot.levels = {{0, "the best"}, {30, "a yardstick"}};
   plot.front = {{0, 5}, {10, 1}, {40, 0}};
-  const std::string svg = draw_plot(plot, folder_.path());
+  const std::string svg = draw_plot(plot, here());
   const auto places = places_in(svg);
   ASSERT_EQ(places.size(), 4U);
   const auto left = places.at("#point-0 none on the host"), least = places.at("#point-1 least"),
@@ -113,7 +111,7 @@ TEST_F(PlotTest, ZeroHasASeparatePosition) {
   EXPECT_THAT(svg, HasSubstr("a yardstick"));
   EXPECT_THAT(svg, HasSubstr("the best"));
   // A plot with zeros only.
-  EXPECT_NO_THROW(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, folder_.path()));
+  EXPECT_NO_THROW(draw_plot({.points = {{0, 0, 0, 0, "alone"}}}, here()));
 }
 
 TEST_F(PlotTest, TimingShowsLevelsAndValues) {
@@ -124,7 +122,7 @@ TEST_F(PlotTest, TimingShowsLevelsAndValues) {
                               .axis = "clock",
                               .ticks = {{0.5, "0"}, {2.5, "2"}},
                               .lines = {1, 2, 3, 4}};
-  const std::string svg = run_gnuplot(timing_script(diagram), folder_.path(), "timing");
+  const std::string svg = run_gnuplot(timing_script(diagram), here(), "timing");
   for (const char* text : {"valid", ">7<", ">31<", ">2<", ">clock<"}) EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_THAT(svg, Not(HasSubstr("too long")));
 }

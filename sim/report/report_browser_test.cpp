@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "sim/cli/command_test.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/headless_browser.hpp"
 #include "sim/files/image.hpp"
 #include "sim/os/must.hpp"
@@ -31,18 +32,15 @@ class ReportPage : public CommandTest {
     ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
     ASSERT_FALSE(find_program("pdftotext").empty())
         << "no pdftotext here: apt-get install poppler-utils, or make test";
-    const auto here = folder_.path();
-    ASSERT_TRUE(make_folders(here / "figures"));
-    ASSERT_TRUE(write_file(
-        here / "figures/figures.json",
+    write(
+        "figures/figures.json",
         R"([{"id": "quadratic-09", "paper": "quadratic", "number": "figure 9", "caption": "A <sphere> of `lights`",
              "shows": "ours", "pictures": [{"file": "a.svg", "alt": "a line"}],
              "rows": [{"what": "triangles", "published": "168", "measured": "168", "value": 168,
-                       "criterion": "the same", "verdict": "agrees", "reason": "", "slow": false}]}])"));
-    ASSERT_TRUE(write_file(
-        here / "figures/a.svg",
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><path d=\"M0 0L9 9\"/></svg>"));
-    ASSERT_NO_FATAL_FAILURE(make_study(here / "study"));
+                       "criterion": "the same", "verdict": "agrees", "reason": "", "slow": false}]}])");
+    write("figures/a.svg",
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><path d=\"M0 0L9 9\"/></svg>");
+    make_study();
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"sim", "spheres", "--size", "96x72", "--simulator", "verilator", "--out",
                                    "out"},
@@ -51,27 +49,26 @@ class ReportPage : public CommandTest {
       const Outcome outcome = run(command);
       ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     }
-    browser_ = std::make_unique<HeadlessBrowser>(here);
+    browser_ = std::make_unique<HeadlessBrowser>(here());
     browser_->resize(1440, 900);
-    browser_->open(here / "page.html");
+    browser_->open(at("page.html"));
     ASSERT_TRUE(browser_->becomes_true("document.querySelector('#frame-viewer .values td')"));
   }
 
   // A study of five points with one picture, two of them at the same place, as `halfway study` writes it
   // without Yosys and Valgrind.
-  static void make_study(const std::filesystem::path& out) {
-    const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  void make_study() const {
     study::StudySettings settings;
-    settings.scene = source / "sim/study/spaces/sphere.toml";
-    settings.out = out;
+    settings.scene = c_source_folder / "sim/study/spaces/sphere.toml";
+    settings.out = at("study");
     settings.threads = 2;
-    settings.folders = {source, source / "build" / "cache"};
+    settings.folders = c_checkout;
     for (const study::Method method :
          {study::Method::phong, study::Method::gouraud, study::Method::quadratic, study::Method::adaptive})
       settings.points.push_back({.method = method, .size = {160, 120}});
     settings.points.push_back({.method = study::Method::adaptive, .threshold = 250, .size = {160, 120}});
     const study::Study made = study::run_study(settings);
-    ASSERT_TRUE(write_file(out / "study.csv", study::to_csv(made.provenance, made.records, {}, {})));
+    write("study/study.csv", study::to_csv(made.provenance, made.records, {}, {}));
   }
 
   void TearDown() override {
@@ -86,6 +83,7 @@ class ReportPage : public CommandTest {
   std::pair<double, double> middle_of(const std::string& selector) { return browser_->middle_of(selector); }
   void drag(double x0, double x1, double y) { browser_->drag({x0, y}, {x1, y}); }
   void click(double x, double y) { browser_->click(x, y); }
+  std::string label() { return evaluate("document.querySelector('#frame-viewer canvas').ariaLabel"); }
   double wipe() {
     return evaluate("document.querySelector('#frame-viewer input').valueAsNumber").get<double>();
   }
@@ -115,17 +113,14 @@ class ReportPage : public CommandTest {
   }
   /// The text of the printed page.
   std::string print() {
-    const std::filesystem::path pdf = folder_.path() / "page.pdf", coded = folder_.path() / "coded";
-    EXPECT_TRUE(write_file(coded, browser_->send("Page.printToPDF")["data"].get<std::string>()));
-    const auto decoded =
-        run_process({.arguments = {"base64", "-d", coded.string()}, .standard_output = pdf}, "");
-    EXPECT_TRUE(decoded && decoded->succeeded());
+    write("coded", browser_->send("Page.printToPDF")["data"].get<std::string>());
     // subprocess output is truncated, so use a file
-    const std::filesystem::path words = folder_.path() / "page.txt";
-    const auto read = run_process({.arguments = {"pdftotext", pdf.string(), words.string()}}, "");
-    EXPECT_TRUE(read && read->succeeded());
-    const auto text = read_file(words);
-    return text ? *text : std::string();
+    EXPECT_THAT(run_as({"sh", "-c", "base64 -d coded >page.pdf && pdftotext page.pdf page.txt"}),
+                Ends(0, ::testing::_));
+    return text_of("page.txt");
+  }
+  Frame frame(const std::string& layer) const {
+    return must(read_png(at("out/spheres/quadratic") / (layer + ".png")));
   }
   static std::vector<int> pixel(const Frame& frame, std::uint32_t x, std::uint32_t y) {
     const std::size_t at = frame.offset(x, y);
@@ -190,11 +185,10 @@ TEST_F(ReportPage, FiguresHaveSizesAndTexts) {
 }
 
 TEST_F(ReportPage, StartsWithAPixelOfABody) {
-  const auto reference = read_png(folder_.path() / "out/spheres/quadratic/reference.png");
-  ASSERT_TRUE(reference);
+  const Frame reference = frame("reference");
   // no body is at the centre
-  ASSERT_EQ(pixel(*reference, 48, 36), pixel(*reference, 0, 0));
-  EXPECT_NE(shown("#frame-viewer", "reference"), pixel(*reference, 0, 0));
+  ASSERT_EQ(pixel(reference, 48, 36), pixel(reference, 0, 0));
+  EXPECT_NE(shown("#frame-viewer", "reference"), pixel(reference, 0, 0));
 }
 
 TEST_F(ReportPage, EverythingHasAName) {
@@ -218,26 +212,24 @@ TEST_F(ReportPage, EverythingHasAName) {
 }
 
 TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
-  const auto reference = read_png(folder_.path() / "out/spheres/quadratic/reference.png");
-  const auto difference = read_png(folder_.path() / "out/spheres/quadratic/diff.png");
-  ASSERT_TRUE(reference && difference);
+  const Frame reference = frame("reference"), difference = frame("diff");
   const std::string canvas = "#frame-viewer canvas";
   evaluate("{ const s = document.querySelector('#frame-viewer .right'); s.value = 'diff'; s.onchange(); }");
   // Find a pixel in the right half where the two differ, so that moving the wipe over it is visible.
   std::uint32_t x = 55, y = 1;
-  const auto differ = [&] { return std::abs(pixel(*reference, x, y)[0] - pixel(*difference, x, y)[0]) > 40; };
+  const auto differ = [&] { return std::abs(pixel(reference, x, y)[0] - pixel(difference, x, y)[0]) > 40; };
   while (!differ()) {
     if (++x == 85) x = 55, ++y;
     ASSERT_LT(y, 71U);
   }
   const double at_x = (x + 0.5) / 96, at_y = (y + 0.5) / 72;
-  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*difference, x, y));
+  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(difference, x, y));
   const auto [mid_x, mid_y] = middle_of(canvas);
   const double width = evaluate("document.querySelector('#frame-viewer canvas').clientWidth");
   EXPECT_EQ(wipe(), 500);
   drag(mid_x, mid_x + 0.48 * width, mid_y);
   EXPECT_NEAR(wipe(), 980, 3);
-  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*reference, x, y));
+  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(reference, x, y));
   // With keys: those of the slider, and those of the canvas.
   evaluate("document.querySelector('#frame-viewer input').focus()");
   const double before = wipe();
@@ -246,21 +238,18 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   evaluate("document.querySelector('#frame-viewer canvas').focus()");
   for (int i = 0; i < 30; ++i) browser_->press("[");
   EXPECT_NEAR(wipe(), before - 600, 10);
-  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*difference, x, y));
+  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(difference, x, y));
   // A click chooses a pixel; the arrow keys continue from it.
   const auto [again_x, again_y] = middle_of(canvas);
   click(again_x + (at_x - 0.5) * width, again_y + (at_y - 0.5) * width * 0.75);
-  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(*reference, x, y));
-  EXPECT_EQ(shown("#frame-viewer", "diff"), pixel(*difference, x, y));
+  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(reference, x, y));
+  EXPECT_EQ(shown("#frame-viewer", "diff"), pixel(difference, x, y));
   browser_->press("ArrowLeft");
-  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(*reference, x - 1, y));
+  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(reference, x - 1, y));
   // Zooming in keeps that pixel in place and writes its values into it.
   for (int i = 0; i < 6; ++i) browser_->press("+");
-  const Json corner = evaluate(
-      "(() => { const label = document.querySelector('#frame-viewer canvas').ariaLabel; return label; })()");
-  EXPECT_NE(corner.get<std::string>().find("zoom 64"), std::string::npos);
-  browser_->press("]");
-  for (int i = 0; i < 60; ++i) browser_->press("]");
+  EXPECT_NE(label().find("zoom 64"), std::string::npos);
+  for (int i = 0; i < 61; ++i) browser_->press("]");
   // Zoom 64 of 96 pixels: 1.5 pixels are visible across, so the chosen pixel covers the area around its
   // centre.
   const Json colours = evaluate(fmt::format(
@@ -268,7 +257,7 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
       "0; i < "
       "d.length; i += 4) {{ const k = d.slice(i, i + 3).join(); n[k] = (n[k] || 0) + 1; }} return n; }})()",
       copy_of(canvas)));
-  const auto chosen = pixel(*reference, x - 1, y);
+  const auto chosen = pixel(reference, x - 1, y);
   const std::string name = fmt::format("{}", fmt::join(chosen, ","));
   ASSERT_TRUE(colours.contains(name)) << name;
   const double area = evaluate("copy.width * copy.height").get<double>();
@@ -276,8 +265,7 @@ TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
 }
 
 TEST_F(ReportPage, TwoFingersZoomAndMove) {
-  const auto reference = read_png(folder_.path() / "out/spheres/quadratic/reference.png");
-  ASSERT_TRUE(reference);
+  const Frame reference = frame("reference");
   browser_->resize(390, 844);
   const std::string canvas = "#frame-viewer canvas";
   evaluate(
@@ -285,7 +273,7 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   // Find a pixel that differs from its neighbours.
   std::uint32_t x = 40, y = 30;
   const auto differ = [&](std::uint32_t other_x, std::uint32_t other_y) {
-    return std::abs(pixel(*reference, x, y)[0] - pixel(*reference, other_x, other_y)[0]) > 8;
+    return std::abs(pixel(reference, x, y)[0] - pixel(reference, other_x, other_y)[0]) > 8;
   };
   while (!differ(x - 1, y) || !differ(x, y - 1)) {
     if (++x == 56) x = 40, ++y;
@@ -299,9 +287,6 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   const auto two = [&](const char* type, double right, double apart) {
     browser_->touch(type, {{px + right - apart, py}, {px + right + apart, py}});
   };
-  const auto label = [&] {
-    return evaluate("document.querySelector('#frame-viewer canvas').ariaLabel").get<std::string>();
-  };
   two("touchStart", 0, 10);
   for (const double apart : {20.0, 35.0, 50.0}) two("touchMove", 0, apart);
   EXPECT_TRUE(
@@ -309,14 +294,14 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
       << label();
   // Zoom by five around the pixel between the fingers.
   const double step = 5.0 / 96;
-  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(*reference, x, y));
-  EXPECT_EQ(painted(canvas, at_x - step, at_y), pixel(*reference, x - 1, y));
-  EXPECT_EQ(painted(canvas, at_x, at_y - step * 96 / 72), pixel(*reference, x, y - 1));
+  EXPECT_EQ(painted(canvas, at_x, at_y), pixel(reference, x, y));
+  EXPECT_EQ(painted(canvas, at_x - step, at_y), pixel(reference, x - 1, y));
+  EXPECT_EQ(painted(canvas, at_x, at_y - step * 96 / 72), pixel(reference, x, y - 1));
   // Moving both fingers to the right moves the picture.
   for (const double right : {10.0, 20.0}) two("touchMove", right, 50);
   const double there = at_x + 20 / width;
-  EXPECT_EQ(painted(canvas, there, at_y), pixel(*reference, x, y));
-  EXPECT_EQ(painted(canvas, there - step, at_y), pixel(*reference, x - 1, y));
+  EXPECT_EQ(painted(canvas, there, at_y), pixel(reference, x, y));
+  EXPECT_EQ(painted(canvas, there - step, at_y), pixel(reference, x - 1, y));
   browser_->touch("touchEnd", {});
   EXPECT_EQ(evaluate("visualViewport.scale"), 1);
   EXPECT_EQ(evaluate("scrollY").get<double>(), scrolled);
@@ -324,7 +309,7 @@ TEST_F(ReportPage, TwoFingersZoomAndMove) {
   // A single finger chooses a pixel, as before.
   browser_->touch("touchStart", {{px + 20, py}});
   browser_->touch("touchEnd", {});
-  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(*reference, x, y));
+  EXPECT_EQ(shown("#frame-viewer", "reference"), pixel(reference, x, y));
   // Pinching together shows the whole picture, not less.
   two("touchStart", 0, 60);
   for (const double apart : {30.0, 10.0, 5.0}) two("touchMove", 0, apart);
@@ -360,13 +345,11 @@ TEST_F(ReportPage, PointsOpenTheirFrames) {
   EXPECT_EQ(evaluate("document.querySelectorAll('#point-crowd a[href=\"#point-4\"]').length"), 1);
   // The frame shown is the study's file.
   std::size_t equal = 0;
-  for (const auto& file : std::filesystem::directory_iterator(folder_.path() / "study/points")) {
+  for (const auto& file : std::filesystem::directory_iterator(at("study/points"))) {
     if (file.path().extension() != ".png") continue;
-    const auto record = must(read_file(std::filesystem::path(file.path()).replace_extension(".json")));
+    const std::string record = text_of(std::filesystem::path(file.path()).replace_extension(".json"));
     if (record.find('"' + name + '"') == std::string::npos) continue;
-    const auto frame = read_png(file.path());
-    ASSERT_TRUE(frame);
-    EXPECT_EQ(shown("#point-viewer", "frame"), pixel(*frame, 80, 60));
+    EXPECT_EQ(shown("#point-viewer", "frame"), pixel(must(read_png(file.path())), 80, 60));
     ++equal;
   }
   EXPECT_EQ(equal, 1U);

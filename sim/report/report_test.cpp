@@ -24,14 +24,7 @@ class ReportCommand : public CommandTest {
     return run({"report", "--results", "out", "--study", "study", "--figures", "figures", "--out",
                 "new/page.html", "--no-timing"});
   }
-  std::string page() const {
-    const auto text = read_file(folder_.path() / "new/page.html");
-    return text ? *text : "";
-  }
-  void put(const std::filesystem::path& file, const std::string& text) const {
-    ASSERT_TRUE(make_folders((folder_.path() / file).parent_path()));
-    ASSERT_TRUE(write_file(folder_.path() / file, text));
-  }
+  std::string page() const { return text_of("new/page.html"); }
 };
 
 TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
@@ -56,24 +49,18 @@ TEST_F(ReportCommand, SaysWhatIsMissingAndWhatMakesIt) {
 }
 
 TEST_F(ReportCommand, RefusesWhatIsDamaged) {
-  put("out/spheres/quadratic/summary.json", "{\"width\": 3");
-  Outcome outcome = report();
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, AllOf(HasSubstr("summary.json"), HasSubstr("make sim")));
-  EXPECT_EQ(page(), "");
-  put("out/spheres/quadratic/summary.json", "[]");
+  write("out/spheres/quadratic/summary.json", "{\"width\": 3");
+  EXPECT_THAT(report(), Ends(2, AllOf(HasSubstr("summary.json"), HasSubstr("make sim"))));
+  EXPECT_FALSE(std::filesystem::exists(at("new/page.html")));
+  write("out/spheres/quadratic/summary.json", "[]");
   EXPECT_EQ(report().exit_code, 2);
-  std::filesystem::remove_all(folder_.path() / "out");
-  put("study/study.csv", "a,b\n1\n");
-  outcome = report();
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.output, HasSubstr("study.csv:2: "));
-  std::filesystem::remove_all(folder_.path() / "study");
+  std::filesystem::remove_all(at("out"));
+  write("study/study.csv", "a,b\n1\n");
+  EXPECT_THAT(report(), Ends(2, HasSubstr("study.csv:2: ")));
+  std::filesystem::remove_all(at("study"));
   for (const char* damaged : {"[", "[{\"id\": 3}]"}) {
-    put("figures/figures.json", damaged);
-    outcome = report();
-    EXPECT_EQ(outcome.exit_code, 2);
-    EXPECT_THAT(outcome.output, AllOf(HasSubstr("figures.json"), HasSubstr("make figures")));
+    write("figures/figures.json", damaged);
+    EXPECT_THAT(report(), Ends(2, AllOf(HasSubstr("figures.json"), HasSubstr("make figures"))));
   }
 }
 
@@ -91,7 +78,7 @@ constexpr const char* c_study =
 
 TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
   ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
-  put("study/study.csv", c_study);
+  write("study/study.csv", c_study);
   const Outcome outcome = report();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const auto part = [text = page()](const std::string& begin, const std::string& end) {
@@ -146,9 +133,7 @@ TEST_F(ReportCommand, PlotsEveryPointOrSaysWhichNot) {
 }
 
 TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
-  const auto front =
-      must(read_file(std::filesystem::path(HALFWAY_SOURCE_DIR) / "docs/results/gallery/front.csv"));
-  put("study/study.csv", front);
+  write("study/study.csv", text_of(c_source_folder / "docs/results/gallery/front.csv"));
   const Outcome outcome = report();
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(page(), HasSubstr("points of <code>sim/study/spaces/small.toml</code>, in a table of 20"));
@@ -156,23 +141,20 @@ TEST_F(ReportCommand, NamesTheStudysSceneAndSpace) {
 }
 
 TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
-  const auto here = folder_.path();
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-  std::filesystem::copy_file(source / "Makefile", here / "Makefile");
-  for (const char* scene : {"lights", "matte"}) put(fmt::format("sim/scenes/{}.toml", scene), "");
+  std::filesystem::copy_file(c_source_folder / "Makefile", at("Makefile"));
+  for (const char* scene : {"lights", "matte"}) write(fmt::format("sim/scenes/{}.toml", scene), "");
   // The first run was interrupted in the second shader.
   for (const char* drawn : {"lights/quadratic", "matte/quadratic", "lights/spherical"})
-    put(fmt::format("build/out/{}/summary.json", drawn), "{}");
-  put("build/out/matte/spherical/init.txt", "");
-  put("build/study/study.csv", "");
-  put("docs/results/figures/figures.json", "");
-  put_program(here / "build/halfway",
+    write(fmt::format("build/out/{}/summary.json", drawn), "{}");
+  write("build/out/matte/spherical/init.txt", "");
+  write("build/study/study.csv", "");
+  write("docs/results/figures/figures.json", "");
+  put_program(at("build/halfway"),
               "#!/bin/sh\necho \"$@\" >>said\n[ \"$1\" != sim ]\n");  // 1: a difference
   const auto made =
-      run_process({.arguments = {"make", "-o", "program", "report"}, .working_folder = here}, "");
+      run_process({.arguments = {"make", "-o", "program", "report"}, .working_folder = here()}, "");
   ASSERT_TRUE(made && made->succeeded()) << (made ? made->output : made.error().message);
-  const auto said = must(read_file(here / "said"));
-  EXPECT_EQ(said,
+  EXPECT_EQ(text_of("said"),
             "sim --shader spherical -- matte\n"
             "sim --shader processors --simulator verilator -- lights\n"
             "sim --shader processors --simulator verilator -- matte\n"
@@ -180,9 +162,8 @@ TEST_F(ReportCommand, MakeDrawsEveryFrameThatIsMissing) {
 }
 
 TEST_F(ReportCommand, EqualPicturesAreOne) {
-  const Outcome drawn =
-      run({"sim", "spheres", "--size", "96x72", "--simulator", "verilator", "--out", "out"});
-  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  ASSERT_THAT(run({"sim", "spheres", "--size", "96x72", "--simulator", "verilator", "--out", "out"}),
+              Ends(0, ::testing::_));
   const auto image_of = [&](const std::string& layer) {
     const std::string mark = "<script type=\"application/json\" id=\"data\">";
     const std::size_t begin = page().find(mark) + mark.size();
@@ -201,7 +182,7 @@ TEST_F(ReportCommand, EqualPicturesAreOne) {
         "Frames by the shader spherical of highlights, lights, matte, shadows, spheres, teapot:"})
     EXPECT_THAT(page(), HasSubstr(gap));
   // A wrong picture is reported as wrong.
-  const auto folder = folder_.path() / "out/spheres/quadratic";
+  const auto folder = at("out/spheres/quadratic");
   std::filesystem::copy_file(folder / "reference.png", folder / "verilator.png",
                              std::filesystem::copy_options::overwrite_existing);
   ASSERT_EQ(report().exit_code, 0);

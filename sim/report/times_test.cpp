@@ -9,7 +9,6 @@
 namespace halfway::report {
 namespace {
 
-namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -40,14 +39,14 @@ TEST_F(TimesTest, EachPictureHasAPlot) {
   ASSERT_EQ(pictures.size(), 2U);
   EXPECT_EQ(pictures[0].rows.size(), 7U);
   EXPECT_EQ(plot_name(pictures[1]), "times-ball-80x60.svg");
-  EXPECT_EQ(write_times(read(c_times), here() / "out", here()), 8U);
+  EXPECT_EQ(write_times(read(c_times), at("out"), here()), 8U);
   EXPECT_THAT(
-      must(read_file(here() / "out/times-ball-64x48.svg")),
+      text_of("out/times-ball-64x48.svg"),
       AllOf(HasSubstr("aria-label=\"q at\""), HasSubstr("aria-label=\"p at\""), HasSubstr("ms per frame"),
             Not(HasSubstr("q large")), HasSubstr("the host takes longer"), HasSubstr("quadratic published"),
             Not(HasSubstr("centroid")), HasSubstr("aria-label=\"v at\"")));
-  EXPECT_TRUE(fs::exists(here() / "out/times-ball-80x60.svg"));
-  EXPECT_TRUE(fs::exists(here() / "out/times.csv"));
+  EXPECT_TRUE(std::filesystem::exists(at("out/times-ball-80x60.svg")));
+  EXPECT_TRUE(std::filesystem::exists(at("out/times.csv")));
 }
 
 TEST_F(TimesTest, SentencesAreOfTheFront) {
@@ -86,8 +85,8 @@ TEST_F(TimesTest, FilteredPicturesAreNotOnTheFront) {
               AllOf(HasSubstr("*8 designs draw"), HasSubstr("against a filtered reference"),
                     HasSubstr("| q | 1 |"), Not(HasSubstr("| f |"))));
   EXPECT_THAT(page_times(times), HasSubstr("| f | 1 | hardware |"));
-  write_times(times, here() / "out", here());
-  EXPECT_THAT(must(read_file(here() / "out/times-ball-64x48.svg")), HasSubstr("filtered published"));
+  write_times(times, at("out"), here());
+  EXPECT_THAT(text_of("out/times-ball-64x48.svg"), HasSubstr("filtered published"));
 }
 
 TEST_F(TimesTest, WithoutDesignsThereIsNothingToSay) {

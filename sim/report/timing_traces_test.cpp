@@ -7,7 +7,8 @@
 
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
 #include "sim/run/why.hpp"
@@ -17,8 +18,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path c_source = HALFWAY_SOURCE_DIR;
-
 class Timing : public ::testing::TestWithParam<Shader> {};
 INSTANTIATE_TEST_SUITE_P(Of, Timing, ::testing::ValuesIn(c_shaders),
                          [](const auto& shader) { return to_string(shader.param); });
@@ -26,14 +25,13 @@ INSTANTIATE_TEST_SUITE_P(Of, Timing, ::testing::ValuesIn(c_shaders),
 TEST_P(Timing, ShowsTheGoldenModelsFragmentsInVerilatorsClocks) {
   for (const char* program : {"ghdl", "gnuplot"})
     ASSERT_FALSE(find_program(program).empty()) << "no " << program << " here";
-  const SimulatorFolders folders{c_source, c_source / "build" / "cache"};
-  const ShaderTiming timing = draw_shader_timing(GetParam(), folders);
+  const ShaderTiming timing = draw_shader_timing(GetParam(), c_checkout);
 
-  const auto scene = must(load_scene((c_source / "sim/report/timing.toml").string(), {}));
+  const Scene scene = built_in_scene(c_source_folder / "sim/report/timing.toml");
   WhySettings why;
   why.plan.shader = GetParam();
   why.size = {16, 12};
-  why.folders = folders;
+  why.folders = c_checkout;
   why.setup.quadratic.test = HighlightTest::none;
   const auto plan = plan_scene(scene, why.plan);
   ASSERT_TRUE(plan);

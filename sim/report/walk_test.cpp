@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "sim/cli/command_test.hpp"
-#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -24,14 +23,13 @@ std::string squeezed(const std::string& text) {
   return out;
 }
 
-class PixelWalk : public CommandTest {};
+using PixelWalk = CommandTest;
 
 TEST_F(PixelWalk, EqualsTheOutputOfWhy) {
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const std::string mark = "\n```\n$ build/halfway why ";
   for (const char* name : {"quadratic", "spherical", "processors"}) {
     SCOPED_TRACE(name);
-    const auto page = must(read_file(source / "docs/rtl" / (std::string(name) + ".md")));
+    const std::string page = text_of(c_source_folder / "docs/rtl" / (std::string(name) + ".md"));
     const std::size_t at = page.find(mark);
     ASSERT_NE(at, std::string::npos);
     const std::size_t begin = at + std::string("\n```\n$ build/halfway ").size();
@@ -40,7 +38,7 @@ TEST_F(PixelWalk, EqualsTheOutputOfWhy) {
     std::getline(block, line);
     std::vector<std::string> command = words_of(line);
     ASSERT_GT(command.size(), 2U);
-    command[1] = source / command[1];
+    command[1] = c_source_folder / command[1];
     const Outcome outcome = run(command);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     // Each line of the block, in this order.

@@ -79,39 +79,35 @@ TEST_F(Simulators, MoreFragmentsThanAllowedAreSeen) {
 
 TEST_F(Simulators, BrokenRtlIsReportedWithItsLine) {
   write_rtl({.valid = "nonsense"});
-  for (const auto& result : {ghdl(), verilator()}) {
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().code, ExitCode::tool_failed);
-    EXPECT_NE(result.error().message.find("rtl/shaders/quadratic_shader.vhd:"), std::string::npos)
-        << result.error().message;
-  }
+  for (const auto& result : {ghdl(), verilator()})
+    EXPECT_TRUE(is_error(result, ExitCode::tool_failed, "rtl/shaders/quadratic_shader.vhd:"));
 }
 
 TEST_F(Simulators, AWrongInitFileIsBadInput) {
-  const auto init_file = scratch_.path() / "init.txt";
   const auto runner = must(GhdlRunner::open(key_, folders_));
-  ASSERT_TRUE(write_init_file(init_file, "other", {.bits = 80, .words = {1, 2, 3}}));
-  EXPECT_TRUE(is_error(runner.run(init_file, scratch_.path() / "t"), ExitCode::bad_input, "not of 73 bits"));
-  ASSERT_TRUE(write_file(init_file, "halfway-init 1 k 73\n0000000000000000000\n"));
-  EXPECT_EQ(runner.run(init_file, scratch_.path() / "t").error().code, ExitCode::bad_input);
-  ASSERT_TRUE(write_file(init_file, "halfway-init 1 k 73\n000000000000000zzzz\nend 1\n"));
-  EXPECT_EQ(runner.run(init_file, scratch_.path() / "t").error().code, ExitCode::bad_input);
-  EXPECT_EQ(runner.run(scratch_.path() / "none", scratch_.path() / "t").error().code, ExitCode::bad_input);
+  const auto expect_refused = [&](const std::filesystem::path& file, const char* message) {
+    EXPECT_TRUE(is_error(runner.run(file, at("t")), ExitCode::bad_input, message)) << file;
+  };
+  ASSERT_TRUE(write_init_file(at("other"), "other", {.bits = 80, .words = {1, 2, 3}}));
+  expect_refused(at("other"), "not of 73 bits");
+  expect_refused(write("cut", "halfway-init 1 k 73\n0000000000000000000\n"), "");
+  expect_refused(write("digits", "halfway-init 1 k 73\n000000000000000zzzz\nend 1\n"), "");
+  expect_refused(at("none"), "");
 }
 
 TEST_F(Simulators, AFullDiskIsReportedAndLeavesNoTrace) {
   const auto runner = must(GhdlRunner::open(key_, folders_));
-  const auto init_file = scratch_.path() / "init.txt";
+  const auto init_file = at("init.txt");
   ASSERT_TRUE(write_init_file(init_file, key_.name(), init_));
   // Simulate a full disk: the temporary name is a link to /dev/full.
-  const auto trace = scratch_.path() / "full.trace";
+  const auto trace = at("full.trace");
   std::filesystem::create_symlink("/dev/full", trace.string() + ".part-" + std::to_string(::getpid()));
   EXPECT_TRUE(is_error(runner.run(init_file, trace), ExitCode::tool_failed));
   EXPECT_FALSE(std::filesystem::exists(trace));
 }
 
 TEST_F(Simulators, WavesOfAWindowAreWritten) {
-  const auto wave_file = scratch_.path() / "waves.fst";
+  const auto wave_file = at("waves.fst");
   const auto run = must(verilator({.wave_file = wave_file, .waves_from = 10, .waves_to = 60}));
   EXPECT_EQ(run.fragments, expected_);
   ASSERT_TRUE(std::filesystem::exists(wave_file));

@@ -5,17 +5,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "common/test/is_error.hpp"
 #include "sim/engines/ghdl/ghdl_runner.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/engines/verilator/verilator_simulator.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/trace.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 
@@ -75,9 +74,10 @@ architecture rtl of quadratic_shader is
     alarm    : std_logic_vector(4 downto 0);
   end record;
   signal r, r_next : reg_t;
-  signal ready, take : std_logic;
+  signal ready, take, one_left : std_logic;
 begin
-  ready      <= not r.valid or (fragment_ready and @LAST@);
+  one_left   <= '1' when r.left = 1 else '0';
+  ready      <= not r.valid or (fragment_ready and one_left);
   init_ready <= ready;
   take       <= init_valid and ready;
   combinational : process (all)
@@ -130,7 +130,7 @@ end architecture;
 
 /// Replacements of the marks.
 struct Parts {
-  std::string last = "is_last", fault, valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
+  std::string fault, valid = "r.valid", red = "std_logic_vector(r.x(7 downto 0))";
   std::string alarm = "'0'", delay = "0";
 };
 
@@ -138,15 +138,13 @@ inline void replace(std::string& text, const std::string& what, const std::strin
   for (std::size_t at; (at = text.find(what)) != std::string::npos;) text.replace(at, what.size(), with);
 }
 
-class Simulators : public testing::Test {
+class Simulators : public FolderTest {
  protected:
   void SetUp() override {
-    const std::filesystem::path root = HALFWAY_SOURCE_DIR;
-    for (const char* folder : {"sim", "tb"}) {
-      std::filesystem::create_directories(folders_.source / folder);
-      std::filesystem::copy(root / folder, folders_.source / folder,
+    must(make_folders(folders_.source));
+    for (const char* folder : {"sim", "tb"})
+      std::filesystem::copy(c_source_folder / folder, folders_.source / folder,
                             std::filesystem::copy_options::recursive);
-    }
     write_rtl({});
     init_.bits = 73;
     for (const unsigned count : {5U, 0U, 1U, 300U, 2U, 0U, 0U, 77U, 1U}) add_triangle(count);
@@ -154,19 +152,14 @@ class Simulators : public testing::Test {
 
   void write_rtl(const Parts& parts) {
     std::string text = c_shader;
-    replace(text, "@LAST@", parts.last == "is_last" ? "one_left" : parts.last);
     replace(text, "@FAULT@", parts.fault);
     replace(text, "@VALID@", parts.valid);
     replace(text, "@RED@", parts.red);
     replace(text, "@ALARM@", parts.alarm);
     replace(text, "@DELAY@", parts.delay);
-    replace(text, "  signal ready, take : std_logic;\nbegin",
-            "  signal ready, take : std_logic;\n  signal one_left : std_logic;\nbegin\n"
-            "  one_left <= '1' when r.left = 1 else '0';");
-    ASSERT_TRUE(write_file(folders_.source / "rtl/formats_pkg.vhd", c_package));
-    ASSERT_TRUE(write_file(folders_.source / "rtl/shaders/quadratic_shader.vhd", text));
-    ASSERT_TRUE(
-        write_file(folders_.source / "rtl/files.f", "formats_pkg.vhd\nshaders/quadratic_shader.vhd\n"));
+    write("tree/rtl/formats_pkg.vhd", c_package);
+    write("tree/rtl/shaders/quadratic_shader.vhd", text);
+    write("tree/rtl/files.f", "formats_pkg.vhd\nshaders/quadratic_shader.vhd\n");
   }
 
   void add_triangle(unsigned count) {
@@ -187,7 +180,7 @@ class Simulators : public testing::Test {
   }
 
   Result<Trace> ghdl(const GhdlRunOptions& options = {}) {
-    const auto init_file = scratch_.path() / "init.txt", trace_file = scratch_.path() / "out/ghdl.trace";
+    const auto init_file = at("init.txt"), trace_file = at("out/ghdl.trace");
     if (auto written = write_init_file(init_file, key_.name(), init_); !written) return written.error();
     auto runner = GhdlRunner::open(key_, folders_);
     if (!runner) return runner.error();
@@ -229,9 +222,7 @@ class Simulators : public testing::Test {
   }
 
   HardwareKey key_;
-  const TemporaryFolder scratch_ = must(TemporaryFolder::make(testing::TempDir()));
-  const SimulatorFolders folders_{scratch_.path() / "tree",
-                                  std::filesystem::path(HALFWAY_SOURCE_DIR) / "build/cache"};
+  const SimulatorFolders folders_{at("tree"), c_checkout.cache};
   InitStream init_;
   std::vector<Fragment> expected_;
 };

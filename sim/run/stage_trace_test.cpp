@@ -10,9 +10,9 @@
 
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
@@ -36,7 +36,7 @@ class Stages : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     const Case& c = GetParam();
-    auto scene = must(load_scene(c.scene, c_source_folder / "sim" / "scenes"));
+    const Scene scene = built_in_scene(c.scene);
     const auto plan = must(plan_scene(scene, {.shader = c.shader, .preset = c.preset, .form = c.form}));
     key_ = plan.key;
     FrameStream stream = must(whole_stream(scene, {24, 18}, key_));
@@ -61,8 +61,7 @@ TEST_P(Stages, AreEqualInGoldenModelAndRtl) {
     EXPECT_EQ(golden.back()[i].words,
               (std::vector<std::uint64_t>{f.triangle, f.y, f.x, f.z, f.red, f.green, f.blue}));
   }
-  const StageTrace rtl = trace_stages(key_, *stages, {c_source_folder, c_source_folder / "build" / "cache"},
-                                      vectors_, golden_.size());
+  const StageTrace rtl = trace_stages(key_, *stages, c_checkout, vectors_, golden_.size());
   EXPECT_THAT(rtl.fault, IsEmpty());
   for (std::size_t s = 0; s < golden.size(); ++s) {
     const Stage& stage = stages->stages()[s];

@@ -9,7 +9,7 @@
 #include "projection/project.hpp"
 #include "reference/renderer.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -21,7 +21,7 @@ class Threshold : public testing::TestWithParam<const char*> {};
 // tuned to, and may exceed, twice the threshold (setup/highlight_bound.hpp); the rest is the rounding of both
 // pictures.
 TEST_P(Threshold, EveryPixelOfABuiltInSceneIsWithinIt) {
-  auto scene = must(load_scene(GetParam(), HALFWAY_SOURCE_DIR "/sim/scenes"));
+  auto scene = built_in_scene(GetParam());
   scene.shadows = false;  // the quadratic shader draws none
   const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
   const SetupOptions options;
@@ -42,8 +42,7 @@ TEST_P(Threshold, EveryPixelOfABuiltInSceneIsWithinIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Threshold,
-                         testing::Values("spheres", "highlights", "teapot", "lights", "matte", "shadows"),
+INSTANTIATE_TEST_SUITE_P(Scenes, Threshold, testing::ValuesIn(c_built_in_names),
                          [](const auto& test) { return std::string(test.param); });
 
 }  // namespace

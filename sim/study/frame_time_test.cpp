@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/os/csv.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/study/host_setup.hpp"
 
 namespace halfway::study {
@@ -17,7 +19,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class FrameTimes : public ::testing::Test {
+class FrameTimes : public FolderTest {
  protected:
   // `host_ns` 0: not measured.
   void add(Method method, const std::string& hardware, double host_ns, std::uint64_t cycles, double rms) {
@@ -89,32 +91,27 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
   add(Method::quadratic, "q", 1e5, 20'000, 4);
   add(Method::phong, "", 5e6, 0, 0);
   add(Method::processors_2, "p", 1e5, 20'000, 0);
-  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  const std::filesystem::path file = folder.path() / "times.csv";
-  ASSERT_TRUE(write_file(file, times_csv({}, records_, frame_times_of(records_, hardware_, {}))));
-  const auto table = must(read_csv(file));
+  const auto table = must(read_csv(
+      write("times.csv", times_csv({}, records_, frame_times_of(records_, hardware_, {})))));
   ASSERT_EQ(table.rows.size(), 2U);  // the processors do not fit
-  EXPECT_EQ(table.text(0, "device"), "FPGA 1");
-  EXPECT_EQ(table.text(1, "device"), "");
-  EXPECT_EQ(table.text(1, "clock_mhz"), "");
-  EXPECT_EQ(table.text(0, "clock_mhz"), "100.0");
-  EXPECT_EQ(table.text(0, "design"), "quadratic exact");
+  const std::array<const char*, 3> values[] = {
+      {"device", "FPGA 1", ""},      {"clock_mhz", "100.0", ""}, {"design", "quadratic exact", "phong"},
+      {"bound", "hardware", "host"}, {"words", "7", ""}};
+  for (const auto& [column, hardware, software] : values) {
+    EXPECT_EQ(table.text(0, column), hardware);
+    EXPECT_EQ(table.text(1, column), software);
+  }
   EXPECT_EQ(table.number(0, "host_ns"), 1e5);
   EXPECT_EQ(table.number(0, "hardware_ns"), 2e5);
   EXPECT_EQ(table.number(0, "overlapped_ns"), 2e5);
   EXPECT_EQ(table.number(0, "sequential_ns"), 3e5);
-  EXPECT_EQ(table.text(0, "bound"), "hardware");
-  EXPECT_EQ(table.text(0, "words"), "7");
-  EXPECT_EQ(table.text(1, "words"), "");
   EXPECT_EQ(table.text(1, "hardware_ns"), "");
 }
 
 // The time grows with the work, and the words are those of the stream.
 TEST(HostTimes, AreMeasuredForHardwareAndSoftware) {
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-  const SimulatorFolders folders{source, source / "build/cache"};
-  const std::string name = source / "sim/study/spaces/sphere.toml";
-  const auto time_of = [&](const DesignPoint& point) { return host_time(point, name, folders); };
+  const std::string name = c_source_folder / "sim/study/spaces/sphere.toml";
+  const auto time_of = [&](const DesignPoint& point) { return host_time(point, name, c_checkout); };
   const HostTime coarse = time_of({.method = Method::quadratic, .tessellation = 0.5});
   const HostTime fine = time_of({.method = Method::quadratic, .tessellation = 3});
   EXPECT_GT(coarse.ns, 0);

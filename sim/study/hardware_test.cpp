@@ -16,7 +16,9 @@
 
 #include "sim/cost/clock_store.hpp"
 #include "sim/cost/netlist_identity.hpp"
-#include "sim/os/test/source_folder.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/files/test/built_in_scene.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/test_files.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/pictures.hpp"
@@ -55,10 +57,9 @@ echo '{"utilization": {"ICESTORM_LC": {"used": 40, "available": 7680}}, "critica
   "fmax": {"clk": {"achieved": '$((100 + seed * 7 % 5))'}}}' >report.json
 )";
 
-class HardwareFiguresTest : public ::testing::Test {
+class HardwareFiguresTest : public FolderTest {
  protected:
   void SetUp() override {
-    folders_ = {folder_.path() / "source", folder_.path() / "cache"};
     // This tree has its own stored clocks.
     for (const char* name : {"docs/results", "sim"}) ASSERT_TRUE(make_folders(folders_.source / name));
     fs::create_directory_symlink(c_source_folder / "rtl", folders_.source / "rtl");
@@ -67,17 +68,16 @@ class HardwareFiguresTest : public ::testing::Test {
         fs::create_directory_symlink(entry.path(), folders_.source / "sim" / entry.path().filename());
     // Share GHDL's cache, because analysis takes longest.
     ASSERT_TRUE(make_folders(folders_.cache));
-    ASSERT_TRUE(make_folders(c_source_folder / "build/cache/ghdl"));
-    fs::create_directory_symlink(c_source_folder / "build/cache/ghdl", folders_.cache / "ghdl");
-    const fs::path bin = folder_.path() / "bin";
-    put_program(bin / "yosys", c_yosys);
-    put_program(bin / "nextpnr-ice40", c_nextpnr);
-    ::setenv("PATH", (bin.string() + ":" + path_).c_str(), 1);
+    ASSERT_TRUE(make_folders(c_checkout.cache / "ghdl"));
+    fs::create_directory_symlink(c_checkout.cache / "ghdl", folders_.cache / "ghdl");
+    put_program(at("bin/yosys"), c_yosys);
+    put_program(at("bin/nextpnr-ice40"), c_nextpnr);
+    ::setenv("PATH", (at("bin").string() + ":" + path_).c_str(), 1);
     ::setenv("LOG", log().c_str(), 1);
     ::unsetenv("PRODUCT");
     ::unsetenv("ENDLESS");
     set_results("4", "30", "6912");  // as full as can be placed
-    key_ = hardware_of(point_, drawn_scene(scene_, c_source_folder / "sim/scenes", point_)).key;
+    key_ = hardware_of(point_, drawn_scene(scene_, c_built_in_scenes, point_)).key;
     Record record{point_, {}};
     record.measured.hardware = key_.name();
     records_ = {record};
@@ -87,17 +87,22 @@ class HardwareFiguresTest : public ::testing::Test {
   void store(const synth::ClockStore& clocks) const {
     ASSERT_TRUE(synth::write_clocks(folders_.source, *family_, clocks));
   }
-  std::string netlist_of(const std::string& entity,
-                         const std::vector<std::pair<std::string, std::string>>& generics) const {
-    const synth::Design design{.entity = entity, .generics = generics, .root = c_source_folder};
-    return synth::netlist_identity(synth::netlist_of(design, folders_.cache));
+  /// A clock of the hardware that was placed elsewhere.
+  synth::StoredClock stored_clock() const {
+    const synth::Design design{
+        .entity = key_.entity(), .generics = key_.generics(), .root = c_source_folder};
+    return {.cells = {1, 2, 3, 4},
+            .mhz = 87.5,
+            .seeds = 3,
+            .tools = "Placer 1",
+            .netlist = synth::netlist_identity(synth::netlist_of(design, folders_.cache))};
   }
   static void set_results(const char* flip_flops, const char* luts, const char* packed) {
     ::setenv("FLIP_FLOPS", flip_flops, 1);
     ::setenv("LUTS", luts, 1);
     ::setenv("PACKED", packed, 1);
   }
-  fs::path log() const { return folder_.path() / "placements"; }
+  fs::path log() const { return at("placements"); }
   std::size_t placements() const {
     const auto text = read_file(log());
     return text ? static_cast<std::size_t>(std::ranges::count(*text, '\n')) : 0;
@@ -110,9 +115,8 @@ class HardwareFiguresTest : public ::testing::Test {
   const std::string path_ = std::getenv("PATH");
   const std::string scene_ = c_source_folder / "sim/study/spaces/sphere.toml";
   const DesignPoint point_{.method = Method::quadratic, .preset = Preset::published, .size = {160, 120}};
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(fs::temp_directory_path()));
   const synth::Family* family_ = &synth::c_ice40;
-  SimulatorFolders folders_;
+  const SimulatorFolders folders_{at("source"), at("cache")};
   HardwareKey key_;
   std::vector<Record> records_;
 };
@@ -121,9 +125,7 @@ TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlFo
   const synth::Cost none = figures(false);
   EXPECT_FALSE(none.mhz);
   EXPECT_EQ(none.clock, synth::c_not_placed);
-  const std::string netlist = netlist_of(key_.entity(), key_.generics());
-  const synth::StoredClock clock{
-      .cells = {1, 2, 3, 4}, .mhz = 87.5, .seeds = 3, .tools = "Placer 1", .netlist = netlist};
+  const synth::StoredClock clock = stored_clock();
   store({{"any", clock}});
   const synth::Cost stored = figures(true);
   EXPECT_EQ(stored.mhz, 87.5);
@@ -152,7 +154,7 @@ TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlFo
   store({{"any", of_another}});
   EXPECT_FALSE(figures(false).mhz);
   // Hardware that has no placement.
-  store({{"any", {.cells = {7681, 2, 3, 4}, .tools = "Placer 1", .netlist = netlist}}});
+  store({{"any", {.cells = {7681, 2, 3, 4}, .tools = "Placer 1", .netlist = clock.netlist}}});
   const synth::Cost large = figures(true);
   EXPECT_FALSE(large.mhz);
   EXPECT_FALSE(large.fits);
@@ -192,26 +194,21 @@ TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
 
 // Each device has its own clocks, cells and limits, for the same netlist.
 TEST_F(HardwareFiguresTest, CostsAreThoseOfTheDevice) {
-  const std::string netlist = netlist_of(key_.entity(), key_.generics());
-  const synth::StoredClock clock{
-      .cells = {1, 2, 3, 4}, .mhz = 87.5, .seeds = 3, .tools = "Placer 1", .netlist = netlist};
+  synth::StoredClock clock = stored_clock();
   store({{"any", clock}});
   EXPECT_EQ(figures(false).device, "iCE40 HX8K");
   family_ = &synth::c_ecp5;
   EXPECT_FALSE(figures(false).mhz);
   set_results("7681", "30", "40");
   EXPECT_TRUE(figures(false).fits);
-  store({{"any",
-          {.cells = {.luts = 5, .multipliers = 6},
-           .mhz = 120.5,
-           .seeds = 3,
-           .tools = "Placer 2",
-           .netlist = netlist}}});
+  clock.cells = {.luts = 5, .multipliers = 6};
+  clock.mhz = 120.5;
+  store({{"any", clock}});
   const synth::Cost stored = figures(false);
   EXPECT_EQ(stored.device, "ECP5 LFE5U-85F");
   EXPECT_EQ(stored.mhz, 120.5);
   EXPECT_EQ(stored.device_cells, (Cells{.luts = 5, .multipliers = 6}));
-  store({{"any", {.cells = {.multipliers = 157}, .tools = "Placer 2", .netlist = netlist}}});
+  store({{"any", {.cells = {.multipliers = 157}, .tools = "Placer 2", .netlist = clock.netlist}}});
   EXPECT_EQ(figures(false).clock, "does not fit the LFE5U-85F: 157 multipliers of 156");
 }
 
@@ -236,11 +233,10 @@ TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
   std::erase_if(points, [](const DesignPoint& point) {
     return point.method == Method::processors_1 || point.method == Method::processors_2;
   });
-  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
   const std::string scene = c_source_folder / "sim/study/spaces/sphere.toml";
-  const synth::Costing costing(folders, synth::c_ice40);
+  const synth::Costing costing(c_checkout, synth::c_ice40);
   std::size_t clocks = 0;
-  for (const synth::Design& design : hardware_of_space(scene, points, folders)) {
+  for (const synth::Design& design : hardware_of_space(scene, points, c_checkout)) {
     const synth::Cost cost = costing.stored(design);
     EXPECT_EQ(cost.clock == synth::c_stored, cost.mhz.has_value());
     EXPECT_NE(cost.clock, synth::c_not_placed) << design.name << ": make evidence PAGE=clocks places it";
@@ -253,7 +249,7 @@ TEST(StudyClocks, AreThoseOfTheSmallStudysHardware) {
 TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   StudySettings settings{.scene = scene_,
                          .points = {{.method = Method::gouraud, .size = {32, 24}}},
-                         .out = folder_.path() / "out",
+                         .out = at("out"),
                          .parts = synth::c_seeds,
                          .folders = folders_,
                          .placed = {point_},
@@ -266,7 +262,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   };
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
   EXPECT_EQ(run(1), 1U);
-  EXPECT_EQ(must(read_file(log())), "2\n");
+  EXPECT_EQ(text_of(log()), "2\n");
   EXPECT_THAT(open(), ElementsAre(0U, 2U));
   EXPECT_EQ(run(1), 0U);
   EXPECT_EQ(run(2) + run(0), 2U);
@@ -279,7 +275,7 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   // Changing the RTL makes the piece open again.
   fs::remove(folders_.source / "rtl");
   fs::copy(c_source_folder / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
-  ASSERT_TRUE(write_file(folders_.source / "rtl/notes", "another"));
+  write("source/rtl/notes", "another");
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
 }
 
@@ -292,7 +288,7 @@ TEST_F(HardwareFiguresTest, APlacementThatDoesNotEndIsRepeatedWithTheOlderRouter
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   set_results("4", "7681", "40");
   const StudySettings settings{.scene = scene_,
-                               .out = folder_.path() / "out",
+                               .out = at("out"),
                                .folders = folders_,
                                .placed = {point_},
                                .family = family_};
@@ -308,7 +304,7 @@ TEST(HostWork, IsSharedOnlyIfItIsTheSame) {
     if (!in_hardware(point.method)) continue;
     point.size = {64, 48};
     ++points;
-    const Scene scene = drawn_scene("spheres", c_source_folder / "sim/scenes", point);
+    const Scene scene = drawn_scene("spheres", c_built_in_scenes, point);
     const PointHardware hardware = hardware_of(point, scene);
     const HostWork work =
         set_up_frame(scene, point.size, hardware.key, frame_setup(point, scene), hardware.models);

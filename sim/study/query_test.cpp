@@ -73,10 +73,12 @@ TEST_P(RandomMarket, AnswersAreCorrect) {
     if (random() % 2 == 0) demand.largest_error = static_cast<double>(random() % 4);
     if (random() % 2 == 0) demand.psnr_db = 40.0 + static_cast<double>(random() % 20);
     if (GetParam() && random() % 2 == 0) demand.seconds = 1e-5 * static_cast<double>(1 + random() % 6);
+    const auto timely = [&](const Offer& o) {
+      return !demand.seconds || (o.seconds && *o.seconds <= *demand.seconds);
+    };
     const auto meets = [&](const Offer& o) {
       return (!demand.largest_error || o.largest_error <= *demand.largest_error) &&
-             (!demand.psnr_db || o.psnr_db >= *demand.psnr_db) &&
-             (!demand.seconds || (o.seconds && *o.seconds <= *demand.seconds));
+             (!demand.psnr_db || o.psnr_db >= *demand.psnr_db) && timely(o);
     };
     const Answer found = answer(offers, demand);
     ASSERT_EQ(found.cheapest.has_value(), std::ranges::any_of(offers, meets));
@@ -99,9 +101,6 @@ TEST_P(RandomMarket, AnswersAreCorrect) {
     const bool by_psnr = demand.psnr_db && !demand.largest_error;
     const auto better = [&](const Offer& a, const Offer& b) {
       return by_psnr ? a.psnr_db > b.psnr_db : a.largest_error < b.largest_error;
-    };
-    const auto timely = [&](const Offer& o) {
-      return !demand.seconds || (o.seconds && *o.seconds <= *demand.seconds);
     };
     EXPECT_EQ(found.accurate.has_value(),
               std::ranges::any_of(offers, [&](const Offer& o) { return timely(o) && better(o, here); }));

@@ -16,17 +16,14 @@
 
 #include "scene/lights.hpp"
 #include "sim/files/image_library.hpp"
-#include "sim/files/load_scene.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
+#include "sim/files/test/built_in_scene.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway::study {
 namespace {
 
 Scene scene_of_everything() {
-  auto scene = must(load_scene((c_source_folder / "sim/study/spaces/sphere.toml").string(),
-                               c_source_folder / "sim/scenes", {.tessellation = 0.25}));
+  Scene scene = built_in_scene(c_source_folder / "sim/study/spaces/sphere.toml", {.tessellation = 0.25});
   scene.positional.resize(2);
   scene.spots.resize(2);
   scene.materials.resize(2);
@@ -104,74 +101,67 @@ TEST(SceneHash, ChangesWithEveryNumberThatAPictureDependsOn) {
   }
 }
 
-class RecordsTest : public ::testing::Test {
- protected:
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-};
+using RecordsTest = FolderTest;
 
 TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
-  const Provenance here{"scene", "1", "2", "3", "4"};
+  const Provenance known{"scene", "1", "2", "3", "4"};
   Record record{{.method = Method::adaptive}, {}};
   record.measured.picture.psnr_db = std::numeric_limits<double>::infinity();
   record.measured.cycles = 77;
-  const Records records(folder_.path(), here);
+  const Records records(here(), known);
   records.add_frame(record.point, Frame(record.point.size));
   records.add(record);
   const auto find = [&](const Provenance& provenance, const DesignPoint& point) {
-    return Records(folder_.path(), provenance).find(point);
+    return Records(here(), provenance).find(point);
   };
-  const auto found = find(here, record.point);
+  const auto found = find(known, record.point);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->measured.cycles, 77U);
   EXPECT_EQ(found->measured.picture.psnr_db, std::numeric_limits<double>::infinity());
   EXPECT_EQ(found->measured.host_instructions, std::nullopt);
   for (std::string Provenance::* part : {&Provenance::scene, &Provenance::scene_hash, &Provenance::program,
                                          &Provenance::rtl, &Provenance::tools}) {
-    Provenance other = here;
+    Provenance other = known;
     other.*part += "0";
     EXPECT_FALSE(find(other, record.point)) << other.*part;
   }
   DesignPoint other = record.point;
   other.threshold = 4.0;
-  EXPECT_FALSE(find(here, other));
-  ASSERT_TRUE(write_file(records.file(record.point), "{}"));
-  EXPECT_FALSE(find(here, record.point));
+  EXPECT_FALSE(find(known, other));
+  write(records.file(record.point), "{}");
+  EXPECT_FALSE(find(known, record.point));
   records.add(record);
-  EXPECT_TRUE(find(here, record.point));
+  EXPECT_TRUE(find(known, record.point));
   std::filesystem::remove(records.picture(record.point));
-  EXPECT_FALSE(find(here, record.point));
+  EXPECT_FALSE(find(known, record.point));
 }
 
 // Change one byte, or one file name, of a checkout's RTL.
 TEST_F(RecordsTest, ProvenanceCoversEveryFileOfTheRtl) {
   const Scene scene = scene_of_everything();
-  std::filesystem::create_directories(folder_.path() / "rtl/part");
-  const auto write = [&](const char* name, const char* text) {
-    ASSERT_TRUE(write_file(folder_.path() / "rtl" / name, text));
-  };
   std::set<std::string> hashes;
   const auto expect_another = [&](const char* what) {
-    const Provenance provenance = provenance_of(scene, {folder_.path(), folder_.path() / "cache"});
+    const Provenance provenance = provenance_of(scene, {here(), at("cache")});
     EXPECT_TRUE(hashes.insert(provenance.rtl).second) << what;
     EXPECT_EQ(provenance.scene_hash, scene_hash(scene));
   };
-  write("a.vhd", "a");
+  write("rtl/a.vhd", "a");
   expect_another("one file");
-  write("part/b.vhd", "b");
+  write("rtl/part/b.vhd", "b");
   expect_another("two");
-  write("part/b.vhd", "c");
+  write("rtl/part/b.vhd", "c");
   expect_another("a byte");
-  std::filesystem::rename(folder_.path() / "rtl/a.vhd", folder_.path() / "rtl/d.vhd");
+  std::filesystem::rename(at("rtl/a.vhd"), at("rtl/d.vhd"));
   expect_another("a name");
 }
 
 // A program with one byte more is another program; an identical copy is the same.
 TEST_F(RecordsTest, ProvenanceCoversTheProgram) {
-  const std::string mine = must(read_file("/proc/self/exe")), images = must(read_file(image_library_file()));
-  const Provenance provenance = provenance_of(scene_of_everything(), {c_source_folder, folder_.path()});
+  const std::string mine = text_of("/proc/self/exe"), images = text_of(image_library_file());
+  const Provenance provenance = provenance_of(scene_of_everything(), {c_source_folder, here()});
   EXPECT_THAT(provenance.tools,
               ::testing::ContainsRegex("GHDL .*Verilator .*OpenImageIO [0-9]+[.][0-9]+[.][0-9]+"));
-  const std::string mesa = must(read_file(mesa_program(c_source_folder)));
+  const std::string mesa = text_of(mesa_program(c_source_folder));
   EXPECT_EQ(provenance.program, ContentHash().add(mine).add(images).add(mesa).hex());
   EXPECT_NE(provenance.program, ContentHash().add(mine + '\0').add(images).add(mesa).hex());
   EXPECT_NE(provenance.program, ContentHash().add(mine).add(images).add(mesa + '\0').hex());

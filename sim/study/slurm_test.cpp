@@ -10,9 +10,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 #include "sim/os/subprocess.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/study/stand_in_slurm_test.hpp"
 
 namespace halfway::study {
@@ -22,18 +21,17 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class JobScriptTest : public ::testing::Test {
+class JobScriptTest : public FolderTest {
  protected:
-  void SetUp() override { put_program(folder_.path() / "scontrol", "#!/bin/sh\necho \"scontrol $*\"\n"); }
+  void SetUp() override { put_program(at("scontrol"), "#!/bin/sh\necho \"scontrol $*\"\n"); }
   ProcessEnd run(const JobArray& array, const std::string& restarts) const {
     return must(run_process({.arguments = {"sh", "-c", job_script(array)},
-                             .environment = {{"PATH", folder_.path().string() + ":/usr/bin:/bin"},
+                             .environment = {{"PATH", here().string() + ":/usr/bin:/bin"},
                                              {"SLURM_ARRAY_TASK_ID", "3"},
                                              {"SLURM_ARRAY_JOB_ID", "77"},
                                              {"SLURM_RESTART_COUNT", restarts}}},
                             ""));
   }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(JobScriptTest, PassesThePartToTheWorkerLiterally) {
@@ -54,11 +52,11 @@ TEST_F(JobScriptTest, RequeuesAFailedTaskAFewTimes) {
   EXPECT_EQ(end.exit_status, 5);
 }
 
-class JobArrayTest : public ::testing::Test {
+class JobArrayTest : public FolderTest {
  protected:
   void SetUp() override {
-    put_slurm(folder_.path());
-    ::setenv("PATH", (folder_.path().string() + ":" + path_).c_str(), 1);
+    put_slurm(here());
+    ::setenv("PATH", (here().string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
   // Run tasks 1, 4 and 5 of 8. $2 is the part.
@@ -66,15 +64,14 @@ class JobArrayTest : public ::testing::Test {
     return {.worker = {"sh", "-c", script, "worker"},
             .parts = 8,
             .open = {1, 4, 5},
-            .folder = folder_.path() / "slurm"};
+            .folder = at("slurm")};
   }
   const std::string path_ = std::getenv("PATH");
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(JobArrayTest, RunsTheOpenParts) {
-  run_job_array(array("echo part $2 >>'" + (folder_.path() / "parts").string() + "'"));
-  const std::string parts = must(read_file(folder_.path() / "parts"));
+  run_job_array(array("echo part $2 >>'" + at("parts").string() + "'"));
+  const std::string parts = text_of("parts");
   for (const char* part : {"part 1/8\n", "part 4/8\n", "part 5/8\n"}) EXPECT_THAT(parts, HasSubstr(part));
   EXPECT_EQ(std::ranges::count(parts, '\n'), 3);
 }

@@ -11,13 +11,13 @@
 #include <utility>
 
 #include "common/test/is_error.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/image.hpp"
 #include "sim/generator/word_lengths/made_tables.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 #include "sim/os/sanitizers.hpp"
 #include "sim/os/subprocess.hpp"
-#include "sim/os/test/source_folder.hpp"
+#include "sim/os/test/folder_test.hpp"
+#include "sim/os/test/test_files.hpp"
 #include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/table.hpp"
@@ -33,19 +33,23 @@ std::string table_of(const Study& study) {
   return to_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
 }
 
-class StudyTest : public ::testing::Test {
+class StudyTest : public FolderTest {
  protected:
   void SetUp() override {
     settings_.scene = c_source_folder / "sim/study/spaces/sphere.toml";
-    settings_.out = folder_.path();
+    settings_.out = here();
     settings_.threads = 2;
-    settings_.folders = {c_source_folder, c_source_folder / "build" / "cache"};
+    settings_.folders = c_checkout;
     for (const Method method : {Method::phong, Method::gouraud, Method::quadratic, Method::adaptive})
       settings_.points.push_back(
           {.method = method, .tessellation = 0.5, .exponent = 50.0, .size = {160, 120}});
   }
   Study study() const { return run_study(settings_); }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+  /// A file of a point that the study keeps.
+  template <class Point>
+  std::filesystem::path file(const Provenance& of, const Point& point, const char* ending) const {
+    return at("points") / (record_name(of, point) + ending);
+  }
   StudySettings settings_;
 };
 
@@ -77,11 +81,8 @@ TEST_F(StudyTest, ContinuesAfterAnInterruption) {
   EXPECT_EQ(study().measured, 0U);
   // Remove one point's figures and another point's frame.
   const Provenance provenance = study().provenance;
-  const auto lose = [&](std::size_t point, const char* ending) {
-    return std::filesystem::remove(folder_.path() / "points" /
-                                   (record_name(provenance, settings_.points[point]) + ending));
-  };
-  EXPECT_TRUE(lose(0, ".json") && lose(1, ".png"));
+  EXPECT_TRUE(std::filesystem::remove(file(provenance, settings_.points[0], ".json")));
+  EXPECT_TRUE(std::filesystem::remove(file(provenance, settings_.points[1], ".png")));
   const Study again = study();
   EXPECT_EQ(again.measured, 2U);
   EXPECT_EQ(table_of(again), first);
@@ -89,9 +90,7 @@ TEST_F(StudyTest, ContinuesAfterAnInterruption) {
 
 TEST_F(StudyTest, MeasuresUnreadablePointsAndOtherScenesAgain) {
   const std::string table = table_of(study());
-  const std::string file =
-      folder_.path() / "points" / (record_name(study().provenance, settings_.points[0]) + ".json");
-  ASSERT_TRUE(write_file(file, "{"));
+  write(file(study().provenance, settings_.points[0], ".json"), "{");
   const Study again = study();
   EXPECT_EQ(again.measured, 1U);
   EXPECT_EQ(table_of(again), table);
@@ -108,7 +107,7 @@ TEST_F(StudyTest, PartsTogetherEqualTheWhole) {
   for (const DesignPoint& point : settings_.points) all.push_back(point.name());
   EXPECT_EQ(names, all);
   EXPECT_TRUE(open_parts(settings_).empty());
-  std::filesystem::remove_all(folder_.path() / "points");
+  std::filesystem::remove_all(at("points"));
   settings_.part = 1;
   study();
   EXPECT_THAT(open_parts(settings_), ::testing::ElementsAre(0U, 2U));
@@ -141,8 +140,7 @@ class TiledStudyTest : public StudyTest {
     }
   }
   std::vector<std::uint8_t> picture(const Study& of, std::size_t point) const {
-    const std::string name = record_name(of.provenance, of.records[point].point) + ".png";
-    return must(read_png(folder_.path() / "points" / name)).rgb;
+    return must(read_png(file(of.provenance, of.records[point].point, ".png"))).rgb;
   }
   Study whole_;
 };
@@ -168,19 +166,17 @@ class InterruptedStudyTest : public TiledStudyTest {
     settings_.part = 0;
     settings_.parts = 1;
     for (const char* ending : {".json", ".png"})
-      ASSERT_TRUE(std::filesystem::remove(file(settings_.points[0].name(), ending)));
-    std::filesystem::copy(points(), tiles());
+      ASSERT_TRUE(std::filesystem::remove(tile_file(settings_.points[0].name(), ending)));
+    std::filesystem::copy(at("points"), at("tiles"));
     table_ = table_of(study());
     restore();
   }
-  std::filesystem::path points() const { return folder_.path() / "points"; }
-  std::filesystem::path tiles() const { return folder_.path() / "tiles"; }
   void restore() const {
-    std::filesystem::remove_all(points());
-    std::filesystem::copy(tiles(), points());
+    std::filesystem::remove_all(at("points"));
+    std::filesystem::copy(at("tiles"), at("points"));
   }
-  std::filesystem::path file(const std::string& name, const char* ending) const {
-    return points() / (record_name(whole_.provenance, name) + ending);
+  std::filesystem::path tile_file(const std::string& name, const char* ending) const {
+    return file(whole_.provenance, name, ending);
   }
   void expect_anew(std::size_t tiles) const {
     const Study again = study();
@@ -196,16 +192,16 @@ class InterruptedStudyTest : public TiledStudyTest {
 
 // Only lost tiles are drawn again.
 TEST_F(InterruptedStudyTest, ContinuesTileByTile) {
-  EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-1.json")));
-  EXPECT_TRUE(std::filesystem::remove(file(drawing_, "-tile-2-mask.png")));
-  EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-0.png")));
+  EXPECT_TRUE(std::filesystem::remove(tile_file(drawing_, "-tile-1.json")));
+  EXPECT_TRUE(std::filesystem::remove(tile_file(drawing_, "-tile-2-mask.png")));
+  EXPECT_TRUE(std::filesystem::remove(tile_file(reference_, "-tile-0.png")));
   expect_anew(3);
 }
 
 // A study stops at a damaged tile, and draws it again when it is removed.
 TEST_F(InterruptedStudyTest, RefusesTilesOfAnotherSize) {
   const std::pair<std::filesystem::path, FrameSize> cases[] = {
-      {file(drawing_, "-tile-0.png"), {37, 8}}, {file(reference_, "-tile-0-mask.png"), {64, 48}}};
+      {tile_file(drawing_, "-tile-0.png"), {37, 8}}, {tile_file(reference_, "-tile-0-mask.png"), {64, 48}}};
   for (const auto& [tile, size] : cases) {
     ASSERT_TRUE(write_png(tile, Frame(size)));
     EXPECT_TRUE(
@@ -219,9 +215,9 @@ TEST_F(InterruptedStudyTest, RefusesTilesOfAnotherSize) {
 }
 
 TEST_F(InterruptedStudyTest, RefusesTilesWithoutFigures) {
-  const std::filesystem::path figures = file(drawing_, "-tile-1.json");
+  const std::filesystem::path figures = tile_file(drawing_, "-tile-1.json");
   for (const char* text : {"{", "{}", R"({"hardware": "quadratic", "fragments": "many"})"}) {
-    ASSERT_TRUE(write_file(figures, text));
+    write(figures, text);
     const auto made = caught([&] { return study(); });
     EXPECT_TRUE(is_error(made, ExitCode::bad_input, figures.string() + ": [json.exception."));
     EXPECT_TRUE(is_error(made, ExitCode::bad_input, "; remove it"));
@@ -235,13 +231,13 @@ TEST_F(InterruptedStudyTest, RefusesTilesWithoutFigures) {
 TEST_F(InterruptedStudyTest, KeepsOnlyTheReferencesTiles) {
   expect_anew(0);
   std::size_t left = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(points()))
+  for (const auto& entry : std::filesystem::directory_iterator(at("points")))
     left += entry.path().filename().string().find("-tile-") != std::string::npos;
   EXPECT_EQ(left, 4U * 3U);
-  EXPECT_TRUE(std::filesystem::remove(file(reference_, "-tile-3.json")));
+  EXPECT_TRUE(std::filesystem::remove(tile_file(reference_, "-tile-3.json")));
   Study again = study();
   EXPECT_EQ(again.drawn_tiles + again.measured, 0U);
-  EXPECT_TRUE(std::filesystem::remove(file(drawing_, ".json")));
+  EXPECT_TRUE(std::filesystem::remove(tile_file(drawing_, ".json")));
   again = study();
   EXPECT_EQ(again.drawn_tiles, 5U);
   EXPECT_EQ(again.measured, 1U);
@@ -339,15 +335,9 @@ TEST_F(StudyTest, DrawsBehindObjectProcessors) {
 TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = words::CosineSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
-  const auto folder = tables::rtl_with(true, words::CosineSize{5, 4}, {}, c_source_folder, folder_.path());
-  const std::filesystem::path package = folder / "rtl/tables/cosine_pkg.vhd";
-  auto text = must(read_file(package));
-  const std::size_t at = text.find("c_exact_cosine_1_5_4");
-  ASSERT_NE(at, std::string::npos);
-  const std::size_t entry = text.find("15", text.find('(', text.find(":=", at)));
-  ASSERT_NE(entry, std::string::npos);
-  ASSERT_TRUE(write_file(package, text.replace(entry, 2, "14")));
-  settings_.folders.cache = folder_.path();
+  const auto folder = tables::rtl_with(true, words::CosineSize{5, 4}, {}, c_source_folder, here());
+  replace_in(folder / "rtl/tables/cosine_pkg.vhd", "15", "14", "constant c_exact_cosine_1_5_4");
+  settings_.folders.cache = here();
   settings_.points = {point};
   EXPECT_TRUE(
       is_error(caught([&] { return study(); }), ExitCode::differs, "the RTL differs from the golden model"));
@@ -440,11 +430,11 @@ TEST_F(StudyTest, TheTableContainsTheFront) {
 TEST_F(StudyTest, CountsTheHostsInstructions) {
   ASSERT_FALSE(find_program("valgrind").empty()) << "no Valgrind: " << c_install_valgrind;
   if (c_sanitized) GTEST_SKIP() << "Valgrind cannot run a program built with sanitizers";
-  ASSERT_TRUE(write_file(folder_.path() / "space.toml",
-                         "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n"));
-  const auto points = read_space(folder_.path() / "space.toml");
+  const auto space =
+      write("space.toml", "[[sweep]]\nmethod = [\"quadratic\", \"adaptive\"]\nsize = \"160x120\"\n");
+  const auto points = read_space(space);
   settings_.points = points;
-  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", (folder_.path() / "space.toml").string()};
+  settings_.set_up = {HALFWAY_PROGRAM, "study", "--space", space.string()};
   const Study made = study();
   ASSERT_EQ(made.records.size(), 2U);
   const auto of = [](const Record& record) { return record.measured.host_instructions; };
@@ -452,10 +442,10 @@ TEST_F(StudyTest, CountsTheHostsInstructions) {
   EXPECT_GT(of(made.records[1]), of(made.records[0]));
   // The counts do not depend on the order of the points.
   const auto again =
-      host_instructions(settings_.set_up, {points.at(1).name(), points.at(0).name()}, folder_.path());
+      host_instructions(settings_.set_up, {points.at(1).name(), points.at(0).name()}, here());
   EXPECT_EQ(again->at(0), of(made.records[1]));
   EXPECT_EQ(again->at(1), of(made.records[0]));
-  EXPECT_THROW(host_instructions(settings_.set_up, {"no such point"}, folder_.path()), Failure);
+  EXPECT_THROW(host_instructions(settings_.set_up, {"no such point"}, here()), Failure);
   // The count is stored with the record.
   settings_.set_up.clear();
   EXPECT_EQ(of(study().records[1]), of(made.records[1]));

@@ -11,10 +11,10 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/init_file.hpp"
-#include "sim/files/load_scene.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/files/test/built_in_scene.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -30,7 +30,7 @@ struct Stream {
 };
 
 Stream stream_of(const char* name, Shader shader, FrameSize frame) {
-  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
+  const auto scene = built_in_scene(name);
   const auto plan = must(plan_scene(scene, {.shader = shader}));
   FrameStream stream = must(whole_stream(scene, frame, plan.key));
   Cuts cuts(plan.key);
@@ -77,23 +77,19 @@ TEST(GhdlParts, BeginAtTrianglesAndHangOnTheFrameAlone) {
   }
 }
 
+// Also where triangles depend on those before.
 TEST(GhdlParts, AreOneWhereThereIsLittleToDraw) {
   EXPECT_THAT(stream_of("spheres", Shader::quadratic, {64, 48}).cuts.parts(), SizeIs(1));
+  EXPECT_THAT(stream_of("spheres", Shader::processors, {160, 120}).cuts.parts(), SizeIs(1));
 }
 
-TEST(GhdlParts, AreOneWhereTrianglesHangOnThoseBefore) {
-  const Stream s = stream_of("spheres", Shader::processors, {160, 120});
-  EXPECT_THAT(s.cuts.parts(), SizeIs(1));
-}
+using GhdlRuns = FolderTest;
 
-TEST(GhdlParts, DrawWhatOneRunDraws) {
-  const auto scratch = must(TemporaryFolder::make(testing::TempDir()));
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-  const SimulatorFolders folders{source, source / "build" / "cache"};
-  const auto init = scratch.path() / "init", trace = scratch.path() / "trace";
+TEST_F(GhdlRuns, InPartsDrawWhatOneRunDraws) {
+  const auto init = at("init"), trace = at("trace");
   for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
     const Stream s = stream_of("spheres", shader, {64, 48});
-    const auto runner = must(GhdlRunner::open(s.key, folders));
+    const auto runner = must(GhdlRunner::open(s.key, c_checkout));
     ASSERT_TRUE(write_init_file(init, s.key.name(), s.init));
     const std::vector<std::uint64_t> triangles = triangles_of(s);
     const auto one = must(runner.run(init, trace));
@@ -119,9 +115,8 @@ TEST(GhdlParts, DrawWhatOneRunDraws) {
 
 // Several frames, one of them without a vector.
 TEST(GhdlEngine, DrawsInDrainAlone) {
-  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
   const Stream s = stream_of("spheres", Shader::quadratic, {64, 48});
-  auto engine = must(GhdlEngine::open(s.key, {source, source / "build" / "cache"}, 1, {}));
+  auto engine = must(GhdlEngine::open(s.key, c_checkout, 1, {}));
   EXPECT_FALSE(engine.cycles());
   std::uint64_t cycles = 0;
   for (int frame = 1; frame <= 2; ++frame) {

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -27,11 +26,12 @@ begin
 end architecture;
 )";
 
-TEST(GhdlLibrary, KeepsNetlistsByEntityGenericsAndSources) {
+using GhdlLibraryTest = FolderTest;
+
+TEST_F(GhdlLibraryTest, KeepsNetlistsByEntityGenericsAndSources) {
   auto tool = must(GhdlTool::find());
-  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
   const auto synthesize = [&](const std::string& source, const char* bits) -> Result<std::string> {
-    const auto library = GhdlLibrary::for_synthesis(tool, {{"held.vhd", source}}, folder.path());
+    const auto library = GhdlLibrary::for_synthesis(tool, {{"held.vhd", source}}, here());
     if (!library) return library.error();
     return library->synthesize("held", {{"g_bits", bits}});
   };
@@ -43,7 +43,7 @@ TEST(GhdlLibrary, KeepsNetlistsByEntityGenericsAndSources) {
   const auto inverted = must(synthesize(other, "4"));
   EXPECT_NE(inverted, *four);
   // Without GHDL, only cached results are available.
-  tool.program = (folder.path() / "none").string();
+  tool.program = at("none").string();
   for (const auto& [source, bits, text] : {std::tuple{std::string(c_entity), "4", *four},
                                            {std::string(c_entity), "7", *seven},
                                            {other, "4", inverted}}) {

@@ -4,10 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "plan/plan.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -43,24 +42,16 @@ TEST(InstanceTree, CountsNamedInstancesAndWhatIsBelowThem) {
 }
 
 Plan plan_of(const std::string& name, Shader shader, Preset preset) {
-  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
-  return must(plan_scene(scene, {.shader = shader, .preset = preset}));
-}
-
-const PlannedEffect& effect(const Plan& plan, Effect effect) {
-  return plan.effects.at(static_cast<std::size_t>(effect));
+  return must(plan_scene(built_in_scene(name), {.shader = shader, .preset = preset}));
 }
 
 class HardwareUnits : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::filesystem::path source = HALFWAY_SOURCE_DIR;
-    auto counter = must(UnitCounter::open({source, source / "build" / "cache"}));
-    counter_.emplace(std::move(counter));
+  UnitCounts units(const HardwareKey& key) { return counter_.count(key); }
+  UnitCounts units(const Plan& plan, Effect of) {
+    return counter_.count(plan.key, plan.effects.at(static_cast<std::size_t>(of)));
   }
-  UnitCounts units(const HardwareKey& key) { return counter_->count(key); }
-  UnitCounts units(const Plan& plan, Effect of) { return counter_->count(plan.key, effect(plan, of)); }
-  std::optional<UnitCounter> counter_;
+  UnitCounter counter_ = must(UnitCounter::open(c_checkout));
 };
 
 // Counted by hand in the entities' source text.

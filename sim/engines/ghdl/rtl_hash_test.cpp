@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -24,13 +23,13 @@ TEST(BareVhdl, KeepsLiterals) {
   EXPECT_NE(bare_vhdl("a = 'X';"), bare_vhdl("a = 'x';"));
 }
 
-TEST(RtlHash, ChangesWithTheSourcesAndNotWithComments) {
-  const auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
+using RtlHash = FolderTest;
+
+TEST_F(RtlHash, ChangesWithTheSourcesAndNotWithComments) {
+  write("rtl/files.f", "a.vhd\n");
   const auto hash = [&](std::string_view text) {
-    EXPECT_TRUE(write_file(folder.path() / "rtl/files.f", "a.vhd\n"));
-    EXPECT_TRUE(write_file(folder.path() / "rtl/a.vhd", text));
-    const auto result = rtl_hash(folder.path());
-    return result ? *result : result.error().message;
+    write("rtl/a.vhd", text);
+    return must(rtl_hash(here()));
   };
   const std::string one = hash("a <= b;\n");
   EXPECT_EQ(one.size(), 32U) << one;

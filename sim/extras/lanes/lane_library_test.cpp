@@ -10,15 +10,13 @@
 #include <random>
 
 #include "common/test/is_error.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/engines/verilator/verilated_library.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
 
-const std::filesystem::path c_cache = c_source_folder / "build" / "cache";
 constexpr unsigned c_stimulus_words = 5, c_response_words = 100;
 constexpr std::size_t c_vectors = 500;  // per lane
 
@@ -179,16 +177,16 @@ ROM
     late0, late1, late4, late6, late7, late8, late9, late9 ^ late2, taken};
 )";
 
-class Lanes : public testing::Test {
+class Lanes : public FolderTest {
  protected:
-  void SetUp() override { ASSERT_TRUE(write_file(scratch_.path() / "harness.cpp", c_harness)); }
+  void SetUp() override { write("harness.cpp", c_harness); }
 
   LaneBuild build_of(const std::string& body, LaneVectors vectors = LaneVectors::avx512) const {
     return {.name = "test",
             .netlist = module_of(body),
             .top = "m",
             .ports = {.fixed = {}, .outputs = {"response"}},
-            .harness = scratch_.path() / "harness.cpp",
+            .harness = at("harness.cpp"),
             .source = c_source_folder,
             .definitions = {},
             .fast = false,
@@ -196,17 +194,15 @@ class Lanes : public testing::Test {
             .compiler = {}};
   }
   Result<SharedLibrary> open(const std::string& body, LaneVectors vectors = LaneVectors::avx512) {
-    return caught([&] { return open_lanes(build_of(body, vectors), c_cache); });
+    return caught([&] { return open_lanes(build_of(body, vectors), c_checkout.cache); });
   }
-  std::string text_of(const std::string& body) const {
-    return must(read_file(build_lanes(build_of(body), c_cache).parent_path() / "lanes.hpp"));
+  std::string lanes_of(const std::string& body) const {
+    return text_of(build_lanes(build_of(body), c_checkout.cache).parent_path() / "lanes.hpp");
   }
 
   void expect_refused(const std::string& body, const std::string& with) {
     EXPECT_TRUE(is_error(open(body), ExitCode::tool_failed, with)) << body;
   }
-
-  const TemporaryFolder scratch_ = must(TemporaryFolder::make(testing::TempDir()));
 };
 
 /// The number of lanes in the widest vectors of this machine.
@@ -255,7 +251,7 @@ TEST_P(LanesOfVectors, EveryOperationGivesVerilatorsResult) {
                                               .definitions = {},
                                               .fast = false,
                                               .compiler = {}},
-                                             c_cache));
+                                             c_checkout.cache));
   const auto verilate =
       verilated.function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("netlist_run");
   ASSERT_TRUE(verilate) << verilate.error().message;
@@ -275,14 +271,13 @@ TEST_F(Lanes, TheTextCompilesForWebAssembly) {
   body.replace(body.find("ROM\n"), 4, "    rom[63] = 8'd1;\n");
   LaneBuild build = build_of(body);
   build.target = LaneTarget::web_assembly;
-  const auto module = build_lanes(build, c_cache);
-  const auto bytes = must(read_file(module));
-  EXPECT_TRUE(bytes.starts_with(std::string_view("\0asm", 4)));
+  const auto module = build_lanes(build, c_checkout.cache);
+  EXPECT_TRUE(text_of(module).starts_with(std::string_view("\0asm", 4)));
 }
 
 TEST_F(Lanes, KeepingAValueBecomesACondition) {
   // A record of two fields with separate conditions.
-  const std::string record = text_of(
+  const std::string record = lanes_of(
       "  reg [15:0] q;\n"
       "  always @(posedge clk)\n"
       "    q <= stimulus[0] ? {q[15:8], stimulus[15:8]} : stimulus[1] ? {stimulus[31:24], q[7:0]} : q;\n"
@@ -292,7 +287,7 @@ TEST_F(Lanes, KeepingAValueBecomesACondition) {
   EXPECT_EQ(record.find("  {\n"), std::string::npos) << record;
 
   // A sum that is loaded or stepped. Only the step adds.
-  const std::string text = text_of(
+  const std::string text = lanes_of(
       "  reg [15:0] q;\n"
       "  wire [15:0] addend;\n"
       "  assign addend = stimulus[1] ? stimulus[31:16] : stimulus[63:48];\n"
@@ -366,12 +361,12 @@ extern "C" __attribute__((visibility("default"))) void lanes_observe(const std::
 )";
 
 TEST_F(Lanes, SignalsAreObservedBeforeTheEdge) {
-  ASSERT_TRUE(write_file(scratch_.path() / "harness.cpp", c_observing_harness));
+  write("harness.cpp", c_observing_harness);
   LaneBuild build = build_of(c_instance);
   build.ports.top = "m";
   build.ports.observed = {
       {"part/value", 0, 40}, {"part/next", 4, 36}, {"part/odd", 0, 1}, {"two", 0, 8}, {"three", 5, 3}};
-  const auto library = open_lanes(build, c_cache);
+  const auto library = open_lanes(build, c_checkout.cache);
   const auto observe =
       library.function<void(const std::uint32_t*, std::size_t, std::uint32_t*)>("lanes_observe");
   ASSERT_TRUE(observe) << observe.error().message;
@@ -395,7 +390,7 @@ TEST_F(Lanes, SignalsAreObservedBeforeTheEdge) {
   }
 
   build.ports.observed = {{"part/missing", 0, 1}};
-  EXPECT_TRUE(is_error(caught([&] { return build_lanes(build, c_cache); }), "part/missing: "));
+  EXPECT_TRUE(is_error(caught([&] { return build_lanes(build, c_checkout.cache); }), "part/missing: "));
 }
 
 TEST_F(Lanes, UnsupportedConstructsAreRefused) {

@@ -11,14 +11,13 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/plan.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/files/load_scene.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
 
 namespace halfway {
 namespace {
 
-const SimulatorFolders c_folders{c_source_folder, c_source_folder / "build" / "cache"};
 constexpr std::size_t c_most = std::size_t{1} << 24;
 
 struct Case {
@@ -30,7 +29,7 @@ struct Case {
 class ShadersInLanes : public testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
-    auto scene = must(load_scene(GetParam().scene, c_source_folder / "sim" / "scenes"));
+    Scene scene = built_in_scene(GetParam().scene);
     const auto plan = must(plan_scene(scene, {.shader = GetParam().shader, .preset = GetParam().preset}));
     key_ = plan.key;
     add(scene, {96, 72});
@@ -57,7 +56,7 @@ class ShadersInLanes : public testing::TestWithParam<Case> {
 
 TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   for (const unsigned threads : {1U, 3U}) {
-    auto lanes = must(LaneSimulator::open(key_, c_folders, {.threads = threads, .fast = false}));
+    auto lanes = must(LaneSimulator::open(key_, c_checkout, {.threads = threads, .fast = false}));
     std::vector<Fragment> drawn;
     const Status ran = lanes.run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
@@ -106,7 +105,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
 TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
   for (const std::uint32_t seed : {1U, 7U}) {
     auto lanes =
-        must(LaneSimulator::open(key_, c_folders, {.threads = 2, .stall_seed = seed, .fast = false}));
+        must(LaneSimulator::open(key_, c_checkout, {.threads = 2, .stall_seed = seed, .fast = false}));
     std::vector<Fragment> drawn;
     const Status ran = lanes.run(words_, drawn, c_most);
     ASSERT_TRUE(ran) << ran.error().message;
@@ -120,7 +119,7 @@ TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
   for (const std::size_t most_waiting : {std::size_t{0}, std::size_t{200}, c_most}) {
     for (const unsigned threads : {1U, 2U}) {
       auto lanes = must(LaneSimulator::open(
-          key_, c_folders, {.threads = threads, .most_waiting = most_waiting, .fast = false}));
+          key_, c_checkout, {.threads = threads, .most_waiting = most_waiting, .fast = false}));
       // Many times the fragments that a run draws before it outputs them.
       constexpr std::size_t c_turns = 24;
       std::vector<std::uint32_t> words;

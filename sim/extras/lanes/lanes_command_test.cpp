@@ -4,8 +4,6 @@
 
 #include "sim/cli/command_test.hpp"
 #include "sim/files/image.hpp"
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -15,7 +13,7 @@ using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class LanesCommand : public CommandTest {};
+using LanesCommand = CommandTest;
 
 TEST_F(LanesCommand, SimDrawsTheSameWithoutCycles) {
   for (const std::string threads : {"1", "3"}) {
@@ -23,12 +21,10 @@ TEST_F(LanesCommand, SimDrawsTheSameWithoutCycles) {
                      "out"}),
                 Ends(0, AllOf(ContainsRegex("[1-9][0-9]* fragments \\| lanes: 0 mismatches, "),
                               Not(HasSubstr("cycles")), Not(HasSubstr("verilator")))));
-    const std::filesystem::path folder = folder_.path() / "out" / "matte" / "quadratic";
-    const auto golden = read_png(folder / "golden.png"), lanes = read_png(folder / "lanes.png");
-    ASSERT_TRUE(golden && lanes);
-    EXPECT_EQ(golden->rgb, lanes->rgb);
-    const auto summary = must(read_file(folder / "summary.json"));
-    EXPECT_THAT(summary, ContainsRegex("\"simulator\": \"lanes\",\n *\"cycles\": null"));
+    const std::filesystem::path folder = at("out/matte/quadratic");
+    EXPECT_EQ(must(read_png(folder / "golden.png")).rgb, must(read_png(folder / "lanes.png")).rgb);
+    EXPECT_THAT(text_of(folder / "summary.json"),
+                ContainsRegex("\"simulator\": \"lanes\",\n *\"cycles\": null"));
     EXPECT_THAT(run({"compare", "matte", "--out", "out"}),
                 Ends(0, ContainsRegex("lanes +[a-z0-9_-]+ 64x48 +[1-9][0-9]* fragments, 0 mismatch")));
   }
@@ -97,7 +93,7 @@ TEST_F(LanesCommand, AFaultOfTheLanesIsAnError) {
 // Also with `auto`, which selects lanes for this amount of work.
 TEST_F(LanesCommand, VerilatorDrawsIfLanesAreUnavailable) {
   const std::filesystem::path copy = copy_checkout();
-  ASSERT_TRUE(write_file(copy / "sim/extras/lanes/lane_harness.cpp", "#error spoilt\n"));
+  write(copy / "sim/extras/lanes/lane_harness.cpp", "#error spoilt\n");
   EXPECT_THAT(run({"--source", copy, "view", "matte", "--size", "64x48", "--simulator", "lanes"}),
               Ends(3, HasSubstr("spoilt")));
   write_averted();

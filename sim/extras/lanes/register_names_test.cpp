@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
 namespace {
@@ -53,12 +52,12 @@ constexpr const char* c_top = R"(  stages : for number in 0 to 3 generate
     z <= r.depth;
 )";
 
-TEST(RegisterNames, AreThoseOfTheRtl) {
-  auto folder = must(TemporaryFolder::make(std::filesystem::path(testing::TempDir()) / "register_names"));
-  ASSERT_TRUE(make_folders(folder.path() / "rtl"));
-  ASSERT_TRUE(write_file(folder.path() / "rtl/stage.vhd", c_stage));
-  ASSERT_TRUE(write_file(folder.path() / "rtl/top.vhd", c_top));
-  const RegisterNames names(c_netlist, folder.path());
+using RegisterNamesTest = FolderTest;
+
+TEST_F(RegisterNamesTest, AreThoseOfTheRtl) {
+  write("rtl/stage.vhd", c_stage);
+  write("rtl/top.vhd", c_top);
+  const RegisterNames names(c_netlist, here());
 
   const std::string stage = "top.stages_n2_first_stage.n5_q";
   EXPECT_EQ(names.name(stage, 18, 0, 1), "stages(1)/first/stage/r.valid");

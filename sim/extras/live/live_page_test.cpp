@@ -72,7 +72,7 @@ class LiveInBrowser : public CommandTest {
     CommandTest::SetUp();
     ASSERT_FALSE(HeadlessBrowser::program().empty()) << "no Chromium here: apt-get install chromium";
     ASSERT_EQ(failure, "");
-    browser_ = std::make_unique<HeadlessBrowser>(folder_.path());
+    browser_ = std::make_unique<HeadlessBrowser>(here());
     browser_->resize(1440, 900);
     browser_->open(page().string() + "#size=320x240");
   }

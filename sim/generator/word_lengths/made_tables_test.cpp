@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/source_folder.hpp"
 #include "words/generator/formats.hpp"
 #include "words/generator/functions.hpp"
@@ -17,6 +16,7 @@ namespace halfway::tables {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -39,29 +39,32 @@ TEST(MadeTables, EqualTheCompiledTables) {
   EXPECT_FALSE(compiled_in(true, {5, 4}));
 }
 
-TEST(MadeTables, AreTheOnlyChangeOfTheCopiedRtl) {
-  auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
-  const auto folder = rtl_with(false, CosineSize{5, 4}, {}, c_source_folder, cache.path());
+class MadeTablesTest : public FolderTest {
+ protected:
+  fs::path copy(bool exact, const WordLengths& words = {}) const {
+    return rtl_with(exact, CosineSize{5, 4}, words, c_source_folder, here());
+  }
+};
+
+TEST_F(MadeTablesTest, AreTheOnlyChangeOfTheCopiedRtl) {
+  const fs::path folder = copy(false);
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(c_source_folder / "rtl")) {
     if (!entry.is_regular_file()) continue;
     ++files;
     const fs::path name = entry.path().lexically_relative(c_source_folder / "rtl");
-    const auto theirs = read_file(folder / "rtl" / name), ours = read_file(entry.path());
-    ASSERT_TRUE(theirs && ours) << name;
-    if (name != "tables/cosine_pkg.vhd") {
-      EXPECT_EQ(*theirs, *ours) << name;
-      continue;
-    }
-    EXPECT_THAT(*theirs, HasSubstr("c_published_cosine_2_5_4"));
-    EXPECT_THAT(*theirs, HasSubstr("c_exact_cosine_16_9_8"));
-    EXPECT_THAT(*theirs, Not(HasSubstr("c_published_cosine_2_6_6")));
+    const std::string theirs = text_of(folder / "rtl" / name);
+    if (name != "tables/cosine_pkg.vhd")
+      EXPECT_EQ(theirs, text_of(entry.path())) << name;
+    else
+      EXPECT_THAT(theirs,
+                  AllOf(HasSubstr("c_published_cosine_2_5_4"), HasSubstr("c_exact_cosine_16_9_8"),
+                        Not(HasSubstr("c_published_cosine_2_6_6"))));
   }
   EXPECT_GT(files, 20U);
   EXPECT_TRUE(fs::exists(folder / "sim/engines/verilator/verilator_harness.cpp"));
-  const auto again = rtl_with(false, CosineSize{5, 4}, {}, c_source_folder, cache.path());
-  EXPECT_EQ(again, folder);
-  EXPECT_NE(rtl_with(true, CosineSize{5, 4}, {}, c_source_folder, cache.path()), folder);
+  EXPECT_EQ(copy(false), folder);
+  EXPECT_NE(copy(true), folder);
 }
 
 TEST(MadeWords, ChangeOnePresetOnly) {
@@ -102,13 +105,11 @@ TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
   EXPECT_EQ(vhdl_package(preset_formats(true, same)), vhdl_package(preset_formats()));
 }
 
-TEST(MadeWords, AreInTheCopiedRtl) {
-  auto cache = must(TemporaryFolder::make(fs::temp_directory_path()));
-  const auto folder = rtl_with(true, CosineSize{5, 4}, {.angle_bits = 12}, c_source_folder, cache.path());
-  const auto formats = must(read_file(folder / "rtl/tables/formats_pkg.vhd"));
-  EXPECT_THAT(formats, HasSubstr("angle => (23, 12)"));
-  EXPECT_THAT(formats, HasSubstr("angle => (12, 11)"));
-  EXPECT_THAT(*read_file(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
+TEST_F(MadeTablesTest, AreCopiedWithTheWords) {
+  const auto folder = copy(true, {.angle_bits = 12});
+  EXPECT_THAT(text_of(folder / "rtl/tables/formats_pkg.vhd"),
+              AllOf(HasSubstr("angle => (23, 12)"), HasSubstr("angle => (12, 11)")));
+  EXPECT_THAT(text_of(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
 }
 
 }  // namespace
