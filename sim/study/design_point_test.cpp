@@ -5,30 +5,29 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <array>
 #include <set>
 #include <sstream>
 
-#include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
+#include "common/test/is_error.hpp"
+#include "sim/os/test/folder_test.hpp"
+#include "sim/os/test/source_folder.hpp"
 
 namespace halfway::study {
 namespace {
 
-using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
 
-class SpaceTest : public ::testing::Test {
+class SpaceTest : public FolderTest {
  protected:
   std::vector<DesignPoint> read(const std::string& text) const {
-    const std::filesystem::path path = folder_.path() / "space.toml";
-    must(write_file(path, text));
-    return read_space(path);
+    return read_space(write("space.toml", text));
   }
-  std::string message_of(const std::string& text) const {
-    const auto points = caught([&] { return read(text); });
-    return points ? "" : points.error().message;
+  std::vector<std::string> designs_of(const std::string& text) const {
+    std::vector<std::string> designs;
+    for (const DesignPoint& point : read(text)) designs.push_back(point.design());
+    return designs;
   }
-  const TemporaryFolder folder_ = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
 };
 
 TEST_F(SpaceTest, IsTheProductOfEachSweepsLists) {
@@ -60,53 +59,35 @@ TEST_F(SpaceTest, PutsPointsOfAPictureTogether) {
 }
 
 TEST_F(SpaceTest, IgnoresWordLengthsOfOtherMethods) {
-  const auto points = read(
-      "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"spherical\", \"processors-2\"]\nangle_bits = [22, "
-      "16]\n"
-      "fraction_bits = [28, 20]\nseed_bits = [12, 8]\nnewton = [true, false]\n");
-  std::vector<std::string> designs;
-  for (const DesignPoint& point : points) designs.push_back(point.design());
-  EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
-                           "gouraud", "quadratic exact", "quadratic exact fraction 20",
+  EXPECT_THAT(
+      designs_of(
+          "[[sweep]]\nmethod = [\"gouraud\", \"quadratic\", \"spherical\", \"processors-2\"]\n"
+          "angle_bits = [22, 16]\nfraction_bits = [28, 20]\nseed_bits = [12, 8]\nnewton = [true, false]\n"),
+      UnorderedElementsAre("gouraud", "quadratic exact", "quadratic exact fraction 20",
                            "spherical exact, threshold 2", "spherical exact angle 16, threshold 2",
                            "processors-2 exact", "processors-2 exact without Newton",
                            "processors-2 exact seed 8", "processors-2 exact seed 8 without Newton"));
-  EXPECT_THAT(
-      message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 10\ndata_bits = 8\nangle_bits = 9\n"),
-      HasSubstr("space.toml:5: angle_bits must be 10 at least"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\npreset = \"published\"\nnewton = true\n"),
-              HasSubstr("space.toml:4: newton is only allowed in preset exact"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nfraction_bits = 60\n"),
-              HasSubstr("space.toml:3: fraction_bits takes numbers from 2 to 40"));
 }
 
 // Tests and ends of other methods are ignored; the conservative test and the surface are the defaults.
 TEST_F(SpaceTest, VariesTestsAndEndsOfTheMethodsThatHaveThem) {
-  const auto points = read(
-      "[[sweep]]\nmethod = [\"phong-mesa\", \"quadratic\", \"adaptive\", \"spherical\"]\n"
-      "preset = [\"exact\", \"published\"]\n"
-      "highlight_test = [\"conservative\", \"centroid\"]\nspan_ends = [\"surface\", \"slerp\"]\n");
-  std::vector<std::string> designs;
-  for (const DesignPoint& point : points) designs.push_back(point.design());
-  EXPECT_THAT(designs, ::testing::UnorderedElementsAre(
-                           "phong-mesa", "quadratic exact", "quadratic published",
+  EXPECT_THAT(
+      designs_of("[[sweep]]\nmethod = [\"phong-mesa\", \"quadratic\", \"adaptive\", \"spherical\"]\n"
+                 "preset = [\"exact\", \"published\"]\n"
+                 "highlight_test = [\"conservative\", \"centroid\"]\nspan_ends = [\"surface\", \"slerp\"]\n"),
+      UnorderedElementsAre("phong-mesa", "quadratic exact", "quadratic published",
                            "adaptive exact, threshold 2", "adaptive exact centroid, threshold 2",
                            "adaptive published, threshold 2", "adaptive published centroid, threshold 2",
                            "spherical exact, threshold 2", "spherical exact slerp", "spherical published"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"adaptive\"\nhighlight_test = \"none\"\n"),
-              HasSubstr("space.toml:3: highlight_test takes conservative, centroid"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\nspan_ends = \"edges\"\n"),
-              HasSubstr("space.toml:3: span_ends takes surface, slerp"));
 }
 
 // The space for queries varies the tables' lengths. The full space varies every parameter of the other
 // spaces, including all word lengths.
 TEST(Spaces, VaryTheExpectedParameters) {
-  const std::filesystem::path studies = std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/study/spaces";
-  const auto designs_of = [&](const char* file) {
-    const auto points = read_space(studies / file);
+  const auto designs_of = [](const char* file) {
     std::set<std::string> designs;
-    for (const DesignPoint& point : points) designs.insert(point.design());
+    for (const DesignPoint& point : read_space(c_source_folder / "sim/study/spaces" / file))
+      designs.insert(point.design());
     return designs;
   };
   const auto asked = designs_of("designs.toml"), full = designs_of("full.toml");
@@ -120,7 +101,7 @@ TEST(Spaces, VaryTheExpectedParameters) {
 }
 
 TEST_F(SpaceTest, EveryKeyIsARowOfThePage) {
-  std::ifstream page(std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim/study/spaces/README.md");
+  std::istringstream page(must(read_file(c_source_folder / "sim/study/spaces/README.md")));
   std::vector<std::string> documented, keys;
   bool in_table = false;
   for (std::string line; std::getline(page, line);) {
@@ -132,34 +113,39 @@ TEST_F(SpaceTest, EveryKeyIsARowOfThePage) {
       documented.push_back(word);
   }
   for (const Knob& knob : knobs()) keys.emplace_back(knob.name);
-  EXPECT_THAT(documented, testing::UnorderedElementsAreArray(keys));
+  EXPECT_THAT(documented, ::testing::UnorderedElementsAreArray(keys));
 }
 
 TEST_F(SpaceTest, ErrorsNameFileAndLine) {
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponent = 0.5\n"),
-              HasSubstr("space.toml:3: exponent takes numbers from 1"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratc\"\n"),
-              HasSubstr("space.toml:2: method takes phong"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nexponents = 5\n"),
-              HasSubstr("space.toml:3: exponents is not a key here"));
-  EXPECT_THAT(message_of("[[sweep]]\nexponent = 5\n"), HasSubstr("space.toml:1: method is missing"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = []\n"), HasSubstr("space.toml:2: method is an empty list"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\naddress_bits = 6\n"), HasSubstr("data_bits"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\nown_tables = true\n"),
-              HasSubstr("space.toml:3: own_tables is only allowed with address_bits and data_bits"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"spherical\"\nown_tables = 1\n"),
-              HasSubstr("space.toml:3: own_tables takes true or false"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"4097x1\"\n"),
-              HasSubstr("space.toml:3: size takes WIDTHxHEIGHT in pixels, such as 640x480, each 1 to 4096"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\nsize = \"large\"\n"), HasSubstr("size takes"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"quadratic\"\ntile = \"15x100\"\n"),
-              HasSubstr("space.toml:3: tile takes WIDTHxHEIGHT in pixels, such as 640x480, each 16 to 4096"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\nobjects = 8\nsubpixels = 9\n"),
-              HasSubstr("space.toml:4: subpixels takes 1, 4 or 16"));
-  EXPECT_THAT(message_of("[[sweep]]\nmethod = \"processors-2\"\nsubpixels = 4\n"),
-              HasSubstr("space.toml:3: subpixels above 1 is only allowed with objects"));
-  EXPECT_THAT(message_of(""), HasSubstr("no sweep"));
-  EXPECT_THAT(message_of("[[sweep]\n"), HasSubstr("space.toml:1:"));
+  const auto expect_error = [&](const std::string& text, const std::string& place_and_message) {
+    EXPECT_TRUE(is_error(caught([&] { read(text); }), "space.toml" + place_and_message)) << text;
+  };
+  expect_error("", ": no sweep");
+  expect_error("[[sweep]\n", ":1:");
+  expect_error("[[sweep]]\nexponent = 5\n", ":1: method is missing");
+  expect_error("[[sweep]]\nmethod = []\n", ":2: method is an empty list");
+  expect_error("[[sweep]]\nmethod = \"quadratc\"\n", ":2: method takes phong");
+  // Keys after the method.
+  const std::array<const char*, 3> cases[] = {
+      {"quadratic", "exponent = 0.5", ":3: exponent takes numbers from 1"},
+      {"quadratic", "exponents = 5", ":3: exponents is not a key here"},
+      {"quadratic", "fraction_bits = 60", ":3: fraction_bits takes numbers from 2 to 40"},
+      {"quadratic", "size = \"4097x1\"",
+       ":3: size takes WIDTHxHEIGHT in pixels, such as 640x480, each 1 to 4096"},
+      {"quadratic", "size = \"large\"", ":3: size takes"},
+      {"quadratic", "tile = \"15x100\"",
+       ":3: tile takes WIDTHxHEIGHT in pixels, such as 640x480, each 16 to 4096"},
+      {"adaptive", "highlight_test = \"none\"", ":3: highlight_test takes conservative, centroid"},
+      {"spherical", "span_ends = \"edges\"", ":3: span_ends takes surface, slerp"},
+      {"spherical", "address_bits = 6", ":1: data_bits is only allowed with address_bits"},
+      {"spherical", "own_tables = true", ":3: own_tables is only allowed with address_bits and data_bits"},
+      {"spherical", "own_tables = 1", ":3: own_tables takes true or false"},
+      {"spherical", "address_bits = 10\ndata_bits = 8\nangle_bits = 9", ":5: angle_bits must be 10 at least"},
+      {"processors-2", "preset = \"published\"\nnewton = true", ":4: newton is only allowed in preset exact"},
+      {"processors-2", "objects = 8\nsubpixels = 9", ":4: subpixels takes 1, 4 or 16"},
+      {"processors-2", "subpixels = 4", ":3: subpixels above 1 is only allowed with objects"}};
+  for (const auto& [method, keys, expected] : cases)
+    expect_error(fmt::format("[[sweep]]\nmethod = \"{}\"\n{}\n", method, keys), expected);
 }
 
 TEST(DesignPoint, NameContainsAllParameters) {
@@ -191,9 +177,9 @@ TEST_F(SpaceTest, CutsFramesThatAreLargerThanATile) {
   std::vector<std::string> pictures;
   for (const DesignPoint& point : points)
     pictures.push_back(fmt::format("{}: {}", point.picture(), point.tiles().size()));
-  EXPECT_THAT(pictures, ::testing::UnorderedElementsAre("4096x4096 in tiles of 1280x960: 20",
-                                                        "4096x4096 in tiles of 2048x4096: 2", "33x17: 1",
-                                                        "1280x960: 1"));
+  EXPECT_THAT(pictures,
+              UnorderedElementsAre("4096x4096 in tiles of 1280x960: 20", "4096x4096 in tiles of 2048x4096: 2",
+                                   "33x17: 1", "1280x960: 1"));
 }
 
 }  // namespace
