@@ -4,14 +4,14 @@
 #include "sim/bench/ways.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
+#include "common/test/is_error.hpp"
 #include "golden_run/walk_counts.hpp"
 #include "sim/bench/workload.hpp"
-#include "sim/files/load_scene.hpp"
-#include "sim/os/file.hpp"
+#include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
+#include "sim/os/test/folder_test.hpp"
 #include "sim/run/open_engine.hpp"
 
 namespace halfway {
@@ -19,35 +19,26 @@ namespace {
 
 constexpr FrameSize c_size{32, 24};
 
-class WayTest : public testing::TestWithParam<Way> {
+class WayTest : public FolderTest, public testing::WithParamInterface<Way> {
  protected:
-  WayTest() {
-    scene_ = *load_scene("matte", c_source_folder / "sim/scenes");
-    stream_ = golden_stream(scene_, c_size, {.shader = Shader::quadratic});
-    scratch_ = std::filesystem::path(testing::TempDir()) / ("halfway-ways-" + std::to_string(::getpid()));
-    EXPECT_TRUE(make_folders(scratch_));
-  }
-  ~WayTest() override { std::filesystem::remove_all(scratch_); }
-
   WayInput input() const {
     return {.scene = &scene_,
             .size = size_,
             .stream = &stream_,
-            .folders = {c_source_folder, c_source_folder / "build/cache"},
-            .scratch = scratch_,
+            .folders = c_checkout,
+            .scratch = here(),
             .fast = false};
   }
 
-  Scene scene_;
+  Scene scene_ = built_in_scene("matte");
   FrameSize size_ = c_size;
-  GoldenStream stream_;
-  std::filesystem::path scratch_;
+  GoldenStream stream_ = golden_stream(scene_, c_size, {.shader = Shader::quadratic});
 };
 
 TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   const Way way = GetParam();
   if (way == Way::mesa) {  // a frame with more inside than outline
-    scene_ = *load_scene("spheres", c_source_folder / "sim/scenes");
+    scene_ = built_in_scene("spheres");
     size_ = {160, 120};
   }
   ASSERT_EQ(lacking(way, input().folders), "") << to_string(way);
@@ -61,9 +52,7 @@ TEST_P(WayTest, DrawsTheRightPictureAndSeesAWrongOne) {
   else
     stream_.golden.back().red ^= 1;
   if (way == Way::reference || way == Way::golden) return;  // not compared with these
-  const auto wrong = caught(go);
-  ASSERT_FALSE(wrong);
-  EXPECT_EQ(wrong.error().code, ExitCode::differs) << wrong.error().message;
+  EXPECT_TRUE(is_error(caught(go), ExitCode::differs));
 }
 
 INSTANTIATE_TEST_SUITE_P(Bench, WayTest, testing::ValuesIn(c_ways),
@@ -71,10 +60,9 @@ INSTANTIATE_TEST_SUITE_P(Bench, WayTest, testing::ValuesIn(c_ways),
 
 // Each thread draws frames of its own; every fragment is compared.
 TEST(BenchWorkload, WholeFramesAreDrawnOnAllThreads) {
-  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
-  const Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
+  const Scene scene = built_in_scene("matte");
   const HardwareKey key = plan_scene(scene, {.shader = Shader::quadratic})->key;
-  const auto engine = must(open_engine(EngineKind::verilator, key, folders)),
+  const auto engine = must(open_engine(EngineKind::verilator, key, c_checkout)),
              another = must(engine->another());
   std::vector<WholeFrame> drawings;
   for (const auto& each : {engine, another}) drawings.emplace_back(scene, c_size, key, each);
@@ -85,21 +73,24 @@ TEST(BenchWorkload, WholeFramesAreDrawnOnAllThreads) {
                           &FrameSeconds::compare, &FrameSeconds::assemble})
     EXPECT_GT(cost.*part, 0.0);
   // The key of other hardware: golden model and set-up differ from the engine.
-  const HardwareKey other = plan_scene(*load_scene("spheres", c_source_folder / "sim/scenes"), {})->key;
+  const HardwareKey other = plan_scene(built_in_scene("spheres"), {})->key;
   EXPECT_THROW(WholeFrame(scene, c_size, other, engine).draw(), Failure);
 }
 
+// With all effects, hardware takes no more clocks.
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
-  const SimulatorFolders folders{c_source_folder, c_source_folder / "build/cache"};
-  for (const Shader shader : c_shaders) {
-    Scene scene = *load_scene("matte", c_source_folder / "sim/scenes");
-    const GoldenStream stream = golden_stream(scene, {96, 72}, {.shader = shader});
+  for (const auto& [shader, all_effects] : {std::pair(Shader::quadratic, false), {Shader::quadratic, true},
+                                            {Shader::spherical, false}, {Shader::spherical, true},
+                                            {Shader::processors, false}}) {
+    const GoldenStream stream =
+        golden_stream(built_in_scene("matte"), {96, 72}, {.shader = shader, .all_effects = all_effects});
+    SCOPED_TRACE(stream.key.name());
     WalkCounter counter(stream.key);
     counter.add(stream.words);
     const WalkCounts walk = counter.counts();
     EXPECT_EQ(walk.pixels, stream.golden.size());
     EXPECT_EQ(walk.lines, walk.spans + walk.empty_lines);
-    const auto engine = must(open_engine(EngineKind::verilator, stream.key, folders));
+    const auto engine = must(open_engine(EngineKind::verilator, stream.key, c_checkout));
     std::vector<Fragment> drawn;
     must(engine->run(stream.words, drawn, SIZE_MAX));
     must(engine->finish(drawn, SIZE_MAX));
@@ -109,7 +100,7 @@ TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
     EXPECT_GT(walk.lost_to_headers, 0U);
     EXPECT_GE(engine->cycles(), expected);
     // Additional clocks: the pipeline's depth once, and the processors' lights.
-    EXPECT_LE(engine->cycles(), expected + (shader == Shader::processors ? 60 : 11)) << to_string(shader);
+    EXPECT_LE(engine->cycles(), expected + (shader == Shader::processors ? 60 : 11));
   }
 }
 

@@ -1,23 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hardware with every effect must draw the same fragments as hardware with only the effects that the scene
-// needs. Each subset of effects goes through the golden model, some also through the RTL.
+// needs. Each subset of effects goes through the golden model. The RTL is compared by the tests
+// frame.SHADER.all_effects.PRESET, and its clocks by BenchWorkload.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
-#include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "plan/plan.hpp"
 #include "scene/builtin_meshes.hpp"
-#include "setup/setup.hpp"
 #include "shading/test/random_solids.hpp"
 #include "sim/driver/frame_driver.hpp"
-#include "sim/driver/limits.hpp"
-#include "sim/engines/verilator/verilator_simulator.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -103,28 +99,8 @@ Plan plan_of(const Scene& scene, const PlanRequest& request) {
   return must(plan_scene(scene, request));
 }
 
-struct Drawing {
-  std::vector<Fragment> golden, rtl;
-  std::uint64_t cycles = 0;
-};
-
-Drawing draw(const Scene& scene, const HardwareKey& key, bool with_rtl = false) {
-  Drawing out;
-  std::vector<std::shared_ptr<Engine>> engines;
-  if (with_rtl)
-    engines.push_back(must(shared_engine(VerilatorSimulator::open(
-        key, {HALFWAY_SOURCE_DIR, std::filesystem::path(HALFWAY_SOURCE_DIR) / "build" / "cache"},
-        {.idle_limit = c_idle_limit}))));
-  FrameDriver driver(scene, c_effects_frame, key, std::move(engines),
-                     {.on_drawn = [&](std::size_t, std::span<const Fragment> drawn) {
-                       out.rtl.insert(out.rtl.end(), drawn.begin(), drawn.end());
-                     }});
-  must(driver.draw([&](const Batch& batch) -> Status {
-    out.golden.insert(out.golden.end(), batch.golden.begin(), batch.golden.end());
-    return Ok{};
-  }));
-  if (with_rtl) out.cycles = *driver.frame().engine().cycles();
-  return out;
+std::vector<Fragment> drawn(const Scene& scene, const HardwareKey& key) {
+  return must(whole_stream(scene, c_effects_frame, key)).golden;
 }
 
 void expect_equal(const std::vector<Fragment>& called_for, const std::vector<Fragment>& everything) {
@@ -161,8 +137,7 @@ TEST_P(EachShader, DrawTheSameForEverySubset) {
     if (!is_quadratic && ++number % 8 == 0) asked.lights = 16;
     const Plan plan = plan_of(scene, asked);
     keys.insert(plan.called_for.name());
-    ASSERT_NO_FATAL_FAILURE(
-        expect_equal(draw(scene, plan.called_for).golden, draw(scene, plan.everything).golden));
+    ASSERT_NO_FATAL_FAILURE(expect_equal(drawn(scene, plan.called_for), drawn(scene, plan.everything)));
   }
   // Spherical: 0 to 6 lights. For each number above 0: diffuse, specular by colours, both; one and three
   // channels. Processors: one and three channels. For each of 26 sets of lights: diffuse, specular, both;
@@ -186,7 +161,7 @@ TEST_P(EachShader, EachShowsInTheFrame) {
     const Scene scene = scene_of(subset);
     PlanRequest asked = request();
     if (is_processors) asked.objects = c_object_processors;
-    return draw(scene, plan_of(scene, asked).everything).golden;
+    return drawn(scene, plan_of(scene, asked).everything);
   };
   const std::vector<Fragment> all = golden(full);
   for (const Subset& subset : less) {
@@ -197,26 +172,6 @@ TEST_P(EachShader, EachShowsInTheFrame) {
         changed += f.x == g.x && f.y == g.y && f.triangle == g.triangle &&
                    (f.red != g.red || f.green != g.green || f.blue != g.blue);
     EXPECT_GT(changed, 20U) << subset.name();
-  }
-}
-
-TEST_P(EachShader, DrawTheSameInTheRtl) {
-  if (GetParam().shader == Shader::processors) return;  // the tests frame.processors.all_effects
-  const bool exact = GetParam().preset == Preset::exact;
-  std::vector<Subset> subsets = {{}, {1, 0, 0, true, true}};
-  if (exact) subsets.push_back({0, 1, 0, false, false, true});
-  if (exact && GetParam().shader == Shader::spherical) subsets.push_back({1, 1, 1, true, true, true, true});
-  for (const Subset& subset : subsets) {
-    SCOPED_TRACE(subset.name());
-    const Scene scene = scene_of(subset);
-    const Plan plan = plan_of(scene, request());
-    const Drawing few = draw(scene, plan.called_for, true), all = draw(scene, plan.everything, true);
-    ASSERT_NO_FATAL_FAILURE(expect_equal(few.rtl, all.rtl));
-    EXPECT_EQ(few.rtl, few.golden);
-    EXPECT_EQ(all.rtl, all.golden);
-    // Without line records no clock is spent on them. The other effects do not change the clocks of the walk.
-    EXPECT_LE(few.cycles, all.cycles);
-    EXPECT_TRUE(few.cycles == all.cycles || !plan.called_for.spherical.records());
   }
 }
 
