@@ -79,8 +79,10 @@ TEST(BenchWorkload, WholeFramesAreDrawnOnAllThreads) {
 
 // With all effects, hardware takes no more clocks.
 TEST(BenchWorkload, WalkCountsTellTheHardwaresClocks) {
-  for (const auto& [shader, all_effects] : {std::pair(Shader::quadratic, false), {Shader::quadratic, true},
-                                            {Shader::spherical, false}, {Shader::spherical, true},
+  for (const auto& [shader, all_effects] : {std::pair(Shader::quadratic, false),
+                                            {Shader::quadratic, true},
+                                            {Shader::spherical, false},
+                                            {Shader::spherical, true},
                                             {Shader::processors, false}}) {
     const GoldenStream stream =
         golden_stream(built_in_scene("matte"), {96, 72}, {.shader = shader, .all_effects = all_effects});

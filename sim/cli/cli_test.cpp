@@ -391,8 +391,7 @@ TEST_F(CliTest, InitSaysWhatSetupMade) {
 
 TEST_F(CliTest, AMissingOrDyingToolExitsThree) {
   const auto mesh = write("one.obj", c_triangle);
-  const std::vector<std::string> sim = {"sim",    mesh,  "--out",       out(),
-                                        "--size", "8x6", "--simulator", "ghdl"};
+  const std::vector<std::string> sim = {"sim", mesh, "--out", out(), "--size", "8x6", "--simulator", "ghdl"};
   EXPECT_THAT(run(sim, {{"PATH", at("empty")}}), Ends(3, HasSubstr("apt-get install ghdl")));
   EXPECT_THAT(run(sim, path_with("ghdl", "#!/bin/sh\nkill -SEGV $$\n")), Ends(3, HasSubstr("ghdl")));
 }

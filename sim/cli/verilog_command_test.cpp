@@ -56,11 +56,11 @@ TEST_F(VerilogCommand, WritesTheTopWithAxiStreamPorts) {
 
 TEST_F(VerilogCommand, WritesTheWholeCore) {
   EXPECT_THAT(write_verilog({"--core", "--format", "xrgb8888", "--bus", "32"}), Ends(0, ::testing::_));
-  EXPECT_THAT(written("halfway_core.v"),
-              AllOf(HasSubstr("--core --format xrgb8888 --bus 32 --multiplier-bits 18\n"),
-                    HasSubstr("g_true_colour=true g_bus_bits=32"),
-                    HasSubstr("\n//   output     32  m_axi_wdata\n"), HasSubstr("\nmodule halfway_core\n"),
-                    HasSubstr("\nmodule halfway_packet_reader")));
+  EXPECT_THAT(
+      written("halfway_core.v"),
+      AllOf(HasSubstr("--core --format xrgb8888 --bus 32 --multiplier-bits 18\n"),
+            HasSubstr("g_true_colour=true g_bus_bits=32"), HasSubstr("\n//   output     32  m_axi_wdata\n"),
+            HasSubstr("\nmodule halfway_core\n"), HasSubstr("\nmodule halfway_packet_reader")));
   EXPECT_THAT(write_verilog({"--axi", "--bus", "32"}), Ends(2, HasSubstr("--core")));
 }
 

@@ -13,8 +13,8 @@
 #include "scene/turntable.hpp"
 #include "sim/cli/command_test.hpp"
 #include "sim/files/image.hpp"
-#include "sim/files/test/built_in_scene.hpp"
 #include "sim/files/terminal_picture.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 
 namespace halfway {
 namespace {

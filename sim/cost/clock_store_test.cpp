@@ -24,8 +24,8 @@ TEST_F(ClockStoreTest, ReadsWhatItWrites) {
                           .tools = "GHDL 2, Yosys 1",
                           .netlist = "ab",
                           .hardware = "e g_a=1"};
-  ASSERT_TRUE(write_clocks(here(), c_ice40,
-                           {{"a", clock}, {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
+  ASSERT_TRUE(
+      write_clocks(here(), c_ice40, {{"a", clock}, {"large", {.cells = {5, 6, 7, 8}, .netlist = "cd"}}}));
   const auto clocks = read_clocks(here(), c_ice40);
   ASSERT_TRUE(clocks) << clocks.error().message;
   ASSERT_EQ(clocks->size(), 2U);

@@ -29,15 +29,14 @@ struct MeshFile {
   const char* name;  // in tb/inputs/random/seeds
   std::string triangles;
 };
-const MeshFile c_mesh_files[] = {
-    {"obj/triangle.obj", c_triangle},
-    {"ply/ascii.ply", "0,0,0 1,0,0 1,1,0; 0,0,0 1,1,0 0,1,0"},
-    {"ply/little.ply", "0,0,0 1,0,0 1,1,0.5; 0,0,0 1,1,0.5 0,1,0"},
-    {"ply/big.ply", "0,0,0 1,0,0 1,1,0.5; 0,0,0 1,1,0.5 0,1,0"},
-    {"stl/ascii.stl", "0,0,0 1,0,0 0,1,0; 0,0,0 0,1,0 -1,0,0"},
-    {"stl/binary.stl", "0,0,0 1,0,0 0,1,0; 0,0,0 0,1,0 -1,0,0"},
-    {"gltf/triangle.gltf", "0,0,1 1,0,1 0,1,1; 3,0,1 4,0,1 3,2,1"},
-    {"glb/triangle.glb", "0,0,1 1,0,1 0,1,1; 3,0,1 4,0,1 3,2,1"}};
+const MeshFile c_mesh_files[] = {{"obj/triangle.obj", c_triangle},
+                                 {"ply/ascii.ply", "0,0,0 1,0,0 1,1,0; 0,0,0 1,1,0 0,1,0"},
+                                 {"ply/little.ply", "0,0,0 1,0,0 1,1,0.5; 0,0,0 1,1,0.5 0,1,0"},
+                                 {"ply/big.ply", "0,0,0 1,0,0 1,1,0.5; 0,0,0 1,1,0.5 0,1,0"},
+                                 {"stl/ascii.stl", "0,0,0 1,0,0 0,1,0; 0,0,0 0,1,0 -1,0,0"},
+                                 {"stl/binary.stl", "0,0,0 1,0,0 0,1,0; 0,0,0 0,1,0 -1,0,0"},
+                                 {"gltf/triangle.gltf", "0,0,1 1,0,1 0,1,1; 3,0,1 4,0,1 3,2,1"},
+                                 {"glb/triangle.glb", "0,0,1 1,0,1 0,1,1; 3,0,1 4,0,1 3,2,1"}};
 
 std::string seed(const char* name) {
   return must(read_file(c_source_folder / "tb/inputs/random/seeds" / name));

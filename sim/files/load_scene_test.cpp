@@ -330,14 +330,12 @@ TEST_F(LoadScene, FaultyFilesAreErrors) {
   write("e.xyz", "1");
   write("b.toml", std::string("\0\xff\xfe\x01", 4));
   write("deep.toml", "a = " + std::string(100000, '['));
-  for (const auto& [name, fault] : {std::pair("gone.toml", ": no such file; check the path"),
-                                    std::pair("gone.obj", ": no such file; check the path"),
-                                    std::pair("d.toml", ": a directory; name a file in it"),
-                                    std::pair("e.toml", ": the file is empty"),
-                                    std::pair("e.xyz", ": not a scene by its name"),
-                                    std::pair("z.toml", ": not a regular file"),
-                                    std::pair("b.toml", ":1: bad TOML"),
-                                    std::pair("deep.toml", ":1: bad TOML")})
+  for (const auto& [name, fault] :
+       {std::pair("gone.toml", ": no such file; check the path"),
+        std::pair("gone.obj", ": no such file; check the path"),
+        std::pair("d.toml", ": a directory; name a file in it"), std::pair("e.toml", ": the file is empty"),
+        std::pair("e.xyz", ": not a scene by its name"), std::pair("z.toml", ": not a regular file"),
+        std::pair("b.toml", ":1: bad TOML"), std::pair("deep.toml", ":1: bad TOML")})
     expect_error(at(name).string(), at(name).string() + fault);
   expect_error(here().string(), here().string() + ": a directory; name a file in it");
   expect_error("nope",
@@ -499,9 +497,8 @@ TEST_F(LoadScene, KeysOfManyPartsAreRefused) {
 
 TEST_F(LoadScene, NamesThatCannotBeFoldersAreRefused) {
   for (const std::string name : {"..toml", "...toml", "a\nb.toml", "\x1b[31m.toml"}) {
-    EXPECT_TRUE(
-        is_error(load_scene(write(name, "[[mesh]]\nkind = \"box\"\n").string(), c_built_in_scenes),
-                 "a scene cannot be called"))
+    EXPECT_TRUE(is_error(load_scene(write(name, "[[mesh]]\nkind = \"box\"\n").string(), c_built_in_scenes),
+                         "a scene cannot be called"))
         << name;
   }
 }

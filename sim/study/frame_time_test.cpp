@@ -91,12 +91,14 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
   add(Method::quadratic, "q", 1e5, 20'000, 4);
   add(Method::phong, "", 5e6, 0, 0);
   add(Method::processors_2, "p", 1e5, 20'000, 0);
-  const auto table = must(read_csv(
-      write("times.csv", times_csv({}, records_, frame_times_of(records_, hardware_, {})))));
+  const auto table =
+      must(read_csv(write("times.csv", times_csv({}, records_, frame_times_of(records_, hardware_, {})))));
   ASSERT_EQ(table.rows.size(), 2U);  // the processors do not fit
-  const std::array<const char*, 3> values[] = {
-      {"device", "FPGA 1", ""},      {"clock_mhz", "100.0", ""}, {"design", "quadratic exact", "phong"},
-      {"bound", "hardware", "host"}, {"words", "7", ""}};
+  const std::array<const char*, 3> values[] = {{"device", "FPGA 1", ""},
+                                               {"clock_mhz", "100.0", ""},
+                                               {"design", "quadratic exact", "phong"},
+                                               {"bound", "hardware", "host"},
+                                               {"words", "7", ""}};
   for (const auto& [column, hardware, software] : values) {
     EXPECT_EQ(table.text(0, column), hardware);
     EXPECT_EQ(table.text(1, column), software);

@@ -89,8 +89,7 @@ class HardwareFiguresTest : public FolderTest {
   }
   /// A clock of the hardware that was placed elsewhere.
   synth::StoredClock stored_clock() const {
-    const synth::Design design{
-        .entity = key_.entity(), .generics = key_.generics(), .root = c_source_folder};
+    const synth::Design design{.entity = key_.entity(), .generics = key_.generics(), .root = c_source_folder};
     return {.cells = {1, 2, 3, 4},
             .mhz = 87.5,
             .seeds = 3,
@@ -287,11 +286,8 @@ TEST_F(HardwareFiguresTest, APlacementThatDoesNotEndIsRepeatedWithTheOlderRouter
 
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {
   set_results("4", "7681", "40");
-  const StudySettings settings{.scene = scene_,
-                               .out = at("out"),
-                               .folders = folders_,
-                               .placed = {point_},
-                               .family = family_};
+  const StudySettings settings{
+      .scene = scene_, .out = at("out"), .folders = folders_, .placed = {point_}, .family = family_};
   EXPECT_EQ(run_study(settings).placements, synth::c_seeds);
   EXPECT_EQ(placements(), 0U);
   EXPECT_TRUE(open_parts(settings).empty());

@@ -61,10 +61,7 @@ class JobArrayTest : public FolderTest {
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
   // Run tasks 1, 4 and 5 of 8. $2 is the part.
   JobArray array(const std::string& script) const {
-    return {.worker = {"sh", "-c", script, "worker"},
-            .parts = 8,
-            .open = {1, 4, 5},
-            .folder = at("slurm")};
+    return {.worker = {"sh", "-c", script, "worker"}, .parts = 8, .open = {1, 4, 5}, .folder = at("slurm")};
   }
   const std::string path_ = std::getenv("PATH");
 };

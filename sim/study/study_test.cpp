@@ -441,8 +441,7 @@ TEST_F(StudyTest, CountsTheHostsInstructions) {
   ASSERT_TRUE(of(made.records[0]) && of(made.records[1]));
   EXPECT_GT(of(made.records[1]), of(made.records[0]));
   // The counts do not depend on the order of the points.
-  const auto again =
-      host_instructions(settings_.set_up, {points.at(1).name(), points.at(0).name()}, here());
+  const auto again = host_instructions(settings_.set_up, {points.at(1).name(), points.at(0).name()}, here());
   EXPECT_EQ(again->at(0), of(made.records[1]));
   EXPECT_EQ(again->at(1), of(made.records[0]));
   EXPECT_THROW(host_instructions(settings_.set_up, {"no such point"}, here()), Failure);

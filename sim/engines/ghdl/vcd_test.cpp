@@ -15,12 +15,12 @@ using ::testing::HasSubstr;
 class VcdTest : public FolderTest {
  protected:
   // The clock rises at 5 and 15. q changes with it, d in between.
-  const std::filesystem::path file_ = write(
-      "t.vcd",
-      "$date\n  today\n$end\n$timescale\n  1 fs\n$end\n$scope module tb $end\n"
-      "$var reg 1 ! clk $end\n$var reg 4 \" d[3:0] $end\n$scope module dut $end\n"
-      "$var reg 4 # q[3:0] $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
-      "#0\n0!\nb0001 \"\nbUUUU #\n#5\n1!\nb0001 #\n#10\n0!\nb0010 \"\n#15\n1!\nb0010 #\n#20\n0!\n");
+  const std::filesystem::path file_ =
+      write("t.vcd",
+            "$date\n  today\n$end\n$timescale\n  1 fs\n$end\n$scope module tb $end\n"
+            "$var reg 1 ! clk $end\n$var reg 4 \" d[3:0] $end\n$scope module dut $end\n"
+            "$var reg 4 # q[3:0] $end\n$upscope $end\n$upscope $end\n$enddefinitions $end\n"
+            "#0\n0!\nb0001 \"\nbUUUU #\n#5\n1!\nb0001 #\n#10\n0!\nb0010 \"\n#15\n1!\nb0010 #\n#20\n0!\n");
 };
 
 TEST_F(VcdTest, SamplesTheValueBeforeTheEdge) {

@@ -26,9 +26,7 @@ TEST_F(MadeFormats, AProgramOlderThanTheCheckoutIsRefused) {
   }
   EXPECT_EQ(format_sources_hash(copy), built_from());
   HardwareKey key;
-  const auto models = [&] {
-    return caught([&] { return made_models(key, {copy, at("cache")}); });
-  };
+  const auto models = [&] { return caught([&] { return made_models(key, {copy, at("cache")}); }); };
   key.words.fraction_bits = 4;
   for (const char* name :
        {"model/golden/edge_walker.hpp", "model/setup/quadratic_setup.cpp",
