@@ -12,7 +12,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,13 +31,28 @@ inline constexpr EngineKind c_engine_kinds[] = {EngineKind::ghdl, EngineKind::ve
 
 /// Name in options, files and summaries.
 constexpr const char* to_string(EngineKind kind) {
-  constexpr std::array c_names = {"ghdl", "verilator", "lanes"};
-  return c_names[static_cast<std::size_t>(kind)];
+  switch (kind) {
+    case EngineKind::ghdl:
+      return "ghdl";
+    case EngineKind::verilator:
+      return "verilator";
+    case EngineKind::lanes:
+      break;
+  }
+  return "lanes";
 }
+
 /// Name in sentences.
 constexpr const char* title(EngineKind kind) {
-  constexpr std::array c_names = {"GHDL", "Verilator", "lanes"};
-  return c_names[static_cast<std::size_t>(kind)];
+  switch (kind) {
+    case EngineKind::ghdl:
+      return "GHDL";
+    case EngineKind::verilator:
+      return "Verilator";
+    case EngineKind::lanes:
+      break;
+  }
+  return "lanes";
 }
 
 class Engine {

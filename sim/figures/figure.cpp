@@ -76,8 +76,17 @@ std::string Claim::limit() const {
 }
 
 const char* to_string(Verdict verdict) {
-  constexpr std::array c_names = {"agrees", "by construction", "ours", "differs"};
-  return c_names[static_cast<std::size_t>(verdict)];
+  switch (verdict) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::by_construction:
+      return "by construction";
+    case Verdict::ours:
+      return "ours";
+    case Verdict::differs:
+      break;
+  }
+  return "differs";
 }
 
 bool Claim::holds(const Measured& found) const {
