@@ -81,7 +81,7 @@ begin
   assert c_at.reflect /= c_at.square_1 and c_at.reflect /= c_at.square_2 and c_at.reflect /= c_at.cosine
     and c_at.reflect /= c_at.axis and c_at.reflect /= c_at.sum_2 and c_at.reflect /= c_at.scale_1
     and c_at.reflect /= c_at.scale_2 and c_at.reflect /= c_at.narrow
-    report "shared_multiplier: k I is used of clock " & integer'image(c_at.reflect) & ", which computes another product"
+    report "shared_multiplier: clock " & integer'image(c_at.reflect) & " would compute k I and another product"
     severity failure;
 
   spot <= light(light_axes_header(c_exact).spot.low) when c_shape.spots else '0';

@@ -2,7 +2,7 @@
 --
 -- Purpose     The steps of a normalization that are not products: the block shift (shift left until the largest
 --             component fills the word), 1/sqrt of the shifted vector's square, and rounding of the scaled vector to a
---             direction. The square comes from shared_dot_product, the scaled vector from shared_multiplier.
+--             direction. The square and the scaled vector come from shared_multiplier.
 -- Contract    vector is valid in shift_1 and shift_2 of schedule_pkg; shifted does not change until the next of them
 -- Formats     vector: normalized_bits of schedule_pkg per component; dot: dot_product; products: shared_multiplier;
 --             shifted, unit: direction; root: reciprocal_root. A vector is three components, x lowest.
