@@ -9,7 +9,7 @@
 --             error response. Its beat is compared as any other. pixels: number of pixels whose keep bits are written in
 --             this clock, without those of a clear.
 -- Formats     memory_pkg: depths, in memory filled with zeros
--- Latency     4 clocks from the last beat to out_valid
+-- Latency     6 clocks from the last beat to out_valid
 -- Throughput  1 beat per clock, without a clock between blocks
 -- Error       none
 -- Source      ours
@@ -74,6 +74,14 @@ architecture rtl of block_tester is
   subtype beat_t is unsigned(in_first'range);
   subtype places_t is std_logic_vector(2 * g_number_bits downto 0); -- fill, depth, colour
 
+  type beat_of_block_t is record
+    valid  : std_logic;
+    final  : std_logic; -- the block's last one
+    mask   : std_logic_vector(keep_bits'range); -- of the pixels that can be kept, then of those that are
+    place  : unsigned(keep_place'range);
+    places : places_t;
+  end record;
+
   type reg_t is record
     -- The block that is read.
     active      : std_logic;
@@ -84,19 +92,14 @@ architecture rtl of block_tester is
     places      : places_t;
     slot        : unsigned(g_slot_bits - 1 downto 0); -- of the next block
     place       : unsigned(test_place'range); -- of the beat
-    -- The beat that came.
-    came        : std_logic;
-    came_final  : std_logic; -- the block's last one
-    came_fill   : std_logic;
-    came_mask   : std_logic_vector(keep_bits'range);
+    -- The beat that came, then with the depths of its fragments, then its keep bits, and those of the block up to it.
+    came        : beat_of_block_t;
     came_data   : std_logic_vector(m_axi_rdata'range);
-    came_place  : unsigned(keep_place'range);
-    came_places : places_t;
     came_fault  : std_logic;
-    -- Its keep bits, and those of the block up to it.
-    keep_write  : std_logic;
-    keep_place  : unsigned(keep_place'range);
-    keep        : std_logic_vector(keep_bits'range);
+    held        : beat_of_block_t;
+    held_data   : std_logic_vector(m_axi_rdata'range);
+    held_depth  : std_logic_vector(test_depth'range);
+    tested      : beat_of_block_t;
     any         : std_logic;
     first_kept  : beat_t;
     last_kept   : beat_t;
@@ -139,48 +142,52 @@ begin
       v.slot    := r.slot + 1;
     end if;
 
-    -- Hold the beat while its fragments are read.
-    v.came       := take;
-    v.came_final := finishes;
-    v.came_fill  := r.fill;
-    v.came_data  := m_axi_rdata;
-    v.came_place := r.place;
-    v.came_places := r.places;
-    v.came_fault   := take and not r.fill and flag(m_axi_rresp /= "00");
+    -- Hold the beat while the depths of its fragments are read.
+    v.came.valid  := take;
+    v.came.final  := finishes;
+    v.came.place  := r.place;
+    v.came.places := r.places;
     for lane in keep_bits'range loop
-      v.came_mask(lane) := r.mask(c_lanes * to_integer(r.beat) + lane);
+      v.came.mask(lane) := r.mask(c_lanes * to_integer(r.beat) + lane);
     end loop;
+    v.came_data  := m_axi_rdata;
+    v.came_fault := take and not r.fill and flag(m_axi_rresp /= "00");
+
+    -- Register the depths: a memory's output is late in the clock.
+    v.held       := r.came;
+    v.held_data  := r.came_data;
+    v.held_depth := test_depth;
 
     -- Compare.
-    v.keep_write   := r.came;
-    v.keep_place := r.came_place;
+    v.tested := r.held;
     for lane in keep_bits'range loop
-      nearer := flag(unsigned(test_depth((lane + 1) * c_stored - 1 downto lane * c_stored))
-        < unsigned(r.came_data((lane + 1) * c_pixel - 1 downto lane * c_pixel)));
-      v.keep(lane) := r.came_mask(lane) and (r.came_fill or nearer);
+      nearer := flag(unsigned(r.held_depth((lane + 1) * c_stored - 1 downto lane * c_stored))
+        < unsigned(r.held_data((lane + 1) * c_pixel - 1 downto lane * c_pixel)));
+      v.tested.mask(lane) := r.held.mask(lane) and (r.held.places(places_t'high) or nearer);
     end loop;
 
     -- Find the first and the last beat that is written.
     if r.done = '1' then
       v.any := '0';
     end if;
-    if r.came = '1' and v.keep /= (keep_bits'range => '0') then
-      v.last_kept := r.came_place(beat_t'range);
+    if r.tested.valid = '1' and r.tested.mask /= (keep_bits'range => '0') then
+      v.last_kept := r.tested.place(beat_t'range);
       if v.any = '0' then
-        v.first_kept := r.came_place(beat_t'range);
+        v.first_kept := r.tested.place(beat_t'range);
       end if;
       v.any := '1';
     end if;
-    v.done         := r.came and r.came_final;
-    v.done_places := r.came_places;
+    v.done        := r.tested.valid and r.tested.final;
+    v.done_places := r.tested.places;
     if reset = '1' then
-      v.active     := '0';
-      v.slot       := (others => '0');
-      v.came       := '0';
-      v.came_fault := '0';
-      v.keep_write := '0';
-      v.any        := '0';
-      v.done       := '0';
+      v.active       := '0';
+      v.slot         := (others => '0');
+      v.came.valid   := '0';
+      v.came_fault   := '0';
+      v.held.valid   := '0';
+      v.tested.valid := '0';
+      v.any          := '0';
+      v.done         := '0';
     end if;
     r_next <= v;
   end process;
@@ -222,11 +229,12 @@ begin
 
   in_ready     <= load;
   m_axi_rready <= r.active and not r.fill;
-  test_place <= r.place;
-  keep_write    <= r.keep_write;
-  keep_place  <= r.keep_place;
-  keep_bits <= r.keep;
-  fault     <= r.came_fault;
-  pixels       <= count_of(r.keep) when r.keep_write = '1' and r.done_places(places_t'high) = '0' else (others => '0');
+  test_place   <= r.place;
+  keep_write   <= r.tested.valid;
+  keep_place   <= r.tested.place;
+  keep_bits    <= r.tested.mask;
+  fault        <= r.came_fault;
+  pixels       <= count_of(r.tested.mask) when r.tested.valid = '1' and r.tested.places(places_t'high) = '0'
+    else (others => '0');
 
 end architecture;

@@ -14,8 +14,8 @@
 --             number of an object's subpixels, else 0. background: of the last new_frame, for each channel its
 --             light_intensity as a colour; black after a reset. It changes while filter_busy = '0'. busy: an entry is in the queue.
 -- Formats     front_token, pipeline_token, shaded_token, filter_token: token_pkg; background: three colours, red lowest
--- Latency     2 clocks for a head
--- Throughput  1 token per clock, if the pipeline holds at most 2**g_index_bits - 4 heads and objects
+-- Latency     3 clocks for a head
+-- Throughput  1 token per clock, if the pipeline holds at most 2**g_index_bits - 5 heads and objects
 -- Source      ours
 -- Golden twin model/golden/objects_shader.hpp: its order is that of the front
 
@@ -66,14 +66,19 @@ architecture rtl of filter_queue is
   constant c_colour    : positive       := formats(c_exact).colour.bits;
   constant c_colours   : positive       := 3 * c_colour;
 
-  -- An entry: of a head y and x, of an object its weight, of new_frame the background; the command; the end of a strip.
+  -- An entry: of a head y and x, of an object its mask, then its weight, of new_frame the background; the command; the end
+  -- of a strip.
   constant c_data : positive := formats(c_exact).pixel_y.bits + formats(c_exact).pixel_x.bits;
   constant c_ends : positive := c_data + formats(c_exact).command.bits;
 
   subtype entry_t is std_logic_vector(c_ends downto 0);
+  subtype weight_t is unsigned(filter_weight'range);
   subtype colours_t is std_logic_vector(c_colours - 1 downto 0);
 
   type reg_t is record
+    entered    : std_logic;
+    object     : std_logic; -- the entry is one of an object
+    entry      : entry_t;
     background : colours_t;
   end record;
 
@@ -83,28 +88,36 @@ architecture rtl of filter_queue is
   signal object, head, frame     : std_logic; -- what it is
   signal to_pipeline, to_filter  : std_logic;
   signal enters, claims, room    : std_logic;
-  signal entry, next_entry       : entry_t;
+  signal entry, weighed          : entry_t; -- of a front's token, and one clock later
+  signal next_entry              : entry_t;
   signal next_valid, taken       : std_logic;
   signal next_command            : command_t;
   signal next_object, next_frame : std_logic; -- the entry is an object; a new_frame that is no end of a strip
   signal colours                 : colours_t; -- of the front's new_frame
 
-  function weight_of (mask : std_logic_vector) return std_logic_vector is
-    variable count : unsigned(weight_bits(g_subpixels) - 1 downto 0) := (others => '0');
+  -- Add pairs, then pairs of sums: one bit after the other would be a chain of adders.
+  function weight_of (mask : std_logic_vector(g_subpixels - 1 downto 0)) return weight_t is
+    type sums_t is array (mask'range) of weight_t;
+
+    variable sums : sums_t;
   begin
     for i in mask'range loop
-      if mask(i) = '1' then
-        count := count + 1;
-      end if;
+      sums(i)    := (others => '0');
+      sums(i)(0) := mask(i);
     end loop;
-    return std_logic_vector(count);
+    for level in 1 to log2(g_subpixels) loop
+      for i in 0 to g_subpixels / 2 ** level - 1 loop -- evaluated at elaboration
+        sums(i) := sums(2 * i) + sums(2 * i + 1);
+      end loop;
+    end loop;
+    return sums(0);
   end function;
 
 begin
 
-  assert c_colours <= c_data and weight_bits(g_subpixels) <= c_data
+  assert c_colours <= c_data and g_subpixels <= c_data
     report "filter_queue: an entry has " & integer'image(c_data) & " bits, a background " & integer'image(c_colours)
-    & ", a weight " & integer'image(weight_bits(g_subpixels))
+    & ", a mask " & integer'image(g_subpixels)
     severity failure;
 
   command <= command_of(c_exact, front_token);
@@ -138,7 +151,7 @@ begin
     v(c_ends)                   := front_ends;
     v(c_ends - 1 downto c_data) := field_of(front_token, c_pixel.command);
     if object = '1' then
-      v(filter_weight'range) := weight_of(front_mask);
+      v(front_mask'range) := front_mask;
     elsif frame = '1' then
       v(colours_t'range) := colours;
     else
@@ -147,7 +160,18 @@ begin
     entry <= v;
   end process;
 
+  -- Claim a place, and count the subpixels in a clock of their own.
   claims <= enters and to_filter;
+
+  weigh : process (all)
+    variable v : entry_t;
+  begin
+    v := r.entry;
+    if r.object = '1' then
+      v(c_data - 1 downto 0) := std_logic_vector(resize(weight_of(r.entry(front_mask'range)), c_data));
+    end if;
+    weighed <= v;
+  end process;
 
   entries : entity work.stream_queue
     generic map (
@@ -160,8 +184,8 @@ begin
       claim     => claims,
       room      => room,
       pending   => busy,
-      in_valid  => claims,
-      in_data   => entry,
+      in_valid  => r.entered,
+      in_data   => weighed,
       out_valid => next_valid,
       out_ready => taken,
       out_data  => next_entry
@@ -195,10 +219,14 @@ begin
     variable v : reg_t;
   begin
     v := r;
+    v.entered := claims;
+    v.object  := object;
+    v.entry   := entry;
     if next_valid = '1' and next_frame = '1' and taken = '1' then
       v.background := next_entry(colours_t'range);
     end if;
     if reset = '1' then
+      v.entered    := '0';
       v.background := (others => '0');
     end if;
     r_next <= v;
