@@ -76,7 +76,7 @@ architecture rtl of block_tester is
 
   type beat_of_block_t is record
     valid  : std_logic;
-    final  : std_logic; -- the block's last one
+    ends   : std_logic; -- the block's last one
     mask   : std_logic_vector(keep_bits'range); -- of the pixels that can be kept, then of those that are
     place  : unsigned(keep_place'range);
     places : places_t;
@@ -144,7 +144,7 @@ begin
 
     -- Hold the beat while the depths of its fragments are read.
     v.came.valid  := take;
-    v.came.final  := finishes;
+    v.came.ends   := finishes;
     v.came.place  := r.place;
     v.came.places := r.places;
     for lane in keep_bits'range loop
@@ -177,7 +177,7 @@ begin
       end if;
       v.any := '1';
     end if;
-    v.done        := r.tested.valid and r.tested.final;
+    v.done        := r.tested.valid and r.tested.ends;
     v.done_places := r.tested.places;
     if reset = '1' then
       v.active       := '0';
