@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -77,7 +78,7 @@ std::string hash_of(const fs::path& root, const std::vector<std::string>& source
       for (const fs::path& header : must(files_below(root / folder, ending)))
         files.push_back((folder / header).string());
   ContentHash hash;
-  hash.add("core 1");
+  hash.add("core 2");
   for (const auto* list : {&tools, &c_flags, &c_link_flags}) {
     hash.add(std::to_string(list->size()));
     for (const std::string& item : *list) hash.add(item);
@@ -96,12 +97,21 @@ void link_libraries(const fs::path& folder) {
   }
 }
 
-/// Compile the sources in the folder, several at a time, and link them.
+/// The sources of each folder in one file: most of a compilation is the headers.
+std::vector<std::string> units_of(const fs::path& root, const std::vector<std::string>& sources) {
+  std::map<fs::path, std::string> units;
+  for (const std::string& source : sources)
+    units[fs::path(source).parent_path()] += fmt::format("#include \"{}\"\n", (root / source).string());
+  std::vector<std::string> texts;
+  for (const auto& [folder, text] : units) texts.push_back(text);
+  return texts;
+}
+
+/// Compile the sources in the folder, several files at a time, and link them.
 void compile(const Compiler& compiler, const fs::path& root, const std::vector<std::string>& sources,
              const std::vector<tables::GeneratedFile>& generated, const fs::path& folder) {
   link_libraries(folder / "include");
   must(tables::write_files(folder / "include", generated));
-  const auto object = [](std::size_t i) { return fmt::format("{}.o", i); };
   const auto run = [&](const std::vector<std::string>& flags, const std::vector<std::string>& arguments) {
     Command command{.arguments = {compiler.program}, .working_folder = folder};
     command.arguments.insert(command.arguments.end(), flags.begin(), flags.end());
@@ -111,14 +121,19 @@ void compile(const Compiler& compiler, const fs::path& root, const std::vector<s
   std::vector<std::string> flags = c_flags;
   flags.insert(flags.end(),
                {"-I" + (root / "model").string(), "-I" + root.string(), "-isystem", "include", "-c"});
-  must_for_each(std::max(1U, std::thread::hardware_concurrency()), sources.size(),
-                [&](std::size_t i) { run(flags, {(root / sources[i]).string(), "-o", object(i)}); });
+  const std::vector<std::string> units = units_of(root, sources);
+  const auto name = [](std::size_t i, const char* ending) { return fmt::format("{}.{}", i, ending); };
+  must_for_each(std::max(1U, std::thread::hardware_concurrency()), units.size(), [&](std::size_t i) {
+    must(write_file(folder / name(i, "cpp"), units[i]));
+    run(flags, {name(i, "cpp"), "-o", name(i, "o")});
+  });
   std::vector<std::string> objects;
-  for (std::size_t i = 0; i < sources.size(); ++i) objects.push_back(object(i));
+  for (std::size_t i = 0; i < units.size(); ++i) objects.push_back(name(i, "o"));
   objects.insert(objects.end(), {"-o", c_module_name});
   run(c_link_flags, objects);
   std::error_code ignored;
-  for (std::size_t i = 0; i < sources.size(); ++i) fs::remove(folder / object(i), ignored);
+  for (std::size_t i = 0; i < units.size(); ++i)
+    for (const char* ending : {"cpp", "o"}) fs::remove(folder / name(i, ending), ignored);
 }
 
 }  // namespace
