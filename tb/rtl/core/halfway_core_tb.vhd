@@ -17,6 +17,10 @@ entity halfway_core_checker is
     g_number : natural; -- of the hardware; it has the memories 2 * g_number and 2 * g_number + 1
     g_folder : string
   );
+  port (
+    start : in  boolean; -- no clock before
+    ended : out boolean := false
+  );
 end entity;
 
 architecture sim of halfway_core_checker is
@@ -29,7 +33,6 @@ architecture sim of halfway_core_checker is
   constant c_expected    : natural  := c_memory + 1;
   constant c_limit       : positive := 30_000; -- clocks of a frame that count as a hang
 
-  signal ended            : boolean := false;
   signal clk              : std_logic := '0';
   signal aresetn, reset   : std_logic := '0';
   signal interrupt        : std_logic;
@@ -137,7 +140,7 @@ begin
     port map (clk => clk, reset => reset, m => m, s => s);
 
   reset <= not aresetn;
-  clk   <= not clk after c_half_period when not ended;
+  clk   <= not clk after c_half_period when start and not ended;
 
   -- The first frame, at a memory that answers at once: docs/rtl/core.md.
   latencies : process is
@@ -286,10 +289,13 @@ entity halfway_core_tb is
 end entity;
 
 architecture sim of halfway_core_tb is
+  -- One after the other: all at once would not fit into a processor's cache.
+  signal turns : boolean_vector(0 to 5) := (0 => true, others => false);
 begin
   runs : for index in 0 to 4 generate
     checker : entity work.halfway_core_checker
-      generic map (g_number => index, g_folder => g_folder);
+      generic map (g_number => index, g_folder => g_folder)
+      port map (start => turns(index), ended => turns(index + 1));
   end generate;
 
   report_end(finished, "halfway_core_tb");
