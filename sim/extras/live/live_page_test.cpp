@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -169,6 +170,13 @@ class LiveInBrowser : public CommandTest {
         }
     }
   }
+  struct Way {
+    Shader shader;
+    Preset preset;
+    FramePixel pixel;
+  };
+  /// Compare the ways of pixels on the page with the values of `make why`, which simulates in GHDL.
+  void show_way(std::initializer_list<Way> ways);
 
   std::unique_ptr<HeadlessBrowser> browser_;
   static inline std::optional<TemporaryFolder> made_folder;
@@ -354,19 +362,8 @@ TEST_F(LiveInBrowser, ShowsThePixelThatIsClicked) {
               HasSubstr(fmt::format("{}{}{}", shown.rgb[at], shown.rgb[at + 1], shown.rgb[at + 2])));
 }
 
-// The way has the values of `make why`, which simulates in GHDL.
-TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
-  struct Case {
-    Shader shader;
-    Preset preset;
-    FramePixel pixel;
-  };
-  for (const Case& c : {Case{Shader::quadratic, Preset::exact, {160, 60}},
-                        Case{Shader::quadratic, Preset::published, {100, 60}},
-                        Case{Shader::spherical, Preset::exact, {100, 60}},
-                        Case{Shader::spherical, Preset::published, {100, 60}},
-                        Case{Shader::processors, Preset::exact, {100, 60}},
-                        Case{Shader::processors, Preset::published, {100, 60}}}) {
+void LiveInBrowser::show_way(std::initializer_list<Way> ways) {
+  for (const Way& c : ways) {
     SCOPED_TRACE(fmt::format("{} {}", to_string(c.shader), to_string(c.preset)));
     const auto scene = must(load_scene("spheres", c_source / "sim/scenes"));
     WhySettings settings;
@@ -393,9 +390,21 @@ TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
               values);
     EXPECT_EQ(evaluate("document.querySelectorAll('#way-values td.differs').length"), 0);
   }
+}
+
+TEST_F(LiveInBrowser, ShowsTheWayOfAPixelThroughTheStages) {
+  show_way({{Shader::quadratic, Preset::exact, {160, 60}},
+            {Shader::spherical, Preset::published, {100, 60}},
+            {Shader::processors, Preset::published, {100, 60}}});
   // No triangle covers this pixel.
   ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240&pixel=0,0"));
   EXPECT_THAT(text_of("#way-note"), HasSubstr("No triangle"));
+}
+
+TEST_F(WholeLivePage, ShowsTheWayOfAPixelThroughTheOtherStages) {
+  show_way({{Shader::quadratic, Preset::published, {100, 60}},
+            {Shader::spherical, Preset::exact, {100, 60}},
+            {Shader::processors, Preset::exact, {100, 60}}});
 }
 
 // The published preset has a second size of tables.
