@@ -110,6 +110,34 @@ TEST(StreamPorts, AreFoundInTheEntity) {
   EXPECT_TRUE(ports[1].out);
 }
 
+// Signals, constants and values of types.
+std::set<std::string> declared_names(const std::string& vhdl) {
+  const std::regex lists(R"(\b(?:(?:signal|constant) ([\w, ]+) *:|type \w+ is \(([\w,\s]+)\);))"), word(R"(\w+)");
+  std::set<std::string> names;
+  for (std::sregex_iterator at(vhdl.begin(), vhdl.end(), lists), last; at != last; ++at) {
+    const std::string list = (*at)[1].str() + (*at)[2].str();
+    for (std::sregex_iterator name(list.begin(), list.end(), word); name != last; ++name)
+      names.insert(name->str());
+  }
+  return names;
+}
+
+// GHDL 5 refuses a property with the name of a signal; GHDL 2 does not.
+TEST_F(ProofList, NamesNoPropertyAsTheRtl) {
+  const std::regex label(R"((\w+) *: (?:assert|assume|cover|restrict) )");
+  int labels = 0;
+  for (const VhdlSource& source : rtl_) {
+    const std::string entity =
+        std::filesystem::path(source.name).lexically_relative("rtl").replace_extension().string();
+    const std::string units = units_of(entity);
+    if (units.find("vunit ") == std::string::npos) continue;
+    const std::set<std::string> declared = declared_names(without_comments(source.content));
+    for (std::sregex_iterator at(units.begin(), units.end(), label), last; at != last; ++at, ++labels)
+      EXPECT_FALSE(declared.contains((*at)[1])) << entity << ": " << (*at)[1];
+  }
+  EXPECT_GT(labels, 100);
+}
+
 TEST_F(ProofList, HasFaultsThatOccurInTheRtl) {
   for (const Proof& proof : proofs_) {
     const auto rtl = read_sources({.source = c_source_folder, .scratch = {}}, proof);
