@@ -205,6 +205,18 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     add("shading_pipeline", {is_exact, {"g_directional", "1"}});
     all.back().ice40 = !exact;
   }
+  // A picture in memory: both formats on 64 bits, and the smallest form, which is too large for the board.
+  for (const char* true_colour : {"false", "true"})
+    all.push_back({.design = {.name = fmt::format("fragments_to_memory_{}",
+                                                  *true_colour == 't' ? "xrgb8888" : "rgb565"),
+                              .entity = "fragments_to_memory",
+                              .generics = {{"g_true_colour", true_colour}}},
+                   .ice40 = false,
+                   .ecp5 = true,
+                   .seeds = 1});
+  all.push_back({.design = {.name = "fragments_to_memory_small",
+                            .entity = "fragments_to_memory",
+                            .generics = {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}}});
   for (ListedDesign& listed : all) {
     listed.design.root = root;
     if (std::ranges::count(c_of_readme, listed.design.name) > 0) listed.seeds = 9;

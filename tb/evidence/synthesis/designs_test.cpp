@@ -41,7 +41,7 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
     EXPECT_TRUE(listed.insert(inside).second) << inside;
   // These are measured inside fragments_to_memory and halfway_core.
   for (const char* in_memory :
-       {"burst_reader", "core_registers", "read_arbiter", "register_port", "ring_control", "fragments_to_memory", "frame_fill",
+       {"burst_reader", "core_registers", "read_arbiter", "register_port", "ring_control", "frame_fill",
         "block_address", "block_collector", "block_reader", "block_source", "block_tester", "block_writer",
         "memory_port", "pixel_store"})
     EXPECT_TRUE(listed.insert(in_memory).second) << in_memory;
