@@ -30,17 +30,17 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   int exit_code = 0;
   // In the order of the help.
-  for (cli::AddCommand* add : {
-           cli::add_sim, cli::add_view,
+  for (cli::AddCommand* add :
+       {cli::add_sim, cli::add_view,
 #ifdef HALFWAY_EXTRAS
-           cli::add_live,
+        cli::add_live,
 #endif
-           cli::add_compare, cli::add_why,
+        cli::add_compare, cli::add_why,
 #ifdef HALFWAY_EXTRAS
-           cli::add_board_sim, cli::add_core_sim,
+        cli::add_board_sim, cli::add_core_sim,
 #endif
-           cli::add_plan, cli::add_savings, cli::add_study, cli::add_report, cli::add_render, cli::add_init,
-           cli::add_verilog, cli::add_tables, cli::add_figures})
+        cli::add_plan, cli::add_savings, cli::add_study, cli::add_report, cli::add_render, cli::add_init,
+        cli::add_verilog, cli::add_tables, cli::add_figures})
     add(app, folders, exit_code);
   return cli::run_program(app, argc, argv, exit_code);
 }

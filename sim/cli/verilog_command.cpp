@@ -22,8 +22,8 @@ namespace {
 struct VerilogCommand {
   DrawOptions draw;
   std::string scene = "spheres";
-  bool axi = false;               // words_to_fragments
-  bool core = false;              // halfway_core
+  bool axi = false;   // words_to_fragments
+  bool core = false;  // halfway_core
   CoreOptions core_options;
   unsigned multiplier_bits = 18;  // as in most FPGAs
 };
@@ -102,9 +102,9 @@ void add_verilog(CLI::App& app, const Folders& folders, int&) {
   command->draw.add_to(*sub);
   CLI::Option* axi =
       sub->add_flag("--axi", command->axi, "words_to_fragments: the shader with AXI4-Stream ports");
-  CLI::Option* core = sub->add_flag("--core", command->core,
-                                    "halfway_core: from commands in memory to a picture in memory")
-                          ->excludes(axi);
+  CLI::Option* core =
+      sub->add_flag("--core", command->core, "halfway_core: from commands in memory to a picture in memory")
+          ->excludes(axi);
   command->core_options.add_to(*sub, core);
   sub->add_option("--multiplier-bits", command->multiplier_bits,
                   "width of the device's multipliers; 0: products in lookup tables")

@@ -123,8 +123,7 @@ Frame sheet(std::span<const Frame> frames, std::uint32_t columns) {
   Frame whole({columns * (one.width + c_gap) - c_gap, rows * (one.height + c_gap) - c_gap});
   std::fill(whole.rgb.begin(), whole.rgb.end(), std::uint8_t{255});
   for (std::uint32_t i = 0; i < count; ++i)
-    put_tile(whole, frames[i],
-             {i % columns * (one.width + c_gap), i / columns * (one.height + c_gap), one});
+    put_tile(whole, frames[i], {i % columns * (one.width + c_gap), i / columns * (one.height + c_gap), one});
   return whole;
 }
 

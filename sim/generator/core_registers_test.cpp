@@ -89,7 +89,8 @@ TEST(CoreRegisters, FilesOfTheCheckoutAreCurrent) {
   must(make_folders(folder.path() / "rtl/core"));
   must(write_file(folder.path() / "rtl/core/core_registers.toml", data));
   // A copy of the sources has no pages.
-  for (const GeneratedFile& file : generated_files(folder.path(), {})) EXPECT_NE(file.path, "docs/rtl/core.md");
+  for (const GeneratedFile& file : generated_files(folder.path(), {}))
+    EXPECT_NE(file.path, "docs/rtl/core.md");
   must(make_folders(folder.path() / "docs/rtl"));
   must(write_file(folder.path() / "docs/rtl/core.md", "no parts\n"));
   EXPECT_TRUE(

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/os/file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -9,6 +7,7 @@
 #include <thread>
 
 #include "common/test/is_error.hpp"
+#include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -16,8 +15,8 @@ namespace {
 
 TEST(FolderLock, MakesTheSecondWaitForTheFirst) {
   auto folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  auto held = std::make_unique<Descriptor>(
-      must(lock_folder(folder.path(), [] { FAIL() << "it is not locked"; })));
+  auto held =
+      std::make_unique<Descriptor>(must(lock_folder(folder.path(), [] { FAIL() << "it is not locked"; })));
   std::atomic<bool> waited = false, taken = false;
   std::jthread second([&] {
     const auto lock = lock_folder(folder.path(), [&] { waited = true; });

@@ -201,8 +201,7 @@ Demand read_demand(const std::string& error, const std::string& psnr, const std:
           .psnr_db = read_quantity("--psnr", psnr, {{"", 1.0}, {"dB", 1.0}}, above_zero,
                                    "take decibels above 0, such as 45"),
           .seconds = read_quantity("--time", time, {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}},
-                                   above_zero,
-                                   "take a time with its unit, s, ms, us or ns, such as 10ms")};
+                                   above_zero, "take a time with its unit, s, ms, us or ns, such as 10ms")};
 }
 
 std::optional<double> mhz_of(const std::string& hardware, const HardwareTable& table, Clock assumed) {

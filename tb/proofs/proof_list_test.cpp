@@ -112,7 +112,8 @@ TEST(StreamPorts, AreFoundInTheEntity) {
 
 // Signals, constants and values of types.
 std::set<std::string> declared_names(const std::string& vhdl) {
-  const std::regex lists(R"(\b(?:(?:signal|constant) ([\w, ]+) *:|type \w+ is \(([\w,\s]+)\);))"), word(R"(\w+)");
+  const std::regex lists(R"(\b(?:(?:signal|constant) ([\w, ]+) *:|type \w+ is \(([\w,\s]+)\);))"),
+      word(R"(\w+)");
   std::set<std::string> names;
   for (std::sregex_iterator at(vhdl.begin(), vhdl.end(), lists), last; at != last; ++at) {
     const std::string list = (*at)[1].str() + (*at)[2].str();

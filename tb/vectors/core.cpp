@@ -124,7 +124,13 @@ class Script {
             0x12'34'56U | (clear ? HALFWAY_CORE_COMMAND_CLEAR_MASK : 0) |
                 (swap ? HALFWAY_CORE_COMMAND_SWAP_MASK : 0) |
                 HALFWAY_CORE_COMMAND_KIND_DRAW << HALFWAY_CORE_COMMAND_KIND_SHIFT,
-            0, 0, 0, 0, 0, 0, 0};
+            0,
+            0,
+            0,
+            0,
+            0,
+            0,
+            0};
   }
   // Puts a command into the ring: the core may begin.
   void put(std::span<const std::uint32_t> command, std::uint32_t ahead = 0) {
@@ -188,9 +194,16 @@ class Script {
   // Commands with one bad field are skipped: nothing is drawn.
   void refuse_commands() {
     const std::vector<std::uint32_t> good = command(true, true);
-    for (const auto& [word, bits] : std::initializer_list<std::pair<std::size_t, std::uint32_t>>{
-             {8, 1U << 28}, {8, 1U << 29}, {0, 4}, {1, 1}, {1, 1U << 30}, {2, 64}, {3, 8}, {4, 4},
-             {4, 1U << 20}}) {
+    for (const auto& [word, bits] :
+         std::initializer_list<std::pair<std::size_t, std::uint32_t>>{{8, 1U << 28},
+                                                                      {8, 1U << 29},
+                                                                      {0, 4},
+                                                                      {1, 1},
+                                                                      {1, 1U << 30},
+                                                                      {2, 64},
+                                                                      {3, 8},
+                                                                      {4, 4},
+                                                                      {4, 1U << 20}}) {
       std::vector<std::uint32_t> bad = good;
       bad[word] ^= bits;
       put(bad);

@@ -102,7 +102,11 @@ class RegisterRows {
 
   /// The generics are those of tb/vectors/rows.toml.
   void reset_words() {
-    words_ = {HALFWAY_CORE_IDENTITY_VALUE, HALFWAY_CORE_VERSION_VALUE, 0x12345678, 0x9ABCDEF0, 0x0F1E2D3C,
+    words_ = {HALFWAY_CORE_IDENTITY_VALUE,
+              HALFWAY_CORE_VERSION_VALUE,
+              0x12345678,
+              0x9ABCDEF0,
+              0x0F1E2D3C,
               0x4B5A6978};
     counts_ = {};
     aborts_ = false;

@@ -342,9 +342,9 @@ void write_shared_adder(const Folder& folder) {
 }
 
 // A line: product (0 k I, 1 and 2 vector times 1/sqrt, 3 place times distance, 4 weight times factor, 5 k I
-// times weight; dot products: 6 N and A, 7 and 8 the shifted vector, 9 L and the axis, 10 N and L), token, light,
-// shifted vector, N, L, H, 1/sqrt, weight, factor; the number of known components of the product that is due, and
-// its components in 64 bits; whether the dot product that is due is known, and this product.
+// times weight; dot products: 6 N and A, 7 and 8 the shifted vector, 9 L and the axis, 10 N and L), token,
+// light, shifted vector, N, L, H, 1/sqrt, weight, factor; the number of known components of the product that
+// is due, and its components in 64 bits; whether the dot product that is due is known, and this product.
 void write_shared_multiplier(const Folder& folder) {
   write_units(
       folder, c_all,

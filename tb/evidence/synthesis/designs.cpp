@@ -214,9 +214,10 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
                    .ice40 = false,
                    .ecp5 = true,
                    .seeds = 1});
-  all.push_back({.design = {.name = "fragments_to_memory_small",
-                            .entity = "fragments_to_memory",
-                            .generics = {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}}});
+  all.push_back(
+      {.design = {.name = "fragments_to_memory_small",
+                  .entity = "fragments_to_memory",
+                  .generics = {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}}});
   for (ListedDesign& listed : all) {
     listed.design.root = root;
     if (std::ranges::count(c_of_readme, listed.design.name) > 0) listed.seeds = 9;

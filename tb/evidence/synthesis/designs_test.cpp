@@ -31,13 +31,13 @@ TEST(SynthDesigns, AreOfEveryEntityAndOfNoOther) {
   for (const ListedDesign& design : all_designs(c_root)) listed.insert(design.design.entity);
   // These are measured inside the shading processors: a generic of record type has no value on GHDL's command
   // line.
-  for (const char* inside : {"ambient_term",  "cosine_power",        "filter_queue",      "fragment_output",
-                             "half_vector",   "light_state",         "light_term",        "light_vector",
-                             "light_weight",  "object_edges",        "object_front",      "object_merge",
-                             "object_output", "object_processor",    "object_source",     "pixel_filter",
-                             "radiance_sum",  "raster_interpolator", "reflected_term",    "shading_sequence",
-                             "shared_adder",  "shared_multiplier",   "shared_normalizer", "shared_weight",
-                             "token_rasterizer", "token_register"})
+  for (const char* inside :
+       {"ambient_term",  "cosine_power",      "filter_queue",        "fragment_output",  "half_vector",
+        "light_state",   "light_term",        "light_vector",        "light_weight",     "object_edges",
+        "object_front",  "object_merge",      "object_output",       "object_processor", "object_source",
+        "pixel_filter",  "radiance_sum",      "raster_interpolator", "reflected_term",   "shading_sequence",
+        "shared_adder",  "shared_multiplier", "shared_normalizer",   "shared_weight",    "token_rasterizer",
+        "token_register"})
     EXPECT_TRUE(listed.insert(inside).second) << inside;
   // These are measured inside fragments_to_memory and halfway_core.
   for (const char* in_memory :

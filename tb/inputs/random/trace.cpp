@@ -46,9 +46,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto other = TraceReader::open(copy, key);
   demand(bool(other), "the copy opens");
   StreamComparator comparator;
-  demand(bool(read_side_by_side(*reader, *other,
-                                [&](auto golden, auto rtl) { comparator.add(golden, rtl); })),
-         "both read to their ends");
+  demand(
+      bool(read_side_by_side(*reader, *other, [&](auto golden, auto rtl) { comparator.add(golden, rtl); })),
+      "both read to their ends");
   comparator.finish();
   demand(comparator.mismatches() == 0, "equal to itself");
 
