@@ -206,9 +206,8 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     all.back().ice40 = !exact;
   }
   // A picture in memory: both formats on 64 bits, and the smallest form, which is too large for the board.
-  for (const char* true_colour : {"false", "true"})
-    all.push_back({.design = {.name = fmt::format("fragments_to_memory_{}",
-                                                  *true_colour == 't' ? "xrgb8888" : "rgb565"),
+  for (const auto& [format, true_colour] : {std::pair{"rgb565", "false"}, {"xrgb8888", "true"}})
+    all.push_back({.design = {.name = fmt::format("fragments_to_memory_{}", format),
                               .entity = "fragments_to_memory",
                               .generics = {{"g_true_colour", true_colour}}},
                    .ice40 = false,
