@@ -71,13 +71,11 @@ class ShaderModel final : public GoldenModel {
       return count;
     }
   }
-  // Inline the shader, so that the fields of a fragment are written directly to the vector.
-  [[gnu::flatten]] void draw(std::span<const std::uint32_t> init_words,
-                             std::vector<Fragment>& fragments) override {
-    const auto emit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
-    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
-         triangle = take_triangle(shader_, init_words))
-      shader_.draw(triangle, emit);
+  void draw(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) override {
+    if constexpr (c_has_strips)
+      draw_each(init_words, fragments);
+    else
+      draw_inlined(init_words, fragments);
   }
   bool fault() const override {
     if constexpr (requires { shader_.fault(); })
@@ -90,6 +88,18 @@ class ShaderModel final : public GoldenModel {
  private:
   static constexpr bool c_has_strips =
       requires(const Shader& shader, std::span<const std::uint32_t> vector) { shader.pixels(vector); };
+
+  void draw_each(std::span<const std::uint32_t> init_words, std::vector<Fragment>& fragments) {
+    const auto emit = [&](const Fragment& fragment) { fragments.push_back(fragment); };
+    for (auto triangle = take_triangle(shader_, init_words); !triangle.empty();
+         triangle = take_triangle(shader_, init_words))
+      shader_.draw(triangle, emit);
+  }
+  // Inline the shader, so that the fields of a fragment are written directly to the vector.
+  [[gnu::flatten]] void draw_inlined(std::span<const std::uint32_t> init_words,
+                                     std::vector<Fragment>& fragments) {
+    draw_each(init_words, fragments);
+  }
 
   Shader shader_;
 };
