@@ -78,6 +78,11 @@ package tb_pkg is
   -- Sets `done` and ends the process.
   procedure finish (signal done : out boolean);
 
+  -- Waits until no other process has the turn, and takes it. Of the instances of a testbench one runs after the other: all
+  -- at once would not fit into a processor's cache.
+  procedure take_turn;
+  procedure end_turn;
+
   -- Waits for `done` and reports that the testbench passed.
   procedure report_end (signal done : in boolean; testbench : in string);
 
@@ -419,6 +424,44 @@ package body tb_pkg is
     if got /= expected then
       fail(place, number, name, to_string(got), to_string(expected));
     end if;
+  end procedure;
+
+  type turn_t is protected
+    -- Takes the turn, if no process has it, and returns true.
+    impure function take return boolean;
+    procedure give;
+  end protected;
+
+  type turn_t is protected body
+    variable taken : boolean := false;
+
+    impure function take return boolean is
+    begin
+      if taken then
+        return false;
+      end if;
+      taken := true;
+      return true;
+    end function;
+
+    procedure give is
+    begin
+      taken := false;
+    end procedure;
+  end protected body;
+
+  shared variable turn : turn_t;
+
+  procedure take_turn is
+  begin
+    while not turn.take loop
+      wait for 1000 * c_half_period;
+    end loop;
+  end procedure;
+
+  procedure end_turn is
+  begin
+    turn.give;
   end procedure;
 
   procedure report_end (signal done : in boolean; testbench : in string) is

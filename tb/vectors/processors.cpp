@@ -133,14 +133,14 @@ void write_ambient_term_of(const Folder& folder) {
 
 // Inputs: light, token; above, terms (0 if the light is not above the horizon).
 template <class Preset>
-void write_light_term_of(const Folder& folder, Term term, int light_number, int latency) {
+void write_light_term_of(const Folder& folder, Term term, int light_number, int latency, int lights) {
   const int bits = words::ProcessorsLayout<Preset>(part_config()).token_bits();
   TokenMaker<Preset> maker(part_config(), latency);
   const golden::LightTerm<Preset> twin(part_config(), term, light_number);
   Pipeline pipeline(latency);
   golden::ShadingLight light;
   Flat light_bits;
-  for (int done = 0; done < c_lights * c_light_tokens; ++done) {
+  for (int done = 0; done < lights * c_light_tokens; ++done) {
     if (done % c_light_tokens == 0) {
       light = maker.load(Command::define, 0).light;
       light_bits = light_words(maker, part_config(), light);
@@ -229,6 +229,7 @@ void write_pipelines(const Folder& folder, int tokens) {
   for (const ProcessorsConfig& config : configs) write_pipeline<Preset>(folder, config, tokens);
 }
 
+template <int divisor>
 void write_light_term(const Folder& folder) {
   struct Case {
     Term term;
@@ -239,8 +240,8 @@ void write_light_term(const Folder& folder) {
                               {Term::diffuse, 2, 24, 12}, {Term::specular, 2, 50, 18},
                               {Term::diffuse, 3, 32, 20}, {Term::specular, 3, 51, 20}};
   for (const Case& c : c_cases) {
-    write_light_term_of<Exact>(folder, c.term, c.light, c.exact);
-    write_light_term_of<Published>(folder, c.term, c.light, c.published);
+    write_light_term_of<Exact>(folder, c.term, c.light, c.exact, c_lights / divisor);
+    write_light_term_of<Published>(folder, c.term, c.light, c.published, c_lights / divisor);
   }
 }
 
@@ -266,9 +267,11 @@ void write_shading_pipeline(const Folder& folder) {
 std::vector<Entity> processors_entities() {
   return {
       {"ambient_term", in_both_presets([]<class P>(const Folder& f) { write_ambient_term_of<P>(f); })},
-      {"light_term", write_light_term},
+      {"light_term", write_light_term<1>},
+      {"short/light_term", write_light_term<c_short>},
       {"light_state", in_both_presets([]<class P>(const Folder& f) { write_light_state_of<P>(f); })},
       {"shading_processor", write_shading_processor<1>},
+      {"short/shading_processor", write_shading_processor<c_short>},
       {"unrolled_shading_processor", write_shading_processor<1>},
       {"short/unrolled_shading_processor", write_shading_processor<c_short>},
       {"shading_pipeline", write_shading_pipeline<1>},

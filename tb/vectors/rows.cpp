@@ -228,11 +228,11 @@ class Writer {
   }
 
   void put_run(const std::string& file) {
-    put("run : process is\nvariable vectors : vectors_t;\nbegin");
+    put("run : process is\nvariable vectors : vectors_t;\nbegin\ntake_turn;");
     put("vectors.open_file(g_folder & \"/\" & {} & \".txt\"{});", file,
         has("latency") ? ", " + value("latency") : "");
     put_rows();
-    put("finish(finished);\nend process;");
+    put("end_turn;\nfinish(finished);\nend process;");
   }
 
   void put_rows() {

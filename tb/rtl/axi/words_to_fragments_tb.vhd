@@ -25,7 +25,7 @@ begin
     bus_runs : for lanes in 1 to 2 generate
       constant c_stem : string := g_folder & "/" & nth_word(c_packet_names, index) & "_";
 
-      signal ended                  : boolean   := false;
+      signal running                : boolean   := false;
       signal aclk                   : std_logic := '0';
       signal aresetn, s_axis_tvalid : std_logic := '0';
       signal s_axis_tready          : std_logic;
@@ -75,7 +75,7 @@ begin
           m_axis_tlast  => m_axis_tlast,
           m_axis_tuser  => m_axis_tuser);
 
-      aclk <= not aclk after c_half_period when not ended;
+      aclk <= not aclk after c_half_period when running;
 
       run : process is
         variable words, fragments : vectors_t;
@@ -205,6 +205,8 @@ begin
 
         constant c_resets : integer_vector := (2, 9, 31, 311, 997);
       begin
+        take_turn;
+        running <= true;
         wait_clocks(aclk, 2);
         assert s_axis_tready = '0' and m_axis_tvalid = '0' report c_stem & ": not idle in reset" severity failure;
         aresetn <= '1';
@@ -216,7 +218,8 @@ begin
           pass(4 + i, i mod 2, i mod 3, c_resets(i));
         end loop;
         pass(1, 0, 0, 0);
-        ended <= true;
+        running <= false;
+        end_turn;
         finish(finished);
       end process;
     end generate;

@@ -17,10 +17,6 @@ entity halfway_core_checker is
     g_number : natural; -- of the hardware; it has the memories 2 * g_number and 2 * g_number + 1
     g_folder : string
   );
-  port (
-    start : in  boolean; -- no clock before
-    ended : out boolean := false
-  );
 end entity;
 
 architecture sim of halfway_core_checker is
@@ -33,6 +29,7 @@ architecture sim of halfway_core_checker is
   constant c_expected    : natural  := c_memory + 1;
   constant c_limit       : positive := 30_000; -- clocks of a frame that count as a hang
 
+  signal running          : boolean   := false;
   signal clk              : std_logic := '0';
   signal aresetn, reset   : std_logic := '0';
   signal interrupt        : std_logic;
@@ -140,7 +137,7 @@ begin
     port map (clk => clk, reset => reset, m => m, s => s);
 
   reset <= not aresetn;
-  clk   <= not clk after c_half_period when start and not ended;
+  clk   <= not clk after c_half_period when running;
 
   -- The first frame, at a memory that answers at once: docs/rtl/core.md.
   latencies : process is
@@ -227,6 +224,8 @@ begin
   begin
     memories.fill(c_memory, x"00000000");
     memories.fill(c_expected, x"00000000");
+    take_turn;
+    running <= true;
     script.open_file(g_folder & "/" & c_name & ".txt");
     while script.next_vector loop
       script.read_word(kind);
@@ -277,7 +276,8 @@ begin
       end case;
       number := number + 1;
     end loop;
-    ended <= true;
+    running <= false;
+    end_turn;
     finish(finished);
   end process;
 end architecture;
@@ -289,13 +289,10 @@ entity halfway_core_tb is
 end entity;
 
 architecture sim of halfway_core_tb is
-  -- One after the other: all at once would not fit into a processor's cache.
-  signal turns : boolean_vector(0 to 5) := (0 => true, others => false);
 begin
   runs : for index in 0 to 4 generate
     checker : entity work.halfway_core_checker
-      generic map (g_number => index, g_folder => g_folder)
-      port map (start => turns(index), ended => turns(index + 1));
+      generic map (g_number => index, g_folder => g_folder);
   end generate;
 
   report_end(finished, "halfway_core_tb");

@@ -36,7 +36,7 @@ architecture sim of memory_checker is
   constant c_pauses        : integer_vector(0 to 3) := (0, 0, 1, 2);
   constant c_source_pauses : integer_vector(0 to 3) := (0, 0, 1, 0);
 
-  signal ended             : boolean := false;
+  signal running           : boolean := false;
   signal clk               : std_logic := '0';
   signal reset             : std_logic := '1';
   signal frame             : frame_t;
@@ -124,7 +124,7 @@ begin
     generic map (g_true_colour => g_true_colour, g_data_bits => g_data_bits)
     port map (clk => clk, reset => reset, frame => frame, start => start, done => done, m => m, s => s);
 
-  clk <= not clk after c_half_period when not ended;
+  clk <= not clk after c_half_period when running;
   clock <= clock + 1 when rising_edge(clk);
 
   watch : process (clk) is
@@ -323,6 +323,8 @@ begin
   begin
     memories.randomize(c_memory);
     memories.randomize(c_expected);
+    take_turn;
+    running <= true;
     wait_clocks(clk, 3);
     reset <= '0';
     if g_file /= "" then
@@ -359,7 +361,8 @@ begin
       measure(64, 100);
       measure(8, 30);
     end if;
-    ended <= true;
+    running <= false;
+    end_turn;
     finish(finished);
   end process;
 end architecture;

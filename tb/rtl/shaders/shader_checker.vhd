@@ -22,10 +22,6 @@ entity shader_checker is
     g_faults   : boolean  := false; -- a set "fault" exists: fault must be '1' at its end
     g_stem     : string             -- start of the file names
   );
-  port (
-    start : in  boolean := true; -- no clock before
-    ended : out boolean := false
-  );
 end entity;
 
 architecture sim of shader_checker is
@@ -34,6 +30,7 @@ architecture sim of shader_checker is
 
   subtype colour_t is std_logic_vector(c_formats.colour.bits - 1 downto 0);
 
+  signal running                      : boolean   := false;
   signal clk                          : std_logic := '0';
   signal reset                        : std_logic := '1';
   signal init_valid                   : std_logic := '0';
@@ -140,7 +137,7 @@ begin
 
   payload <= fragment_triangle & fragment_y & fragment_x & fragment_z & fragment_red & fragment_green & fragment_blue;
 
-  clk <= not clk after c_half_period when start and not ended;
+  clk <= not clk after c_half_period when running;
 
   run : process is
     variable inits, fragments : vectors_t;
@@ -305,8 +302,9 @@ begin
 
     constant c_resets : integer_vector := (2, 3, 4, 5, 6, 7, 8, 9, 23, 311);
   begin
-    wait until rising_edge(clk);
-    wait until rising_edge(clk);
+    take_turn;
+    running <= true;
+    wait_clocks(clk, 2);
     pass("dense", 1, 0, 0, 0);
     pass("mixed", 1, 0, 0, 0);
     pass("mixed", 12, 1, 1, 0);
@@ -321,7 +319,8 @@ begin
       pass("fault", 1, 0, 0, 0);
     end if;
     pass("mixed", 1, 0, 0, 0);
-    ended <= true;
+    running <= false;
+    end_turn;
     finish(finished);
   end process;
 end architecture;

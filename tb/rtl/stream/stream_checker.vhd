@@ -32,12 +32,12 @@ architecture sim of stream_checker is
   -- Clocks after the last word in which nothing more may leave.
   constant c_rest : positive := 400;
 
-  signal ended, fed : boolean := false;
-  signal words      : std_logic_vector(out_word'length - 1 downto 0);
+  signal running, fed : boolean := false;
+  signal words        : std_logic_vector(out_word'length - 1 downto 0);
 begin
   words <= out_word;
 
-  clk <= not clk after c_half_period when not ended;
+  clk <= not clk after c_half_period when running;
 
   source : entity work.stream_source
     generic map (g_file => g_file & "_in.txt", g_pace => g_pace, g_pause => 2)
@@ -52,6 +52,8 @@ begin
     variable still   : natural := 0; -- clocks without a word
     variable low     : natural;
   begin
+    take_turn;
+    running <= true;
     vectors.open_file(g_file & "_out.txt");
     while vectors.next_vector loop
       loop
@@ -90,7 +92,8 @@ begin
     if fault /= g_fault then
       vectors.fail("fault is " & to_string(fault));
     end if;
-    ended <= true;
+    running <= false;
+    end_turn;
     finish(finished);
   end process;
 end architecture;
