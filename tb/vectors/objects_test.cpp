@@ -22,12 +22,29 @@ using words::Command, words::Exact, words::ProcessorsConfig;
 struct Shown {
   Command command;
   std::uint32_t y, x, z, triangle, mask;
-  std::int64_t normal_x;
+  // N, P, 1/w; material; light, opens, normalize. Zero if the token has none.
+  std::array<std::int64_t, 20> values{};
   bool operator==(const Shown&) const = default;
 };
 void PrintTo(const Shown& s, std::ostream* out) {
   *out << static_cast<int>(s.command) << " at " << s.y << ',' << s.x << " z " << s.z << " triangle "
-       << s.triangle << " mask " << s.mask << " N " << s.normal_x;
+       << s.triangle << " mask " << s.mask;
+  for (const std::int64_t value : s.values) *out << ' ' << value;
+}
+
+template <class Preset>
+Shown shown(const golden::ShadingToken<Preset>& t, std::uint32_t mask) {
+  const auto i64 = [](auto value) { return static_cast<std::int64_t>(value); };
+  return {t.command,
+          t.y,
+          t.x,
+          t.z,
+          t.triangle,
+          mask,
+          {t.normal[0],        t.normal[1],        t.normal[2],         t.place[0],        t.place[1],
+           t.place[2],         t.distance,         i64(t.exponent),     i64(t.ambient[0]), i64(t.ambient[1]),
+           i64(t.ambient[2]),  i64(t.diffuse[0]),  i64(t.diffuse[1]),   i64(t.diffuse[2]), i64(t.specular[0]),
+           i64(t.specular[1]), i64(t.specular[2]), i64(t.light_number), i64(t.opens),      i64(t.normalize)}};
 }
 
 template <class Preset>
@@ -38,7 +55,7 @@ std::vector<Shown> tokens_of(const std::vector<InitVector>& vectors, const Proce
   for (const InitVector& vector : vectors)
     front.take(vector, [&](const auto& t, std::uint32_t mask, bool ends) {
       if (ends) return;
-      tokens.push_back({t.command, t.y, t.x, t.z, t.triangle, mask, t.normal[0]});
+      tokens.push_back(shown(t, mask));
     });
   EXPECT_FALSE(front.busy());
   if (fault) *fault = front.fault();
@@ -106,14 +123,15 @@ class Unordered {
   Shown element(const StripTriangle& t, std::size_t number, std::uint32_t y, std::uint32_t x) const {
     using Plane = typename Preset::plane_header_at;
     constexpr int c_walk = words::ProcessorsLayout<Preset>::walk_low();
-    constexpr int c_plane = words::ProcessorsLayout<Preset>::plane_low(0);
     const std::uint32_t side = strip_.side;
     std::uint32_t mask = 0;
     for (std::uint32_t i = 0; i < side * side; ++i)
       mask |= static_cast<std::uint32_t>(coverage_[number].count({side * y + i / side, side * x + i % side}))
               << i;
-    Shown e{Command::new_object, strip_.y + y, strip_.x + x, 0, 0, mask, 0};
-    if (mask == 0) return e;
+    golden::ShadingToken<Preset> e;
+    e.y = strip_.y + y;
+    e.x = strip_.x + x;
+    if (mask == 0) return shown(e, mask);
     // Eighths from the strip's first pixel to the point.
     std::int64_t columns = 8 * x, lines = 8 * y - 8 * (static_cast<std::uint32_t>(t.first_line));
     bool centre = true;
@@ -127,13 +145,20 @@ class Unordered {
     }
     const std::uint64_t z =
         at<Exact::c_depth_sum_bits>(t.vector, c_walk, At::z, At::z_dx, At::z_de0, At::z_de1, columns, lines);
-    const std::uint64_t n = at<Preset::c_plane_sum_bits>(t.vector, c_plane, Plane::value, Plane::dx,
-                                                         Plane::de0, Plane::de1, columns, lines);
     e.z = static_cast<std::uint32_t>(words::low_bits(z >> Exact::c_depth_sum_fraction_bits, 24));
     e.triangle = static_cast<std::uint32_t>(get_bits(t.vector, At::triangle, c_walk));
-    e.normal_x = words::Word<Preset::c_plane_sum_bits>::from_bits(n).value() >>
-                 (Preset::c_plane_sum_bits - Preset::c_vector_bits);
-    return e;
+    e.decode_request(t.vector);
+    if (e.command == Command::shadow) return shown(e, mask);
+    e.decode_material(config_, t.vector);
+    const words::ProcessorsLayout<Preset> layout(config_);
+    for (int p = 0; p < layout.planes(); ++p) {
+      const std::uint64_t sum = at<Preset::c_plane_sum_bits>(
+          t.vector, layout.plane_low(p), Plane::value, Plane::dx, Plane::de0, Plane::de1, columns, lines);
+      auto& value = p < 3 ? e.normal[p] : p < 6 ? e.place[p - 3] : e.distance;
+      value = words::Word<Preset::c_plane_sum_bits>::from_bits(sum).value() >>
+              (Preset::c_plane_sum_bits - Preset::c_vector_bits);
+    }
+    return shown(e, mask);
   }
 
   std::vector<Shown> resolved(const std::vector<StripTriangle>& triangles, std::uint32_t y,
@@ -143,13 +168,9 @@ class Unordered {
     std::vector<Shown> all;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       Shown e = element(triangles[i], i, y, x);
-      const auto command =
-          static_cast<Command>(get_bits(triangles[i].vector, Preset::request_header_at::command));
-      if (command == Command::shadow) {
+      if (e.command == Command::shadow) {
         if ((e.mask & right_below_centre) == 0) continue;
         e.mask = 0;
-        e.normal_x = 0;
-        e.command = Command::shadow;
         all.push_back(e);
       } else if (e.mask != 0) {
         all.push_back(e);
