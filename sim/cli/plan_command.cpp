@@ -216,6 +216,15 @@ void print_own_processors(const Scene& scene, const ShadingLoad& load) {
   }
 }
 
+// The fewest object processors that draw the scene: those of strips that are as narrow as possible.
+std::uint64_t fewest_object_processors(const Scene& scene, FrameSize size, HardwareKey key) {
+  key.processors.objects = 1;
+  std::vector<std::uint32_t> words;
+  SetupCounts counts;
+  make_setup(scene, size, key, {})->append_prologue(words, counts);
+  return counts.objects;
+}
+
 // The same with the objects that the chain of object processors lets through, instead of O objects at each
 // pixel.
 void print_measured_processors(const Scene& scene, const DrawSettings& draw, const HardwareKey& key,
@@ -224,11 +233,20 @@ void print_measured_processors(const Scene& scene, const DrawSettings& draw, con
       scene, draw.size, key,
       {.setup = draw.setup, .golden = GoldenDraws::nothing, .workers = on_threads(draw.threads)}));
   const std::uint64_t objects = count_objects(key, stream.words);
-  fmt::print("measured behind {} object processors, {} subpixel{}: {} objects a frame, O = {:.3f}; ",
-             key.processors.objects, key.processors.subpixels, key.processors.subpixels == 1 ? "" : "s",
-             objects, static_cast<double>(objects) / static_cast<double>(load.pixels));
-  load.pixels = objects;
+  fmt::print(
+      "measured behind {} object processors, {} subpixel{}: {} objects a frame, O = {:.3f}; "
+      "the scene needs {} object processors\n",
+      key.processors.objects, key.processors.subpixels, key.processors.subpixels == 1 ? "" : "s", objects,
+      static_cast<double>(objects) / static_cast<double>(load.pixels),
+      fewest_object_processors(scene, draw.size, key));
+  load.pixels = objects;  // M O
   load.objects = 1;
+  for (const ProcessorVersion version : {ProcessorVersion::one, ProcessorVersion::two}) {
+    const ProcessorCount n = count_processors(version, load);
+    fmt::print("  version {}, with this O: {} ({:.2f}) pipelines, {} processors\n",
+               version == ProcessorVersion::one ? "I" : "II", n.pipelines, n.pipelines_needed,
+               n.processors());
+  }
   print_own_processors(scene, load);
 }
 

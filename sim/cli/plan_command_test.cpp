@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of `halfway plan`, and of --all-effects in the commands that draw.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 
 #include "sim/cli/command_test.hpp"
 
@@ -119,9 +122,9 @@ TEST_F(PlanCommand, Table5OfTheLights) {
 
 // Behind object processors each covered pixel has one object; with the filter, pixels at outlines have more.
 TEST_F(PlanCommand, MeasuresObjectsBehindObjectProcessors) {
-  const auto plan = [&](const char* subpixels) {
-    return run({"plan", "matte", "--shader", "processors", "--object-processors", "32", "--subpixels",
-                subpixels, "--size", "160x120", "--rate", "30"});
+  const auto plan = [&](const char* subpixels, int objects = 32) {
+    return run({"plan", "matte", "--shader", "processors", "--object-processors", std::to_string(objects),
+                "--subpixels", subpixels, "--size", "160x120", "--rate", "30"});
   };
   const Outcome plain = plan("1"), filtered = plan("16");
   EXPECT_EQ(plain.exit_code, 0) << plain.output;
@@ -136,6 +139,15 @@ TEST_F(PlanCommand, MeasuresObjectsBehindObjectProcessors) {
     return std::atoi(output.c_str() + start);
   };
   EXPECT_GT(objects_of(plain.output), 1000);
+  // R = 1, version I: 30 frames, 7 clocks of 50 ns per object, 3 processors a pipeline.
+  EXPECT_THAT(plain.output,
+              HasSubstr(fmt::format("version I, with this O: 1 ({:.2f}) pipelines, 3 processors\n",
+                                    30 * 7 * 50e-9 * objects_of(plain.output))));
+  // One object processor fewer is refused, with this number.
+  const std::string_view needs = "the scene needs ";
+  ASSERT_THAT(filtered.output, HasSubstr(needs));
+  const int fewest = std::atoi(filtered.output.c_str() + filtered.output.find(needs) + needs.size());
+  EXPECT_THAT(plan("16", fewest - 1), Ends(2, HasSubstr(fmt::format("{} pieces of triangles", fewest))));
   EXPECT_GT(objects_of(filtered.output), objects_of(plain.output));
 }
 
