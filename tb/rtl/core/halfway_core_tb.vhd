@@ -9,6 +9,7 @@ use work.axi_memory_pkg.all;
 use work.axi_words_pkg.all;
 use work.core_registers_pkg.all;
 use work.memory_pkg.all;
+use work.stream_pkg.all;
 use work.tb_pkg.all;
 use work.tb_shaders_pkg.all;
 
@@ -135,6 +136,16 @@ begin
   rules : entity work.axi_rules
     generic map (g_true_colour => c_true_colour, g_data_bits => c_bus_bits, g_any_place => true)
     port map (clk => clk, reset => reset, m => m, s => s);
+
+  register_port : process (clk) is
+    variable response_waiting : std_logic_vector(0 to 2)  := (others => '0');
+    variable word_waiting     : std_logic_vector(0 to 34) := (others => '0');
+  begin
+    if rising_edge(clk) then
+      check_stream("s_axi b", reset, bready, bvalid & bresp, response_waiting);
+      check_stream("s_axi r", reset, rready, rvalid & rresp & rdata, word_waiting);
+    end if;
+  end process;
 
   reset <= not aresetn;
   clk   <= not clk after c_half_period when running;
