@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <random>
 #include <span>
 #include <vector>
 
+#include "golden_run/packets.hpp"
 #include "sim/extras/library/halfway_core.h"
 #include "sim/extras/library/halfway_core_registers.h"
 #include "sim/extras/library/objects.hpp"
@@ -126,6 +128,35 @@ std::uint64_t compare(Host& host, const FrameStream& stream, FrameSize size, Pix
   return kept;
 }
 
+/// The number of packets of kind 1 that the command draws.
+std::uint64_t triangle_packets(Host& host) {
+  const std::uint32_t ring = host.read(HALFWAY_CORE_RING_BASE);
+  std::uint32_t at = host.word(ring + 4 * HALFWAY_CORE_COMMAND_PACKETS_WORD);
+  const std::uint32_t end = at + 4 * host.word(ring + 4 * HALFWAY_CORE_COMMAND_PACKET_WORDS_WORD);
+  std::uint64_t triangles = 0;
+  while (at < end) {
+    const std::uint32_t header = host.word(at);
+    if (static_cast<PacketKind>(header & 0xFFFF) == PacketKind::triangle) ++triangles;
+    // A whole number of pairs of words.
+    at += 8 * ((header >> 16) / 2 + 1);
+  }
+  return triangles;
+}
+
+void check_counters(const CoreFigures& figures, const CoreFigures& expected, std::uint64_t clocks) {
+  const auto differ = [](const std::string& what) { throw Failure{{ExitCode::differs, what}}; };
+  if (figures.triangles != expected.triangles || figures.fragments != expected.fragments ||
+      figures.pixels != expected.pixels)
+    differ(fmt::format("the counters have {} triangles, {} fragments and {} pixels instead of {}, {} and {}",
+                       figures.triangles, figures.fragments, figures.pixels, expected.triangles,
+                       expected.fragments, expected.pixels));
+  // A busy clock has at most one word each way, and one fragment that is taken or waits.
+  const std::uint64_t least =
+      std::max({figures.words_read, figures.words_written, figures.fragments + figures.stalled_clocks});
+  if (figures.clocks < least || figures.clocks > clocks)
+    differ(fmt::format("busy_clocks is {} instead of {} to {}", figures.clocks, least, clocks));
+}
+
 }  // namespace
 
 CoreFigures check_core(const Scene& scene, const CoreKey& key, const CoreCheckOptions& options,
@@ -164,10 +195,9 @@ CoreFigures check_core(const Scene& scene, const CoreKey& key, const CoreCheckOp
                             .stalled_clocks = host.read(HALFWAY_CORE_STALLED_CLOCKS),
                             .words_read = host.core().memory().words_read(),
                             .words_written = host.core().memory().words_written()};
-  if (figures.fragments != stream.golden.size() || figures.pixels != kept)
-    throw Failure{
-        {ExitCode::differs, fmt::format("the counters have {} fragments and {} pixels instead of {} and {}",
-                                        figures.fragments, figures.pixels, stream.golden.size(), kept)}};
+  check_counters(figures,
+                 {.triangles = triangle_packets(host), .fragments = stream.golden.size(), .pixels = kept},
+                 host.core().clocks());
   return figures;
 }
 
