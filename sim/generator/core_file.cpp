@@ -13,7 +13,7 @@ std::string core_text(std::string_view files, std::string_view version) {
       "# SPDX-License-Identifier: Apache-2.0\n"
       "# For FuseSoC. Made by `make tables` from rtl/files.f: change that file.\n"
       "name: ::halfway:{}\n"
-      "description: Shading hardware between Gouraud and Phong, with AXI4-Stream ports\n\n"
+      "description: Shading hardware between Gouraud and Phong, with AXI4-Stream ports or as a core with AXI4\n\n"
       "filesets:\n"
       "  rtl:\n"
       "    file_type: vhdlSource-2008\n"
@@ -27,11 +27,11 @@ std::string core_text(std::string_view files, std::string_view version) {
          "\ntargets:\n"
          "  default:\n"
          "    filesets: [rtl]\n"
-         "  # Analyses all files in their order and elaborates a top.\n"
+         "  # Analyses all files in their order and elaborates the core, which contains words_to_fragments.\n"
          "  check:\n"
          "    default_tool: ghdl\n"
          "    filesets: [rtl]\n"
-         "    toplevel: halfway.words_to_fragments\n";
+         "    toplevel: halfway.halfway_core\n";
 }
 
 }  // namespace halfway::tables
