@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # A user's design takes the tops from the library halfway, next to units of its own that have the names of the RTL's
-# units. Each top stops a simulation that breaks the contract of the stream that it takes.
+# units. Each top stops a simulation that breaks the contract of the stream that it takes. The core can be elaborated.
 # vhdl_library.sh ROOT LIBRARY FOLDER: LIBRARY is the folder of the library halfway.
 set -eu
 root=$1 library=$2 folder=$3
@@ -30,4 +30,6 @@ spherical_shader stream_register: in
 processors_shader stream_register: in
 fragments_to_memory fragments_to_memory: s_axis
 END
+# The core alone, with its default generics.
+ghdl --elab-run --std=08 --work=halfway --workdir="$library" halfway_core --no-run
 echo "vhdl_library.sh: passed"
