@@ -461,5 +461,12 @@ TEST(CoreDriver, RefusesFramesThatTheCoreCannotDraw) {
   }
 }
 
+TEST(MappedRegisters, OffsetsAreInBytes) {
+  std::uint32_t registers[4] = {10, 11, 12, 13};
+  EXPECT_EQ(halfway_mapped_read(registers, 8), 12U);
+  halfway_mapped_write(registers, 4, 0x89AB'CDEF);
+  EXPECT_THAT(registers, ::testing::ElementsAre(10, 0x89AB'CDEF, 12, 13));
+}
+
 }  // namespace
 }  // namespace halfway
