@@ -21,7 +21,7 @@ using golden::PixelFormat;
 
 // The memory of the testbench (axi_memory.vhd), and what the host puts where.
 constexpr std::uint32_t c_window = 0x7FFC'0000, c_window_bytes = 1 << 17;
-constexpr std::uint32_t c_ring = c_window + 0x40, c_ring_bits = 1;
+constexpr std::uint32_t c_ring = c_window + 0x40;
 constexpr std::uint32_t c_packets = c_window + 0x1000, c_buffers = c_window + 0x18000;
 constexpr FrameSize c_size{16, 12};
 
@@ -49,7 +49,12 @@ class Script {
     refuse_commands();
     refuse_packets();
     break_frames();
+    // The third command of a larger ring is not in the place of the first one.
+    ring_bits_ = 2;
     begin();
+    draw(true, true);
+    draw(false, false);
+    place_.colour_base = c_buffers;
     draw(true, true);
   }
   void write(const std::filesystem::path& path) const { rows_.write(path); }
@@ -96,7 +101,7 @@ class Script {
     done_ = 0;
     picture_ = 0;
     write_register(HALFWAY_CORE_RING_BASE, c_ring);
-    write_register(HALFWAY_CORE_RING_SIZE, c_ring_bits);
+    write_register(HALFWAY_CORE_RING_SIZE, ring_bits_);
     write_register(HALFWAY_CORE_INTERRUPT_ENABLE, 3);
     write_register(HALFWAY_CORE_CONTROL, 1);
   }
@@ -134,7 +139,7 @@ class Script {
   }
   // Puts a command into the ring: the core may begin.
   void put(std::span<const std::uint32_t> command, std::uint32_t ahead = 0) {
-    set_words(c_ring + 64 * ((done_ + ahead) % (1U << c_ring_bits)), command);
+    set_words(c_ring + 64 * ((done_ + ahead) % (1U << ring_bits_)), command);
     write_register(HALFWAY_CORE_RING_HEAD, done_ + ahead + 1);
   }
   // Waits for the end of `commands` commands, the last of them with these faults.
@@ -279,7 +284,7 @@ class Script {
   FramePlace place_;
   PacketWords packets_;
   VectorFile rows_;
-  std::uint32_t done_ = 0, picture_ = 0, fragments_ = 0, pixels_ = 0;
+  std::uint32_t ring_bits_ = 1, done_ = 0, picture_ = 0, fragments_ = 0, pixels_ = 0;
 };
 
 void write_core(const Folder& folder) {
