@@ -30,7 +30,7 @@ constexpr unsigned c_threads = 2;
 
 struct Options {
   bool faults = true;
-  bool quick = false;
+  bool quick = false, slow = false;
   bool evidence = false;
   Folders folders{};
   std::string name{};
@@ -47,7 +47,7 @@ void keep_few(std::vector<Fault>& faults) {
 }
 
 bool is_selected(const Options& options, const Proof& proof) {
-  return (!options.quick || proof.quick) &&
+  return (proof.quick ? !options.slow : !options.quick) &&
          (contains(proof.unit, options.name) || contains(proof.name, options.name));
 }
 
@@ -223,9 +223,10 @@ int main(int argc, char** argv) {
       app.add_flag("--quick", options.quick,
                    fmt::format("only proofs that take a few seconds, each with {} faults at most",
                                proofs::c_quick_faults));
+  CLI::Option* slow = app.add_flag("--slow", options.slow, "only the proofs that --quick leaves out");
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
   app.add_flag("--evidence", options.evidence, "measure the rows that are missing, and write the page")
-      ->excludes(quick, no_faults);
+      ->excludes(quick, slow, no_faults);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();
   app.add_option("NAME", options.name, "only proofs with this in their names, such as raster/edge_walker");
