@@ -140,7 +140,8 @@ use work.tb_pkg.all;
 -- An AXI4 memory that takes what the rules allow: a read sees the memory at the clock in which its address is taken, and
 -- a write changes it only in the clock of its response. The channels are independent. latency: clocks from an address to
 -- the first word, and from a write's last word to its response. pause: a ready or a valid is '1' in one of 2**pause
--- clocks. errors: one of 2**errors words and responses is an error, if it is not 0.
+-- clocks; if it is not 0, each burst has a random latency up to this one. errors: one of 2**errors words and responses is
+-- an error, if it is not 0.
 entity axi_memory is
   generic (
     g_memory    : natural; -- its number
@@ -195,11 +196,22 @@ begin
     variable beat_in, beat_out   : natural := 0;
     variable address             : natural;
     variable place               : natural;
+    variable first_word          : natural; -- clock of it
 
     impure function now_and_then return boolean is
     begin
       random := next_random(random);
       return chance(random(30 downto 23), pause);
+    end function;
+
+    -- The clock of a burst's first word, or of its response.
+    impure function due return natural is
+    begin
+      if pause = 0 then
+        return clock + latency - 1;
+      end if;
+      random := next_random(random);
+      return clock + to_integer(random(30 downto 15)) mod latency;
     end function;
 
     impure function response return std_logic_vector is
@@ -216,13 +228,14 @@ begin
 
       -- Take addresses and words.
       if m.ar.valid = '1' and answers.arready = '1' then
+        first_word := due;
         for beat in 0 to to_integer(m.ar.len) loop
           address := to_integer(m.ar.addr) + beat * c_bytes;
           assert address >= c_memory_origin and address < c_memory_origin + 4 * c_memory_words
             report "axi_memory: read at " & to_hstring(to_unsigned(address, 32)) severity failure;
           place := (address - c_memory_origin) / 4;
           reads(read_in mod c_beats) := (data => (others => 'X'), strb => (others => '0'),
-            last => to_flag(beat = to_integer(m.ar.len)), due => clock + latency - 1);
+            last => to_flag(beat = to_integer(m.ar.len)), due => first_word);
           for word in 0 to g_data_bits / 32 - 1 loop
             reads(read_in mod c_beats).data(32 * word + 31 downto 32 * word) := memories.get(g_memory, place + word);
           end loop;
@@ -238,7 +251,7 @@ begin
         beats(beat_in mod c_beats) := (m.wdata, m.wstrb, m.wlast, 0);
         beat_in := beat_in + 1;
         if m.wlast = '1' then
-          writes(bursts mod c_requests).due := clock + latency - 1;
+          writes(bursts mod c_requests).due := due;
           bursts := bursts + 1;
         end if;
       end if;
