@@ -136,7 +136,6 @@ run() { # page, options
       ;;
     transcripts)
       tb/project/example/transcripts.sh "$root/build/halfway" "$root" "$root/build/tb/transcripts"
-      tb/project/example/block_clocks.sh "$root" "$root/build/tb/block_clocks"
       ;;
     speed)
       build/halfway_bench --jobs "$jobs" --page docs/results/speed.md
