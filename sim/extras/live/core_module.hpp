@@ -8,8 +8,8 @@
 
 namespace halfway {
 
-/// The module's file in build/cache/live/core-<hash>/, compiled unless it exists. core.cpp lists its
-/// functions.
+/// The module's file in build/cache/live/core-<hash>/, compiled unless it exists.
+/// live_core/module_exports.cpp lists its functions.
 std::filesystem::path build_core_module(const SimulatorFolders& folders);
 
 }  // namespace halfway
