@@ -9,34 +9,6 @@
 namespace halfway::vectors {
 namespace {
 
-// A line: y, x, z, red, green, blue; inside, place, depth, colour.
-void write_fragment_pixel(const Folder& folder) {
-  Random random(1);
-  VectorFile file;
-  const auto add = [&](std::uint32_t y, std::uint32_t x) {
-    const Fragment fragment{.triangle = 0,
-                            .z = static_cast<std::uint32_t>(random.bits(24)),
-                            .y = static_cast<std::uint16_t>(y),
-                            .x = static_cast<std::uint16_t>(x),
-                            .red = static_cast<std::uint8_t>(random.bits(8)),
-                            .green = static_cast<std::uint8_t>(random.bits(8)),
-                            .blue = static_cast<std::uint8_t>(random.bits(8))};
-    const auto place = golden::board_place(fragment);
-    file.word(y, 12).word(x, 12).word(fragment.z, 24);
-    file.word(fragment.red, 8).word(fragment.green, 8).word(fragment.blue, 8);
-    file.flag(place.has_value()).word(place.value_or(0), 17).word(golden::board_depth(fragment.z), 16);
-    file.word(golden::board_colour(fragment.red, fragment.green, fragment.blue), 16).end_vector();
-  };
-  // Each line at both ends; the positions next to the frame; others.
-  for (std::uint32_t y = 0; y < golden::c_board_height; ++y)
-    for (const std::uint32_t x : {0U, 1U, 255U, 256U, golden::c_board_width - 1}) add(y, x);
-  for (const std::uint32_t y : {239U, 240U, 255U, 256U, 495U, 4095U})
-    for (const std::uint32_t x : {319U, 320U, 511U, 512U, 831U, 4095U}) add(y, x);
-  for (int i = 0; i < 2000; ++i)
-    add(static_cast<std::uint32_t>(random.bits(9)), static_cast<std::uint32_t>(random.bits(9)));
-  file.write(folder / "fragments.txt");
-}
-
 // A line: colour; red, green, blue of the dots (0, 0), (1, 0), (0, 1), (1, 1) in (x, y). One line per level
 // of a channel, and others.
 void write_scan_out(const Folder& folder) {
@@ -84,7 +56,6 @@ void write_drawing_rate(const Folder& folder) {
 
 std::vector<Entity> board_entities() {
   return {
-      {"fragment_pixel", write_fragment_pixel},
       {"scan_out", write_scan_out},
       {"board_top", write_scan_out},
       {"drawing_rate", write_drawing_rate},

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "golden/board_pixel.hpp"
 #include "sim/extras/board/board_picture.hpp"
 #include "sim/extras/board/monitor.hpp"
 #include "sim/extras/board/spi_host.hpp"
@@ -172,6 +174,15 @@ TEST(BoardPicture, KeepsTheFirstOfEqualDepths) {
   // The farthest depth is never drawn.
   EXPECT_EQ(picture.colours()[642], 0x1234);
   EXPECT_EQ(picture.dots()[2][0], 7);
+}
+
+TEST(BoardPixel, IsInsideTheFrame) {
+  const auto place = [](std::uint16_t y, std::uint16_t x) {
+    return golden::board_place({.triangle = 0, .z = 0, .y = y, .x = x, .red = 0, .green = 0, .blue = 0});
+  };
+  EXPECT_EQ(place(239, 319), 76799u);
+  EXPECT_EQ(place(240, 0), std::nullopt);
+  EXPECT_EQ(place(0, 320), std::nullopt);
 }
 
 }  // namespace
