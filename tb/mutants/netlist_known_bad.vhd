@@ -76,6 +76,9 @@ begin
     chosen <= upper_bits when stimulus(0) = '1' else std_logic_vector(resize(a, 64));
     result <= signed(chosen(63 downto 24));
   end generate;
+  large_integer : if g_construct = 10 generate
+    result <= a when unsigned(stimulus(1 downto 0)) <= 5 else b;
+  end generate;
 
   registers : process (clk)
   begin

@@ -116,7 +116,8 @@ constexpr Construct c_constructs[] = {
     {"6", "a constant of 40 bits", Verdict::mended, Verdict::right},
     {"7", "mod", Verdict::refused, Verdict::refused},
     {"8", "when others", Verdict::refused, Verdict::right},
-    {"9", "a constant with ones in its upper 32 bits only", Verdict::wrong, Verdict::right}};
+    {"9", "a constant with ones in its upper 32 bits only", Verdict::wrong, Verdict::right},
+    {"10", "comparison with an integer that has more bits", Verdict::wrong, Verdict::wrong}};
 
 class ConstructOfGhdl : public KnownBad, public testing::WithParamInterface<Construct> {
  protected:
