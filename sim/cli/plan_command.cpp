@@ -217,11 +217,11 @@ void print_own_processors(const Scene& scene, const ShadingLoad& load) {
 }
 
 // The fewest object processors that draw the scene: those of strips that are as narrow as possible.
-std::uint64_t fewest_object_processors(const Scene& scene, FrameSize size, HardwareKey key) {
+std::uint64_t fewest_object_processors(const Scene& scene, const DrawSettings& draw, HardwareKey key) {
   key.processors.objects = 1;
   std::vector<std::uint32_t> words;
   SetupCounts counts;
-  make_setup(scene, size, key, {})->append_prologue(words, counts);
+  make_setup(scene, draw.size, key, draw.setup)->append_prologue(words, counts);
   return counts.objects;
 }
 
@@ -238,7 +238,7 @@ void print_measured_processors(const Scene& scene, const DrawSettings& draw, con
       "the scene needs {} object processors\n",
       key.processors.objects, key.processors.subpixels, key.processors.subpixels == 1 ? "" : "s", objects,
       static_cast<double>(objects) / static_cast<double>(load.pixels),
-      fewest_object_processors(scene, draw.size, key));
+      fewest_object_processors(scene, draw, key));
   load.pixels = objects;  // M O
   load.objects = 1;
   for (const ProcessorVersion version : {ProcessorVersion::one, ProcessorVersion::two}) {

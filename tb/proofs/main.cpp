@@ -223,7 +223,8 @@ int main(int argc, char** argv) {
       app.add_flag("--quick", options.quick,
                    fmt::format("only proofs that take a few seconds, each with {} faults at most",
                                proofs::c_quick_faults));
-  CLI::Option* slow = app.add_flag("--slow", options.slow, "only the proofs that --quick leaves out");
+  CLI::Option* slow =
+      app.add_flag("--slow", options.slow, "only the proofs that --quick leaves out")->excludes(quick);
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
   app.add_flag("--evidence", options.evidence, "measure the rows that are missing, and write the page")
       ->excludes(quick, slow, no_faults);

@@ -81,7 +81,8 @@ package tb_pkg is
   -- Waits until no other process has the turn, and takes it. Of the instances of a testbench one runs after the other: all
   -- at once would not fit into a processor's cache.
   procedure take_turn;
-  procedure end_turn;
+  -- Ends the turn, then as `finish`.
+  procedure end_turn (signal done : out boolean);
 
   -- Waits for `done` and reports that the testbench passed.
   procedure report_end (signal done : in boolean; testbench : in string);
@@ -459,9 +460,10 @@ package body tb_pkg is
     end loop;
   end procedure;
 
-  procedure end_turn is
+  procedure end_turn (signal done : out boolean) is
   begin
     turn.give;
+    finish(done);
   end procedure;
 
   procedure report_end (signal done : in boolean; testbench : in string) is

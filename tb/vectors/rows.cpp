@@ -232,7 +232,7 @@ class Writer {
     put("vectors.open_file(g_folder & \"/\" & {} & \".txt\"{});", file,
         has("latency") ? ", " + value("latency") : "");
     put_rows();
-    put("end_turn;\nfinish(finished);\nend process;");
+    put("end_turn(finished);\nend process;");
   }
 
   void put_rows() {

@@ -219,8 +219,7 @@ begin
         end loop;
         pass(1, 0, 0, 0);
         running <= false;
-        end_turn;
-        finish(finished);
+        end_turn(finished);
       end process;
     end generate;
   end generate;

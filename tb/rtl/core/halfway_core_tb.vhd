@@ -288,8 +288,7 @@ begin
       number := number + 1;
     end loop;
     running <= false;
-    end_turn;
-    finish(finished);
+    end_turn(finished);
   end process;
 end architecture;
 

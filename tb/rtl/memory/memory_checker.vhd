@@ -362,7 +362,6 @@ begin
       measure(8, 30);
     end if;
     running <= false;
-    end_turn;
-    finish(finished);
+    end_turn(finished);
   end process;
 end architecture;

@@ -320,7 +320,6 @@ begin
     end if;
     pass("mixed", 1, 0, 0, 0);
     running <= false;
-    end_turn;
-    finish(finished);
+    end_turn(finished);
   end process;
 end architecture;

@@ -93,7 +93,6 @@ begin
       vectors.fail("fault is " & to_string(fault));
     end if;
     running <= false;
-    end_turn;
-    finish(finished);
+    end_turn(finished);
   end process;
 end architecture;
