@@ -31,10 +31,10 @@ class ObjectSource {
         send_parts(vector, command == Command::shadow, out);
       return;
     }
-    if (strip_) end_strip(out);
     if (command == Command::new_scanline) {
+      if (strip_) end_strip(out);
       open_strip(vector);
-    } else if (words::is_load(command)) {
+    } else if (words::is_load(command) && !strip_) {
       Word load;
       load.token = ShadingToken<Preset>::decode(config_, vector);
       out(load);

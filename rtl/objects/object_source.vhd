@@ -6,12 +6,12 @@
 --               draw, shadow    a triangle. If its first line is the next one, it enters; otherwise a line is scanned
 --               new_scanline    a strip: first line, number of lines, first column, column after the last. The strip
 --                               before is scanned to its end. A strip without a pixel only ends the one before
---               define, redefine, delete, new_frame    the strip before is scanned to its end; then the load enters
+--               define, redefine, delete, new_frame    a load. It enters between strips
 -- Contract    Both streams are valid/ready. in_vector must not change while it waits; out_word does not change while it
 --             waits. in_ready depends on in_valid, in_vector and out_ready in the same clock.
 --             Triangles come in the order of their first lines, after their strip. fault stays '1' after a triangle out of
---             this order or outside a strip, a strip larger than most_columns or most_lines (objects_pkg), or an
---             unknown command; such a vector is dropped.
+--             this order or outside a strip, a strip larger than most_columns or most_lines (objects_pkg), a load in a
+--             strip that has not ended, or an unknown command; such a vector is dropped, and its strip goes on.
 --             busy: a strip is not scanned to its end. The last strip ends with the strip after it.
 -- Formats     in_vector: processors_pkg. Fields of a strip: y, upper_lines, start_x, upper_x of the walk, in pixels. y of
 --             a triangle: in subpixels from the strip's first line. out_word: objects_pkg
@@ -87,6 +87,7 @@ architecture rtl of object_source is
   signal sends_head, sends_end : std_logic;
   signal sends_part            : std_logic;
   signal refuses, starts_line  : std_logic;
+  signal passes                : std_logic; -- a load
   signal opens                 : std_logic; -- the strip is opened or refused
   signal too_large             : std_logic; -- the strip is refused
   signal last_part             : std_logic;
@@ -128,20 +129,20 @@ begin
     waits       := in_valid and not r.in_line;
     sends_head  <= r.in_line;
     refuses     <= waits and ((draws and (not r.strip or none_left or early))
-      or (not draws and not strips and not loads and not r.strip));
+      or (not draws and not strips and (r.strip or not loads)));
     sends_part  <= waits and draws and r.strip and not none_left and now;
-    starts_line <= waits and r.strip and not none_left and not (draws and (early or now));
-    sends_end   <= waits and not draws and r.strip and none_left;
+    starts_line <= waits and r.strip and not none_left and (strips or (draws and not early and not now));
+    sends_end   <= waits and strips and r.strip and none_left;
     opens       <= waits and strips and not r.strip;
+    passes      <= in_valid and loads and not r.strip;
   end process;
 
   last_index <= to_unsigned(shadow_parts(g_config) - 1, index_t'length) when command = c_shadow else
     to_unsigned(c_parts - 1, index_t'length);
   last_part  <= flag(r.index = last_index);
 
-  out_valid <= sends_head or sends_part or sends_end or (in_valid and loads and not r.strip);
-  in_ready  <= refuses or opens or (sends_part and last_part and out_ready)
-    or (in_valid and loads and not r.strip and out_ready);
+  out_valid <= sends_head or sends_part or sends_end or passes;
+  in_ready  <= refuses or opens or (((sends_part and last_part) or passes) and out_ready);
 
   make_head : process (all)
     variable v : std_logic_vector(head'range);

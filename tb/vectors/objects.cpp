@@ -63,6 +63,7 @@ class ChainFiles {
     vectors_.words_of(vector, bits_).end_vector();
     source_.take(vector, [&](const Word& word) { pass(0, word); });
   }
+  bool busy() const { return source_.busy(); }
   bool source_fault() const { return source_.fault(); }
   bool output_fault() const { return output_.fault(); }
 
@@ -159,11 +160,11 @@ ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels) {
   std::vector<Strip> strips = scene.limit_strips();
   for (int i = 0; i < 24; ++i) strips.push_back(scene.any_strip());
   for (const Strip& strip : strips) {
-    while (scene.random().one_in(2)) files.send(scene.any_load(15));
+    while (!files.busy() && scene.random().one_in(2)) files.send(scene.any_load(15));
     files.send(scene.strip_vector(strip));
     if (!strip.empty())
       for (const StripTriangle& t : scene.triangles(strip, 30, c_objects)) files.send(t.vector);
-    if (scene.random().one_in(3)) files.send(scene.end_vector());
+    if (!scene.random().one_in(3)) files.send(scene.end_vector());
   }
   files.send(scene.end_vector());
   if (files.source_fault() || files.output_fault())
@@ -188,6 +189,7 @@ ChainFiles<Preset> wrong_strips_of(const ProcessorsConfig& config, int subpixels
     InitVector unknown = scene.any_load(15);
     set_bits(unknown, Preset::request_header_at::command, static_cast<std::uint32_t>(Command::new_pixel));
     files.send(unknown);
+    files.send(scene.any_load(15));  // in the strip
     Strip lower = strip;
     lower.lines = 1;
     files.send(scene.strip_vector(lower));

@@ -307,6 +307,24 @@ TEST(Objects, LargerStripsAreRefused) {
   });
 }
 
+TEST(Objects, LoadsInAStripAreRefused) {
+  for_each_object_front([]<class Preset>(const ProcessorsConfig& config, int subpixels) {
+    ObjectScene<Preset> scene(config, subpixels, 1);
+    const InitVector strip = scene.strip_vector(scene.any_strip()), end = scene.end_vector();
+    for (const Command command : {Command::define, Command::redefine, Command::remove, Command::new_frame}) {
+      const InitVector load = scene.load_vector(command, 0);
+      bool fault = true;
+      const auto tokens = tokens_of<Preset>({load, strip, end}, config, subpixels, 1, &fault);
+      EXPECT_FALSE(fault);
+      EXPECT_EQ(tokens.front().command, command);
+      // The strip ends as it does without the load.
+      EXPECT_EQ(tokens_of<Preset>({strip, load, end}, config, subpixels, 1, &fault),
+                std::vector(tokens.begin() + 1, tokens.end()));
+      EXPECT_TRUE(fault);
+    }
+  });
+}
+
 // The masks are the coverage of a frame four times as wide and high.
 TEST(Objects, MasksAreTheCoverageOfALargerFrame) {
   constexpr std::uint32_t c_columns = 9, c_lines = 7, c_side = 4;
