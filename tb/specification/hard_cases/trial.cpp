@@ -17,13 +17,13 @@
 namespace halfway::stability {
 namespace {
 
-// What GHDL draws in minutes. A thousand fragments with sixteen lights take folded processors half an hour.
+// What GHDL draws in minutes.
 constexpr std::size_t c_most_for_ghdl = 4000;
-constexpr unsigned c_most_folded_lights = 3;
+constexpr unsigned c_most_lights_for_ghdl = 3;
 
 bool is_for_ghdl(const HardwareKey& key, std::size_t fragments) {
-  const bool folded = key.shader == Shader::processors && key.processors.form == ProcessorForm::folded;
-  return fragments <= c_most_for_ghdl && !(folded && key.processors.lights() > c_most_folded_lights);
+  return fragments <= c_most_for_ghdl &&
+         (key.shader != Shader::processors || key.processors.lights() <= c_most_lights_for_ghdl);
 }
 
 // The shading processors keep lights between streams. These words delete them, as after a reset.
