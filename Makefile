@@ -53,7 +53,7 @@ about_TARGET := fuzz only this fuzzer
 about_TRIANGLES := search number of random triangles (default: 10000000)
 about_SEED := search seed of the random triangles (default: 1)
 about_PROOF := prove only proofs with this text in their names, such as raster/edge_walker (default: all)
-about_DESIGN := mutate,synth only designs with this text in their names (default: all)
+about_DESIGN := evidence,mutate,synth only designs with this text in their names; evidence: only PAGE=clocks (default: all)
 about_SEEDS := synth number of placement seeds (default: 3)
 about_DEVICE := live,plan,study,synth the FPGA whose clocks count: hx8k (iCE40, without multipliers) or ecp5 (default: ecp5; make synth: hx8k)
 about_PAGE := evidence only this page: bounds, cells, accuracy, transcripts, figures, gallery, hard_cases, proofs, mutants; or speed, clocks (default: all but speed and clocks)
@@ -227,7 +227,7 @@ prove: configure ## make evidence PAGE=proofs; PROOF: only print some proofs and
 	@$(call measure,proofs,$${PROOF:+"$$PROOF"})
 
 evidence: configure ## measure the pages of evidence that are not of this commit, 45 minutes for all; may be interrupted (PAGE: one)
-	@export again="$$AGAIN"; $(call measure,$${PAGE:-all})
+	@export again="$$AGAIN" design="$$DESIGN"; $(call measure,$${PAGE:-all})
 
 stability: configure ## make evidence PAGE=hard_cases: hard cases in specification, golden model and RTL
 	@$(call measure,hard_cases)

@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Measures pages of evidence. A page that names the commit is not measured again, unless $again is 1.
+# Measures pages of evidence. A page that names the commit is not measured again, unless $again is 1. Of the clocks, only
+# designs with $design in their names are placed again.
 #
 #   scripts/evidence.sh programs PAGE               prints the programs that the page needs
 #   scripts/evidence.sh targets PAGE                the same for the pages to be measured; refuses files with changes
@@ -105,7 +106,7 @@ run() { # page, options
     cells) build/tb/halfway_synth cells ${evidence:+--page} --jobs "$jobs" "$@" ;;
     clocks)
       [ "${again:-0}" != 1 ] || set -- --again "$@"
-      build/tb/halfway_synth clocks ${evidence:+--page} --jobs "$jobs" "$@"
+      build/tb/halfway_synth clocks ${evidence:+--page ${design:+"$design"}} --jobs "$jobs" "$@"
       [ -z "$evidence" ] || build/tb/halfway_synth board --page
       ;;
     proofs) build/tb/halfway_proofs $evidence . build/proofs "$@" ;;

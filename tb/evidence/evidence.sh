@@ -77,7 +77,7 @@ run 0 'small: page.md is written'
 mkdir -p scripts build/tb docs/results
 cp "$root/scripts/evidence.sh" scripts
 ln -s "$halfway_page" build/tb/halfway_page
-for page in bounds proofs mutants; do printf '# Page\n' >docs/results/$page.md; done
+for page in bounds proofs mutants synthesis; do printf '# Page\n' >docs/results/$page.md; done
 git add . && git commit -m three
 commit=$(command git rev-parse HEAD)
 fake() { # program, shell text
@@ -106,6 +106,9 @@ printf 'Measured by `make evidence PAGE=bounds` at commit `%s`\n' "$(echo "$comm
 evidence 0 'every page is of this commit' measure bounds 1
 [ ! -e build/calls ] || fail 'a page of this commit was measured'
 again=1 evidence 0 '== bounds' measure bounds 1
+fake halfway_synth 'exit 0'
+design=core evidence 0 '' measure clocks 1
+grep -q 'halfway_synth clocks --page core --jobs 1$' build/calls || fail "called: $(cat build/calls)"
 fake halfway_bounds 'exit 1'
 evidence 1 'bounds ends with 1' measure bounds 1
 # With options, results are only printed, whatever has changed.

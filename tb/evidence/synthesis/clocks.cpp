@@ -94,7 +94,9 @@ std::string identity_of(const Design& design, const Options& options) {
 
 std::vector<Placed> listed_hardware(const Options& options, const Sections& sections) {
   std::vector<Placed> hardware;
-  for (const ListedDesign& listed : selected(options))
+  Options all = options;
+  if (options.page) all.part.clear();
+  for (const ListedDesign& listed : selected(all))
     if (&sections.family == &c_ice40 ? listed.ice40 : listed.ecp5)
       hardware.push_back({listed.design, sections.judged, &sections.family == &c_ecp5 ? listed.seeds : 0});
     else if (&sections.family == &c_ecp5 && !options.page)
@@ -162,17 +164,24 @@ StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seed
 }
 
 // The stored clock if there is one, unless the flow has changed, or the products for multipliers (--again).
+// Hardware that is not selected keeps its stored clock.
 StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options, std::mutex& mutex) {
   if (!options.page) return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
+  const bool is_selected = placed.design.name.find(options.part) != std::string::npos;
   const std::string netlist = identity_of(placed.design, options);
   unsigned seeds = 0;
   {
     const std::lock_guard lock(mutex);
     seeds = seeds_of(options, placed, bench.stored);
     const auto found = bench.stored.find(placed.design.name);
-    if (!options.again && found != bench.stored.end() &&
-        is_placed(found->second, bench.synthesizer.versions(), netlist, seeds))
-      return found->second;
+    const bool is_current = found != bench.stored.end() &&
+                            is_placed(found->second, bench.synthesizer.versions(), netlist, seeds);
+    if (is_current && !(options.again && is_selected)) return found->second;
+    if (!is_selected) {
+      StoredClock old = found == bench.stored.end() ? StoredClock{.path = "not placed"} : found->second;
+      if (found != bench.stored.end()) old.path.insert(0, "of an earlier netlist or flow: ");
+      return old;
+    }
   }
   const StoredClock clock = placed_clock(placed, bench, seeds, options);
   const std::lock_guard lock(mutex);

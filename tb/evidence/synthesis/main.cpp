@@ -28,15 +28,17 @@ int main(int argc, char** argv) {
     return command;
   };
   const auto add_designs = [&](CLI::App* command) {
-    auto* part = command->add_option("PART", options.part, "only designs whose names contain it");
+    command->add_option("PART", options.part,
+                        "only designs whose names contain it; with --page, others keep their stored values");
     auto* quick = command->add_flag("--quick", options.quick, "only small designs; cells: only on the iCE40");
-    command->get_option("--page")->excludes(quick)->excludes(part);
+    command->get_option("--page")->excludes(quick);
     command->add_option("--jobs", options.jobs, "at a time")
         ->check(CLI::Range(1, 999))
         ->capture_default_str();
     return command;
   };
-  add_designs(add("cells", "cells on iCE40 and ECP5", synth::cells));
+  CLI::App* cells = add_designs(add("cells", "cells on iCE40 and ECP5", synth::cells));
+  cells->get_option("--page")->excludes(cells->get_option("PART"));
   CLI::App* clocks = add_designs(
       add("clocks", "clocks on an iCE40 HX8K and an ECP5 LFE5U-85F: minutes for each design", synth::clocks));
   clocks->add_option("--seeds", options.seeds, "of placement (as stored, or 3)")->check(CLI::Range(1, 999));
