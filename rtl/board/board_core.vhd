@@ -46,7 +46,7 @@ entity board_core is
     spi_data_in      : in  std_logic; -- from the host
     spi_data_out     : out std_logic; -- to the host
     -- SRAM, 256K words
-    sram_address     : out std_logic_vector(c_address_bits - 1 downto 0);
+    sram_address     : out std_logic_vector(address_t'range);
     sram_data_out    : out word_t;
     sram_data_enable : out std_logic; -- drive sram_data_out
     sram_read        : out std_logic;

@@ -15,11 +15,10 @@ package board_pkg is
   constant c_pixels : positive := c_width * c_height;
 
   -- The SRAM: two colour buffers, then the depths.
-  constant c_address_bits : positive := 18;
-  constant c_depth_base   : positive := 2 * c_pixels;
-  constant c_words        : positive := 3 * c_pixels; -- in use
+  constant c_depth_base : positive := 2 * c_pixels;
+  constant c_words      : positive := 3 * c_pixels; -- in use
 
-  subtype address_t is unsigned(c_address_bits - 1 downto 0);
+  subtype address_t is unsigned(17 downto 0); -- of a word in the SRAM
   subtype place_t is unsigned(16 downto 0); -- in a buffer, below c_pixels
   subtype word_t is std_logic_vector(15 downto 0);
   subtype level_t is std_logic_vector(2 downto 0); -- of a colour at the pins
@@ -49,9 +48,9 @@ package body board_pkg is
   function colour_base (buffer_index : std_logic) return address_t is
     variable base : address_t;
   begin
-    base := to_unsigned(0, c_address_bits);
+    base := to_unsigned(0, address_t'length);
     if buffer_index = '1' then
-      base := to_unsigned(c_pixels, c_address_bits);
+      base := to_unsigned(c_pixels, address_t'length);
     end if;
     return base;
   end function;

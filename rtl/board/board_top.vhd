@@ -32,7 +32,7 @@ entity board_top is
     spi_clock    : in    std_logic;
     spi_data_in  : in    std_logic;
     spi_data_out : out   std_logic;
-    sram_address : out   std_logic_vector(c_address_bits - 1 downto 0);
+    sram_address : out   std_logic_vector(address_t'range);
     sram_data    : inout word_t;
     sram_ce_n    : out   std_logic;
     sram_oe_n    : out   std_logic;

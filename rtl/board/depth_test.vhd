@@ -197,9 +197,9 @@ begin
     '1' when r.phase = write_colour else
     '0';
   access_write <= '0' when r.phase = collect else '1';
-  access_addr <= resize(pixel_place, c_address_bits) + c_depth_base when r.phase = collect else
-    resize(r.place, c_address_bits) + c_depth_base when r.phase = write_depth else
-    resize(r.place, c_address_bits) + colour_base(back);
+  access_addr <= resize(pixel_place, address_t'length) + c_depth_base when r.phase = collect else
+    resize(r.place, address_t'length) + c_depth_base when r.phase = write_depth else
+    resize(r.place, address_t'length) + colour_base(back);
   access_data <= word(31 downto 16) when r.phase = write_depth else word(15 downto 0);
 
   busy <= '0' when r.phase = collect and r.count = 0 else '1';

@@ -91,7 +91,7 @@ begin
             v.phase := idle;
             v.both  := '0';
           elsif r.address = c_pixels - 1 and r.both = '0' then
-            v.address := to_unsigned(c_depth_base, c_address_bits);
+            v.address := to_unsigned(c_depth_base, address_t'length);
           end if;
         end if;
     end case;

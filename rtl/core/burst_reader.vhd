@@ -56,7 +56,7 @@ architecture rtl of burst_reader is
   constant c_word_shift : positive := log2(bytes(g_data_bits)); -- of the bytes of a word
   constant c_unit_shift : natural  := 3 - c_word_shift; -- of the words of a unit
 
-  subtype word_address_t is unsigned(c_address_bits - c_word_shift - 1 downto 0);
+  subtype word_address_t is unsigned(address_t'length - c_word_shift - 1 downto 0);
   subtype words_t is unsigned(g_count_bits + c_unit_shift - 1 downto 0);
 
   type reg_t is record
@@ -111,7 +111,7 @@ begin
       v.fault   := r.fault or m_axi_rresp(1);
     end if;
     if start = '1' then
-      v.address := address(c_address_bits - 1 downto c_word_shift);
+      v.address := address(address_t'high downto c_word_shift);
       v.left    := resize(count, words_t'length) sll c_unit_shift;
       v.to_come := resize(count, words_t'length) sll c_unit_shift;
       v.fault   := '0';

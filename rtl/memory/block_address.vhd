@@ -38,8 +38,8 @@ entity block_address is
     in_last    : in  unsigned(g_block_bits - g_lane_bits - 1 downto 0);
     out_valid  : out std_logic;
     out_ready  : in  std_logic;
-    out_depth  : out unsigned(c_address_bits - g_shift - 1 downto 0);
-    out_colour : out unsigned(c_address_bits - g_shift - 1 downto 0);
+    out_depth  : out unsigned(address_t'length - g_shift - 1 downto 0);
+    out_colour : out unsigned(address_t'length - g_shift - 1 downto 0);
     out_fill   : out std_logic;
     out_mask   : out std_logic_vector(2 ** g_block_bits - 1 downto 0);
     out_first  : out unsigned(g_block_bits - g_lane_bits - 1 downto 0);
@@ -49,7 +49,7 @@ end entity;
 
 architecture rtl of block_address is
 
-  constant c_bits      : positive := c_address_bits - g_shift;
+  constant c_bits      : positive := address_t'length - g_shift;
   constant c_beat_bits : positive := g_block_bits - g_lane_bits;
 
   subtype block_t is unsigned(c_bits - 1 downto 0);
@@ -79,7 +79,7 @@ architecture rtl of block_address is
   -- The upper bits of the product may be cut: sums wrap.
   function block_of (base : address_t; product : product_t; segment : unsigned) return block_t is
   begin
-    return base(c_address_bits - 1 downto g_shift) + resize(product, c_bits) + resize(segment, c_bits);
+    return base(address_t'high downto g_shift) + resize(product, c_bits) + resize(segment, c_bits);
   end function;
 
 begin

@@ -95,7 +95,7 @@ architecture rtl of fragments_to_memory is
   constant c_beat_bits   : positive := g_block_bits - c_lane_bits;
   constant c_beat_shift  : positive := log2(bytes(g_data_bits)); -- of the bytes of a beat
   constant c_shift       : positive := c_beat_shift + c_beat_bits; -- of the bytes of a block
-  constant c_number_bits : positive := c_address_bits - c_shift; -- of a block in memory
+  constant c_number_bits : positive := address_t'length - c_shift; -- of a block in memory
   constant c_stored      : positive := stored_bits(g_true_colour);
   constant c_size        : unsigned(m_axi_arsize'range) := to_unsigned(c_beat_shift, m_axi_arsize'length);
 

@@ -13,7 +13,6 @@ use work.axi_pkg.all;
 package memory_pkg is
 
   constant c_place_bits   : positive := 12; -- of x and y
-  constant c_address_bits : positive := 32;
   constant c_stride_bits  : positive := 16;
   constant c_channel_bits : positive := 8;
   constant c_depth_bits   : positive := 24; -- of a fragment
@@ -23,7 +22,7 @@ package memory_pkg is
 
   subtype place_t is unsigned(c_place_bits - 1 downto 0);
   subtype side_t is unsigned(c_place_bits downto 0); -- 0 to 4096
-  subtype address_t is unsigned(c_address_bits - 1 downto 0);
+  subtype address_t is unsigned(31 downto 0); -- of a byte
   subtype stride_t is unsigned(c_stride_bits - 1 downto 0);
   subtype channel_t is std_logic_vector(c_channel_bits - 1 downto 0);
   subtype pixel_count_t is unsigned(2 downto 0); -- of a beat's pixels: 0 to 4

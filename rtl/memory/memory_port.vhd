@@ -46,7 +46,7 @@ entity memory_port is
     s_axi_bready   : in  std_logic;
     memory_enable  : out std_logic;
     memory_strobes : out std_logic_vector(bytes(g_data_bits) - 1 downto 0);
-    memory_address : out unsigned(c_address_bits - log2(bytes(g_data_bits)) - 1 downto 0);
+    memory_address : out unsigned(address_t'length - log2(bytes(g_data_bits)) - 1 downto 0);
     memory_data    : out std_logic_vector(g_data_bits - 1 downto 0);
     memory_word    : in  std_logic_vector(g_data_bits - 1 downto 0)
   );
@@ -105,12 +105,12 @@ begin
       when take_read =>
         v.phase   := read;
         v.written := '0';
-        v.address := s_axi_araddr(c_address_bits - 1 downto c_address_bits - memory_address'length);
+        v.address := s_axi_araddr(address_t'high downto address_t'length - memory_address'length);
         v.left    := s_axi_arlen;
       when take_write =>
         v.phase   := write;
         v.written := '1';
-        v.address := s_axi_awaddr(c_address_bits - 1 downto c_address_bits - memory_address'length);
+        v.address := s_axi_awaddr(address_t'high downto address_t'length - memory_address'length);
       when read =>
         if step = '1' then
           v.enable  := '1';

@@ -289,8 +289,8 @@ begin
       latency <= clocks;
       pauses  <= 0;
       frame   <= (
-        colour_base                  => to_unsigned(c_memory_origin, c_address_bits),
-        depth_base                   => to_unsigned(c_memory_origin + c_stride * c_height, c_address_bits),
+        colour_base                  => to_unsigned(c_memory_origin, address_t'length),
+        depth_base                   => to_unsigned(c_memory_origin + c_stride * c_height, address_t'length),
         colour_stride | depth_stride => to_unsigned(c_stride, c_stride_bits),
         width | right                => to_unsigned(c_width, side_t'length),
         height | bottom              => to_unsigned(c_height, side_t'length),
