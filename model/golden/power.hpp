@@ -58,7 +58,7 @@ class Power {
   static constexpr std::uint32_t interpolated(Function function, std::uint32_t position, int position_bits,
                                               int sign) {
     const FunctionTable& table = function_table<Preset>(function);
-    const int rest_bits = position_bits - table.address_bits;
+    const int rest_bits = position_bits - table.cell_bits;
     const auto [value, slope] = function_rom<Preset>(function, position >> rest_bits);
     const auto rest = low_bits(position, rest_bits);
     const auto part = static_cast<std::uint32_t>((slope * rest) >> rest_bits);

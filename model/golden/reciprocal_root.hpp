@@ -35,7 +35,7 @@ class ReciprocalRoot {
 
   /// The table's cell. The ranges 1 to 2 and 2 to 4 have the same number of cells.
   static constexpr std::uint32_t address(std::uint32_t x) {
-    const int bits = function_table<Preset>(Function::reciprocal_root).address_bits - 1;
+    const int bits = function_table<Preset>(Function::reciprocal_root).cell_bits - 1;
     const std::uint32_t cells = std::uint32_t{1} << bits;
     if (x < 2 * c_one) return (x >> (c_square - bits)) & (cells - 1);
     return cells + ((x >> (c_square + 1 - bits)) & (cells - 1));

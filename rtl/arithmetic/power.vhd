@@ -128,7 +128,7 @@ architecture rtl of power is
   signal waiting_exponent : std_logic_vector(exponent'range);
 
   signal log_sample    : std_logic_vector(sample_bits(g_exact, c_logarithm) - 1 downto 0);
-  signal decay_address : std_logic_vector(c_dec.address_bits - 1 downto 0);
+  signal decay_address : std_logic_vector(c_dec.cell_bits - 1 downto 0);
   signal decay_sample  : std_logic_vector(sample_bits(g_exact, c_decay) - 1 downto 0);
 
 begin
@@ -172,7 +172,7 @@ begin
     port map (
       clk     => clk,
       enable  => '1',
-      address => split(c_fraction - 1 downto c_fraction - c_log.address_bits),
+      address => split(c_fraction - 1 downto c_fraction - c_log.cell_bits),
       sample  => log_sample
       );
 
@@ -217,8 +217,8 @@ begin
 
   interpolated : if g_exact generate
 
-    constant c_log_rest : positive := c_fraction - c_log.address_bits;
-    constant c_dec_rest : positive := c_decay_fraction - c_dec.address_bits;
+    constant c_log_rest : positive := c_fraction - c_log.cell_bits;
+    constant c_dec_rest : positive := c_decay_fraction - c_dec.cell_bits;
 
     subtype log_value_t is unsigned(c_log.value_bits - 1 downto 0);
     subtype dec_value_t is unsigned(c_dec.value_bits - 1 downto 0);
@@ -390,7 +390,7 @@ begin
         );
 
     raised_now    <= unsigned(raised_cut(product_t'range));
-    decay_address <= std_logic_vector(raised_now(c_decay_fraction - 1 downto c_decay_fraction - c_dec.address_bits));
+    decay_address <= std_logic_vector(raised_now(c_decay_fraction - 1 downto c_decay_fraction - c_dec.cell_bits));
 
     registers : process (clk)
     begin

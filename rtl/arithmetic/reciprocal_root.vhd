@@ -35,7 +35,7 @@ architecture rtl of reciprocal_root is
   constant c_formats  : formats_t := formats(g_exact);
   constant c_high     : natural   := c_formats.square.bits - 1;
   constant c_fraction : natural   := c_formats.square.fraction;
-  constant c_address  : natural   := function_format(g_exact, c_reciprocal_root).address_bits;
+  constant c_address  : natural   := function_format(g_exact, c_reciprocal_root).cell_bits;
 
   signal below_one  : std_logic;
   signal x          : std_logic_vector(square'range);

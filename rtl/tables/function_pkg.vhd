@@ -10,7 +10,7 @@ package function_pkg is
   constant c_decay : natural := 2;
 
   type function_format_t is record
-    address_bits  : positive;
+    cell_bits     : positive;
     value_bits    : positive;
     fraction_bits : positive;
     slope_bits    : natural; -- of the difference of neighbours

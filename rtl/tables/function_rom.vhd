@@ -24,7 +24,7 @@ entity function_rom is
   port (
     clk     : in  std_logic;
     enable  : in  std_logic;
-    address : in  std_logic_vector(function_format(g_exact, g_which).address_bits - 1 downto 0);
+    address : in  std_logic_vector(function_format(g_exact, g_which).cell_bits - 1 downto 0);
     sample  : out std_logic_vector(sample_bits(g_exact, g_which) - 1 downto 0)
   );
 end entity;
@@ -36,7 +36,7 @@ architecture rtl of function_rom is
   subtype sample_t is std_logic_vector(sample_bits(g_exact, g_which) - 1 downto 0);
 
   -- A descending range: for an ascending one GHDL's netlist subtracts the address from the last index.
-  type rom_t is array (2 ** c_format.address_bits - 1 downto 0) of sample_t;
+  type rom_t is array (2 ** c_format.cell_bits - 1 downto 0) of sample_t;
 
   function entries return rom_t is
     constant c_table : function_table_t := function_table(g_exact, g_which);

@@ -34,7 +34,7 @@ template <class Formats>
 GoldenTable entries_of(words::Function function) {
   const words::FunctionTable& table = golden::function_table<Formats>(function);
   GoldenTable result{{}, table.slope_bits + table.value_bits};
-  for (std::uint32_t address = 0; address < 1U << table.address_bits; ++address) {
+  for (std::uint32_t address = 0; address < 1U << table.cell_bits; ++address) {
     const auto sample = golden::function_rom<Formats>(function, address);
     result.entries.push_back(std::uint64_t{sample.slope} << table.value_bits | sample.value);
   }

@@ -35,12 +35,12 @@ void write_function_rom(const Folder& folder, words::Function function) {
     const golden::FunctionSample sample = golden::function_rom<Preset>(function, address);
     Flat result(sample.value, table.value_bits);
     if (table.slope_bits > 0) result.add(sample.slope, table.slope_bits);
-    pipeline.clock(enable, {{address, table.address_bits}}, result);
+    pipeline.clock(enable, {{address, table.cell_bits}}, result);
   };
-  const std::uint32_t entries = 1U << table.address_bits;
+  const std::uint32_t entries = 1U << table.cell_bits;
   for (std::uint32_t address = 0; address < entries; ++address) add(true, address);
   for (std::uint32_t i = 0; i < entries; ++i)
-    add(random.one_in(2), static_cast<std::uint32_t>(random.bits(table.address_bits)));
+    add(random.one_in(2), static_cast<std::uint32_t>(random.bits(table.cell_bits)));
   pipeline.write(folder / fmt::format("{}_{}.txt", Preset::c_name, static_cast<int>(function)));
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 // The function at `position` cells from the start of the first cell. Positions and arguments are exact.
 long double value_of(const FunctionTable& table, long double position) {
-  const long double cells = std::ldexp(1.0L, table.address_bits);
+  const long double cells = std::ldexp(1.0L, table.cell_bits);
   switch (table.function) {
     case Function::reciprocal_root:
       // The ranges 1 to 2 and 2 to 4 have the same number of cells.
@@ -44,12 +44,12 @@ std::uint32_t correctly_rounded(const FunctionTable& table, int index) {
                                        to_string(table.function), index));
   const auto rounded = to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
   // The value after the last cell is used only for a difference.
-  if (index == 1 << table.address_bits) return rounded;
+  if (index == 1 << table.cell_bits) return rounded;
   return std::min(rounded, (std::uint32_t{1} << table.value_bits) - 1);
 }
 
 FunctionTable made(FunctionTable table) {
-  const int count = (1 << table.address_bits) + (table.slope_bits > 0 ? 1 : 0);
+  const int count = (1 << table.cell_bits) + (table.slope_bits > 0 ? 1 : 0);
   for (int i = 0; i < count; ++i) table.values.push_back(correctly_rounded(table, i));
   return table;
 }
@@ -66,7 +66,7 @@ constexpr std::string_view c_functions_notice =
 // (cell).
 int root_raise(const FunctionTable& table) {
   const double error =
-      std::numbers::sqrt2 * std::ldexp(0.5, -table.fraction_bits) + std::ldexp(0.5, -table.address_bits);
+      std::numbers::sqrt2 * std::ldexp(0.5, -table.fraction_bits) + std::ldexp(0.5, -table.cell_bits);
   return to_integer<int>(std::round(std::ldexp(1.5 * error * error, 23)));
 }
 
@@ -106,7 +106,7 @@ std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words)
   for (FunctionTable& table : tables) {
     if (table.exact != exact || table.function != Function::reciprocal_root) continue;
     table.value_bits = table.fraction_bits = *words.seed_bits;
-    table.address_bits = *words.seed_bits - c_seed_cells;
+    table.cell_bits = *words.seed_bits - c_seed_cells;
     table.values.clear();
     table = made(std::move(table));
     table.error.value = derived(table);
@@ -116,7 +116,7 @@ std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words)
 
 double derived(const FunctionTable& table) {
   const Quantity quantities[] = {{"u", std::ldexp(1.0, -table.fraction_bits)},
-                                 {"w", std::ldexp(1.0, -table.address_bits)},
+                                 {"w", std::ldexp(1.0, -table.cell_bits)},
                                  {"ln2", std::numbers::ln2}};
   return evaluated(table.error.derivation, quantities);
 }
@@ -134,7 +134,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
   for (const Function function : c_functions)
     fmt::format_to(to, "  constant c_{} : natural := {};\n", to_string(function), static_cast<int>(function));
   out +=
-      "\n  type function_format_t is record\n    address_bits  : positive;\n    value_bits    : positive;\n"
+      "\n  type function_format_t is record\n    cell_bits     : positive;\n    value_bits    : positive;\n"
       "    fraction_bits : positive;\n    slope_bits    : natural; -- of the difference of neighbours\n"
       "  end record;\n\n"
       "  type function_table_t is array (natural range <>) of natural;\n\n"
@@ -159,7 +159,7 @@ std::string function_vhdl_package(const std::vector<FunctionTable>& tables) {
                    name, text_of(tables.front()));
   };
   choose("function_format", "function_format_t", [](const FunctionTable& table) {
-    return fmt::format("({}, {}, {}, {})", table.address_bits, table.value_bits, table.fraction_bits,
+    return fmt::format("({}, {}, {}, {})", table.cell_bits, table.value_bits, table.fraction_bits,
                        table.slope_bits);
   });
   choose("function_table", "function_table_t", function_constant_name);
@@ -188,7 +188,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
   for (const Function function : c_functions)
     fmt::format_to(to, "{}{}", to_string(function), function == c_functions.back() ? " };\n\n" : ", ");
   out +=
-      "struct FunctionTable {\n  int address_bits, value_bits, fraction_bits;\n"
+      "struct FunctionTable {\n  int cell_bits, value_bits, fraction_bits;\n"
       "  int slope_bits;  // of the difference of neighbours\n"
       "  std::span<const std::uint32_t> values;\n};\n";
   for (const FunctionTable& table : tables)
@@ -208,7 +208,7 @@ std::string function_cpp_header(const std::vector<FunctionTable>& tables) {
                    c_functions.size(), preset_name(exact));
     for (const FunctionTable& table : tables)
       if (table.exact == exact)
-        fmt::format_to(to, "    {{{}, {}, {}, {}, {}_values}},\n", table.address_bits, table.value_bits,
+        fmt::format_to(to, "    {{{}, {}, {}, {}, {}_values}},\n", table.cell_bits, table.value_bits,
                        table.fraction_bits, table.slope_bits, function_constant_name(table));
     out += "}};\n";
   }

@@ -31,14 +31,14 @@ inline const char* to_string(Function function) {
   return "decay";
 }
 
-/// The function over 2^address_bits cells, times 2^fraction_bits, correctly rounded, clamped to value_bits.
+/// The function over 2^cell_bits cells, times 2^fraction_bits, correctly rounded, clamped to value_bits.
 /// With slope_bits the table is interpolated: value i is the function at the start of cell i, and one more
 /// value is the function at the end of the last cell. Without slope_bits a value is the function at the
 /// middle of its cell.
 struct FunctionTable {
   bool exact;
   Function function;
-  int address_bits, value_bits, fraction_bits;
+  int cell_bits, value_bits, fraction_bits;
   int slope_bits;  ///< of the difference between neighbours; 0: none
   Bound error;     ///< over whole cells; with slopes along the chord, the product truncated to a unit
   std::vector<std::uint32_t> values;

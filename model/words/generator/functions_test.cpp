@@ -21,9 +21,9 @@ std::string name_of(const FunctionTable& table) {
   return fmt::format("{} {}", table.exact ? "exact" : "published", to_string(table.function));
 }
 
-// The function's argument for value `index`, in units of 2^-(address_bits + 1): exact.
+// The function's argument for value `index`, in units of 2^-(cell_bits + 1): exact.
 long argument(const FunctionTable& table, long index) {
-  const long half_cells = 2 * index + (table.slope_bits > 0 ? 0 : 1), one = 2L << table.address_bits;
+  const long half_cells = 2 * index + (table.slope_bits > 0 ? 0 : 1), one = 2L << table.cell_bits;
   switch (table.function) {
     case Function::reciprocal_root:
       // The first half of the cells ends at 2. The other cells are twice as wide.
@@ -51,7 +51,7 @@ BigReal function_of(Function function, const BigReal& x) {
 // Distance of a value from the exact one, in units of its last bit, and of the exact value from a tie.
 std::pair<double, double> distance(const FunctionTable& table, long index) {
   const BigReal x =
-      BigReal(static_cast<double>(argument(table, index))) / std::ldexp(1.0, table.address_bits + 1);
+      BigReal(static_cast<double>(argument(table, index))) / std::ldexp(1.0, table.cell_bits + 1);
   const BigReal value = function_of(table.function, x) * std::ldexp(1.0, table.fraction_bits);
   return {std::fabs(static_cast<double>(value - table.values[static_cast<std::size_t>(index)])),
           std::fabs(static_cast<double>(fraction(value) - 0.5))};
@@ -59,7 +59,7 @@ std::pair<double, double> distance(const FunctionTable& table, long index) {
 
 TEST(Functions, EveryValueIsTheNearestToMpfr) {
   for (const FunctionTable& table : function_tables()) {
-    ASSERT_EQ(table.values.size(), (std::size_t{1} << table.address_bits) + (table.slope_bits > 0 ? 1U : 0U))
+    ASSERT_EQ(table.values.size(), (std::size_t{1} << table.cell_bits) + (table.slope_bits > 0 ? 1U : 0U))
         << name_of(table);
     for (std::size_t i = 0; i < table.values.size(); ++i) {
       const auto [from_true, from_tie] = distance(table, static_cast<long>(i));
@@ -71,7 +71,7 @@ TEST(Functions, EveryValueIsTheNearestToMpfr) {
 
 TEST(Functions, ValuesAndSlopesFitTheirBits) {
   for (const FunctionTable& table : function_tables()) {
-    const std::size_t cells = std::size_t{1} << table.address_bits;
+    const std::size_t cells = std::size_t{1} << table.cell_bits;
     std::uint32_t steepest = 0, largest = 0;
     for (std::size_t i = 0; i < cells; ++i) {
       largest = std::max(largest, table.values[i]);
@@ -119,7 +119,7 @@ TEST(Functions, TheCompiledTablesAreTheGeneratedOnes) {
         (table.exact ? words::c_exact_functions
                      : words::c_published_functions)[static_cast<std::size_t>(table.function)];
     EXPECT_THAT(compiled.values, ::testing::ElementsAreArray(table.values)) << name_of(table);
-    EXPECT_EQ(compiled.address_bits, table.address_bits) << name_of(table);
+    EXPECT_EQ(compiled.cell_bits, table.cell_bits) << name_of(table);
     EXPECT_EQ(compiled.value_bits, table.value_bits) << name_of(table);
     EXPECT_EQ(compiled.fraction_bits, table.fraction_bits) << name_of(table);
     EXPECT_EQ(compiled.slope_bits, table.slope_bits) << name_of(table);

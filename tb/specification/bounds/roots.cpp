@@ -18,7 +18,7 @@ using golden::Axes, words::Exact, words::Published, golden::ReciprocalRoot;
 template <class P>
 Finding entry(const Context&, const Stated& stated) {
   const words::FunctionTable& table = golden::function_table<P>(words::Function::reciprocal_root);
-  const int cells = 1 << table.address_bits;
+  const int cells = 1 << table.cell_bits;
   Finding finding;
   for (int i = 0; i < cells; ++i) {
     const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);

@@ -48,7 +48,7 @@ TableFinding cosine_finding(const CosineTable& table) {
 
 // The argument `index` cells after the start of the first cell.
 double argument(const FunctionTable& table, double index) {
-  const int cells = 1 << table.address_bits;
+  const int cells = 1 << table.cell_bits;
   if (table.function == Function::logarithm) return 1 + index / cells;
   if (table.function == Function::decay) return index / cells;
   return index < cells / 2 ? 1 + 2 * index / cells : 4 * index / cells;
@@ -61,7 +61,7 @@ BigReal value_at(const FunctionTable& table, double index) {
 
 // The value is that of the cell's centre.
 TableFinding step_finding(const FunctionTable& table, TableFinding finding) {
-  for (int i = 0; i < 1 << table.address_bits; ++i) {
+  for (int i = 0; i < 1 << table.cell_bits; ++i) {
     const double value = std::ldexp(table.values[static_cast<std::size_t>(i)], -table.fraction_bits);
     for (const int end : {i, i + 1})
       keep_worst(finding, distance(value, value_at(table, end)),
@@ -76,7 +76,7 @@ TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
   constexpr int c_parts = 64;
   const double unit = std::ldexp(1.0, -table.fraction_bits);
   const bool rises = table.function == Function::logarithm;
-  for (int i = 0; i < 1 << table.address_bits; ++i) {
+  for (int i = 0; i < 1 << table.cell_bits; ++i) {
     const double first = table.values[static_cast<std::size_t>(i)] * unit,
                  last = table.values[static_cast<std::size_t>(i) + 1] * unit;
     const auto chord_minus_truth = [&](int part) {
@@ -84,7 +84,7 @@ TableFinding chord_finding(const FunctionTable& table, TableFinding finding) {
       return static_cast<double>(first + (last - first) * along - value_at(table, i + along));
     };
     // At the ends of a part the distance is known. Between them it differs by the bend of the part.
-    const double bend = std::ldexp(1.0, -2 * table.address_bits - 3) / (c_parts * c_parts) * 1.4427;
+    const double bend = std::ldexp(1.0, -2 * table.cell_bits - 3) / (c_parts * c_parts) * 1.4427;
     double from = chord_minus_truth(0);
     for (int part = 0; part < c_parts; ++part) {
       const double to = chord_minus_truth(part + 1), high = std::max(from, to), low = std::min(from, to);
