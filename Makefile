@@ -43,8 +43,7 @@ about_CLOCK := study MHz assumed for hardware whose clock is unknown
 about_PLACE := study 1: place and route hardware for its clock, minutes for each design
 about_EXECUTOR := study local or slurm (a job array) (default: local)
 about_PARTS := study tasks of the job array (default: 64)
-about_ADDRESS_BITS := tables,check-tables address bits of the cosine tables (default: 9; published 6)
-about_DATA_BITS := tables,check-tables data bits of the cosine tables (default: 8; published 6)
+about_COSINE := tables,check-tables address bits x data bits of the cosine tables (default: 9x8; published 6x6)
 about_TESTS := test,sanitize a regular expression: only the tests that match, of both tiers
 about_ENTITY := testbench the entity whose testbench runs, such as triangle_walker
 about_FILES := lint only C++ files with this text in their paths (default: all)
@@ -102,8 +101,7 @@ run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(c
   $(call option,OBJECTS,--object-processors) $(call option,SUBPIXELS,--subpixels)
 sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
-table_options := $(call option,PRESET,--preset) $(call option,ADDRESS_BITS,--address-bits) \
-  $(call option,DATA_BITS,--data-bits)
+table_options := $(call option,PRESET,--preset) $(call option,COSINE,--cosine)
 
 .PHONY: help help-all $(sort $(foreach name,$(variables),$(call users_of,$(name)))) configure setup diagrams doctor format \
   check-format clean

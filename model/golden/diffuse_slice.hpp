@@ -52,7 +52,7 @@ class DiffuseSlice {
   }
 
  private:
-  AngleAddress place() const { return angle_address<Preset>(angle(), size_.address_bits); }
+  AngleAddress place() const { return angle_address<Preset>(angle(), size_); }
 
   int channels_ = 0;
   CosineSize size_;

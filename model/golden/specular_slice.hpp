@@ -65,7 +65,7 @@ class SpecularSlice {
   }
 
  private:
-  AngleAddress place() const { return angle_address<Preset>(angle(), size_.address_bits); }
+  AngleAddress place() const { return angle_address<Preset>(angle(), size_); }
 
   int channels_ = 0;
   CosineSize size_;

@@ -27,8 +27,7 @@ std::vector<std::pair<std::string, std::string>> HardwareKey::generics() const {
     list.emplace_back("g_specular", boolean(spherical.specular));
     list.emplace_back("g_highlight_channels", std::to_string(spherical.highlight_channels));
     list.emplace_back("g_powers", std::to_string(spherical.powers));
-    list.emplace_back("g_address_bits", std::to_string(spherical.tables.address_bits));
-    list.emplace_back("g_data_bits", std::to_string(spherical.tables.data_bits));
+    list.emplace_back("g_cosine", vhdl_name(spherical.tables));
   }
   if (shader == Shader::processors) {
     list.emplace_back("g_directional", std::to_string(processors.directional));
@@ -90,8 +89,7 @@ std::string HardwareKey::name() const {
       text += fmt::format("-s{}-{}{}", spherical.highlight_channels, own ? "own" : "cos",
                           fmt::join(tables, own ? "_" : "."));
     }
-    if (spherical.records())
-      text += fmt::format("-rom{}x{}", spherical.tables.address_bits, spherical.tables.data_bits);
+    if (spherical.records()) text += "-" + vhdl_name(spherical.tables);
   }
   if (shader == Shader::processors) {
     const ProcessorUnits& p = processors;

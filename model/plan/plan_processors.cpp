@@ -194,8 +194,7 @@ class ProcessorsPlanner {
 }  // namespace
 
 Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
-  if (request.tables)
-    return bad_input("--address-bits, --data-bits: only the spherical shader has cosine tables");
+  if (request.tables) return bad_input("--cosine: only the spherical shader has cosine tables");
   if (request.degree) return bad_input(c_degree_of_another);
   if (calls.lights.size() > c_most_lights)
     return bad_input(fmt::format(

@@ -40,8 +40,7 @@ PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKe
 }  // namespace
 
 Result<Plan> plan_quadratic(const Scene&, const SceneCalls& calls, const PlanRequest& request) {
-  if (request.tables)
-    return bad_input("--address-bits, --data-bits: only the spherical shader has cosine tables");
+  if (request.tables) return bad_input("--cosine: only the spherical shader has cosine tables");
   if (request.lights) return bad_input("--lights: the quadratic shader has no hardware for lights");
   if (request.form) return bad_input(c_form_of_another);
   Plan plan;

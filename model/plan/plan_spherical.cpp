@@ -22,15 +22,11 @@ Result<words::CosineSize> table_size(const PlanRequest& request) {
   if (!request.made_tables.empty() || std::find(sizes.begin(), sizes.end(), *request.tables) != sizes.end())
     return *request.tables;
   std::vector<std::string> there;
-  for (const words::CosineSize& size : sizes)
-    there.push_back(fmt::format("{}/{}", size.address_bits, size.data_bits));
+  for (const words::CosineSize& size : sizes) there.push_back(to_string(size));
   return bad_input(
-      fmt::format("no cosine tables of {} address and {} data bits in preset {}: there are {}; make them "
-                  "with `make tables "
-                  "PRESET={} ADDRESS_BITS={} DATA_BITS={}`, and draw again",
-                  request.tables->address_bits, request.tables->data_bits, to_string(request.preset),
-                  fmt::join(there, ", "), to_string(request.preset), request.tables->address_bits,
-                  request.tables->data_bits));
+      fmt::format("no cosine tables of {0} address x data bits in preset {1}: there are {2}; make them with "
+                  "`make tables PRESET={1} COSINE={0}`, and draw again",
+                  to_string(*request.tables), to_string(request.preset), fmt::join(there, ", ")));
 }
 
 // The powers for the exponents in use. Error if a highlight is not a power of a cosine.

@@ -323,7 +323,7 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
     const words::CosineSize usual = exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
     const Plan plan = spherical(with_lights(1), preset);
     EXPECT_EQ(plan.key.spherical.tables, usual);
-    EXPECT_THAT(plan.key.name(), HasSubstr(fmt::format("-rom{}x{}", usual.address_bits, usual.data_bits)));
+    EXPECT_THAT(plan.key.name(), HasSubstr("-rom" + to_string(usual)));
     for (const words::CosineTable& table : words::c_cosine_tables) {
       const words::CosineSize size = table.size;
       const auto other =
@@ -338,10 +338,8 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ExitCode::bad_input);
     EXPECT_THAT(unknown.error().message,
-                AllOf(HasSubstr("12 address and 3 data bits"),
-                      HasSubstr(std::to_string(usual.address_bits) + "/" + std::to_string(usual.data_bits)),
-                      HasSubstr(std::string("make tables PRESET=") + to_string(preset) +
-                                " ADDRESS_BITS=12 DATA_BITS=3")));
+                AllOf(HasSubstr("12x3 address x data bits"), HasSubstr(to_string(usual)),
+                      HasSubstr(fmt::format("make tables PRESET={} COSINE=12x3", to_string(preset)))));
   }
   // A table size of one preset is not available for the other.
   const words::CosineSize published = words::c_published_cosine_size;

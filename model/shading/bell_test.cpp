@@ -341,7 +341,7 @@ std::int64_t drawn_colour(const tables::CosineTable& table, double half_bells, d
   const std::int64_t magnitude = word < 0 ? ~word : word;
   const std::int64_t sample =
       magnitude < unit
-          ? table.entries[static_cast<std::size_t>(magnitude >> (c_fraction - table.size.address_bits))]
+          ? table.entries[static_cast<std::size_t>(magnitude * table.size.entries() >> c_fraction)]
           : 0;
   const std::int64_t half = std::int64_t{1} << (7 + table.size.data_bits);
   return std::min<std::int64_t>(255, (half + factor * sample) >> (8 + table.size.data_bits));
@@ -408,8 +408,8 @@ double own_steepest_at_end(double from, double to, double value) {
 // slopes, which are bounded on intervals of n. Where the word is beyond the table's end, the colour is 0 and
 // cos^n at most c_own_end plus the drift.
 TEST(OwnTable, EveryExponentIsWithinOneStep) {
-  const auto [address_bits, data_bits] = tables::c_own_size;
-  const double half_word = 0.5 / std::ldexp(1.0, data_bits), half_cell = std::ldexp(0.5, -address_bits);
+  const tables::CosineSize size = tables::c_own_size;
+  const double half_word = 0.5 / (size.largest_entry() + 1), half_cell = 0.5 / size.entries();
   constexpr double c_step = 1.001;
   double steepest_slope = 0.0, at = 0.0, at_end = 0.0;
   for (double from = 1.0; from < 1e6; from *= c_step)

@@ -14,16 +14,17 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
+use work.cosine_pkg.all;
 use work.formats_pkg.all;
 
 entity angle_address is
   generic (
-    g_exact        : boolean := true;
-    g_address_bits : positive
+    g_exact  : boolean := true;
+    g_cosine : cosine_t
   );
   port (
     angle    : in  std_logic_vector(formats(g_exact).angle.bits - 1 downto 0);
-    address  : out std_logic_vector(g_address_bits - 1 downto 0);
+    address  : out std_logic_vector(address_bits(g_cosine) - 1 downto 0);
     in_range : out std_logic -- preset published: always '1'
   );
 end entity;
@@ -44,12 +45,12 @@ begin
   begin
 
     magnitude <= not angle when angle(c_sign) = '1' else angle;
-    address   <= magnitude(c_fraction - 1 downto c_fraction - g_address_bits);
+    address   <= magnitude(c_fraction - 1 downto c_fraction - address'length);
     in_range  <= '1' when magnitude(c_sign downto c_fraction) = c_inside else '0';
 
   else generate
 
-    address  <= angle(c_sign downto c_sign - g_address_bits + 1);
+    address  <= angle(c_sign downto c_sign - address'length + 1);
     in_range <= '1';
 
   end generate;

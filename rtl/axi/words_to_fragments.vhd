@@ -35,11 +35,10 @@ entity words_to_fragments is
     g_diffuse            : boolean  := true;       -- spherical, processors
     g_specular           : boolean  := true;       -- spherical, processors
     g_degree             : positive := 2;          -- quadratic
-    g_lights             : natural  := 1;          -- spherical, as the next six
+    g_lights             : natural  := 1;          -- spherical, as the next four
     g_highlight_channels : positive := g_channels;
     g_powers             : natural  := 2;
-    g_address_bits       : positive := cosine_address_bits(g_exact);
-    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_cosine             : cosine_t := default_cosine(g_exact);
     g_multiplier_bits    : natural  := 0;
     g_directional        : natural  := 1;          -- processors, as the next seven
     g_positional         : natural  := 0;
@@ -146,8 +145,7 @@ begin
         g_specular           => g_specular,
         g_highlight_channels => g_highlight_channels,
         g_powers             => g_powers,
-        g_address_bits       => g_address_bits,
-        g_data_bits          => g_data_bits,
+        g_cosine             => g_cosine,
         g_multiplier_bits    => g_multiplier_bits
         )
       port map (

@@ -43,8 +43,7 @@ entity halfway_core is
     g_lights             : natural  := 1;          -- spherical, as the next six
     g_highlight_channels : positive := g_channels;
     g_powers             : natural  := 2;
-    g_address_bits       : positive := cosine_address_bits(g_exact);
-    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_cosine             : cosine_t := default_cosine(g_exact);
     g_multiplier_bits    : natural  := 0;
     g_directional        : natural  := 1;          -- processors, as the next seven
     g_positional         : natural  := 0;
@@ -363,8 +362,7 @@ begin
       g_lights             => g_lights,
       g_highlight_channels => g_highlight_channels,
       g_powers             => g_powers,
-      g_address_bits       => g_address_bits,
-      g_data_bits          => g_data_bits,
+      g_cosine             => g_cosine,
       g_multiplier_bits    => g_multiplier_bits,
       g_directional        => g_directional,
       g_positional         => g_positional,

@@ -11,7 +11,7 @@
 --             advances the span to the next pixel. sample_step passes the pixel from the sample stage to the product
 --             stage.
 -- Formats     formats_pkg: angle in units of half a bell (preset published: of a whole bell), factor; product: bits of
---             factor plus g_data_bits
+--             factor plus those of a sample
 -- Latency     1 clock from span_load to lit, 1 from span_step to the sample stage, 3 from sample_step to products
 -- Throughput  1 pixel per clock
 -- Error       angle: see formats_pkg; sample: see cosine_rom
@@ -20,14 +20,14 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
+use work.cosine_pkg.all;
 use work.formats_pkg.all;
 
 entity diffuse_slice is
   generic (
     g_exact           : boolean              := true;
     g_channels        : natural range 0 to 3 := 3;
-    g_address_bits    : positive;
-    g_data_bits       : positive;
+    g_cosine          : cosine_t;
     g_multiplier_bits : natural := 0 -- of multiplier
   );
   port (
@@ -38,7 +38,7 @@ entity diffuse_slice is
     sample_step : in  std_logic;
     lit         : out std_logic; -- preset published: always '1'
     products    : out std_logic_vector((g_channels + boolean'pos(g_channels = 0))
-      * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
+      * (formats(g_exact).factor.bits + data_bits(g_cosine)) - 1 downto 0)
   );
 end entity;
 
@@ -50,7 +50,7 @@ architecture rtl of diffuse_slice is
   constant c_factors_bits : natural          := part'length - c_factors_low;
 
   signal slope, angle : std_logic_vector(c_angle_bits - 1 downto 0);
-  signal address      : std_logic_vector(g_address_bits - 1 downto 0);
+  signal address      : std_logic_vector(address_bits(g_cosine) - 1 downto 0);
   signal carried_in   : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
   signal carried      : std_logic_vector(carried_in'range);
   signal in_range     : std_logic;
@@ -85,7 +85,7 @@ begin
   to_address : entity work.angle_address
     generic map (
       g_exact        => g_exact,
-      g_address_bits => g_address_bits
+      g_cosine => g_cosine
       )
     port map (
       angle    => angle,
@@ -110,9 +110,9 @@ begin
   cosines : if g_channels > 0 generate
 
     constant c_channel_bits : positive := diffuse_bits(g_exact, 1) - c_factors_low;
-    constant c_product_bits : positive := formats(g_exact).factor.bits + g_data_bits;
+    constant c_product_bits : positive := formats(g_exact).factor.bits + data_bits(g_cosine);
 
-    signal sample, gated : std_logic_vector(g_data_bits - 1 downto 0);
+    signal sample, gated : std_logic_vector(data_bits(g_cosine) - 1 downto 0);
 
   begin
 
@@ -131,8 +131,7 @@ begin
       generic map (
         g_exact        => g_exact,
         g_power        => 1,
-        g_address_bits => g_address_bits,
-        g_data_bits    => g_data_bits
+        g_cosine => g_cosine
         )
       port map (
         clk     => clk,
@@ -153,7 +152,7 @@ begin
       -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
       product : entity work.multiplier
         generic map (
-          g_a_bits          => g_data_bits,
+          g_a_bits          => data_bits(g_cosine),
           g_b_bits          => formats(g_exact).factor.bits,
           g_multiplier_bits => g_multiplier_bits,
           g_gated           => g_exact -- in preset published no angle is out of range

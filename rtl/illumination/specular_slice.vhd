@@ -11,7 +11,7 @@
 --             to the product stage.
 --             Bit i of g_powers: the slice has the table of cosine to the power 2**i. With one table the record's power
 --             is not read. With several, the sample of a power without a table is zero.
--- Formats     formats_pkg: angle, power, factor; product: bits of factor plus g_data_bits
+-- Formats     formats_pkg: angle, power, factor; product: bits of factor plus those of a sample
 -- Latency     1 clock from span_load to the span stage, 1 from span_step to the sample stage, 3 from sample_step to
 --             products
 -- Throughput  1 pixel per clock
@@ -23,6 +23,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.cosine_pkg.all;
 use work.formats_pkg.all;
 
 entity specular_slice is
@@ -30,8 +31,7 @@ entity specular_slice is
     g_exact           : boolean              := true;
     g_channels        : natural range 1 to 3 := 3; -- of the highlight
     g_powers          : natural              := 2;
-    g_address_bits    : positive;
-    g_data_bits       : positive;
+    g_cosine          : cosine_t;
     g_multiplier_bits : natural := 0 -- of multiplier
   );
   port (
@@ -41,7 +41,7 @@ entity specular_slice is
     span_step   : in  std_logic;                                                         -- go to the next pixel
     sample_step : in  std_logic;
     lit         : in  std_logic; -- at the span stage: the pixel is above the light's horizon
-    products    : out std_logic_vector(g_channels * (formats(g_exact).factor.bits + g_data_bits) - 1 downto 0)
+    products    : out std_logic_vector(g_channels * (formats(g_exact).factor.bits + data_bits(g_cosine)) - 1 downto 0)
   );
 end entity;
 
@@ -82,15 +82,15 @@ architecture rtl of specular_slice is
   constant c_factors_low  : positive          := specular_bits(g_exact, 0);
   constant c_factors_bits : positive          := part'length - c_factors_low;
   constant c_channel_bits : positive          := specular_bits(g_exact, 1) - c_factors_low;
-  constant c_product_bits : positive          := formats(g_exact).factor.bits + g_data_bits;
+  constant c_product_bits : positive          := formats(g_exact).factor.bits + data_bits(g_cosine);
   constant c_factor       : slice_t           := specular_channel(g_exact).factor;
 
-  subtype sample_t is std_logic_vector(g_data_bits - 1 downto 0);
+  subtype sample_t is std_logic_vector(data_bits(g_cosine) - 1 downto 0);
 
   type samples_t is array (0 to c_largest_power) of sample_t;
 
   signal slope, angle  : std_logic_vector(c_angle_bits - 1 downto 0);
-  signal address       : std_logic_vector(g_address_bits - 1 downto 0);
+  signal address       : std_logic_vector(address_bits(g_cosine) - 1 downto 0);
   signal in_bell       : std_logic; -- inside the bell
   signal carried_in    : std_logic_vector(c_factors_bits downto 0); -- in_range lowest
   signal carried       : std_logic_vector(carried_in'range);
@@ -146,7 +146,7 @@ begin
   to_address : entity work.angle_address
     generic map (
       g_exact        => g_exact,
-      g_address_bits => g_address_bits
+      g_cosine => g_cosine
       )
     port map (
       angle    => angle,
@@ -176,8 +176,7 @@ begin
         generic map (
           g_exact        => g_exact,
           g_power        => 2 ** power,
-          g_address_bits => g_address_bits,
-          g_data_bits    => g_data_bits
+          g_cosine => g_cosine
           )
         port map (
           clk     => clk,
@@ -249,7 +248,7 @@ begin
     -- The sample is the first operand: numeric_std's product adds one sum per bit of its left operand.
     product : entity work.multiplier
       generic map (
-        g_a_bits          => g_data_bits,
+        g_a_bits          => data_bits(g_cosine),
         g_b_bits          => formats(g_exact).factor.bits,
         g_multiplier_bits => g_multiplier_bits,
         g_gated           => g_exact -- in preset published no angle is out of range

@@ -30,8 +30,7 @@ entity spherical_light is
     g_specular           : boolean  := true;
     g_highlight_channels : positive := g_channels;
     g_powers             : natural  := 2;
-    g_address_bits       : positive := cosine_address_bits(g_exact);
-    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_cosine             : cosine_t := default_cosine(g_exact);
     g_multiplier_bits    : natural  := 0 -- of multiplier
   );
   port (
@@ -41,14 +40,14 @@ entity spherical_light is
     span_load   : in  std_logic; -- start the line
     span_step   : in  std_logic; -- go to the next pixel
     sample_step : in  std_logic; -- pass the pixel to the product stage
-    terms       : out std_logic_vector(light_terms(g_diffuse, g_specular) * g_channels * term_bits(g_exact, g_data_bits)
-      - 1 downto 0)
+    terms       : out std_logic_vector(light_terms(g_diffuse, g_specular) * g_channels
+      * term_bits(g_exact, data_bits(g_cosine)) - 1 downto 0)
   );
 end entity;
 
 architecture rtl of spherical_light is
 
-  constant c_term_bits        : positive := term_bits(g_exact, g_data_bits);
+  constant c_term_bits        : positive := term_bits(g_exact, data_bits(g_cosine));
   constant c_diffuse_channels : natural  := diffuse_channels(g_channels, g_diffuse);
   constant c_diffuse_bits     : natural  := diffuse_part_bits(g_exact, g_channels, g_diffuse, g_specular);
 
@@ -74,8 +73,7 @@ begin
       generic map (
         g_exact           => g_exact,
         g_channels        => c_diffuse_channels,
-        g_address_bits    => g_address_bits,
-        g_data_bits       => g_data_bits,
+        g_cosine          => g_cosine,
         g_multiplier_bits => g_multiplier_bits
         )
       port map (
@@ -115,8 +113,7 @@ begin
         g_exact           => g_exact,
         g_channels        => g_highlight_channels,
         g_powers          => g_powers,
-        g_address_bits    => g_address_bits,
-        g_data_bits       => g_data_bits,
+        g_cosine          => g_cosine,
         g_multiplier_bits => g_multiplier_bits
         )
       port map (

@@ -37,8 +37,7 @@ entity spherical_shader is
     g_specular           : boolean  := true;
     g_highlight_channels : positive := g_channels; -- 1: highlights are grey, with one multiplier per light
     g_powers             : natural  := 2; -- bit i: the table of cosine to the power 2**i exists
-    g_address_bits       : positive := cosine_address_bits(g_exact);
-    g_data_bits          : positive := cosine_data_bits(g_exact);
+    g_cosine             : cosine_t := default_cosine(g_exact);
     g_multiplier_bits    : natural  := 0 -- width of the device's multipliers; 0: products in lookup tables
   );
   port (
@@ -76,7 +75,8 @@ architecture rtl of spherical_shader is
   -- Groups of terms, with a term per channel: ambient, then for each light its diffuse and its specular products.
   constant c_light_groups : natural  := light_terms(g_diffuse, g_specular);
   constant c_groups       : positive := 1 + c_lights * c_light_groups;
-  constant c_group_bits   : positive := g_channels * term_bits(g_exact, g_data_bits);
+  constant c_data_bits    : positive := data_bits(g_cosine); -- of a sample
+  constant c_group_bits   : positive := g_channels * term_bits(g_exact, c_data_bits);
 
   -- Clocks after the span stage: samples, products (three clocks), sums.
   constant c_sampled    : positive := 1;
@@ -215,7 +215,7 @@ begin
       );
 
   ambient : entity work.ambient_light
-    generic map (g_exact => g_exact, g_channels => g_channels, g_data_bits => g_data_bits, g_depth => c_multiplied)
+    generic map (g_exact => g_exact, g_channels => g_channels, g_data_bits => c_data_bits, g_depth => c_multiplied)
     port map (
       clk       => clk,
       ambient   => header(c_header_bits - 1 downto c_walk_bits),
@@ -239,8 +239,7 @@ begin
         g_specular           => g_specular,
         g_highlight_channels => g_highlight_channels,
         g_powers             => g_powers,
-        g_address_bits       => g_address_bits,
-        g_data_bits          => g_data_bits,
+        g_cosine             => g_cosine,
         g_multiplier_bits    => g_multiplier_bits
         )
       port map (
@@ -255,7 +254,7 @@ begin
   end generate;
 
   sum : entity work.colour_sum
-    generic map (g_exact => g_exact, g_channels => g_channels, g_terms => c_groups, g_data_bits => g_data_bits)
+    generic map (g_exact => g_exact, g_channels => g_channels, g_terms => c_groups, g_data_bits => c_data_bits)
     port map (
       clk     => clk,
       enable  => r.filled(c_multiplied),

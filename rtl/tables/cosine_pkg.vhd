@@ -7,19 +7,23 @@ package cosine_pkg is
 
   type cosine_table_t is array (natural range <>) of natural;
 
-  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return cosine_table_t;
+  -- The sizes of the tables: address bits x data bits.
+  type cosine_t is (rom4x4, rom6x6, rom9x8);
 
-  -- The default size.
-  function cosine_address_bits (exact : boolean) return positive;
+  function default_cosine (exact : boolean) return cosine_t;
 
-  function cosine_data_bits (exact : boolean) return positive;
+  function address_bits (size : cosine_t) return positive;
+
+  function data_bits (size : cosine_t) return positive;
+
+  function cosine_table (exact : boolean; power : positive; size : cosine_t) return cosine_table_t;
 
 end package;
 
 package body cosine_pkg is
 
   -- off by at most 0.00349: half a step, and half a cell where cos^1 is steepest
-  constant c_exact_cosine_1_9_8 : cosine_table_t(0 to 511) := (
+  constant c_exact_cosine_1_9x8 : cosine_table_t(0 to 511) := (
     255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 254, 254, 254,
     254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 254, 253, 253, 253, 253, 253, 253, 253, 253, 253, 253, 253,
     252, 252, 252, 252, 252, 252, 252, 252, 251, 251, 251, 251, 251, 251, 251, 250, 250, 250, 250, 250, 250, 250, 249,
@@ -44,7 +48,7 @@ package body cosine_pkg is
     4, 3, 2, 1, 0);
 
   -- off by at most 0.00349: half a step, and half a cell where cos^2 is steepest
-  constant c_exact_cosine_2_9_8 : cosine_table_t(0 to 511) := (
+  constant c_exact_cosine_2_9x8 : cosine_table_t(0 to 511) := (
     255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 254, 254, 254, 254, 254, 254, 254, 254, 254,
     254, 254, 253, 253, 253, 253, 253, 253, 253, 252, 252, 252, 252, 252, 252, 251, 251, 251, 251, 251, 250, 250, 250,
     250, 250, 249, 249, 249, 249, 248, 248, 248, 248, 247, 247, 247, 247, 246, 246, 246, 245, 245, 245, 245, 244, 244,
@@ -67,7 +71,7 @@ package body cosine_pkg is
     3, 3, 3, 3, 3, 2, 2, 2, 2, 2, 2, 2, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
 
   -- off by at most 0.00395: half a step, and half a cell where cos^4 is steepest
-  constant c_exact_cosine_4_9_8 : cosine_table_t(0 to 511) := (
+  constant c_exact_cosine_4_9x8 : cosine_table_t(0 to 511) := (
     255, 255, 255, 255, 255, 255, 255, 255, 255, 255, 254, 254, 254, 254, 254, 254, 254, 254, 253, 253, 253, 253, 253,
     252, 252, 252, 252, 251, 251, 251, 251, 250, 250, 250, 249, 249, 249, 248, 248, 248, 247, 247, 246, 246, 246, 245,
     245, 244, 244, 243, 243, 243, 242, 242, 241, 241, 240, 240, 239, 238, 238, 237, 237, 236, 236, 235, 234, 234, 233,
@@ -89,7 +93,7 @@ package body cosine_pkg is
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
 
   -- off by at most 0.00468: half a step, and half a cell where cos^8 is steepest
-  constant c_exact_cosine_8_9_8 : cosine_table_t(0 to 511) := (
+  constant c_exact_cosine_8_9x8 : cosine_table_t(0 to 511) := (
     255, 255, 255, 255, 255, 255, 255, 254, 254, 254, 254, 254, 254, 253, 253, 253, 252, 252, 252, 251, 251, 251, 250,
     250, 249, 249, 248, 248, 247, 247, 246, 246, 245, 244, 244, 243, 242, 242, 241, 240, 240, 239, 238, 237, 237, 236,
     235, 234, 233, 232, 232, 231, 230, 229, 228, 227, 226, 225, 224, 223, 222, 221, 220, 219, 218, 217, 216, 215, 213,
@@ -110,7 +114,7 @@ package body cosine_pkg is
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0);
 
   -- off by at most 0.00574: half a step, and half a cell where cos^16 is steepest
-  constant c_exact_cosine_16_9_8 : cosine_table_t(0 to 511) := (
+  constant c_exact_cosine_16_9x8 : cosine_table_t(0 to 511) := (
     255, 255, 255, 255, 255, 254, 254, 254, 254, 253, 253, 252, 252, 252, 251, 250, 250, 249, 249, 248, 247, 246, 245,
     245, 244, 243, 242, 241, 240, 239, 238, 237, 235, 234, 233, 232, 231, 229, 228, 227, 225, 224, 222, 221, 220, 218,
     217, 215, 213, 212, 210, 209, 207, 205, 204, 202, 200, 199, 197, 195, 193, 191, 190, 188, 186, 184, 182, 180, 179,
@@ -130,73 +134,89 @@ package body cosine_pkg is
     0, 0, 0, 0, 0, 0, 0, 0, 0);
 
   -- off by at most 0.057: half a step, and half a cell where cos^1 is steepest
-  constant c_published_cosine_1_6_6 : cosine_table_t(0 to 63) := (
+  constant c_published_cosine_1_6x6 : cosine_table_t(0 to 63) := (
     63, 62, 61, 59, 57, 54, 51, 47, 42, 38, 32, 27, 21, 15, 9, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
     0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 9, 15, 21, 27, 32, 38, 42, 47, 51, 54, 57, 59, 61, 62, 63);
 
   -- off by at most 0.0325: half a step, and half a cell where cos^2 is steepest
-  constant c_published_cosine_2_6_6 : cosine_table_t(0 to 63) := (
+  constant c_published_cosine_2_6x6 : cosine_table_t(0 to 63) := (
     63, 63, 62, 61, 60, 59, 57, 55, 53, 50, 48, 45, 42, 39, 36, 33, 30, 27, 24, 21, 18, 15, 13, 10, 8, 6, 4, 3, 2, 1,
     0, 0, 0, 0, 1, 2, 3, 4, 6, 8, 10, 13, 15, 18, 21, 24, 27, 30, 33, 36, 39, 42, 45, 48, 50, 53, 55, 57, 59, 60, 61,
     62, 63, 63);
 
   -- off by at most 0.23: half a step, and half a cell where cos^1 is steepest
-  constant c_published_cosine_1_4_4 : cosine_table_t(0 to 15) := (
+  constant c_published_cosine_1_4x4 : cosine_table_t(0 to 15) := (
     15, 12, 8, 3, 0, 0, 0, 0, 0, 0, 0, 0, 3, 8, 12, 15);
 
   -- off by at most 0.132: half a step, and half a cell where cos^2 is steepest
-  constant c_published_cosine_2_4_4 : cosine_table_t(0 to 15) := (
+  constant c_published_cosine_2_4x4 : cosine_table_t(0 to 15) := (
     15, 14, 12, 9, 6, 3, 1, 0, 0, 1, 3, 6, 9, 12, 14, 15);
 
-  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return cosine_table_t is
+  function default_cosine (exact : boolean) return cosine_t is
   begin
-    if exact and power = 1 and address_bits = 9 and data_bits = 8 then
-      return c_exact_cosine_1_9_8;
+    if exact then
+      return rom9x8;
     end if;
-    if exact and power = 2 and address_bits = 9 and data_bits = 8 then
-      return c_exact_cosine_2_9_8;
+    return rom6x6;
+  end function;
+
+  function address_bits (size : cosine_t) return positive is
+  begin
+    case size is
+      when rom4x4 =>
+        return 4;
+      when rom6x6 =>
+        return 6;
+      when rom9x8 =>
+        return 9;
+    end case;
+  end function;
+
+  function data_bits (size : cosine_t) return positive is
+  begin
+    case size is
+      when rom4x4 =>
+        return 4;
+      when rom6x6 =>
+        return 6;
+      when rom9x8 =>
+        return 8;
+    end case;
+  end function;
+
+  function cosine_table (exact : boolean; power : positive; size : cosine_t) return cosine_table_t is
+  begin
+    if exact and power = 1 and size = rom9x8 then
+      return c_exact_cosine_1_9x8;
     end if;
-    if exact and power = 4 and address_bits = 9 and data_bits = 8 then
-      return c_exact_cosine_4_9_8;
+    if exact and power = 2 and size = rom9x8 then
+      return c_exact_cosine_2_9x8;
     end if;
-    if exact and power = 8 and address_bits = 9 and data_bits = 8 then
-      return c_exact_cosine_8_9_8;
+    if exact and power = 4 and size = rom9x8 then
+      return c_exact_cosine_4_9x8;
     end if;
-    if exact and power = 16 and address_bits = 9 and data_bits = 8 then
-      return c_exact_cosine_16_9_8;
+    if exact and power = 8 and size = rom9x8 then
+      return c_exact_cosine_8_9x8;
     end if;
-    if not exact and power = 1 and address_bits = 6 and data_bits = 6 then
-      return c_published_cosine_1_6_6;
+    if exact and power = 16 and size = rom9x8 then
+      return c_exact_cosine_16_9x8;
     end if;
-    if not exact and power = 2 and address_bits = 6 and data_bits = 6 then
-      return c_published_cosine_2_6_6;
+    if not exact and power = 1 and size = rom6x6 then
+      return c_published_cosine_1_6x6;
     end if;
-    if not exact and power = 1 and address_bits = 4 and data_bits = 4 then
-      return c_published_cosine_1_4_4;
+    if not exact and power = 2 and size = rom6x6 then
+      return c_published_cosine_2_6x6;
     end if;
-    if not exact and power = 2 and address_bits = 4 and data_bits = 4 then
-      return c_published_cosine_2_4_4;
+    if not exact and power = 1 and size = rom4x4 then
+      return c_published_cosine_1_4x4;
+    end if;
+    if not exact and power = 2 and size = rom4x4 then
+      return c_published_cosine_2_4x4;
     end if;
     report "cosine_table: there is no table for exact " & boolean'image(exact) & ", power " & integer'image(power) &
-      ", address bits " & integer'image(address_bits) & ", data bits " & integer'image(data_bits)
+      ", size " & cosine_t'image(size)
       severity failure;
-    return (0 to 2 ** address_bits - 1 => 0);
-  end function;
-
-  function cosine_address_bits (exact : boolean) return positive is
-  begin
-    if exact then
-      return 9;
-    end if;
-    return 6;
-  end function;
-
-  function cosine_data_bits (exact : boolean) return positive is
-  begin
-    if exact then
-      return 8;
-    end if;
-    return 6;
+    return (0 to 2 ** address_bits(size) - 1 => 0);
   end function;
 
 end package body;

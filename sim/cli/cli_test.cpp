@@ -85,19 +85,12 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
 
 // A zero is a given number. A size that `make tables` cannot make must not be advised.
 TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
-  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
-      {"0", "0", "--address-bits: 0 is not 3 to 12"},
-      {"9", "13", "--data-bits: 13 is not 2 to 12"},
-      {"11", "3", "make tables PRESET=exact ADDRESS_BITS=11 DATA_BITS=3"}};
-  for (const auto& [address, data, expected] : cases) {
-    const Outcome outcome =
-        run({"sim", "spheres", "--shader", "spherical", "--address-bits", address, "--data-bits", data});
-    EXPECT_THAT(outcome, Ends(2, HasSubstr(expected)));
-    EXPECT_EQ(outcome.output.find("make tables") != std::string::npos, address == "11") << outcome.output;
-  }
-  for (const char* one : {"--address-bits", "--data-bits"})
-    EXPECT_THAT(run({"sim", "spheres", "--shader", "spherical", one, "4"}).output,
-                HasSubstr("--address-bits and --data-bits go together"));
+  for (const char* size : {"0x0", "9x13", "9", "9x8 ", "09x8"})
+    EXPECT_THAT(run({"sim", "spheres", "--shader", "spherical", "--cosine", size}),
+                Ends(2, AllOf(HasSubstr(fmt::format("--cosine: '{}' is not ADDRESSxDATA bits", size)),
+                              Not(HasSubstr("make tables")))));
+  EXPECT_THAT(run({"sim", "spheres", "--shader", "spherical", "--cosine", "11x3"}),
+              Ends(2, HasSubstr("make tables PRESET=exact COSINE=11x3")));
 }
 
 TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
@@ -113,7 +106,7 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
         Case{s, published, "--threshold", "2", false}, Case{s, exact, "--highlight-test", "none", false},
         Case{q, published, "--degree", "1", true}, Case{"processors", exact, "--degree", "2", false},
         Case{q, exact, "--max-level", "0", true}, Case{s, exact, "--max-level", "5", false},
-        Case{q, exact, "--data-bits", "8", false}, Case{q, exact, "--lights", "2", false}}) {
+        Case{q, exact, "--cosine", "9x8", false}, Case{q, exact, "--lights", "2", false}}) {
     const Outcome outcome = run({"init", mesh, "--shader", c.shader, "--preset", c.preset, c.option, c.value,
                                  "--size", "20x15", "--file", "init.txt"});
     const std::string what = fmt::format("{} {} {}: {}", c.shader, c.preset, c.option, outcome.output);
@@ -301,8 +294,8 @@ TEST_F(CliTest, TheLineNamesTablesOfAnUnusualSize) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
     return outcome.output;
   };
-  EXPECT_THAT(line({"--preset", "published", "--address-bits", "4", "--data-bits", "4"}),
-              HasSubstr(" fragments, tables 4/4 | verilator: "));
+  EXPECT_THAT(line({"--preset", "published", "--cosine", "4x4"}),
+              HasSubstr(" fragments, tables 4x4 | verilator: "));
   EXPECT_THAT(line({}), HasSubstr(" fragments | verilator: "));
 }
 
@@ -311,7 +304,7 @@ TEST_F(CliTest, OwnTablesDrawInBothSimulators) {
   const auto drawn = run({"sim", "spheres", "--shader", "spherical", "--own-tables", "--size", "64x48",
                           "--simulator", "ghdl", "--simulator", "verilator", "--out", "out"});
   EXPECT_THAT(drawn,
-              Ends(0, AllOf(HasSubstr(", own tables 10/11 |"), ContainsRegex("ghdl: .* 0 mismatches"),
+              Ends(0, AllOf(HasSubstr(", own tables 10x11 |"), ContainsRegex("ghdl: .* 0 mismatches"),
                             ContainsRegex("verilator: .* 0 mismatches"), HasSubstr("largest error 1/255"))));
   for (const char* shader : {"quadratic", "processors"})
     EXPECT_THAT(run({"sim", "spheres", "--shader", shader, "--own-tables"}),
@@ -498,7 +491,7 @@ TEST_P(WrongRtl, IsCaughtAndLocated) {
 using WrongTable = WrongRtl;
 
 TEST_F(WrongTable, AFlippedBitOfARomIsCaught) {
-  change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9_8", "245, 244,", "245, 116,");
+  change("tables/cosine_pkg.vhd", "c_exact_cosine_16_9x8", "245, 244,", "245, 116,");
   EXPECT_THAT(sim("spherical", "verilator"),
               Ends(1, AllOf(HasSubstr("verilator differs from the golden model"),
                             ContainsRegex("rtl/tables/cosine_pkg.vhd:[0-9]+: not what the generator"))));

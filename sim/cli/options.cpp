@@ -80,14 +80,6 @@ struct Given {
   }
 };
 
-int table_bits(const Given& given, int words::CosineSize::* bits) {
-  return given.whole_number(tables::c_smallest_cosine_size.*bits, tables::c_largest_cosine_size.*bits);
-}
-
-words::CosineSize& table_of(DrawSettings& settings) {
-  return settings.plan.tables ? *settings.plan.tables : settings.plan.tables.emplace(0, 0);
-}
-
 // An option of some shaders.
 struct Option {
   const char* flag;
@@ -126,20 +118,14 @@ const std::vector<Option>& options_of_some_shaders() {
        [](const Given& given, DrawSettings& s) {
          s.setup.quadratic.max_level = given.whole_number(0, c_most_levels);
        }},
-      {"--address-bits",
+      {"--cosine",
        {{Shader::spherical}},
        true,
-       "spherical: address bits of the cosine tables; with --data-bits, a size that `make tables`\n"
-       "has made (default: the preset's)",
+       fmt::format("spherical: {},\na size that `make tables` has made (default: the preset's)",
+                   tables::c_cosine_values),
        [](const Given& given, DrawSettings& s) {
-         table_of(s).address_bits = table_bits(given, &words::CosineSize::address_bits);
-       }},
-      {"--data-bits",
-       {{Shader::spherical}},
-       true,
-       "spherical: data bits of the cosine tables",
-       [](const Given& given, DrawSettings& s) {
-         table_of(s).data_bits = table_bits(given, &words::CosineSize::data_bits);
+         s.plan.tables = tables::parse_cosine_size(given.text);
+         if (!s.plan.tables) given.fail(fmt::format("'{}' is not {}", given.text, tables::c_cosine_values));
        }},
       {"--lights",
        {{Shader::spherical}, {Shader::processors}},
@@ -223,8 +209,6 @@ void apply_options(const DrawOptions& o, DrawSettings& s) {
     if (text_of(o, option.flag)) check_hardware(option, s.plan.shader, s.plan.preset);
   for (const Option& option : options_of_some_shaders())
     if (const auto text = text_of(o, option.flag)) option.apply({option.flag, *text}, s);
-  if (text_of(o, "--address-bits").has_value() != text_of(o, "--data-bits").has_value())
-    throw_bad_input("--address-bits and --data-bits go together; give both");
   if (text_of(o, "--threshold") && s.plan.shader == Shader::spherical &&
       s.setup.spherical.ends == SpanEnds::slerped_along_edges)
     throw_bad_input("--threshold goes with --span-ends surface: with slerp no triangle is cut");

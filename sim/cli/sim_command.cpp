@@ -197,8 +197,8 @@ void add_sim(CLI::App& app, const Folders& folders, int& exit_code) {
   command->add_flag(
       "--own-tables", options->own_tables,
       fmt::format("spherical, preset exact: a table of cos^n for each exponent n of the scene, up "
-                  "to {},\nof {}/{} address/data bits or the size given: within one colour step",
-                  tables::c_most_own_tables, tables::c_own_size.address_bits, tables::c_own_size.data_bits));
+                  "to {},\nof {} address x data bits or the size given: within one colour step",
+                  tables::c_most_own_tables, to_string(tables::c_own_size)));
   command
       ->add_option("--stalls", options->stall_seed,
                    "stall both streams at random, with this seed (0: full speed)")

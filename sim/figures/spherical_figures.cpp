@@ -211,7 +211,7 @@ void draw_figure_10(const Context& context, Drawing& out) {
 constexpr std::array c_figure_11_bits{4, 6};
 
 double entry_at(const tables::CosineTable& table, double x) {
-  const double cells = std::ldexp(1.0, table.size.address_bits - 1);
+  const double cells = table.size.entries() / 2;
   const auto cell = to_integer<std::size_t>(std::min(x / c_half_pi * cells, cells - 1.0));
   return table.entries[cell] / double(table.size.largest_entry());
 }

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,7 +19,7 @@ struct TablesOptions {
   bool check = false;
   bool errors = false;
   std::string preset = "exact";
-  std::optional<std::string> address_bits, data_bits;
+  std::optional<std::string> cosine;
 };
 
 /// The parsed and checked settings.
@@ -33,18 +32,10 @@ TablesSettings checked(const TablesOptions& o) {
   if (o.preset != "exact" && o.preset != "published")
     throw_bad_input("--preset: '{}' is not a preset; take exact or published", o.preset);
   TablesSettings s{o.preset == "exact", {}};
-  tables::CosineSize& size = (s.exact ? s.sizes.exact : s.sizes.published).front();
-  for (const auto& [option, given, bits] :
-       {std::tuple{"--address-bits", &o.address_bits, &tables::CosineSize::address_bits},
-        std::tuple{"--data-bits", &o.data_bits, &tables::CosineSize::data_bits}}) {
-    if (!*given) continue;
-    const std::string& text = **given;
-    const int smallest = tables::c_smallest_cosine_size.*bits, largest = tables::c_largest_cosine_size.*bits;
-    int& number = size.*bits;
-    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (error != std::errc{} || rest != text.data() + text.size() || number < smallest || number > largest)
-      throw_bad_input("{}: '{}' is not a whole number from {} to {}", option, text, smallest, largest);
-  }
+  if (!o.cosine) return s;
+  const auto size = tables::parse_cosine_size(*o.cosine);
+  if (!size) throw_bad_input("--cosine: '{}' is not {}", *o.cosine, tables::c_cosine_values);
+  (s.exact ? s.sizes.exact : s.sizes.published).front() = *size;
   return s;
 }
 
@@ -52,9 +43,9 @@ void print_tables(const tables::CosineSizes& sizes) {
   for (const tables::CosineTable& table : tables::cosine_tables(sizes)) {
     const double error = tables::table_error(table);
     fmt::print(
-        "{:<9}  cos^{:<2}  {:>2}/{:<2} address/data bits  {:>6} bits  largest error {:5.2f}/255 ({:.5f})\n",
-        table.exact ? "exact" : "published", table.power, table.size.address_bits, table.size.data_bits,
-        table.bits(), 255 * error, error);
+        "{:<9}  cos^{:<2}  {:>5} address x data bits  {:>6} bits  largest error {:5.2f}/255 ({:.5f})\n",
+        table.exact ? "exact" : "published", table.power, to_string(table.size), table.bits(), 255 * error,
+        error);
   }
 }
 
@@ -97,9 +88,9 @@ int run(const Folders& folders, const TablesOptions& options) {
     for (const bool exact : {true, false})
       for (const tables::CosineSize size : sizes_that_go(folders.source, exact, settings.sizes))
         fmt::print(
-            "preset {0}: the tables of {1}/{2} address/data bits go; for them again: make tables PRESET={0} "
-            "ADDRESS_BITS={1} DATA_BITS={2}\n",
-            exact ? "exact" : "published", size.address_bits, size.data_bits);
+            "preset {0}: the tables of {1} address x data bits go; for them again: make tables PRESET={0} "
+            "COSINE={1}\n",
+            exact ? "exact" : "published", to_string(size));
   if (options.check)
     for (const std::string& message : tables::stale_files(folders.source, settings.sizes)) {
       fmt::print(stderr, "{}\n", message);
@@ -130,24 +121,15 @@ void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
                    "preset of the cosine tables with these sizes: exact or published")
       ->capture_default_str();
   const tables::CosineSizes sizes;
-  const auto add_bits = [&](const char* name, const char* what, std::optional<std::string>& text,
-                            int tables::CosineSize::* bits) {
-    return command->add_option(
-        name, text,
-        fmt::format("{}, {} to {} (default: {} in preset exact, {} in published)", what,
-                    tables::c_smallest_cosine_size.*bits, tables::c_largest_cosine_size.*bits,
-                    sizes.exact.front().*bits, sizes.published.front().*bits));
-  };
-  CLI::Option* address = add_bits("--address-bits", "a table has 2^this entries", options->address_bits,
-                                  &tables::CosineSize::address_bits);
-  CLI::Option* data =
-      add_bits("--data-bits", "bits of an entry", options->data_bits, &tables::CosineSize::data_bits);
+  CLI::Option* cosine = command->add_option(
+      "--cosine", options->cosine,
+      fmt::format("{} (default: {} in preset exact, {} in published)", tables::c_cosine_values,
+                  to_string(sizes.exact.front()), to_string(sizes.published.front())));
   command
       ->add_flag("--errors", options->errors,
                  "write nothing; print the largest error of cos^2 by address and data bits")
       ->excludes(check)
-      ->excludes(address)
-      ->excludes(data);
+      ->excludes(cosine);
   command->callback([=, &folders, &exit_code] { exit_code = run(folders, *options); });
 }
 

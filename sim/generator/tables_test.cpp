@@ -65,20 +65,20 @@ TEST_F(TablesCommand, PrintsTheCostOfEachTable) {
     const std::string output = run(arguments).output;
     EXPECT_THAT(
         output,
-        AllOf(ContainsRegex("exact +cos\\^1 +9/8 +address/data bits +4096 bits +largest error +0.88/255"),
-              ContainsRegex("exact +cos\\^2 +9/8 .* 4096 bits +largest error +0.88/255 \\(0.00346\\)"),
-              ContainsRegex("exact +cos\\^4 +9/8 .* 4096 bits"),
-              ContainsRegex("exact +cos\\^8 +9/8 .* 4096 bits"),
-              ContainsRegex("exact +cos\\^16 +9/8 .* 4096 bits"),
-              ContainsRegex("published +cos\\^1 +6/6 .* 384 bits"),
-              ContainsRegex("published +cos\\^2 +6/6 .* 384 bits +largest error +6.68/255"),
-              ContainsRegex("published +cos\\^1 +4/4 .* 64 bits"),
-              ContainsRegex("published +cos\\^2 +4/4 .* 64 bits +largest error +27.71/255")));
+        AllOf(ContainsRegex("exact +cos\\^1 +9x8 +address x data bits +4096 bits +largest error +0.88/255"),
+              ContainsRegex("exact +cos\\^2 +9x8 .* 4096 bits +largest error +0.88/255 \\(0.00346\\)"),
+              ContainsRegex("exact +cos\\^4 +9x8 .* 4096 bits"),
+              ContainsRegex("exact +cos\\^8 +9x8 .* 4096 bits"),
+              ContainsRegex("exact +cos\\^16 +9x8 .* 4096 bits"),
+              ContainsRegex("published +cos\\^1 +6x6 .* 384 bits"),
+              ContainsRegex("published +cos\\^2 +6x6 .* 384 bits +largest error +6.68/255"),
+              ContainsRegex("published +cos\\^1 +4x4 .* 64 bits"),
+              ContainsRegex("published +cos\\^2 +4x4 .* 64 bits +largest error +27.71/255")));
   }
 }
 
-TEST_F(TablesCommand, TakesAddressAndDataBits) {
-  const std::vector<std::string> size = {"--preset", "published", "--address-bits", "5", "--data-bits", "6"};
+TEST_F(TablesCommand, TakesASize) {
+  const std::vector<std::string> size = {"--preset", "published", "--cosine", "5x6"};
   std::vector<std::string> check = size;
   check.push_back("--check");
   ASSERT_EQ(run({}).exit_code, 0);
@@ -88,8 +88,8 @@ TEST_F(TablesCommand, TakesAddressAndDataBits) {
   EXPECT_EQ(written.exit_code, 0) << written.output;
   EXPECT_THAT(
       written.output,
-      AllOf(ContainsRegex("published +cos\\^2 +5/6 .* 192 bits"), ContainsRegex("published +cos\\^2 +4/4 "),
-            ContainsRegex("exact +cos\\^2 +9/8 "), Not(ContainsRegex("published +cos\\^2 +6/6 "))));
+      AllOf(ContainsRegex("published +cos\\^2 +5x6 .* 192 bits"), ContainsRegex("published +cos\\^2 +4x4 "),
+            ContainsRegex("exact +cos\\^2 +9x8 "), Not(ContainsRegex("published +cos\\^2 +6x6 "))));
   EXPECT_EQ(run(check).exit_code, 0);
   const Outcome stale = run({"--check"});
   EXPECT_EQ(stale.exit_code, 1) << stale.output;
@@ -97,24 +97,21 @@ TEST_F(TablesCommand, TakesAddressAndDataBits) {
   const auto headers = tables::cpp_headers(tables::sizes_of(source()));
   EXPECT_THAT(headers.at(1).text,
               AllOf(HasSubstr("c_published_cosine_size{5, 6};"), HasSubstr("c_exact_cosine_size{9, 8};")));
-  EXPECT_THAT(
-      text_of("source/rtl/tables/cosine_pkg.vhd"),
-      AllOf(HasSubstr("cosine_address_bits (exact : boolean) return positive is\n  begin\n    if exact then\n"
-                      "      return 9;\n    end if;\n    return 5;"),
-            HasSubstr("cosine_data_bits (exact : boolean) return positive is\n  begin\n    if exact then\n"
-                      "      return 8;\n    end if;\n    return 6;")));
+  EXPECT_THAT(text_of("source/rtl/tables/cosine_pkg.vhd"),
+              HasSubstr("default_cosine (exact : boolean) return cosine_t is\n  begin\n    if exact then\n"
+                        "      return rom9x8;\n    end if;\n    return rom5x6;"));
 
   ASSERT_EQ(run({}).exit_code, 0);
   EXPECT_EQ(run({"--check"}).exit_code, 0);
 }
 
 TEST_F(TablesCommand, ASizeIsForOnePresetAndUnique) {
-  EXPECT_THAT(run({"--address-bits", "12"}),
-              Ends(0, AllOf(ContainsRegex("exact +cos\\^16 +12/8 .* 32768 bits"), Not(HasSubstr(" 9/8 ")),
-                            ContainsRegex("published +cos\\^2 +6/6 "))));
-  const Outcome again = run({"--preset", "published", "--address-bits", "4", "--data-bits", "4"});
+  EXPECT_THAT(run({"--cosine", "12x8"}),
+              Ends(0, AllOf(ContainsRegex("exact +cos\\^16 +12x8 .* 32768 bits"), Not(HasSubstr(" 9x8 ")),
+                            ContainsRegex("published +cos\\^2 +6x6 "))));
+  const Outcome again = run({"--preset", "published", "--cosine", "4x4"});
   EXPECT_EQ(again.exit_code, 0) << again.output;
-  const std::regex line("published +cos\\^2 +4/4 ");
+  const std::regex line("published +cos\\^2 +4x4 ");
   EXPECT_EQ(std::distance(std::sregex_iterator(again.output.begin(), again.output.end(), line), {}), 1)
       << again.output;
 }
@@ -123,35 +120,36 @@ TEST_F(TablesCommand, ASizeIsForOnePresetAndUnique) {
 TEST_F(TablesCommand, PrintsTheRemovedTables) {
   EXPECT_THAT(run({}).output, Not(HasSubstr(" go; "))) << "there were none";
   EXPECT_THAT(run({}).output, Not(HasSubstr(" go; ")));
-  EXPECT_THAT(run({"--address-bits", "12"}).output,
-              AllOf(HasSubstr("preset exact: the tables of 9/8 address/data bits go; for them again: make "
-                              "tables PRESET=exact ADDRESS_BITS=9 DATA_BITS=8\n"),
+  EXPECT_THAT(run({"--cosine", "12x8"}).output,
+              AllOf(HasSubstr("preset exact: the tables of 9x8 address x data bits go; for them again: make "
+                              "tables PRESET=exact COSINE=9x8\n"),
                     Not(HasSubstr("preset published: the tables"))));
-  const std::vector<std::string> other = {"--preset", "published", "--address-bits", "5"};
+  const std::vector<std::string> other = {"--preset", "published", "--cosine", "5x6"};
   std::vector<std::string> check = other;
   check.emplace_back("--check");
   EXPECT_THAT(run(check).output, Not(HasSubstr(" go; "))) << "--check changes nothing";
   EXPECT_THAT(run(other).output,
-              AllOf(HasSubstr("preset exact: the tables of 12/8 address/data bits go; for them again: make "
-                              "tables PRESET=exact ADDRESS_BITS=12 DATA_BITS=8\n"),
-                    HasSubstr("preset published: the tables of 6/6 address/data bits go"),
-                    Not(HasSubstr("4/4 address/data bits go"))));
+              AllOf(HasSubstr("preset exact: the tables of 12x8 address x data bits go; for them again: make "
+                              "tables PRESET=exact COSINE=12x8\n"),
+                    HasSubstr("preset published: the tables of 6x6 address x data bits go"),
+                    Not(HasSubstr("4x4 address x data bits go"))));
 }
 
 TEST_F(TablesCommand, RefusesInvalidSizesAndWritesNothing) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"--address-bits", "2"}, "--address-bits: '2' is not a whole number from 3 to 12"},
-      {{"--address-bits", "13"}, "--address-bits: '13' is not a whole number from 3 to 12"},
-      {{"--address-bits", "nine"}, "--address-bits: 'nine' is not a whole number from 3 to 12"},
-      {{"--address-bits", "9.5"}, "from 3 to 12"},
-      {{"--address-bits", "-9"}, "from 3 to 12"},
-      {{"--address-bits", "99999999999"}, "from 3 to 12"},
-      {{"--address-bits", "9", "--data-bits", "1"}, "--data-bits: '1' is not a whole number from 2 to 12"},
-      {{"--data-bits", "13"}, "--data-bits: '13' is not a whole number from 2 to 12"},
+      {{"--cosine", "2x8"}, "--cosine: '2x8' is not ADDRESSxDATA bits"},
+      {{"--cosine", "13x8"}, "3x2 to 12x12"},
+      {{"--cosine", "nine"}, "'nine' is not"},
+      {{"--cosine", "9"}, "'9' is not"},
+      {{"--cosine", "9.5x8"}, "is not"},
+      {{"--cosine=-9x8"}, "is not"},
+      {{"--cosine", "9x99999999999"}, "is not"},
+      {{"--cosine", "9x1"}, "is not"},
+      {{"--cosine", "9x13"}, "is not"},
       {{"--preset", "best"}, "--preset: 'best' is not a preset; take exact or published"},
-      {{"--check", "--data-bits", "x"}, "from 2 to 12"},
+      {{"--check", "--cosine", "x"}, "3x2 to 12x12"},
       {{"--errors", "--check"}, "excludes"},
-      {{"--errors", "--address-bits", "9"}, "excludes"},
+      {{"--errors", "--cosine", "9x8"}, "excludes"},
   };
   for (const auto& [arguments, expected] : cases) {
     EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));

@@ -356,14 +356,13 @@ nlohmann::ordered_json number_or_null(std::optional<Number> number) {
   return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
 }
 
-// For example " tables 4/4", if the hardware has tables of another size than the default.
+// For example " tables 4x4", if the hardware has tables of another size than the default.
 std::string unusual_tables(const HardwareKey& key) {
   const tables::CosineSizes sizes;
   const tables::CosineSize usual = (key.preset == Preset::exact ? sizes.exact : sizes.published).front();
   const words::CosineSize size = key.spherical.tables;
   if (key.shader != Shader::spherical || !key.spherical.records() || size == usual) return {};
-  return fmt::format(", {}tables {}/{}", key.spherical.own.empty() ? "" : "own ", size.address_bits,
-                     size.data_bits);
+  return fmt::format(", {}tables {}", key.spherical.own.empty() ? "" : "own ", to_string(size));
 }
 
 }  // namespace

@@ -79,6 +79,11 @@ class SpaceValue {
                        c_max_frame_side));
     return *size;
   }
+  words::CosineSize tables() const {
+    const auto size = tables::parse_cosine_size(node_.value<std::string>().value_or(""));
+    if (!size) fail(fmt::format("takes {}", tables::c_cosine_values));
+    return *size;
+  }
   // One of the given values, by its name.
   template <class Value>
   Value name(const std::vector<Value>& known) const {
@@ -129,7 +134,6 @@ std::string text_or_none(const std::optional<Number>& number) {
 
 using Point = DesignPoint;
 using Value = SpaceValue;
-constexpr tables::CosineSize c_least = tables::c_smallest_cosine_size, c_most = tables::c_largest_cosine_size;
 
 constexpr Knob c_knobs[] = {
     {"size", true, always, [](const Value& v, Point& p) { p.size = v.size(1); },
@@ -150,15 +154,8 @@ constexpr Knob c_knobs[] = {
     {"preset", false, has_hardware,
      [](const Value& v, Point& p) { p.preset = v.name<Preset>({Preset::exact, Preset::published}); },
      [](const Point& p) { return std::string(to_string(p.preset)); }},
-    {"address_bits", false, is_spherical,
-     [](const Value& v, Point& p) { p.tables = {v.whole(c_least.address_bits, c_most.address_bits), 0}; },
-     [](const Point& p) { return p.tables ? std::to_string(p.tables->address_bits) : ""; }},
-    {"data_bits", false, is_spherical,
-     [](const Value& v, Point& p) {
-       const int bits = v.whole(c_least.data_bits, c_most.data_bits);
-       if (p.tables) p.tables->data_bits = bits;
-     },
-     [](const Point& p) { return p.tables ? std::to_string(p.tables->data_bits) : ""; }},
+    {"cosine", false, is_spherical, [](const Value& v, Point& p) { p.tables = v.tables(); },
+     [](const Point& p) { return p.tables ? to_string(*p.tables) : ""; }},
     {"angle_bits", false, is_spherical,
      [](const Value& v, Point& p) {
        p.words.angle_bits = v.length(p, tables::c_angle_range, words::Exact::c_angle_fraction_bits,
@@ -204,8 +201,7 @@ constexpr Knob c_knobs[] = {
     {"own_tables", false, [](const Point& p) { return p.has_ends(); },
      [](const Value& v, Point& p) {
        p.own_tables = v.flag();
-       if (p.own_tables && p.has_ends() && !p.tables)
-         v.fail("is only allowed with address_bits and data_bits");
+       if (p.own_tables && p.has_ends() && !p.tables) v.fail("is only allowed with cosine");
      },
      [](const Point& p) { return std::string(p.own_tables ? "1" : ""); }},
     {"threshold", false, [](const Point& p) { return p.has_threshold(); },
@@ -249,8 +245,6 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
   if (!sweep.has("method")) sweep.fail("method", "is missing");
   std::vector<DesignPoint> points(1);
   for (const Knob& knob : c_knobs) sweep.multiply(points, knob);
-  if (sweep.has("address_bits") != sweep.has("data_bits"))
-    sweep.fail("data_bits", "is only allowed with address_bits");
   for (const DesignPoint& p : points) {
     if (!p.words.angle_bits) continue;
     const words::CosineSize usual =
@@ -293,7 +287,7 @@ std::string DesignPoint::design() const {
   std::string text = to_string(method);
   if (in_hardware(method)) text += fmt::format(" {}", to_string(preset));
   if (method == Method::spherical && tables)
-    text += fmt::format(" {}x{}{}", tables->address_bits, tables->data_bits, own_tables ? " own" : "");
+    text += fmt::format(" {}{}", to_string(*tables), own_tables ? " own" : "");
   if (words.angle_bits) text += fmt::format(" angle {}", *words.angle_bits);
   if (words.fraction_bits) text += fmt::format(" fraction {}", *words.fraction_bits);
   if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);

@@ -287,7 +287,7 @@ TEST_F(QueryTest, PrintsTheVariedParameters) {
   const auto markets = markets_of(records_, hardware_, {});
   const auto text = ask({.largest_error = 2.0});
   EXPECT_THAT(text,
-              HasSubstr("looked at      6 points of hardware; varied: method, address_bits, data_bits, "
+              HasSubstr("looked at      6 points of hardware; varied: method, cosine, "
                         "threshold; not varied: preset, angle_bits, fraction_bits, seed_bits, newton, form, "
                         "highlight_test, span_ends, own_tables, objects\n"));
 }

@@ -336,7 +336,7 @@ TEST_F(StudyTest, RtlWithOtherTablesThanTheGoldenModelsIsFound) {
   const DesignPoint point{.method = Method::spherical, .tables = words::CosineSize{5, 4}, .size = {160, 120}};
   // Change one entry of the cached tables that the study will use.
   const auto folder = tables::rtl_with(true, words::CosineSize{5, 4}, {}, c_source_folder, here());
-  replace_in(folder / "rtl/tables/cosine_pkg.vhd", "15", "14", "constant c_exact_cosine_1_5_4");
+  replace_in(folder / "rtl/tables/cosine_pkg.vhd", "15", "14", "constant c_exact_cosine_1_5x4");
   settings_.folders.cache = here();
   settings_.points = {point};
   EXPECT_TRUE(

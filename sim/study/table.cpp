@@ -73,8 +73,8 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
                {"point", quoted(p.name())},
                knob_of(p, "method"),
                knob_of(p, "preset"),
-               knob_of(p, "address_bits"),
-               knob_of(p, "data_bits"),
+               {"address_bits", text_of(p.tables, &words::CosineSize::address_bits)},
+               {"data_bits", text_of(p.tables, &words::CosineSize::data_bits)},
                knob_of(p, "form"),
                knob_of(p, "threshold"),
                knob_of(p, "tessellation"),
@@ -109,10 +109,10 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
                      knob_of(p, "newton"),
                      {"tiles", text_of(p.tiles().size())}};
   line.insert(line.end(), rest.begin(), rest.end());
-  // The other parameters. Size and tile have columns of their own.
+  // The other parameters. Size, tile and cosine have columns of their own.
   for (const Knob& knob : knobs())
-    if (const std::string name = knob.name;
-        name != "size" && name != "tile" && std::ranges::find(line, name, &Column::first) == line.end())
+    if (const std::string name = knob.name; name != "size" && name != "tile" && name != "cosine" &&
+                                            std::ranges::find(line, name, &Column::first) == line.end())
       line.emplace_back(name, text_of(knob, p));
   return line;
 }

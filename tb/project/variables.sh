@@ -54,7 +54,7 @@ refused() { # arguments of make, words of the message
   done
   [ ! -e build/make.lock ] || fail "make $arguments: the check comes after set-up"
 }
-refused 'sim ADDRESS_BITS=10' 'make sim does not use ADDRESS_BITS' 'belongs to tables check-tables' 'uses: SCENE SHADER'
+refused 'sim COSINE=10x8' 'make sim does not use COSINE' 'belongs to tables check-tables' 'uses: SCENE SHADER'
 refused 'sim SCNE=x' 'make sim does not use SCNE' 'no target uses it' 'uses: SCENE'
 refused "sim 'SCENE=a b' 'SCNE=c SIZE=d e'" 'does not use SCNE'
 refused 'SIZE=9x9' 'make help does not use SIZE' 'uses: no variables'
@@ -66,10 +66,10 @@ accepted() {
 }
 accepted 'make -n sim "SCENE=a b=c \$(touch touched)" SIZE=9x9 OUT='
 [ ! -e touched ] || fail 'make runs the text of a variable'
-accepted 'make -n tables ADDRESS_BITS=10 DATA_BITS=9'
+accepted 'make -n tables COSINE=10x9'
 accepted 'make -n sim compare SIZE=9x9'
 # Variables in the environment are not refused.
-accepted 'ADDRESS_BITS=10 make -n sim'
+accepted 'COSINE=10x8 make -n sim'
 
 # make help lists a dozen targets, make help-all each target with a text and each variable. The table names targets.
 [ "$(make help | grep -c '^  make ')" = 13 ] || fail "make help lists not 13 targets: $(make help)"

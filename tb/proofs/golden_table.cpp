@@ -23,8 +23,7 @@ Result<GoldenTable> cosine_table(const Generics& generics) {
   for (const words::CosineTable& table : words::c_cosine_tables)
     if (value_of(generics, "g_exact") == (table.exact ? "true" : "false") &&
         value_of(generics, "g_power") == std::to_string(table.power) &&
-        value_of(generics, "g_address_bits") == std::to_string(table.size.address_bits) &&
-        value_of(generics, "g_data_bits") == std::to_string(table.size.data_bits))
+        value_of(generics, "g_cosine") == vhdl_name(table.size))
       return GoldenTable{{table.entries.begin(), table.entries.end()}, table.size.data_bits};
   return bad_input("no cosine table of the golden model has these generics");
 }

@@ -269,8 +269,9 @@ class ProofFile {
     std::vector<std::pair<std::string, std::string>> generics;
     for (const auto& [key, value] : table(node, "generics")) {
       const std::string name(key.str());
-      generics.emplace_back(name, value.is_boolean() ? flag(&value, name) ? "true" : "false"
-                                                     : std::to_string(number(&value, name, 0)));
+      generics.emplace_back(name, value.is_boolean()  ? flag(&value, name) ? "true" : "false"
+                                  : value.is_string() ? text(&value, name)
+                                                      : std::to_string(number(&value, name, 0)));
     }
     return generics;
   }

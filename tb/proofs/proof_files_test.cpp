@@ -152,7 +152,7 @@ TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
       {replaced(proof, "clocks = 3", "clocks = 0"), file + ":5: clocks must be a whole number from 1 to "},
       {proof + "fault_clocks = 2\n", file + ":8: fault_clocks must be a whole number from 3 to "},
       {replaced(proof, "quick = true", "quick = 1"), file + ":6: quick must be true or false"},
-      {proof + "generics = { g_name = \"x\" }\n", file + ":8: g_name must be a whole number from 0 to "},
+      {proof + "generics = { g_name = 0.5 }\n", file + ":8: g_name must be a whole number from 0 to "},
       {proof + "formats = { dept = [1, 2] }\n", file + ":8: formats_pkg has no format 'dept'"},
       {proof + "formats = { depth = [1] }\n", file + ":8: depth must be two numbers: "},
       {proof + "formats = { depth = [1, 2] }\nfault_formats = { depth = [1, 2] }\n",
@@ -188,11 +188,10 @@ TEST_F(ProofFiles, TakesTheUnitThatItNames) {
 }
 
 TEST_F(ProofFiles, GivesTheEntriesOfAGoldenTable) {
-  const auto proofs =
-      read(std::string(c_proof) +
-           "golden_table = \"cosine\"\n"
-           "generics = { g_exact = false, g_power = 2, g_address_bits = 6, g_data_bits = 6 }\n");
-  const auto& entries = words::c_published_cosine_2_6_6;
+  const auto proofs = read(std::string(c_proof) +
+                           "golden_table = \"cosine\"\n"
+                           "generics = { g_exact = false, g_power = 2, g_cosine = \"rom6x6\" }\n");
+  const auto& entries = words::c_published_cosine_2_6x6;
   EXPECT_THAT(proofs.front().table, testing::ElementsAreArray(entries.begin(), entries.end()));
   EXPECT_EQ(proofs.front().table_bits, 6);
 }

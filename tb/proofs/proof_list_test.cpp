@@ -156,8 +156,8 @@ TEST_F(ProofList, ComparesEveryTableWithTheGoldenModel) {
   }
   for (const words::CosineTable& table : words::c_cosine_tables)
     EXPECT_TRUE(cosines.contains({table.entries.begin(), table.entries.end()}))
-        << "power " << table.power << ", " << table.size.address_bits << " by " << table.size.data_bits
-        << " bits: tb/rtl/tables/cosine_rom.toml has no proof of it; add one";
+        << "power " << table.power << ", " << to_string(table.size)
+        << ": tb/rtl/tables/cosine_rom.toml has no proof of it; add one";
   EXPECT_EQ(functions.size(), 6U);  // three functions in two presets
 }
 

@@ -21,8 +21,7 @@ entity frame_tb is
     g_specular           : boolean  := true;
     g_highlight_channels : positive := 1;
     g_powers             : natural  := 2;
-    g_address_bits       : positive := 6;
-    g_data_bits          : positive := 6;
+    g_cosine             : work.cosine_pkg.cosine_t := work.cosine_pkg.default_cosine(true);
     g_directional        : natural  := 1;
     g_positional         : natural  := 0;
     g_spots              : natural  := 0;

@@ -2,6 +2,7 @@
 -- A shader and its generics as one value, for the testbenches that all shaders share.
 library ieee;
 use ieee.std_logic_1164.all;
+use work.cosine_pkg.all;
 use work.processors_pkg.all;
 use work.quadratic_pkg.all;
 use work.shader_pkg.all;
@@ -19,7 +20,7 @@ package tb_shaders_pkg is
     lights                         : natural;
     highlight_channels             : positive;
     powers                         : natural;
-    address_bits, data_bits        : positive;
+    cosine                         : cosine_t;
     directional, positional, spots : natural;
     normalize, shadows, unrolled   : boolean;
     objects                        : natural; -- object processors; 0: the rasterizer
@@ -30,7 +31,7 @@ package tb_shaders_pkg is
 
   function hardware (shader : shader_t; exact : boolean := true; channels : positive := 3;
     diffuse, specular : boolean := true; degree : positive := 2; lights : natural := 1;
-    highlight_channels : positive := 1; powers : natural := 2; address_bits : positive := 9; data_bits : positive := 8;
+    highlight_channels : positive := 1; powers : natural := 2; cosine : cosine_t := default_cosine(true);
     directional : natural := 1; positional, spots : natural := 0; normalize : boolean := true;
     shadows : boolean := false; unrolled : boolean := true; objects : natural := 0; subpixels : positive := 1)
     return hardware_t;
@@ -52,19 +53,19 @@ package body tb_shaders_pkg is
 
   function hardware (shader : shader_t; exact : boolean := true; channels : positive := 3;
     diffuse, specular : boolean := true; degree : positive := 2; lights : natural := 1;
-    highlight_channels : positive := 1; powers : natural := 2; address_bits : positive := 9; data_bits : positive := 8;
+    highlight_channels : positive := 1; powers : natural := 2; cosine : cosine_t := default_cosine(true);
     directional : natural := 1; positional, spots : natural := 0; normalize : boolean := true;
     shadows : boolean := false; unrolled : boolean := true; objects : natural := 0; subpixels : positive := 1)
     return hardware_t is
   begin
-    return (shader, exact, channels, diffuse, specular, degree, lights, highlight_channels, powers, address_bits, data_bits,
-      directional, positional, spots, normalize, shadows, unrolled, objects, subpixels);
+    return (shader, exact, channels, diffuse, specular, degree, lights, highlight_channels, powers, cosine, directional,
+      positional, spots, normalize, shadows, unrolled, objects, subpixels);
   end function;
 
   function packet_hardware (index : natural) return hardware_t is
     constant c_hardware : hardwares_t := (
       hardware(quadratic, channels => 1),
-      hardware(spherical, exact => false, channels => 1, address_bits => 6, data_bits => 6),
+      hardware(spherical, exact => false, channels => 1, cosine => rom6x6),
       hardware(spherical, channels => 1, lights => 0, diffuse => false, specular => false),
       hardware(processors, channels => 1),
       hardware(processors, exact => false, channels => 1, shadows => true, objects => 4)

@@ -80,12 +80,13 @@ void write_multiplier_of(const Folder& folder, int a_bits, int b_bits) {
 
 // A line: angle; address, in_range.
 template <class Preset>
-void write_angle_address(const Folder& folder, int address_bits) {
+void write_angle_address(const Folder& folder, const words::CosineSize& table) {
+  const int address_bits = table.address_bits;
   constexpr int c_bits = Preset::c_angle_bits, c_fraction = Preset::c_angle_fraction_bits;
   VectorFile file;
   const auto add = [&](std::uint64_t bits) {
     const auto angle = words::Word<c_bits>::from_bits(bits);
-    const auto [address, in_range] = golden::angle_address<Preset>(angle, address_bits);
+    const auto [address, in_range] = golden::angle_address<Preset>(angle, table);
     file.word(angle).word(address, address_bits).flag(in_range).end_vector();
   };
   if constexpr (c_bits <= 16) {
@@ -109,7 +110,7 @@ void write_angle_address(const Folder& folder, int address_bits) {
     }
     for (int i = 0; i < 4000; ++i) add(random.word(c_bits));
   }
-  file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, address_bits));
+  file.write(folder / fmt::format("{}_{}.txt", Preset::c_name, vhdl_name(table)));
 }
 
 // A line: the terms as one flat word, the last term first; result.
@@ -194,8 +195,10 @@ std::vector<Entity> arithmetic_entities() {
                               {{1, 1}, {8, 8}, {4, 9}, {8, 18}, {18, 12}, {8, 24}, {12, 24}, {32, 32}})},
       {"angle_address",
        [](const Folder& folder) {
-         for (const int address_bits : {3, 9, 12}) write_angle_address<Exact>(folder, address_bits);
-         for (const int address_bits : {4, 6, 12}) write_angle_address<Published>(folder, address_bits);
+         for (const words::CosineTable& table : words::c_cosine_tables) {
+           write_angle_address<Exact>(folder, table.size);
+           write_angle_address<Published>(folder, table.size);
+         }
        }},
       {"saturating_sum", of_sizes(write_sum_of, {{1, 16, 4, 8},
                                                  {2, 8, 2, 6},

@@ -101,8 +101,7 @@ void write_diffuse(const Folder& folder, const SliceSize& size) {
     multiplier.clock(s, twin, part,
                      [&] { return products_of(size.channels, [&](int c) { return twin.product(c); }); });
   }
-  file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.table.address_bits,
-                                  size.table.data_bits));
+  file.write(folder / fmt::format("{}_{}_{}.txt", Preset::c_name, size.channels, vhdl_name(size.table)));
 }
 
 // A line: checked, part, span_load, span_step, sample_step, lit; products, before the edge.
@@ -125,8 +124,8 @@ void write_specular(const Folder& folder, const SliceSize& size) {
     multiplier.clock(s, twin, part,
                      [&] { return products_of(size.channels, [&](int c) { return twin.product(c, lit); }); });
   }
-  file.write(folder / fmt::format("{}_{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.powers,
-                                  size.table.address_bits, size.table.data_bits));
+  file.write(folder / fmt::format("{}_{}_{}_{}.txt", Preset::c_name, size.channels, size.powers,
+                                  vhdl_name(size.table)));
 }
 
 // A light. tb/vectors/rows.toml has the same list.
@@ -253,8 +252,8 @@ void write_cosine_rom(const Folder& folder) {
       file.word(sample, table.size.data_bits).end_vector();
       if (enable) sample = twin.sample(address);
     }
-    const auto name = fmt::format("{}_{}_{}_{}.txt", table.exact ? "exact" : "published", table.power,
-                                  table.size.address_bits, table.size.data_bits);
+    const auto name =
+        fmt::format("{}_{}_{}.txt", table.exact ? "exact" : "published", table.power, vhdl_name(table.size));
     file.write(folder / name);
   }
 }

@@ -2,13 +2,15 @@
 #include "words/generator/cosine.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <string_view>
@@ -76,14 +78,13 @@ std::uint32_t correctly_rounded(const CosineTable& table, int entry) {
                             std::numeric_limits<long double>::epsilon();
   if (std::fabs(above_tie) <= doubt)
     throw std::logic_error(fmt::format(
-        "cosine table: entry {} of cos^{}, {}/{} bits, is too near a tie to be rounded in long double", entry,
-        exponent_of(table), table.size.address_bits, table.size.data_bits));
+        "cosine table: entry {} of cos^{}, {} bits, is too near a tie to be rounded in long double", entry,
+        exponent_of(table), to_string(table.size)));
   return to_integer<std::uint32_t>(std::floor(value)) + (above_tie > 0 ? 1 : 0);
 }
 
 std::string constant_name(const CosineTable& table) {
-  return fmt::format("c_{}_cosine_{}_{}_{}", preset_name(table.exact), table.power, table.size.address_bits,
-                     table.size.data_bits);
+  return fmt::format("c_{}_cosine_{}_{}", preset_name(table.exact), table.power, to_string(table.size));
 }
 
 std::string bound_comment(const CosineTable& table, std::string_view mark) {
@@ -95,14 +96,11 @@ constexpr std::string_view c_cosine_notice =
     "Made by `make tables` from model/words/generator/cosine.cpp; edit that.";
 
 CosineTable made_table(CosineTable table) {
-  const auto within = [](int bits, int smallest, int largest) { return bits >= smallest && bits <= largest; };
   if (std::ranges::find(powers(table.exact), table.power) == powers(table.exact).end() ||
-      !within(table.size.address_bits, c_smallest_cosine_size.address_bits,
-              c_largest_cosine_size.address_bits) ||
-      !within(table.size.data_bits, c_smallest_cosine_size.data_bits, c_largest_cosine_size.data_bits))
-    throw std::invalid_argument(fmt::format("cosine table: there is no {} cos^{} of {}/{} bits",
+      !parse_cosine_size(to_string(table.size)))
+    throw std::invalid_argument(fmt::format("cosine table: there is no {} cos^{} of {} bits",
                                             preset_name(table.exact), exponent_of(table),
-                                            table.size.address_bits, table.size.data_bits));
+                                            to_string(table.size)));
   const int entries = table.size.entries();
   table.entries.reserve(entries);
   for (int entry = 0; entry < entries; ++entry) table.entries.push_back(correctly_rounded(table, entry));
@@ -120,6 +118,16 @@ void add_own_tables(const CosineSizes& sizes, const CosineSize& size, std::vecto
 }
 
 }  // namespace
+
+std::optional<CosineSize> parse_cosine_size(std::string_view text) {
+  CosineSize size;
+  for (size.address_bits = c_smallest_cosine_size.address_bits;
+       size.address_bits <= c_largest_cosine_size.address_bits; ++size.address_bits)
+    for (size.data_bits = c_smallest_cosine_size.data_bits; size.data_bits <= c_largest_cosine_size.data_bits;
+         ++size.data_bits)
+      if (text == to_string(size)) return size;
+  return std::nullopt;
+}
 
 CosineTable cosine_table(bool exact, int power, const CosineSize& size) {
   return made_table({exact, power, size, {}});
@@ -167,6 +175,8 @@ double error_bound(const CosineTable& table) {
 
 std::string cosine_vhdl_package(const CosineSizes& sizes) {
   const std::vector<CosineTable> tables = cosine_tables(sizes);
+  std::map<std::string, CosineSize> all;
+  for (const CosineTable& table : tables) all[vhdl_name(table.size)] = table.size;
   std::string out = fmt::format(
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
       "-- Powers of the cosine, correctly rounded, times 2^data_bits - 1. Preset exact: over half a bell, "
@@ -175,45 +185,49 @@ std::string cosine_vhdl_package(const CosineSizes& sizes) {
       "negative.\n\n"
       "package cosine_pkg is\n\n"
       "  type cosine_table_t is array (natural range <>) of natural;\n\n"
-      "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
+      "  -- The sizes of the tables: address bits x data bits.\n"
+      "  type cosine_t is ({});\n\n"
+      "  function default_cosine (exact : boolean) return cosine_t;\n\n"
+      "  function address_bits (size : cosine_t) return positive;\n\n"
+      "  function data_bits (size : cosine_t) return positive;\n\n"
+      "  function cosine_table (exact : boolean; power : positive; size : cosine_t) return "
       "cosine_table_t;\n\n"
-      "  -- The default size.\n"
-      "  function cosine_address_bits (exact : boolean) return positive;\n\n"
-      "  function cosine_data_bits (exact : boolean) return positive;\n\n"
       "end package;\n\npackage body cosine_pkg is\n\n",
-      c_cosine_notice);
+      c_cosine_notice, fmt::join(std::views::keys(all), ", "));
   auto to = std::back_inserter(out);
   for (const CosineTable& table : tables)  // 120 columns including the closing bracket
     fmt::format_to(to, "  {}\n  constant {} : cosine_table_t(0 to {}) := (\n{});\n\n",
                    bound_comment(table, "--"), constant_name(table), table.entries.size() - 1,
                    wrapped_numbers(table.entries, "    ", 118));
+  fmt::format_to(
+      to,
+      "  function default_cosine (exact : boolean) return cosine_t is\n  begin\n    if exact then\n"
+      "      return {};\n    end if;\n    return {};\n  end function;\n\n",
+      vhdl_name(sizes.exact.front()), vhdl_name(sizes.published.front()));
+  const auto choose = [&](std::string_view name, int CosineSize::* bits) {
+    fmt::format_to(to, "  function {} (size : cosine_t) return positive is\n  begin\n    case size is\n",
+                   name);
+    for (const auto& [literal, size] : all)
+      fmt::format_to(to, "      when {} =>\n        return {};\n", literal, size.*bits);
+    out += "    end case;\n  end function;\n\n";
+  };
+  choose("address_bits", &CosineSize::address_bits);
+  choose("data_bits", &CosineSize::data_bits);
   out +=
-      "  function cosine_table (exact : boolean; power, address_bits, data_bits : positive) return "
-      "cosine_table_t is\n"
+      "  function cosine_table (exact : boolean; power : positive; size : cosine_t) return cosine_table_t "
+      "is\n"
       "  begin\n";
   for (const CosineTable& table : tables)
-    fmt::format_to(to,
-                   "    if {}exact and power = {} and address_bits = {} and data_bits = {} then\n"
-                   "      return {};\n    end if;\n",
-                   table.exact ? "" : "not ", table.power, table.size.address_bits, table.size.data_bits,
-                   constant_name(table));
+    fmt::format_to(to, "    if {}exact and power = {} and size = {} then\n      return {};\n    end if;\n",
+                   table.exact ? "" : "not ", table.power, vhdl_name(table.size), constant_name(table));
   out +=
       "    report \"cosine_table: there is no table for exact \" & boolean'image(exact) & \", power \" & "
       "integer'image(power) &\n"
-      "      \", address bits \" & integer'image(address_bits) & \", data bits \" & "
-      "integer'image(data_bits)\n"
+      "      \", size \" & cosine_t'image(size)\n"
       "      severity failure;\n"
-      "    return (0 to 2 ** address_bits - 1 => 0);\n"
-      "  end function;\n\n";
-  const auto choose = [&](std::string_view name, int CosineSize::* bits) {
-    fmt::format_to(to,
-                   "  function {} (exact : boolean) return positive is\n  begin\n    if exact then\n"
-                   "      return {};\n    end if;\n    return {};\n  end function;\n\n",
-                   name, sizes.exact.front().*bits, sizes.published.front().*bits);
-  };
-  choose("cosine_address_bits", &CosineSize::address_bits);
-  choose("cosine_data_bits", &CosineSize::data_bits);
-  out += "end package body;\n";
+      "    return (0 to 2 ** address_bits(size) - 1 => 0);\n"
+      "  end function;\n\n"
+      "end package body;\n";
   return out;
 }
 
@@ -223,9 +237,9 @@ CosineSizes cosine_sizes_in(const std::string& vhdl_package) {
     const std::string mark = fmt::format("constant c_{}_cosine_1_", preset_name(exact));
     for (std::size_t at = 0; (at = vhdl_package.find(mark, at)) != std::string::npos;) {
       at += mark.size();
-      CosineSize size{};
-      if (std::sscanf(vhdl_package.c_str() + at, "%d_%d", &size.address_bits, &size.data_bits) == 2)
-        (exact ? sizes.exact : sizes.published).push_back(size);
+      if (const auto size =
+              parse_cosine_size(std::string_view(vhdl_package).substr(at, vhdl_package.find(' ', at) - at)))
+        (exact ? sizes.exact : sizes.published).push_back(*size);
     }
   }
   return sizes;

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "words/generator/cosine_size.hpp"
@@ -15,11 +17,16 @@ using words::CosineSize;
 
 inline constexpr CosineSize c_smallest_cosine_size{3, 2};
 inline constexpr CosineSize c_largest_cosine_size{12, 12};
+/// The size of a text such as `9x8`; std::nullopt if it is none from the smallest to the largest.
+std::optional<CosineSize> parse_cosine_size(std::string_view text);
+/// What a value of the knob `cosine` is, for help and errors.
+inline constexpr const char* c_cosine_values =
+    "ADDRESSxDATA bits of the cosine tables, such as 9x8, 3x2 to 12x12";
 
 /// The generated sizes. The first size of each preset is its default.
 struct CosineSizes {
   std::vector<CosineSize> exact = {{9, 8}};
-  std::vector<CosineSize> published = {{6, 6}, {4, 4}};  ///< 4/4: the spherical paper's figure 15
+  std::vector<CosineSize> published = {{6, 6}, {4, 4}};  ///< 4x4: the spherical paper's figure 15
   /// Preset exact: the exponents of own tables, at most c_most_own_tables. They replace the powers 2, 4, 8
   /// and 16. Empty: these powers.
   std::vector<double> own{};

@@ -20,8 +20,7 @@ constexpr int c_exact_powers[] = {1, 2, 4, 8, 16};
 constexpr int c_published_powers[] = {1, 2};
 
 std::string name_of(bool exact, int power, const CosineSize& size) {
-  return fmt::format("{} cos^{}, {}/{} bits", exact ? "exact" : "published", power, size.address_bits,
-                     size.data_bits);
+  return fmt::format("{} cos^{}, {}", exact ? "exact" : "published", power, to_string(size));
 }
 
 std::string name_of(const CosineTable& table) {
@@ -67,12 +66,12 @@ void expect_correctly_rounded(const CosineTable& table) {
 }
 
 TEST(Cosine, EveryEntryOfEverySizeIsTheNearestToMpfr) {
-  for (int address_bits = 3; address_bits <= 12; ++address_bits)
-    for (int data_bits = 2; data_bits <= 12; ++data_bits) {
-      for (const int power : c_exact_powers)
-        expect_correctly_rounded(cosine_table(true, power, {address_bits, data_bits}));
-      for (const int power : c_published_powers)
-        expect_correctly_rounded(cosine_table(false, power, {address_bits, data_bits}));
+  for (int address = 3; address <= 12; ++address)
+    for (int data = 2; data <= 12; ++data) {
+      const CosineSize size{address, data};
+      EXPECT_EQ(parse_cosine_size(to_string(size)), size);
+      for (const int power : c_exact_powers) expect_correctly_rounded(cosine_table(true, power, size));
+      for (const int power : c_published_powers) expect_correctly_rounded(cosine_table(false, power, size));
     }
 }
 
@@ -89,11 +88,10 @@ TEST(Cosine, ThereAreNoOtherSizesAndPowers) {
 TEST(Cosine, EachGeneratedTableExistsOnce) {
   std::vector<std::string> names;
   for (const CosineTable& table : cosine_tables()) names.push_back(name_of(table));
-  EXPECT_THAT(
-      names, ::testing::ElementsAre("exact cos^1, 9/8 bits", "exact cos^2, 9/8 bits", "exact cos^4, 9/8 bits",
-                                    "exact cos^8, 9/8 bits", "exact cos^16, 9/8 bits",
-                                    "published cos^1, 6/6 bits", "published cos^2, 6/6 bits",
-                                    "published cos^1, 4/4 bits", "published cos^2, 4/4 bits"));
+  EXPECT_THAT(names,
+              ::testing::ElementsAre("exact cos^1, 9x8", "exact cos^2, 9x8", "exact cos^4, 9x8",
+                                     "exact cos^8, 9x8", "exact cos^16, 9x8", "published cos^1, 6x6",
+                                     "published cos^2, 6x6", "published cos^1, 4x4", "published cos^2, 4x4"));
   CosineSizes sizes;
   sizes.published.front() = {4, 4};
   EXPECT_EQ(cosine_tables(sizes).size(), 7U);
@@ -136,16 +134,16 @@ TEST(OwnTable, EndsWhereTheHighlightEnds) {
 
 TEST(OwnTable, EntriesAreTheNearestToTheHighlight) {
   for (const double n : {1.0, 1.305, 2.65, 20.0, 1000.0})
-    for (const auto& [address_bits, data_bits] : {std::pair{5, 4}, {9, 8}, {11, 11}, {12, 12}}) {
-      const CosineTable table = own_table(n, 4, {address_bits, data_bits});
-      const double largest = std::ldexp(1.0, data_bits) - 1;
+    for (const CosineSize size : {CosineSize{5, 4}, {9, 8}, {11, 11}, {12, 12}}) {
+      const CosineTable table = own_table(n, 4, size);
+      const double largest = size.largest_entry();
       double found = 0.0;
       for (std::size_t i = 0; i < table.entries.size(); ++i) {
-        const double middle = std::ldexp(static_cast<double>(i) + 0.5, -address_bits);
+        const double middle = (static_cast<double>(i) + 0.5) / size.entries();
         EXPECT_NEAR(table.entries[i], static_cast<double>(largest * own_truth(n, middle)), 0.5 + 1e-6)
             << "n = " << n;
         for (const double part : {0.0, 0.5, 1.0}) {
-          const double at = std::ldexp(static_cast<double>(i) + part, -address_bits);
+          const double at = (static_cast<double>(i) + part) / size.entries();
           found = std::max(found, std::abs(table.entries[i] / largest - double(own_truth(n, at))));
         }
       }

@@ -108,7 +108,7 @@ class CoreModule : public testing::Test {
   HardwareKey plan(Shader shader, Preset preset) {
     const auto key = must(live_.plan({.shader = shader, .preset = preset}));
     EXPECT_EQ(evaluate("core.live_plan(" + std::to_string(static_cast<int>(shader)) + ", " +
-                       std::to_string(static_cast<int>(preset)) + ", 0, 0)"),
+                       std::to_string(static_cast<int>(preset)) + ", 0)"),
               0)
         << text();
     EXPECT_EQ(text(), key.name());

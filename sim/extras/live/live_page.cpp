@@ -125,7 +125,7 @@ LivePage write_live(const LiveSettings& settings) {
                  {"pictures", c_picture_names}}}};
   for (const Preset preset : c_presets)
     for (const words::CosineSize size : cosine_sizes(preset))
-      data["tables"][to_string(preset)].push_back(fmt::format("{}x{}", size.address_bits, size.data_bits));
+      data["tables"][to_string(preset)].push_back(to_string(size));
   Json modules = {{{"name", "core"}, {"text", std::move(packed_core)}}};
   for (const auto& [name, built] : hardware) {
     modules.push_back({{"name", name}, {"text", built.module}});

@@ -50,7 +50,7 @@ function requestOf() {
   return {
     ...state, width, height, fault, tessellation: isMesh(state.scene) ? 1 : 2 ** state.tessellation, exponent: 2 ** state.exponent,
     threshold: 2 ** state.threshold, pixel: chosenPixel(),
-    tables: state.shader === "spherical" && state.tables !== "" ? state.tables.split("x").map(Number) : [0, 0],
+    tables: state.shader === "spherical" && state.tables !== "" ? data.tables[state.preset].indexOf(state.tables) : 0,
   };
 }
 

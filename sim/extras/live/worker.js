@@ -88,7 +88,7 @@ async function planHardware({ shader, preset, tables }) {
   const wanted = JSON.stringify([shader, preset, tables]);
   if (wanted === planned) return;
   planned = "";
-  call(core.live_plan(names.shaders.indexOf(shader), names.presets.indexOf(preset), ...tables));
+  call(core.live_plan(names.shaders.indexOf(shader), names.presets.indexOf(preset), tables));
   key = coreText();
   if (!hardwareOf.has(key)) {
     const module = await new Promise((receive) => {

@@ -195,13 +195,14 @@ int live_scene(std::uint32_t name_bytes, std::uint32_t text_bytes, double tessel
   return code;
 }
 
-/// `address_bits` and `data_bits` of the cosine tables; 0: the preset's.
+/// `tables`: place of the size of the cosine tables in cosine_sizes(); 0: the preset's.
 HALFWAY_EXPORT(live_plan)
-int live_plan(int shader, int preset, int address_bits, int data_bits) {
+int live_plan(int shader, int preset, unsigned tables) {
   auto& c = core();
   c.hardware.reset();
   PlanRequest request{.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)};
-  if (address_bits != 0) request.tables = words::CosineSize{address_bits, data_bits};
+  const auto sizes = cosine_sizes(request.preset);
+  if (tables > 0 && tables < sizes.size()) request.tables = sizes[tables];
   const auto key = c.frame.plan(request);
   if (!key) return c.report(key.error());
   c.hardware.emplace(*key);

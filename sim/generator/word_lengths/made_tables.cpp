@@ -58,7 +58,7 @@ fs::path rtl_with(bool exact, const std::optional<CosineSize>& size, const WordL
   std::string name = exact ? "exact" : "published";
   if (size) {
     sources["tables/cosine_pkg.vhd"] = cosine_vhdl_package(sizes_with(exact, *size, own));
-    name += fmt::format("-{}x{}{}", size->address_bits, size->data_bits, own.empty() ? "" : "-own");
+    name += fmt::format("-{}{}", to_string(*size), own.empty() ? "" : "-own");
   }
   if (words.any()) {
     sources["tables/formats_pkg.vhd"] = vhdl_package(preset_formats(exact, words));

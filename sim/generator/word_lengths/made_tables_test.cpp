@@ -57,8 +57,8 @@ TEST_F(MadeTablesTest, AreTheOnlyChangeOfTheCopiedRtl) {
     if (name != "tables/cosine_pkg.vhd")
       EXPECT_EQ(theirs, text_of(entry.path())) << name;
     else
-      EXPECT_THAT(theirs, AllOf(HasSubstr("c_published_cosine_2_5_4"), HasSubstr("c_exact_cosine_16_9_8"),
-                                Not(HasSubstr("c_published_cosine_2_6_6"))));
+      EXPECT_THAT(theirs, AllOf(HasSubstr("c_published_cosine_2_5x4"), HasSubstr("c_exact_cosine_16_9x8"),
+                                Not(HasSubstr("c_published_cosine_2_6x6"))));
   }
   EXPECT_GT(files, 20U);
   EXPECT_TRUE(fs::exists(folder / "sim/engines/verilator/verilator_harness.cpp"));
@@ -108,7 +108,7 @@ TEST_F(MadeTablesTest, AreCopiedWithTheWords) {
   const auto folder = copy(true, {.angle_bits = 12});
   EXPECT_THAT(text_of(folder / "rtl/tables/formats_pkg.vhd"),
               AllOf(HasSubstr("angle => (23, 12)"), HasSubstr("angle => (12, 11)")));
-  EXPECT_THAT(text_of(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5_4"));
+  EXPECT_THAT(text_of(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5x4"));
 }
 
 }  // namespace

@@ -83,8 +83,10 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
     const tables::PresetFormats& formats = presets[exact ? 0 : 1];
     const auto of = [&](std::string_view format) { return bits(formats, format); };
     const words::CosineSize tables = exact ? words::CosineSize{9, 8} : words::CosineSize{6, 6};
-    const Generics table = {{"g_address_bits", std::to_string(tables.address_bits)},
-                            {"g_data_bits", std::to_string(tables.data_bits)}};
+    const std::string data_bits = std::to_string(tables.data_bits);
+    const std::pair<std::string, std::string> cosine = {"g_cosine", vhdl_name(tables)};
+    const std::pair<std::string, std::string> sample = {"g_data_bits", data_bits};
+    const std::pair<std::string, std::string> powers = {"g_powers", exact ? "8" : "2"};
     const auto add = [&](const std::string& entity, Generics generics, bool quick = false,
                          const std::string& suffix = "") {
       all.push_back({.design = {.name = fmt::format("{}{}_{}", entity, suffix, p),
@@ -158,16 +160,15 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
          {"g_fraction_bits", std::to_string(exact ? 28 : 20)},
          {"g_result_bits", of("colour")}},
         true);
-    add("diffuse_slice", with({is_exact}, table));
-    add("specular_slice", with({is_exact, {"g_channels", "1"}, {"g_powers", exact ? "8" : "2"}}, table));
-    add("spherical_light",
-        with({is_exact, {"g_highlight_channels", "1"}, {"g_powers", exact ? "8" : "2"}}, table));
-    add("ambient_light", {is_exact, table[1]}, true);
-    add("colour_sum", {is_exact, {"g_terms", "3"}, table[1]}, true);
-    add("cosine_rom", with({is_exact, {"g_power", exact ? "8" : "2"}}, table), true);
-    add("angle_address", {is_exact, table[0]}, true);
+    add("diffuse_slice", {is_exact, cosine});
+    add("specular_slice", {is_exact, {"g_channels", "1"}, powers, cosine});
+    add("spherical_light", {is_exact, {"g_highlight_channels", "1"}, powers, cosine});
+    add("ambient_light", {is_exact, sample}, true);
+    add("colour_sum", {is_exact, {"g_terms", "3"}, sample}, true);
+    add("cosine_rom", {is_exact, {"g_power", exact ? "8" : "2"}, cosine}, true);
+    add("angle_address", {is_exact, cosine}, true);
     const std::string factor = of("factor");
-    add("multiplier", {{"g_a_bits", table[1].second}, {"g_b_bits", factor}}, true);
+    add("multiplier", {{"g_a_bits", data_bits}, {"g_b_bits", factor}}, true);
     add("saturating_sum",
         {{"g_terms", "3"},
          {"g_term_bits", std::to_string(std::stoi(factor) + tables.data_bits)},

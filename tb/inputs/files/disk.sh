@@ -105,7 +105,7 @@ mkdir -p "$disk/rtl/tables" "$disk/docs/rtl"
 before=$(cd "$disk" && cksum rtl/tables/* docs/rtl/*)
 head -c 4194304 /dev/zero >"$disk/ballast" 2>/dev/null
 expect_full tables '/(rtl/tables|docs/rtl)/[a-z_-]*\.[a-z]*$' "$generator" --source "$disk" tables \
-  --preset published --address-bits 5 --data-bits 6
+  --preset published --cosine 5x6
 [ "$before" = "$(cd "$disk" && cksum rtl/tables/* docs/rtl/*)" ] || fail 'tables: a file has changed'
 umount "$disk"
 

@@ -108,7 +108,7 @@ left=$(find "$folder" -name '*part*' -o -name '.halfway-*')
 
 # ---- make tables, alternately with two sizes
 tree=$scratch/tree
-sizes=(--preset published --address-bits 5 --data-bits 6)
+sizes=(--preset published --cosine 5x6)
 tables() { "$generator" --source "$1" tables "${@:2}"; }
 for copy in tree usual other; do
   rm -rf "${scratch:?}/$copy"

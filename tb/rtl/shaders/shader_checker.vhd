@@ -80,8 +80,7 @@ begin
         g_specular           => g_hardware.specular,
         g_highlight_channels => g_hardware.highlight_channels,
         g_powers             => g_hardware.powers,
-        g_address_bits       => g_hardware.address_bits,
-        g_data_bits          => g_hardware.data_bits)
+        g_cosine             => g_hardware.cosine)
       port map (
         clk               => clk,
         reset             => reset,

@@ -4,6 +4,7 @@
 -- writes.
 library ieee;
 use ieee.std_logic_1164.all;
+use work.cosine_pkg.all;
 use work.shader_pkg.all;
 use work.tb_shaders_pkg.all;
 use work.tb_pkg.all;
@@ -22,9 +23,9 @@ architecture sim of spherical_shader_tb is
     hardware(spherical, diffuse => false, highlight_channels => 3, powers => 9),
     hardware(spherical, specular => false),
     hardware(spherical, lights => 16, powers => 3),
-    hardware(spherical, exact => false, highlight_channels => 3, address_bits => 6, data_bits => 6),
-    hardware(spherical, exact => false, lights => 2, address_bits => 4, data_bits => 4),
-    hardware(spherical, exact => false, channels => 1, diffuse => false, address_bits => 6, data_bits => 6),
+    hardware(spherical, exact => false, highlight_channels => 3, cosine => rom6x6),
+    hardware(spherical, exact => false, lights => 2, cosine => rom4x4),
+    hardware(spherical, exact => false, channels => 1, diffuse => false, cosine => rom6x6),
     hardware(spherical, lights => 2, diffuse => false, specular => false));
 
   constant c_names : string := "white_highlights two_lights grey no_light highlights matte sixteen_lights published"

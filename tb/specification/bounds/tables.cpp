@@ -26,8 +26,8 @@ BigReal cosine_at(const CosineTable& table, double part) {
 TableFinding cosine_finding(const CosineTable& table) {
   TableFinding finding;
   finding.table =
-      fmt::format("{}{} cos^{} {}/{}", table.exact ? "exact" : "published", table.own > 0.0 ? " own" : "",
-                  table.own > 0.0 ? table.own : table.power, table.size.address_bits, table.size.data_bits);
+      fmt::format("{}{} cos^{} {}", table.exact ? "exact" : "published", table.own > 0.0 ? " own" : "",
+                  table.own > 0.0 ? table.own : table.power, to_string(table.size));
   finding.bound = finding.derived = tables::error_bound(table);
   const int cells = table.size.entries(), full = table.size.largest_entry();
   const int quarter = cells >> (table.exact ? 0 : table.power == 1 ? 2 : 1);  // cells
@@ -108,7 +108,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
   for (const double exponent : {1.0, 1.305, 2.65, 20.0, 1000.0, 1e6})
     findings.push_back(cosine_finding(tables::own_table(exponent, 2, tables::c_own_size)));
   // All other sizes that `make tables` accepts.
-  TableFinding others{.table = "the other sizes, 3/2 to 12/12"};
+  TableFinding others{.table = "the other sizes, 3x2 to 12x12"};
   double nearest = 0, farthest_away = 1;
   int count = 0;
   const int step = context.quick ? 3 : 1;
@@ -126,7 +126,7 @@ std::vector<TableFinding> cosine_tables(const Context& context) {
         others.worst = finding.worst;
         others.where = finding.table + ", " + finding.where;
       }
-  others.table = fmt::format("{} sizes and powers, 3/2 to 12/12 bits", count);
+  others.table = fmt::format("{} sizes and powers, 3x2 to 12x12", count);
   others.where += fmt::format("; the smallest share of the bound is {:.2f}", farthest_away);
   findings.push_back(others);
   return findings;
