@@ -10,7 +10,8 @@
 --             The spans of this line are kept as distances from the pixel to their ends, in subpixels.
 -- Contract    load: take init; the next line is the one that contains its first line. line_step: go to the first pixel of
 --             the next line. pixel_step: go to the next pixel. At most one of the three is '1'. load and line_step
---             only where ready = '1'. init must be stable from load to the next ready.
+--             only where ready = '1', load only where more = '0', too. mask is valid from the first line_step after a
+--             load or another line_step; a reset ends the triangle.
 --             more: the next line has a part of the triangle; valid while ready = '1'.
 --             A strip has at most most_columns and most_lines (objects_pkg): with more, the ends of spans and the first
 --             lines wrap.
