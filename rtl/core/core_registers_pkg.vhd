@@ -117,6 +117,10 @@ package core_registers_pkg is
   constant c_shader_shadows_bits : natural := 1;
   constant c_shader_unrolled_low : natural := 18;
   constant c_shader_unrolled_bits : natural := 1;
+  constant c_shader_table_address_bits_low : natural := 20;
+  constant c_shader_table_address_bits_bits : natural := 4;
+  constant c_shader_table_data_bits_low : natural := 24;
+  constant c_shader_table_data_bits_bits : natural := 4;
   constant c_lights_lights_low : natural := 0;
   constant c_lights_lights_bits : natural := 8;
   constant c_lights_directional_low : natural := 8;

@@ -136,6 +136,12 @@ std::vector<Need> needs_of(const HardwareKey& key) {
            s.highlight_channels);
       need("objects.powers", HALFWAY_CORE_OBJECTS, HALFWAY_CORE_OBJECTS_POWERS_MASK, s.powers);
     }
+    if (s.records()) {
+      need("shader.table_address_bits", HALFWAY_CORE_SHADER, HALFWAY_CORE_SHADER_TABLE_ADDRESS_BITS_MASK,
+           s.tables.address_bits);
+      need("shader.table_data_bits", HALFWAY_CORE_SHADER, HALFWAY_CORE_SHADER_TABLE_DATA_BITS_MASK,
+           s.tables.data_bits);
+    }
   }
   if (key.shader == Shader::processors) {
     const ProcessorUnits& p = key.processors;

@@ -47,7 +47,8 @@ class FakeCore {
     registers[0x04] = 0x0000FFFF;  // of the same major version
     registers[c_shader] = static_cast<unsigned>(key.shader) | (key.preset == Preset::exact) << 2 |
                           key.channels << 4 | diffuse << 8 | specular << 9 | key.degree << 10 |
-                          s.highlight_channels << 12 | p.normalize << 16 | p.shadows << 17;
+                          s.highlight_channels << 12 | p.normalize << 16 | p.shadows << 17 |
+                          s.tables.address_bits << 20 | s.tables.data_bits << 24;
     registers[c_lights] = s.lights | p.directional << 8 | p.positional << 16 | p.spots << 24;
     registers[c_objects] = p.objects | p.subpixels << 16 | s.powers << 24;
     registers[c_memory] = true_colour | 6U << 4 | 3U << 8 | 64U << 16;
@@ -424,6 +425,8 @@ TEST(CoreDriver, RefusesFramesThatTheCoreCannotDraw) {
       refused(c_lights, 1, "lights.lights");
       refused(c_shader, 2 << 12, "shader.highlight_channels");
       refused(c_objects, 1 << 24, "objects.powers");
+      refused(c_shader, 1 << 20, "shader.table_address_bits");
+      refused(c_shader, 1 << 24, "shader.table_data_bits");
     }
     if (shader == HALFWAY_PROCESSORS) {
       refused(c_lights, 1 << 8, "lights.directional");
