@@ -13,7 +13,7 @@
 --             only.
 --             s_axi: AXI4-Lite, the registers of docs/rtl/core.md. m_axi: AXI4, one identifier for all reads and one for all
 --             writes, so there are no ports for it; INCR bursts of whole words; none crosses 4 KiB. Words of reads come in the
---             order of their requests.
+--             order of their requests, and rlast is with the last word of each burst: a simulation stops otherwise.
 --             irq: a level, as long as an enabled bit of register interrupts is '1'. picture: address of the picture
 --             that was drawn last without a fault by a command with swap.
 -- Formats     core_registers_pkg: registers and commands; axi_pkg: packets; memory_pkg: pixels
@@ -31,6 +31,7 @@ use work.core_registers_pkg.all;
 use work.cosine_pkg.all;
 use work.memory_pkg.all;
 use work.shader_pkg.all;
+use work.stream_pkg.all;
 
 entity halfway_core is
   generic (
@@ -212,6 +213,30 @@ begin
 
   reset         <= not aresetn;
   shader_resetn <= aresetn and not shader_reset;
+
+  -- Report a broken contract in the user's simulation.
+  check_reads : process (aclk)
+    variable waiting                       : std_logic_vector(m_axi_rdata'length + m_axi_rresp'length + 1 downto 0);
+    variable words_missing, bursts_missing : natural;
+    variable words, bursts                 : natural; -- that are requested in this clock
+  begin
+    if rising_edge(aclk) then
+      words  := 0;
+      bursts := 0;
+      if (m_axi_arvalid and m_axi_arready) = '1' then
+        words  := to_integer(m_axi_arlen) + 1;
+        bursts := 1;
+      end if;
+      check_stream("halfway_core: m_axi_r", reset, m_axi_rready,
+        m_axi_rvalid & m_axi_rlast & m_axi_rresp & m_axi_rdata, waiting);
+      check_answers("halfway_core: m_axi_r", reset, m_axi_rvalid, m_axi_rvalid and m_axi_rready, words, words_missing);
+      check_answers("halfway_core: m_axi_rlast", reset, m_axi_rvalid and m_axi_rlast,
+        m_axi_rvalid and m_axi_rready and m_axi_rlast, bursts, bursts_missing);
+      assert (words_missing = 0) = (bursts_missing = 0)
+        report "halfway_core: m_axi_rlast: not with the last word of a burst"
+        severity failure;
+    end if;
+  end process;
 
   registers_port : entity work.register_port
     port map (

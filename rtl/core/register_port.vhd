@@ -1,8 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     AXI4-Lite for a register file: accesses one after the other, each with one clock at the registers.
--- Contract    s_axi: AXI4-Lite. Address and data of a write come in any order. All outputs depend on registers only. awprot
---             and arprot are not needed. An access with an error is answered with SLVERR.
+-- Contract    s_axi: AXI4-Lite; what waits does not change (a simulation stops otherwise). Address and data of
+--             a write come in any order. All outputs depend on registers only. awprot and arprot are not needed. An access with an error is answered with SLVERR.
 --             write = '1' for one clock per write: write_error is its answer in this clock. read = '1' for one clock per
 --             read: read_data and read_error are its answer in this clock. Address and data are stable from then until
 --             the answer is taken. A write and a read may come in the same clock.
@@ -16,6 +16,7 @@
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
+use work.stream_pkg.all;
 
 entity register_port is
   port (
@@ -132,6 +133,20 @@ begin
   begin
     if rising_edge(clk) then
       r <= r_next;
+    end if;
+  end process;
+
+  -- Report a broken contract in the user's simulation.
+  check_port : process (clk)
+    variable write_waiting, read_waiting : std_logic_vector(s_axi_awaddr'length downto 0);
+    variable data_waiting                : std_logic_vector(s_axi_wdata'length + s_axi_wstrb'length downto 0);
+  begin
+    if rising_edge(clk) then
+      check_stream("register_port: s_axi_aw", reset, not r.addressed,
+        s_axi_awvalid & std_logic_vector(s_axi_awaddr), write_waiting);
+      check_stream("register_port: s_axi_w", reset, not r.supplied, s_axi_wvalid & s_axi_wstrb & s_axi_wdata, data_waiting);
+      check_stream("register_port: s_axi_ar", reset, not r.reading,
+        s_axi_arvalid & std_logic_vector(s_axi_araddr), read_waiting);
     end if;
   end process;
 

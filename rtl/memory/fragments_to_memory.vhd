@@ -9,8 +9,8 @@
 --                                +--------------> pixel_store: depth, colour <----+--> keep bits --+
 --
 -- Contract    start = '1' while busy = '0' begins a frame: the clear, if frame.clear = '1', then the fragments up to tlast.
---             frame does not change from start to done. done = '1' for one clock: all writes of the frame have their
---             responses. fault = '1': since start a response had an error, or tuser was not 0 in the transfer with tlast.
+--             frame does not change from start to done (a simulation stops otherwise). done = '1' for one clock:
+--             all writes of the frame have their responses. fault = '1': since start a response had an error, or tuser was not 0 in the transfer with tlast.
 --             It stays until the next start. A frame with errors ends as any other. The data of a read with an error are
 --             compared; its fragments are kept or not.
 --             The sum of pixels from start to done is the number of fragments that are kept; the clear is not counted.
@@ -19,7 +19,8 @@
 --             Nothing outside width, height and scissor is written, by fragments and by the clear. Depth test: a fragment
 --             is kept if its depth in memory is less than the stored one. Rows must not overlap, nor the two buffers.
 --             m_axi: AXI4, one identifier for all reads and one for all writes, so there are no ports for it. INCR bursts
---             of whole beats inside a block, which has at most 4 KiB. A depth is read only when all older writes to its
+--             of whole beats inside a block, which has at most 4 KiB. A word or a response that changes while it waits, or
+--             comes without a request, stops a simulation. A depth is read only when all older writes to its
 --             beats have their responses; the first read after a clear waits for all responses of the clear. All outputs
 --             depend on registers only.
 -- Formats     memory_pkg: RGB565 and a depth of 16 bits, or XRGB8888 and a depth of 32 bits, little-endian
@@ -145,8 +146,13 @@ begin
 
   -- Report a broken contract in the user's simulation.
   check_frame : process (clk)
+    variable frame_before : frame_t;
   begin
     if rising_edge(clk) then
+      assert in_work /= '1' or reset /= '0' or frame = frame_before
+        report "fragments_to_memory: frame changes while busy = '1'"
+        severity failure;
+      frame_before := frame;
       assert begins /= '1' or reset /= '0' or
         (frame.colour_base(c_shift - 1 downto 0) = 0 and frame.colour_stride(c_shift - 1 downto 0) = 0
         and frame.depth_base(c_shift - 1 downto 0) = 0 and frame.depth_stride(c_shift - 1 downto 0) = 0)
@@ -161,6 +167,29 @@ begin
     if rising_edge(clk) then
       check_stream("fragments_to_memory: s_axis", reset, s_axis_tready,
         s_axis_tvalid & s_axis_tlast & s_axis_tuser & s_axis_tkeep & s_axis_tdata, waiting);
+    end if;
+  end process;
+
+  check_memory : process (clk)
+    variable r_waiting      : std_logic_vector(m_axi_rdata'length + m_axi_rresp'length downto 0);
+    variable b_waiting      : std_logic_vector(m_axi_bresp'length downto 0);
+    variable words_missing  : natural;
+    variable bursts_missing : natural; -- whose last word was taken
+    variable words, bursts  : natural; -- that are requested in this clock
+  begin
+    if rising_edge(clk) then
+      words  := 0;
+      bursts := 0;
+      if (m_axi_arvalid and m_axi_arready) = '1' then
+        words := to_integer(m_axi_arlen) + 1;
+      end if;
+      if (m_axi_wvalid and m_axi_wready and m_axi_wlast) = '1' then
+        bursts := 1;
+      end if;
+      check_stream("fragments_to_memory: m_axi_r", reset, m_axi_rready, m_axi_rvalid & m_axi_rresp & m_axi_rdata, r_waiting);
+      check_stream("fragments_to_memory: m_axi_b", reset, m_axi_bready, m_axi_bvalid & m_axi_bresp, b_waiting);
+      check_answers("fragments_to_memory: m_axi_r", reset, m_axi_rvalid, m_axi_rvalid and m_axi_rready, words, words_missing);
+      check_answers("fragments_to_memory: m_axi_b", reset, m_axi_bvalid, m_axi_bvalid and m_axi_bready, bursts, bursts_missing);
     end if;
   end process;
 

@@ -2,7 +2,8 @@
 --
 -- Purpose     A plain synchronous memory at the AXI4 port of fragments_to_memory: one port for reads and writes, one burst
 --             after the other. Reads and writes that wait take turns.
--- Contract    s_axi: AXI4 as fragments_to_memory gives it: INCR bursts of whole words. No errors. All outputs depend on
+-- Contract    s_axi: AXI4 as fragments_to_memory gives it: INCR bursts of whole words (a simulation stops if a
+--             request or a word changes while it waits, or at an address inside a word). No errors. All outputs depend on
 --             registers only. memory_enable = '1': memory_strobes are the bytes of memory_data to write at the word
 --             memory_address; without strobes the word is read, and is memory_word g_clocks clocks later.
 -- Formats     an address of memory is that of AXI4 without the bits of a word's bytes
@@ -16,6 +17,7 @@ library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.memory_pkg.all;
+use work.stream_pkg.all;
 use work.line_pkg.flag;
 
 entity memory_port is
@@ -151,6 +153,27 @@ begin
   begin
     if rising_edge(clk) then
       r <= r_next;
+    end if;
+  end process;
+
+  -- Report a broken contract in the user's simulation.
+  check_port : process (clk)
+    constant c_low      : address_t := to_unsigned(bytes(g_data_bits) - 1, c_address_bits); -- of an address: inside a word
+    variable ar_waiting : std_logic_vector(c_address_bits + s_axi_arlen'length downto 0);
+    variable aw_waiting : std_logic_vector(c_address_bits downto 0);
+    variable w_waiting  : std_logic_vector(s_axi_wdata'length + s_axi_wstrb'length + 1 downto 0);
+  begin
+    if rising_edge(clk) then
+      check_stream("memory_port: s_axi_ar", reset, flag(r.phase = take_read),
+        s_axi_arvalid & std_logic_vector(s_axi_araddr & s_axi_arlen), ar_waiting);
+      check_stream("memory_port: s_axi_aw", reset, flag(r.phase = take_write),
+        s_axi_awvalid & std_logic_vector(s_axi_awaddr), aw_waiting);
+      check_stream("memory_port: s_axi_w", reset, flag(r.phase = write),
+        s_axi_wvalid & s_axi_wlast & s_axi_wstrb & s_axi_wdata, w_waiting);
+      assert reset /= '0' or
+        ((s_axi_arvalid /= '1' or (s_axi_araddr and c_low) = 0) and (s_axi_awvalid /= '1' or (s_axi_awaddr and c_low) = 0))
+        report "memory_port: s_axi: an address is not that of a word"
+        severity failure;
     end if;
   end process;
 

@@ -1,6 +1,7 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
--- Purpose     The contract of a valid/ready stream, asserted in the user's simulation: a word that waits does not change.
+-- Purpose     Contracts of streams, asserted in the user's simulation: a word that waits does not change; no answer comes
+--             without a request.
 -- Source      ours
 -- Golden twin none: it computes nothing
 
@@ -17,6 +18,14 @@ package stream_pkg is
     item         :       std_logic_vector;
     waiting      : inout std_logic_vector);
 
+  -- Stop the simulation if an answer comes without a request. Call it at each rising edge. asked: answers that are requested
+  -- in this clock. missing is the caller's memory: answers that have not come.
+  procedure check_answers (
+    port_name            :       string;
+    reset, valid, answer :       std_logic; -- valid: an answer is offered; answer: it is taken
+    asked                :       natural;
+    missing              : inout natural);
+
 end package;
 
 package body stream_pkg is
@@ -32,6 +41,23 @@ package body stream_pkg is
       severity failure;
     waiting := item;
     waiting(waiting'left) := waiting(waiting'left) and not ready and not reset;
+  end procedure;
+
+  procedure check_answers (
+    port_name            :       string;
+    reset, valid, answer :       std_logic;
+    asked                :       natural;
+    missing              : inout natural) is
+  begin
+    missing := missing + asked;
+    assert missing > 0 or valid /= '1' or reset /= '0'
+      report port_name & ": an answer without a request"
+      severity failure;
+    if reset = '1' then
+      missing := 0;
+    elsif answer = '1' and missing > 0 then
+      missing := missing - 1;
+    end if;
   end procedure;
 
 end package body;

@@ -1,8 +1,10 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- A user's design that takes a top from the library halfway. It offers words of zeros with pauses, and some wait.
--- g_fault: take a word that waits back ("valid"), or change it ("data"): the top must stop the simulation.
+-- g_fault: take a word that waits back ("valid"), or change it ("data"); change the frame that is drawn ("frame"); answer
+-- without a request, or request an address inside a word ("wrong"): the top must stop the simulation.
 library ieee, halfway;
 use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 use halfway.axi_pkg.all;
 use halfway.memory_pkg.all;
 
@@ -22,6 +24,7 @@ architecture sim of vhdl_library_tb is
   signal valid     : std_logic := '0';
   signal bit_value : std_logic := '0'; -- of all bits that g_fault changes
   signal ready     : std_logic;
+  signal wrong     : std_logic;
   signal clocks    : natural   := 0;
   signal taken     : natural   := 0; -- words
   signal waited    : boolean   := false;
@@ -31,6 +34,8 @@ begin
 
   clk   <= not clk after 5 ns when clocks < c_last_clock;
   reset <= '0' when clocks > 3;
+
+  wrong <= '1' when g_fault = "wrong" and clocks > 50 else '0';
 
   offer : process (clk)
   begin
@@ -128,16 +133,77 @@ begin
         fragment_ready => '1');
   end generate;
 
+  -- A word waits, because no address comes.
+  core : if g_top = "halfway_core" generate
+    signal aresetn : std_logic;
+  begin
+    aresetn <= not reset;
+
+    drawing : entity halfway.halfway_core
+      port map (
+        aclk          => clk,
+        aresetn       => aresetn,
+        s_axi_awvalid => '0',
+        s_axi_awaddr  => x"00",
+        s_axi_awprot  => "000",
+        s_axi_wvalid  => valid,
+        s_axi_wready  => ready,
+        s_axi_wdata   => (others => '0'),
+        s_axi_wstrb   => (others => bit_value),
+        s_axi_bready  => '0',
+        s_axi_arvalid => '0',
+        s_axi_araddr  => x"00",
+        s_axi_arprot  => "000",
+        s_axi_rready  => '0',
+        m_axi_arready => '0',
+        m_axi_rvalid  => wrong,
+        m_axi_rdata   => (others => '0'),
+        m_axi_rresp   => "00",
+        m_axi_rlast   => '0',
+        m_axi_awready => '0',
+        m_axi_wready  => '0',
+        m_axi_bvalid  => '0',
+        m_axi_bresp   => "00");
+  end generate;
+
+  -- The second address waits, because no data come.
+  plain_memory : if g_top = "memory_port" generate
+    port_of_memory : entity halfway.memory_port
+      port map (
+        clk           => clk,
+        reset         => reset,
+        s_axi_arvalid => wrong,
+        s_axi_araddr  => (0 => wrong, others => '0'),
+        s_axi_arlen   => x"00",
+        s_axi_rready  => '0',
+        s_axi_awvalid => valid,
+        s_axi_awready => ready,
+        s_axi_awaddr  => (31 => bit_value, others => '0'),
+        s_axi_wvalid  => '0',
+        s_axi_wdata   => (others => '0'),
+        s_axi_wstrb   => (others => '0'),
+        s_axi_wlast   => '0',
+        s_axi_bready  => '0',
+        memory_word   => (others => '0'));
+  end generate;
+
   -- A fragment waits, because no frame begins.
   memory : if g_top = "fragments_to_memory" generate
-    signal frame : frame_t; -- not used
+    signal start : std_logic;
+    signal frame : frame_t := (
+      colour_base | depth_base => x"00000000", colour_stride | depth_stride => x"0000", clear => '1',
+      red | green | blue => x"00", others => to_unsigned(1, 13)
+      );
   begin
+    start     <= '1' when g_fault = "frame" and clocks = 50 else '0';
+    frame.red <= x"01" when g_fault = "frame" and clocks > 60 else x"00";
+
     picture : entity halfway.fragments_to_memory
       port map (
         clk           => clk,
         reset         => reset,
         frame         => frame,
-        start         => '0',
+        start         => start,
         s_axis_tvalid => valid,
         s_axis_tready => ready,
         s_axis_tdata  => (others => '0'),
@@ -150,7 +216,7 @@ begin
         m_axi_rresp   => "00",
         m_axi_awready => '0',
         m_axi_wready  => '0',
-        m_axi_bvalid  => '0',
+        m_axi_bvalid  => wrong,
         m_axi_bresp   => "00");
   end generate;
 
