@@ -28,6 +28,21 @@ bool AxiMemory::pauses() {  // xorshift32 (Marsaglia 2003)
   return (random_ & 1U) != 0;  // never without a seed
 }
 
+void AxiMemory::check_waiting(const CoreOutputs& core) const {
+  const CoreOutputs& before = core_before_;
+  const auto changes = [&](auto... signals) { return ((core.*signals != before.*signals) || ...); };
+  using Out = CoreOutputs;
+  if (before.m_axi_arvalid > answers_before_.m_axi_arready &&
+      changes(&Out::m_axi_arvalid, &Out::m_axi_araddr, &Out::m_axi_arlen))
+    fail("a read that changes while it waits", before.m_axi_araddr);
+  if (before.m_axi_awvalid > answers_before_.m_axi_awready &&
+      changes(&Out::m_axi_awvalid, &Out::m_axi_awaddr, &Out::m_axi_awlen))
+    fail("a write that changes while it waits", before.m_axi_awaddr);
+  if (before.m_axi_wvalid > answers_before_.m_axi_wready &&
+      changes(&Out::m_axi_wvalid, &Out::m_axi_wdata, &Out::m_axi_wstrb, &Out::m_axi_wlast))
+    fail("a word that changes while it waits, before the write", before.m_axi_awaddr);
+}
+
 AxiMemory::Burst AxiMemory::checked(std::uint32_t address, std::uint8_t length) const {
   const Burst burst{address, length + 1U};
   if (address % bus_bytes_ != 0) fail("a burst of parts of words", address);
@@ -78,6 +93,9 @@ std::uint8_t AxiMemory::write() {
 
 void AxiMemory::clock(CoreInputs& answers, const CoreOutputs& core) {
   ++clock_;
+  check_waiting(core);
+  answers_before_ = answers;
+  core_before_ = core;
   // Take addresses and words.
   if (core.m_axi_arvalid != 0 && answers.m_axi_arready != 0) take_read(core);
   if (core.m_axi_awvalid != 0 && answers.m_axi_awready != 0)

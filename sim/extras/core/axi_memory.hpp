@@ -38,7 +38,8 @@ class AxiMemory {
   }
 
   /// The rising edge at the end of a clock with these signals. Sets the memory's signals in the next clock.
-  /// Throws Failure, of the code `differs`, for a burst that AXI4 does not allow.
+  /// Throws Failure, of the code `differs`, for a burst that AXI4 does not allow, and for a transfer that
+  /// changes while it waits.
   void clock(CoreInputs& answers, const CoreOutputs& core);
 
   std::uint64_t words_read() const { return words_read_; }
@@ -57,6 +58,7 @@ class AxiMemory {
 
   bool is_refused(std::uint32_t address) const;
   bool pauses();
+  void check_waiting(const CoreOutputs& core) const;
   Burst checked(std::uint32_t address, std::uint8_t length) const;
   void take_read(const CoreOutputs& core);
   void take_word(const CoreOutputs& core);
@@ -69,6 +71,8 @@ class AxiMemory {
   MemoryTiming timing_;
   std::uint32_t random_;
   std::uint32_t refused_first_ = 0, refused_count_ = 0;
+  CoreInputs answers_before_{};  ///< signals of the clock before
+  CoreOutputs core_before_{};
   std::uint64_t clock_ = 0, words_read_ = 0, words_written_ = 0;
   std::deque<Word> reads_;               ///< words to give
   std::deque<Burst> writes_;             ///< addresses that were taken

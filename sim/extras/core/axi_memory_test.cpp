@@ -107,5 +107,29 @@ TEST_F(AxiMemoryTest, FindsBurstsThatAxiDoesNotAllow) {
   EXPECT_THROW(clocks_until(in_.m_axi_bvalid), Failure);
 }
 
+TEST(AxiMemory, FindsTransfersThatChangeWhileTheyWait) {
+  // The memory is not ready in the first clock; a signal changes in the second.
+  const auto finds = [](auto CoreOutputs::*valid, auto CoreOutputs::*signal, auto value) {
+    AxiMemory memory(4, {});
+    CoreInputs in{};
+    CoreOutputs out{};
+    out.*valid = 1;
+    memory.clock(in, out);
+    out.*signal = value;
+    EXPECT_THROW(memory.clock(in, out), Failure);
+  };
+  using Out = CoreOutputs;
+  finds(&Out::m_axi_arvalid, &Out::m_axi_arvalid, 0);
+  finds(&Out::m_axi_arvalid, &Out::m_axi_araddr, 4);
+  finds(&Out::m_axi_arvalid, &Out::m_axi_arlen, 4);
+  finds(&Out::m_axi_awvalid, &Out::m_axi_awvalid, 0);
+  finds(&Out::m_axi_awvalid, &Out::m_axi_awaddr, 4);
+  finds(&Out::m_axi_awvalid, &Out::m_axi_awlen, 4);
+  finds(&Out::m_axi_wvalid, &Out::m_axi_wvalid, 0);
+  finds(&Out::m_axi_wvalid, &Out::m_axi_wdata, 4);
+  finds(&Out::m_axi_wvalid, &Out::m_axi_wstrb, 4);
+  finds(&Out::m_axi_wvalid, &Out::m_axi_wlast, 1);
+}
+
 }  // namespace
 }  // namespace halfway::core

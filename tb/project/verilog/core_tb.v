@@ -55,6 +55,22 @@ module core_tb;
 
   always #5 clk = !clk;
 
+  // AXI4's rules: what waits does not change, and no burst crosses 4 KiB.
+  wire [40:0] ar = {arvalid, araddr, arlen}, aw = {awvalid_m, awaddr_m, awlen};
+  wire [73:0] w = {wvalid_m, wlast, wstrb, wdata_m};
+  reg [40:0] ar_waiting = 0, aw_waiting = 0;
+  reg [73:0] w_waiting = 0;
+  always @(posedge clk) begin
+    if (ar_waiting[40] && ar !== ar_waiting || aw_waiting[40] && aw !== aw_waiting || w_waiting[73] && w !== w_waiting
+        || arvalid && araddr[11:0] + 8 * arlen + 8 > 4096 || awvalid_m && awaddr_m[11:0] + 8 * awlen + 8 > 4096) begin
+      $display("a transfer changes while it waits, or a burst crosses 4 KiB");
+      $finish;
+    end
+    ar_waiting <= reading ? ar : 0;
+    aw_waiting <= writing ? aw : 0;
+    w_waiting <= writing && !bvalid_m ? 0 : w;
+  end
+
   // One burst of reads and one of writes at a time.
   always @(posedge clk) begin
     clocks <= clocks + 1;

@@ -1,7 +1,8 @@
 -- SPDX-License-Identifier: Apache-2.0
 -- Reads runs of words from an AXI4 memory, on both widths of the bus: at full speed at several latencies, with random
 -- stalls at both ends, and with error responses. Every word must be that of its address, once and in order. At full speed
--- one word comes per clock, also at the largest latency of the contract. The proof has stops and all that is not of size.
+-- one word comes per clock, also at the largest latency of the contract. axi_rules checks every clock. The proof has stops
+-- and all that is not of size.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -21,7 +22,7 @@ begin
     constant c_bytes     : positive := c_bits / 8;
     constant c_latencies : integer_vector := (1, 16, 44);
 
-    constant c_no_request : request_t := (valid => '0', addr => (others => '0'), len => (others => '0'), size => "000", burst => "01");
+    constant c_no_request : request_t := (valid => '0', addr => (others => '0'), len => (others => '0'), size => "01" & to_flag(lanes = 2), burst => "01");
     constant c_no_write   : manager_t := (ar | aw => c_no_request, wdata => (others => '0'), wstrb => (others => '0'),
       rready => '1', others => '0');
 
@@ -65,6 +66,10 @@ begin
     memory : entity work.axi_memory
       generic map (g_memory => lanes, g_data_bits => c_bits)
       port map (clk => clk, reset => reset, latency => latency, pause => pauses, errors => errors, m => m, s => s);
+
+    rules : entity work.axi_rules
+      generic map (g_true_colour => false, g_data_bits => c_bits, g_any_place => true)
+      port map (clk => clk, reset => reset, m => m, s => s);
 
     clk <= not clk after c_half_period when not ended;
 
