@@ -134,7 +134,7 @@ architecture rtl of halfway_core is
     or field(g_degree, c_shader_degree_low) or field(g_highlight_channels, c_shader_highlight_channels_low)
     or field(boolean'pos(g_normalize), c_shader_normalize_low) or field(boolean'pos(g_shadows), c_shader_shadows_low)
     or field(boolean'pos(g_unrolled), c_shader_unrolled_low)
-    or field(g_address_bits, c_shader_table_address_bits_low) or field(g_data_bits, c_shader_table_data_bits_low);
+    or field(address_bits(g_cosine), c_shader_table_address_bits_low) or field(data_bits(g_cosine), c_shader_table_data_bits_low);
   constant c_lights : word_t := field(g_lights, c_lights_lights_low) or field(g_directional, c_lights_directional_low)
     or field(g_positional, c_lights_positional_low) or field(g_spots, c_lights_spots_low);
   constant c_objects : word_t := field(g_objects, c_objects_objects_low) or field(g_subpixels, c_objects_subpixels_low)
