@@ -218,6 +218,13 @@ std::vector<ListedDesign> all_designs(const std::filesystem::path& root) {
       {.design = {.name = "fragments_to_memory_small",
                   .entity = "fragments_to_memory",
                   .generics = {{"g_data_bits", "32"}, {"g_block_bits", "5"}, {"g_slot_bits", "1"}}}});
+  // The other parts of the core, as in halfway_core with RGB565 and 64 bits.
+  for (const auto& [entity, generics] : {std::pair<const char*, Generics>{"register_port", {}},
+                                         {"core_registers", {}},
+                                         {"ring_control", {{"g_data_bits", "64"}, {"g_block_shift", "7"}}},
+                                         {"burst_reader", {{"g_data_bits", "64"}}},
+                                         {"read_arbiter", {}}})
+    all.push_back({.design = {.name = entity, .entity = entity, .generics = generics}, .ice40 = false});
   for (ListedDesign& listed : all) {
     listed.design.root = root;
     if (std::ranges::count(c_of_readme, listed.design.name) > 0) listed.seeds = 9;
