@@ -158,9 +158,9 @@ begin
 
   -- Report a broken contract in the user's simulation.
   check_port : process (clk)
-    constant c_low      : address_t := to_unsigned(bytes(g_data_bits) - 1, c_address_bits); -- of an address: inside a word
-    variable ar_waiting : std_logic_vector(c_address_bits + s_axi_arlen'length downto 0);
-    variable aw_waiting : std_logic_vector(c_address_bits downto 0);
+    constant c_low      : address_t := to_unsigned(bytes(g_data_bits) - 1, address_t'length); -- of an address: inside a word
+    variable ar_waiting : std_logic_vector(address_t'length + s_axi_arlen'length downto 0);
+    variable aw_waiting : std_logic_vector(address_t'length downto 0);
     variable w_waiting  : std_logic_vector(s_axi_wdata'length + s_axi_wstrb'length + 1 downto 0);
   begin
     if rising_edge(clk) then
