@@ -157,11 +157,18 @@ class ObjectScene {
       set_bits(vector, Request::light, static_cast<std::uint64_t>(random_.between(1, config_.lights())));
     InitVector header(words::Exact::c_init_header_bits / 32);
     put_walk(header, walk);
-    // Depths that cross, and many that are equal.
-    set_bits(header, At::z, static_cast<std::uint64_t>(random_.between(1, 6)) << 30);
+    // Depths that cross, and many that are equal; some with all bits.
+    const bool fine = random_.one_in(3);
+    std::uint64_t z = static_cast<std::uint64_t>(random_.between(1, 6)) << 30;
+    if (fine) z |= random_.bits(30);
+    set_bits(header, At::z, z);
     std::uint64_t upper = 0;
     for (const words::Field* change : {&At::z_de0, &At::z_dx}) {
-      const std::int64_t value = random_.one_in(2) ? random_.between(-1, 1) * (1 << 27) : 0;
+      std::int64_t value = 0;
+      if (fine)
+        value = random_.between(-(1 << 27), 1 << 27);
+      else if (random_.one_in(2))
+        value = random_.between(-1, 1) * (1 << 27);
       set_bits(header, *change, static_cast<std::uint64_t>(value));
       upper = upper << 3 | (value < 0 ? 7 : 0);
     }

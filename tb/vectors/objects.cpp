@@ -158,6 +158,11 @@ ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels) {
   ObjectScene<Preset> scene(config, subpixels, static_cast<std::uint64_t>(subpixels));
   ChainFiles<Preset> files(config, subpixels, c_objects);
   std::vector<Strip> strips = scene.limit_strips();
+  // Large enough for the upper bits of counts and distances: of the hardware of tb/mutants.
+  if (subpixels == 1 && !config.shadows) {
+    strips.push_back({7, 40, 100, 50, 1});
+    strips.push_back({8, 3, 0, 2500, 1});
+  }
   for (int i = 0; i < 24; ++i) strips.push_back(scene.any_strip());
   for (const Strip& strip : strips) {
     while (!files.busy() && scene.random().one_in(2)) files.send(scene.any_load(15));
@@ -291,14 +296,14 @@ namespace {
 
 // write(files, folder, stem) for each hardware: strips, and faulty ones.
 template <class Write>
-auto of_chains(const char* faulty, const Write& write) {
+auto of_chains(std::vector<std::string_view> faulty, const Write& write) {
   return [faulty, write](const Folder& folder) {
     for_each_object_front([&]<class Preset>(const ProcessorsConfig& config, int subpixels) {
       const std::string stem = stem_of<Preset>(config, subpixels);
       write(strips_of<Preset>(config, subpixels), folder, stem);
-      if (*faulty != 0)
-        write(wrong_strips_of<Preset>(config, subpixels, faulty == std::string_view("crowded")), folder,
-              stem + "_" + faulty);
+      for (const std::string_view set : faulty)
+        write(wrong_strips_of<Preset>(config, subpixels, set == "crowded"), folder,
+              fmt::format("{}_{}_fault", stem, set));
     });
   };
 }
@@ -445,16 +450,17 @@ std::vector<Entity> objects_entities() {
            write_merge<Preset>(folder, config, subpixels);
          });
        }},
-      {"object_processor", of_chains("", [](const auto& files, const Folder& f,
+      {"object_processor", of_chains({}, [](const auto& files, const Folder& f,
                                             const std::string& s) { files.write_processor(f, s); })},
-      {"object_source", of_chains("refused", [](const auto& files, const Folder& f,
-                                                const std::string& s) { files.write_source(f, s); })},
-      {"object_output", of_chains("crowded", [](const auto& files, const Folder& f,
-                                                const std::string& s) { files.write_output(f, s); })},
-      {"filter_queue", of_chains("", [](const auto& files, const Folder& f,
+      {"object_source", of_chains({"refused"}, [](const auto& files, const Folder& f,
+                                                  const std::string& s) { files.write_source(f, s); })},
+      {"object_output", of_chains({"crowded"}, [](const auto& files, const Folder& f,
+                                                  const std::string& s) { files.write_output(f, s); })},
+      {"filter_queue", of_chains({}, [](const auto& files, const Folder& f,
                                         const std::string& s) { files.write_lists(f, s); })},
-      {"object_front", of_chains("crowded", [](const auto& files, const Folder& f,
-                                               const std::string& s) { files.write_front(f, s); })},
+      {"object_front",
+       of_chains({"crowded", "refused"},
+                 [](const auto& files, const Folder& f, const std::string& s) { files.write_front(f, s); })},
   };
 }
 
