@@ -98,7 +98,7 @@ measure = set -- $(2); if [ $$\# -gt 0 ]; then targets=$$(scripts/evidence.sh pr
 scene := $${SCENE:+-- "$$SCENE"}
 run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
   $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights) \
-  $(call option,OBJECTS,--object-processors) $(call option,SUBPIXELS,--subpixels)
+  $(call option,OBJECTS,--objects) $(call option,SUBPIXELS,--subpixels)
 sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
   $(call option,OUT,--out)
 table_options := $(call option,PRESET,--preset) $(call option,COSINE,--cosine)

@@ -11,7 +11,7 @@ Status check_pixels(const Scene& scene, const HardwareKey& key, const SetupCount
   if (const unsigned objects = key.processors.objects; counts.objects > objects && objects > 0)
     return bad_input(fmt::format(
         "{}: {} pieces of triangles{} lie on one line of {}, and the hardware has {} object "
-        "processors; give more by --object-processors (make: OBJECTS; a space: objects), up to {}, or leave "
+        "processors; give more by --objects (make: OBJECTS; a space: objects), up to {}, or leave "
         "{} out",
         scene.name, counts.objects, key.processors.shadows ? " and shadow polygons" : "",
         key.processors.subpixels > 1 ? "two neighbouring columns" : "one column", objects,

@@ -9,6 +9,7 @@
 
 #include "sim/cli/command_test.hpp"
 #include "sim/files/trace.hpp"
+#include "sim/run/draw_knobs.hpp"
 
 namespace halfway {
 namespace {
@@ -68,9 +69,9 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
       {{"sim", "spheres", "--highlight-test", "x"},
        "--highlight-test: 'x' is not one of its values; take none or centroid or conservative"},
       {{"why", "spheres", "--pixel", "12"}, "is not x,y"},
-      {{"why", "matte", "--shader", "processors", "--object-processors", "9", "--pixel", "1,2"},
+      {{"why", "matte", "--shader", "processors", "--objects", "9", "--pixel", "1,2"},
        "why explains pixels of the rasterizer"},
-      {{"init", "teapot", "--shader", "processors", "--object-processors", "2", "--size", "40x30"},
+      {{"init", "teapot", "--shader", "processors", "--objects", "2", "--size", "40x30"},
        "pieces of triangles lie on one line of one column, and the hardware has 2 object processors"},
       {{"why", "spheres", "--pixel", "640,0"}, "outside the frame"},
       {{"render", "spheres", "--method", "oil"}, "--method: 'oil' is not a method"},
@@ -91,6 +92,13 @@ TEST_F(CliTest, TableSizesOutOfRangeExitTwo) {
                               Not(HasSubstr("make tables")))));
   EXPECT_THAT(run({"sim", "spheres", "--shader", "spherical", "--cosine", "11x3"}),
               Ends(2, HasSubstr("make tables PRESET=exact COSINE=11x3")));
+}
+
+TEST_F(CliTest, EveryKnobRefusesAWrongValue) {
+  for (const DrawKnob& knob : draw_knobs())
+    EXPECT_THAT(
+        run({"sim", "spheres", "--shader", to_string(knob.belongs_to.front().first), knob.option(), "?"}),
+        Ends(2, HasSubstr(knob.option() + ": '?' is not")));
 }
 
 TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
@@ -122,7 +130,7 @@ TEST_F(CliTest, OptionsOfOtherHardwareExitTwo) {
               HasSubstr("--threshold belongs to the quadratic shader and the spherical shader in "
                         "preset exact, and does not apply to"));
   EXPECT_THAT(run({"init", mesh, "--shader", s, "--threshold", "1", "--span-ends", "slerp"}),
-              Ends(2, HasSubstr("--threshold goes with --span-ends surface")));
+              Ends(2, HasSubstr("--threshold goes with span ends on the surface")));
   // This method in double is always spherical, for any hardware named by --shader.
   EXPECT_EQ(run({"render", mesh, "--method", "spherical-fixed", "--span-ends", "slerp", "--size", "20x15"})
                 .exit_code,

@@ -25,9 +25,8 @@ struct DrawOptions {
   std::string out = "build/out";
   bool all_effects = false;
   unsigned threads = 0;
-  /// The options of some shaders, as given. Setup or the plan chooses the values of the others. Their table
-  /// is in options.cpp.
-  std::map<std::string, std::optional<std::string>> of_some_shaders;
+  /// As given, by their names. Setup or the plan chooses the values of the others.
+  std::map<std::string, std::optional<std::string>> knobs;
 
   void add_to(CLI::App& command);
 };

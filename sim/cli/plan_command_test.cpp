@@ -123,7 +123,7 @@ TEST_F(PlanCommand, Table5OfTheLights) {
 // Behind object processors each covered pixel has one object; with the filter, pixels at outlines have more.
 TEST_F(PlanCommand, MeasuresObjectsBehindObjectProcessors) {
   const auto plan = [&](const char* subpixels, int objects = 32) {
-    return run({"plan", "matte", "--shader", "processors", "--object-processors", std::to_string(objects),
+    return run({"plan", "matte", "--shader", "processors", "--objects", std::to_string(objects),
                 "--subpixels", subpixels, "--size", "160x120", "--rate", "30"});
   };
   const Outcome plain = plan("1"), filtered = plan("16");
@@ -164,13 +164,13 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
       {{"plan", "matte", "--form", "folded"},
        "--form belongs to the processors shader, and does not apply to the quadratic shader"},
       {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take unrolled or folded"},
-      {{"plan", "matte", "--object-processors", "4"},
-       "--object-processors belongs to the processors shader, and does not apply to the quadratic shader"},
-      {{"plan", "matte", "--shader", "processors", "--object-processors", "257"}, "257 is not 1 to 256"},
-      {{"plan", "matte", "--shader", "processors", "--object-processors", "4", "--subpixels", "9"},
+      {{"plan", "matte", "--objects", "4"},
+       "--objects belongs to the processors shader, and does not apply to the quadratic shader"},
+      {{"plan", "matte", "--shader", "processors", "--objects", "257"}, "257 is not 0 to 256"},
+      {{"plan", "matte", "--shader", "processors", "--objects", "4", "--subpixels", "9"},
        "9 is not 1, 4 or 16"},
       {{"plan", "matte", "--shader", "processors", "--subpixels", "4"},
-       "--subpixels goes with --object-processors"},
+       "--subpixels goes with objects above 0"},
       {{"plan", "matte", "--measure", "--simulator", "modelsim"}, "is not a simulator"},
   };
   for (const auto& [arguments, expected] : cases) EXPECT_THAT(run(arguments), Ends(2, HasSubstr(expected)));

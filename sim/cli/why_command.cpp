@@ -83,7 +83,7 @@ int run(const Folders& folders, const WhyCommand& command) {
                     draw.size.height);
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   if (must(plan_scene(scene, draw.plan)).key.processors.objects > 0)
-    throw_bad_input("why explains pixels of the rasterizer; leave out --object-processors, and the shadows");
+    throw_bad_input("why explains pixels of the rasterizer; leave out --objects, and the shadows");
   Progress progress(scene.name);
   WhySettings settings{draw};
   settings.pixel = *pixel;

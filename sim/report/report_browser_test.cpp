@@ -66,7 +66,8 @@ class ReportPage : public CommandTest {
     for (const study::Method method :
          {study::Method::phong, study::Method::gouraud, study::Method::quadratic, study::Method::adaptive})
       settings.points.push_back({.method = method, .size = {160, 120}});
-    settings.points.push_back({.method = study::Method::adaptive, .threshold = 250, .size = {160, 120}});
+    settings.points.push_back(
+        {.method = study::Method::adaptive, .host = {.quadratic = {.threshold = 250}}, .size = {160, 120}});
     const study::Study made = study::run_study(settings);
     write("study/study.csv", study::to_csv(made.provenance, made.records, {}, {}));
   }

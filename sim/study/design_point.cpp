@@ -12,9 +12,9 @@
 #include "frame/frame.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/toml_file.hpp"
+#include "sim/run/draw_knobs.hpp"
 #include "words/cosine_tables.hpp"
-#include "words/formats.hpp"
-#include "words/generator/cosine.hpp"
+#include "words/generator/formats.hpp"
 
 namespace halfway::study {
 namespace {
@@ -24,10 +24,14 @@ class Sweep {
  public:
   Sweep(const toml::table& table, std::string file) : table_(table), file_(std::move(file)) {}
 
-  [[noreturn]] void fail(std::string_view key, std::string_view what) const {
+  /// File, line and key.
+  std::string place(std::string_view key) const {
     const toml::node* node = table_.get(key);
     const auto line = (node == nullptr ? table_.source() : node->source()).begin.line;
-    throw_bad_input("{}:{}: {} {}", file_, line, key, what);
+    return fmt::format("{}:{}: {}", file_, line, key);
+  }
+  [[noreturn]] void fail(std::string_view key, std::string_view what) const {
+    throw_bad_input("{} {}", place(key), what);
   }
 
   void allow(const std::vector<std::string_view>& keys) const {
@@ -79,10 +83,16 @@ class SpaceValue {
                        c_max_frame_side));
     return *size;
   }
-  words::CosineSize tables() const {
-    const auto size = tables::parse_cosine_size(node_.value<std::string>().value_or(""));
-    if (!size) fail(fmt::format("takes {}", tables::c_cosine_values));
-    return *size;
+  // As in an option of the program.
+  KnobText text() const {
+    std::string text;
+    node_.visit([&](const auto& node) {
+      if constexpr (toml::is_string<decltype(node)>)
+        text = *node;
+      else if constexpr (toml::is_number<decltype(node)>)
+        text = fmt::format("{}", *node);
+    });
+    return {sweep_.place(key_), text};
   }
   // One of the given values, by its name.
   template <class Value>
@@ -94,10 +104,13 @@ class SpaceValue {
     }
     fail(fmt::format("takes {}", fmt::join(all, ", ")));
   }
-  // A word length, empty if it is the preset's own.
-  std::optional<int> length(const DesignPoint& p, tables::Range range, int exact, int published) const {
-    const int bits = whole(range.least, range.most);
-    return bits == (p.preset == Preset::exact ? exact : published) ? std::nullopt : std::optional(bits);
+  // Empty if it is the preset's own.
+  std::optional<int> length(const DesignPoint& p, const tables::WordLength& length) const {
+    static const std::vector<tables::PresetFormats> c_presets = tables::preset_formats();
+    const auto& formats = c_presets[p.preset == Preset::exact ? 0 : 1];
+    const int bits = whole(length.least, length.most);
+    return bits == tables::format_of(formats, length.format).fraction_bits ? std::nullopt
+                                                                           : std::optional(bits);
   }
 
  private:
@@ -135,7 +148,7 @@ std::string text_or_none(const std::optional<Number>& number) {
 using Point = DesignPoint;
 using Value = SpaceValue;
 
-constexpr Knob c_knobs[] = {
+const std::vector<Knob> c_own_knobs = {
     {"size", true, always, [](const Value& v, Point& p) { p.size = v.size(1); },
      [](const Point& p) { return to_string(p.size); }},
     {"tile", true, always, [](const Value& v, Point& p) { p.tile = v.size(c_least_tile); },
@@ -154,26 +167,6 @@ constexpr Knob c_knobs[] = {
     {"preset", false, has_hardware,
      [](const Value& v, Point& p) { p.preset = v.name<Preset>({Preset::exact, Preset::published}); },
      [](const Point& p) { return std::string(to_string(p.preset)); }},
-    {"cosine", false, is_spherical, [](const Value& v, Point& p) { p.tables = v.tables(); },
-     [](const Point& p) { return p.tables ? to_string(*p.tables) : ""; }},
-    {"angle_bits", false, is_spherical,
-     [](const Value& v, Point& p) {
-       p.words.angle_bits = v.length(p, tables::c_angle_range, words::Exact::c_angle_fraction_bits,
-                                     words::Published::c_angle_fraction_bits);
-     },
-     [](const Point& p) { return text_or_none(p.words.angle_bits); }},
-    {"fraction_bits", false, is_quadratic,
-     [](const Value& v, Point& p) {
-       p.words.fraction_bits = v.length(p, tables::c_fraction_range, words::Exact::c_intensity_fraction_bits,
-                                        words::Published::c_intensity_fraction_bits);
-     },
-     [](const Point& p) { return text_or_none(p.words.fraction_bits); }},
-    {"seed_bits", false, is_processors,
-     [](const Value& v, Point& p) {
-       p.words.seed_bits = v.length(p, tables::c_seed_range, words::Exact::c_root_entry_fraction_bits,
-                                    words::Published::c_root_entry_fraction_bits);
-     },
-     [](const Point& p) { return text_or_none(p.words.seed_bits); }},
     {"newton", false, is_processors,
      [](const Value& v, Point& p) {
        const bool newton = v.flag();
@@ -183,43 +176,38 @@ constexpr Knob c_knobs[] = {
        if (newton != (p.preset == Preset::exact)) p.words.newton = newton;
      },
      [](const Point& p) { return text_or_none(p.words.newton); }},
-    {"form", false, is_processors,
-     [](const Value& v, Point& p) {
-       p.form = v.name<ProcessorForm>({ProcessorForm::folded, ProcessorForm::unrolled});
-     },
-     [](const Point& p) { return std::string(to_string(p.form)); }},
-    {"highlight_test", false, is_adaptive,
-     [](const Value& v, Point& p) {
-       p.test = v.name<HighlightTest>({HighlightTest::conservative, HighlightTest::centroid});
-     },
-     [](const Point& p) { return std::string(to_string(p.test)); }},
-    {"span_ends", false, [](const Point& p) { return p.has_ends(); },
-     [](const Value& v, Point& p) {
-       p.ends = v.name<SpanEnds>({SpanEnds::on_surface, SpanEnds::slerped_along_edges});
-     },
-     [](const Point& p) { return std::string(to_string(p.ends)); }},
     {"own_tables", false, [](const Point& p) { return p.has_ends(); },
-     [](const Value& v, Point& p) {
-       p.own_tables = v.flag();
-       if (p.own_tables && p.has_ends() && !p.tables) v.fail("is only allowed with cosine");
-     },
+     [](const Value& v, Point& p) { p.own_tables = v.flag(); },
      [](const Point& p) { return std::string(p.own_tables ? "1" : ""); }},
-    {"threshold", false, [](const Point& p) { return p.has_threshold(); },
-     [](const Value& v, Point& p) { p.threshold = v.number(0.01, 255.0); },
-     [](const Point& p) { return fmt::format("{:g}", p.threshold); }},
-    {"objects", false, is_processors,
-     [](const Value& v, Point& p) {
-       p.objects = static_cast<unsigned>(v.whole(0, c_most_object_processors));
-     },
-     [](const Point& p) { return p.objects > 0 ? std::to_string(p.objects) : ""; }},
-    {"subpixels", false, [](const Point& p) { return p.objects > 0; },
-     [](const Value& v, Point& p) {
-       p.subpixels = static_cast<unsigned>(v.whole(1, 16));
-       if (p.subpixels != 1 && p.subpixels != 4 && p.subpixels != 16) v.fail("takes 1, 4 or 16");
-       if (is_processors(p) && p.filtered() && p.objects == 0) v.fail("above 1 is only allowed with objects");
-     },
-     [](const Point& p) { return std::to_string(p.subpixels); }},
 };
+
+// Splitting is the method's choice: of the quadratic shader's methods only adaptive has its knobs.
+bool belongs(const DrawKnob& knob, const DesignPoint& p) {
+  return in_hardware(p.method) && knob.belongs(p.plan().shader, p.preset) &&
+         (knob.selects_hardware || !is_quadratic(p) || is_adaptive(p));
+}
+
+bool applies(const DrawKnob& knob, const DesignPoint& p) {
+  return belongs(knob, p) && (knob.matters == nullptr || knob.matters(p.plan(), p.host));
+}
+
+std::vector<Knob> all_knobs() {
+  std::vector<Knob> all = c_own_knobs;
+  for (const tables::WordLength& length : tables::c_word_lengths)
+    all.push_back({length.key, false,
+                   [&length](const Point& p) {
+                     return in_hardware(p.method) &&
+                            to_string(p.plan().shader) == std::string_view(length.shader);
+                   },
+                   [&length](const Value& v, Point& p) { p.words.*length.bits = v.length(p, length); },
+                   [&length](const Point& p) { return text_or_none(p.words.*length.bits); }});
+  for (const DrawKnob& knob : draw_knobs())
+    if (knob.text != nullptr)
+      all.push_back({knob.name, false, [&knob](const Point& p) { return applies(knob, p); },
+                     [&knob](const Value& v, Point& p) { knob.set(v.text(), p.hardware, p.host); },
+                     [&knob](const Point& p) { return knob.text(p.hardware, p.host); }});
+  return all;
+}
 
 void Sweep::multiply(std::vector<DesignPoint>& points, const Knob& knob) const {
   const toml::node* node = table_.get(knob.name);
@@ -240,16 +228,22 @@ void Sweep::multiply(std::vector<DesignPoint>& points, const Knob& knob) const {
 
 std::vector<DesignPoint> points_of(const Sweep& sweep) {
   std::vector<std::string_view> names;
-  for (const Knob& knob : c_knobs) names.emplace_back(knob.name);
+  for (const Knob& knob : knobs()) names.emplace_back(knob.name);
   sweep.allow(names);
   if (!sweep.has("method")) sweep.fail("method", "is missing");
   std::vector<DesignPoint> points(1);
-  for (const Knob& knob : c_knobs) sweep.multiply(points, knob);
+  for (const Knob& knob : knobs()) sweep.multiply(points, knob);
+  for (const DrawKnob& knob : draw_knobs())
+    if (sweep.has(knob.name) &&
+        std::ranges::any_of(points, [&](const Point& p) { return belongs(knob, p); }) &&
+        std::ranges::none_of(points, [&](const Point& p) { return applies(knob, p); }))
+      sweep.fail(knob.name, fmt::format("goes with {}", knob.needs));
   for (const DesignPoint& p : points) {
+    if (p.own_tables && !p.hardware.tables) sweep.fail("own_tables", "is only allowed with cosine");
     if (!p.words.angle_bits) continue;
     const words::CosineSize usual =
         p.preset == Preset::exact ? words::c_exact_cosine_size : words::c_published_cosine_size;
-    const int address = p.tables.value_or(usual).address_bits;
+    const int address = p.hardware.tables.value_or(usual).address_bits;
     if (*p.words.angle_bits < address)
       sweep.fail("angle_bits", fmt::format("must be {} at least, the table's address", address));
   }
@@ -263,6 +257,7 @@ std::vector<DesignPoint> points_of(const Sweep& sweep) {
 }  // namespace
 
 std::span<const Knob> knobs() {
+  static const std::vector<Knob> c_knobs = all_knobs();
   return c_knobs;
 }
 
@@ -270,8 +265,8 @@ std::string text_of(const Knob& knob, const DesignPoint& point) {
   return knob.applies(point) ? knob.text(point) : std::string();
 }
 
-bool DesignPoint::has_threshold() const {
-  return method == Method::adaptive || (has_ends() && ends == SpanEnds::on_surface);
+std::string text_of(std::string_view knob, const DesignPoint& point) {
+  return text_of(*std::ranges::find(knobs(), knob, &Knob::name), point);
 }
 
 std::string DesignPoint::picture() const {
@@ -286,19 +281,19 @@ std::string DesignPoint::picture() const {
 std::string DesignPoint::design() const {
   std::string text = to_string(method);
   if (in_hardware(method)) text += fmt::format(" {}", to_string(preset));
-  if (method == Method::spherical && tables)
-    text += fmt::format(" {}{}", to_string(*tables), own_tables ? " own" : "");
-  if (words.angle_bits) text += fmt::format(" angle {}", *words.angle_bits);
-  if (words.fraction_bits) text += fmt::format(" fraction {}", *words.fraction_bits);
-  if (words.seed_bits) text += fmt::format(" seed {}", *words.seed_bits);
-  if (words.newton) text += *words.newton ? " with Newton" : " without Newton";
-  if (is_processors(*this) && form == ProcessorForm::folded) text += " folded";
-  if (objects > 0) text += fmt::format(" objects {}", objects);
-  if (filtered()) text += fmt::format(" subpixels {}", subpixels);
-  if (method == Method::adaptive && test != HighlightTest::conservative)
-    text += fmt::format(" {}", to_string(test));
-  if (has_ends() && ends != SpanEnds::on_surface) text += fmt::format(" {}", to_string(ends));
-  if (has_threshold()) text += fmt::format(", threshold {:g}", threshold);
+  std::string lengths = own_tables ? " own" : "";
+  for (const tables::WordLength& length : tables::c_word_lengths)
+    if (const auto& bits = words.*length.bits) lengths += fmt::format(" {} {}", length.in_names, *bits);
+  if (words.newton) lengths += *words.newton ? " with Newton" : " without Newton";
+  for (const DrawKnob& knob : draw_knobs()) {
+    if (knob.text != nullptr && applies(knob, *this)) {
+      const std::string value = knob.text(hardware, host);
+      if (knob.always_named || value != knob.text({}, {}))
+        text += fmt::format(fmt::runtime(knob.in_names), value);
+    }
+    // The other word lengths follow the size of the tables.
+    if (knob.name == std::string_view("cosine")) text += lengths;
+  }
   return text;
 }
 
@@ -308,34 +303,23 @@ std::string DesignPoint::name() const {
 
 std::string DesignPoint::host_work() const {
   DesignPoint same = *this;
-  if (!own_tables) same.tables.reset();
-  same.form = ProcessorForm::unrolled;
+  if (!own_tables) same.hardware.tables.reset();
+  same.hardware.form.reset();
   return same.name();
 }
 
 PlanRequest DesignPoint::plan() const {
-  PlanRequest request;
+  PlanRequest request = hardware;
   request.preset = preset;
-  if (method == Method::spherical) {
-    request.shader = Shader::spherical;
-    request.tables = tables;
-  } else if (method == Method::planes) {
-    request.degree = 1;
-  } else if (is_processors(*this)) {
-    request.shader = Shader::processors;
-    request.form = form;
-    request.objects = objects;
-    request.subpixels = subpixels;
-  }
+  if (is_spherical(*this)) request.shader = Shader::spherical;
+  if (is_processors(*this)) request.shader = Shader::processors;
+  if (method == Method::planes) request.degree = 1;
   return request;
 }
 
 SetupOptions DesignPoint::setup() const {
-  SetupOptions options;
-  options.quadratic.test = method == Method::adaptive ? test : HighlightTest::none;
-  options.quadratic.threshold = threshold;
-  options.spherical.ends = ends;
-  options.spherical.threshold = threshold;
+  SetupOptions options = host;
+  if (method != Method::adaptive) options.quadratic.test = HighlightTest::none;
   options.processors.normalize = method == Method::processors_2;
   return options;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,16 +47,12 @@ constexpr bool is_drawn(Method method) {
 
 struct DesignPoint {
   Method method = Method::quadratic;
-  Preset preset = Preset::exact;                 ///< of hardware methods
-  std::optional<words::CosineSize> tables;       ///< of spherical; std::nullopt: the preset's tables
-  bool own_tables = false;                       ///< of spherical in preset exact; then `tables` has a value
-  tables::WordLengths words{};                   ///< of the method; std::nullopt: the preset's lengths
-  ProcessorForm form = ProcessorForm::unrolled;  ///< of processors methods
-  unsigned objects = 0;                          ///< of processors methods, as PlanRequest::objects
-  unsigned subpixels = 1;                        ///< of points with `objects`, as PlanRequest::subpixels
-  HighlightTest test = HighlightTest::conservative;  ///< of adaptive
-  SpanEnds ends = SpanEnds::on_surface;              ///< of spherical in preset exact
-  double threshold = 2.0;          ///< colour steps; of adaptive, and of spherical with ends on the surface
+  Preset preset = Preset::exact;  ///< of hardware methods
+  /// The knobs of draw_knobs(); plan() and setup() add what method and preset decide.
+  PlanRequest hardware{};
+  SetupOptions host{};
+  bool own_tables = false;         ///< of spherical in preset exact; then hardware.tables has a value
+  tables::WordLengths words{};     ///< of the method; std::nullopt: the preset's lengths
   double tessellation = 1.0;       ///< relative to the scene's own meshes, as for load_scene
   std::optional<double> exponent;  ///< of every material; std::nullopt: the scene's exponents
   FrameSize size{320, 240};
@@ -73,11 +70,10 @@ struct DesignPoint {
   /// million instructions).
   std::string host_work() const;
   /// The picture and its reference are filtered.
-  bool filtered() const { return words::has_filter(static_cast<int>(subpixels)); }
+  bool filtered() const { return words::has_filter(static_cast<int>(hardware.subpixels)); }
   bool in_tiles() const { return size.width > tile.width || size.height > tile.height; }
   /// The tiles of the frame; one tile if the frame is not larger than a tile.
   std::vector<Tile> tiles() const { return tiles_of(size, tile); }
-  bool has_threshold() const;
   bool has_ends() const { return method == Method::spherical && preset == Preset::exact; }
   PlanRequest plan() const;
   SetupOptions setup() const;
@@ -89,16 +85,17 @@ class SpaceValue;  // of a space file, with its place
 struct Knob {
   const char* name;
   bool is_picture;  ///< changes scene or picture, not the design
-  bool (*applies)(const DesignPoint& point);
+  std::function<bool(const DesignPoint& point)> applies;
   /// Sets the parameter. Throws Failure with file and line if the value is not one of its values.
-  void (*read)(const SpaceValue& value, DesignPoint& point);
+  std::function<void(const SpaceValue& value, DesignPoint& point)> read;
   /// Text of its value; empty: the default of the method.
-  std::string (*text)(const DesignPoint& point);
+  std::function<std::string(const DesignPoint& point)> text;
 };
 /// All parameters, in the order in which spaces multiply them.
 std::span<const Knob> knobs();
 /// The value of a parameter; empty if it does not apply to the point, or is the default.
 std::string text_of(const Knob& knob, const DesignPoint& point);
+std::string text_of(std::string_view knob, const DesignPoint& point);
 
 /// Remove duplicates and put points of the same picture next to each other, because they share one reference.
 std::vector<DesignPoint> ordered(std::vector<DesignPoint> points);

@@ -135,38 +135,44 @@ TEST_F(SpaceTest, ErrorsNameFileAndLine) {
       {"quadratic", "size = \"large\"", ":3: size takes"},
       {"quadratic", "tile = \"15x100\"",
        ":3: tile takes WIDTHxHEIGHT in pixels, such as 640x480, each 16 to 4096"},
-      {"adaptive", "highlight_test = \"none\"", ":3: highlight_test takes conservative, centroid"},
-      {"spherical", "span_ends = \"edges\"", ":3: span_ends takes surface, slerp"},
-      {"spherical", "cosine = 9", ":3: cosine takes ADDRESSxDATA bits of the cosine tables, such as 9x8"},
-      {"spherical", "cosine = \"9x13\"", ":3: cosine takes"},
+      {"adaptive", "highlight_test = \"most\"",
+       ":3: highlight_test: 'most' is not one of its values; take none or centroid"},
+      {"spherical", "span_ends = \"edges\"",
+       ":3: span_ends: 'edges' is not one of its values; take surface or slerp"},
+      {"spherical", "cosine = 9",
+       ":3: cosine: '9' is not ADDRESSxDATA bits of the cosine tables, such as 9x8"},
+      {"spherical", "cosine = \"9x13\"", ":3: cosine: '9x13' is not"},
       {"spherical", "own_tables = true", ":3: own_tables is only allowed with cosine"},
       {"spherical", "own_tables = 1", ":3: own_tables takes true or false"},
       {"spherical", "cosine = \"10x8\"\nangle_bits = 9", ":4: angle_bits must be 10 at least"},
       {"processors-2", "preset = \"published\"\nnewton = true", ":4: newton is only allowed in preset exact"},
-      {"processors-2", "objects = 8\nsubpixels = 9", ":4: subpixels takes 1, 4 or 16"},
-      {"processors-2", "subpixels = 4", ":3: subpixels above 1 is only allowed with objects"}};
+      {"processors-2", "objects = 8\nsubpixels = 9", ":4: subpixels: 9 is not 1, 4 or 16"},
+      {"processors-2", "subpixels = 4", ":3: subpixels goes with objects above 0"}};
   for (const auto& [method, keys, expected] : cases)
     expect_error(fmt::format("[[sweep]]\nmethod = \"{}\"\n{}\n", method, keys), expected);
 }
 
 TEST(DesignPoint, NameContainsAllParameters) {
   DesignPoint point{
-      .method = Method::spherical, .tables = words::CosineSize{9, 8}, .threshold = 4.0, .exponent = 50.0};
+      .method = Method::spherical, .hardware = {.tables = words::CosineSize{9, 8}}, .exponent = 50.0};
+  point.host.quadratic.threshold = point.host.spherical.threshold = 4.0;
   EXPECT_EQ(point.name(), "spherical exact 9x8, threshold 4, 320x240, exponent 50");
   point.own_tables = true;
   EXPECT_EQ(point.name(), "spherical exact 9x8 own, threshold 4, 320x240, exponent 50");
   point.own_tables = false;
   point.preset = Preset::published;
   EXPECT_EQ(point.name(), "spherical published 9x8, 320x240, exponent 50");
-  point = {.method = Method::adaptive, .preset = Preset::published, .test = HighlightTest::centroid};
+  point = {.method = Method::adaptive,
+           .preset = Preset::published,
+           .host = {.quadratic = {.test = HighlightTest::centroid}}};
   EXPECT_EQ(point.name(), "adaptive published centroid, threshold 2, 320x240");
   EXPECT_EQ(point.setup().quadratic.test, HighlightTest::centroid);
-  point = {.method = Method::spherical, .ends = SpanEnds::slerped_along_edges};
+  point = {.method = Method::spherical, .host = {.spherical = {.ends = SpanEnds::slerped_along_edges}}};
   EXPECT_EQ(point.name(), "spherical exact slerp, 320x240");
   EXPECT_EQ(point.setup().spherical.ends, SpanEnds::slerped_along_edges);
-  point = {.method = Method::processors_2, .form = ProcessorForm::folded, .tessellation = 0.5};
+  point = {.method = Method::processors_2, .hardware = {.form = ProcessorForm::folded}, .tessellation = 0.5};
   EXPECT_EQ(point.name(), "processors-2 exact folded, 320x240, tessellation 0.5");
-  point = {.method = Method::processors_2, .objects = 8, .subpixels = 16};
+  point = {.method = Method::processors_2, .hardware = {.objects = 8, .subpixels = 16}};
   EXPECT_EQ(point.name(), "processors-2 exact objects 8 subpixels 16, 320x240, filtered");
 }
 

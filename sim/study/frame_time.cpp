@@ -28,7 +28,7 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
           {"design", p.design()},
           {"method", to_string(p.method)},
           {"preset", in_hardware(p.method) ? to_string(p.preset) : ""},
-          {"form", p.plan().form ? to_string(p.form) : ""},
+          {"form", text_of("form", p)},
           {"tessellation", fmt::format("{:g}", p.tessellation)},
           {"exponent", p.exponent ? fmt::format("{:g}", *p.exponent) : ""},
           {"width", fmt::format("{}", p.size.width)},
@@ -47,10 +47,10 @@ TimeLine line_of(const Provenance& provenance, const Record& record, const Frame
           {"largest_error", fmt::format("{}", m.picture.max_lsb)},
           {"perceived_pixels", fmt::format("{}", m.perceived)},
           {"clock_mhz", time.mhz ? fmt::format("{:.1f}", *time.mhz) : ""},
-          {"highlight_test", p.method == Method::adaptive ? to_string(p.test) : ""},
-          {"span_ends", p.has_ends() ? to_string(p.ends) : ""},
+          {"highlight_test", text_of("highlight_test", p)},
+          {"span_ends", text_of("span_ends", p)},
           {"device", time.device},
-          {"subpixels", p.objects > 0 ? fmt::format("{}", p.subpixels) : ""}};
+          {"subpixels", text_of("subpixels", p)}};
 }
 
 constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";

@@ -20,10 +20,10 @@ namespace {
 
 // The size of the point's tables if they are not compiled in.
 std::optional<tables::CosineSize> made_size(const DesignPoint& point) {
-  if (point.method != Method::spherical || !point.tables) return std::nullopt;
-  if (!point.own_tables && tables::compiled_in(point.preset == Preset::exact, *point.tables))
+  if (point.method != Method::spherical || !point.hardware.tables) return std::nullopt;
+  if (!point.own_tables && tables::compiled_in(point.preset == Preset::exact, *point.hardware.tables))
     return std::nullopt;
-  return point.tables;
+  return point.hardware.tables;
 }
 
 std::vector<double> own_exponents_of(const DesignPoint& point, const Scene& scene) {

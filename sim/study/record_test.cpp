@@ -126,7 +126,7 @@ TEST_F(RecordsTest, AreFoundByTheirProvenanceOnly) {
     EXPECT_FALSE(find(other, record.point)) << other.*part;
   }
   DesignPoint other = record.point;
-  other.threshold = 4.0;
+  other.host.quadratic.threshold = 4.0;
   EXPECT_FALSE(find(known, other));
   write(records.file(record.point), "{}");
   EXPECT_FALSE(find(known, record.point));

@@ -53,7 +53,7 @@ using Column = std::pair<std::string, std::string>;  // name and value
 using Line = std::vector<Column>;
 
 Column knob_of(const DesignPoint& point, std::string_view name) {
-  return {std::string(name), text_of(*std::ranges::find(knobs(), name, &Knob::name), point)};
+  return {std::string(name), text_of(name, point)};
 }
 
 Line line_of(const Provenance& provenance, const Record& record, const synth::Cost* known,
@@ -73,8 +73,8 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
                {"point", quoted(p.name())},
                knob_of(p, "method"),
                knob_of(p, "preset"),
-               {"address_bits", text_of(p.tables, &words::CosineSize::address_bits)},
-               {"data_bits", text_of(p.tables, &words::CosineSize::data_bits)},
+               {"address_bits", text_of(p.hardware.tables, &words::CosineSize::address_bits)},
+               {"data_bits", text_of(p.hardware.tables, &words::CosineSize::data_bits)},
                knob_of(p, "form"),
                knob_of(p, "threshold"),
                knob_of(p, "tessellation"),
@@ -107,7 +107,9 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
                      knob_of(p, "fraction_bits"),
                      knob_of(p, "seed_bits"),
                      knob_of(p, "newton"),
-                     {"tiles", text_of(p.tiles().size())}};
+                     {"tiles", text_of(p.tiles().size())},
+                     knob_of(p, "highlight_test"),
+                     knob_of(p, "span_ends")};
   line.insert(line.end(), rest.begin(), rest.end());
   // The other parameters. Size, tile and cosine have columns of their own.
   for (const Knob& knob : knobs())

@@ -488,9 +488,8 @@ std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) 
   Format &entry = format("root_entry"), &root = format("root");
   // Without a Newton step the root is the table's entry.
   const bool newton = words.newton.value_or(root.fraction_bits > entry.fraction_bits);
-  if (words.angle_bits) format("angle").fraction_bits = *words.angle_bits;
-  if (words.fraction_bits) format("intensity").fraction_bits = *words.fraction_bits;
-  if (words.seed_bits) entry.fraction_bits = *words.seed_bits;
+  for (const WordLength& length : c_word_lengths)
+    if (const auto& bits = words.*length.bits) format(length.format).fraction_bits = *bits;
   if (!newton) static_cast<Number&>(root) = entry;
   return presets;
 }

@@ -10,9 +10,8 @@ namespace halfway::tables {
 
 std::string WordLengths::name() const {
   std::vector<std::string> parts;
-  if (angle_bits) parts.push_back(fmt::format("angle{}", *angle_bits));
-  if (fraction_bits) parts.push_back(fmt::format("fraction{}", *fraction_bits));
-  if (seed_bits) parts.push_back(fmt::format("seed{}", *seed_bits));
+  for (const WordLength& length : c_word_lengths)
+    if (const auto& bits = this->*length.bits) parts.push_back(fmt::format("{}{}", length.in_names, *bits));
   if (newton) parts.emplace_back(*newton ? "newton" : "plain");
   return fmt::format("{}", fmt::join(parts, "-"));
 }

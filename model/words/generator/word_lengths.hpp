@@ -15,7 +15,7 @@ struct WordLengths {
   std::optional<int> seed_bits;
   std::optional<bool> newton;  ///< preset exact: true if a Newton step follows the table
 
-  bool any() const { return angle_bits || fraction_bits || seed_bits || newton; }
+  bool any() const { return *this != WordLengths{}; }
   /// For example `angle16`, `seed8-plain`. Empty if nothing is changed.
   std::string name() const;
   friend bool operator==(const WordLengths&, const WordLengths&) = default;
@@ -23,10 +23,17 @@ struct WordLengths {
 
 inline constexpr int c_seed_cells = 3;
 
-/// Limits of the formats' C++ and VHDL.
-struct Range {
-  int least, most;
+/// A word length: the fraction bits of a format. It is a key of spaces and a part of names.
+struct WordLength {
+  const char* key;
+  std::optional<int> WordLengths::* bits;
+  int least, most;  ///< limits of the formats' C++ and VHDL
+  const char *shader, *format, *in_names;
 };
-inline constexpr Range c_angle_range{4, 30}, c_fraction_range{2, 40}, c_seed_range{5, 14};
+inline constexpr WordLength c_word_lengths[] = {
+    {"angle_bits", &WordLengths::angle_bits, 4, 30, "spherical", "angle", "angle"},
+    {"fraction_bits", &WordLengths::fraction_bits, 2, 40, "quadratic", "intensity", "fraction"},
+    {"seed_bits", &WordLengths::seed_bits, 5, 14, "processors", "root_entry", "seed"},
+};
 
 }  // namespace halfway::tables

@@ -115,7 +115,7 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
     // Pipelines of preset exact are much too large for the HX8K, and so are object processors.
     if (&sections.family == &c_ice40)
       std::erase_if(points, [](const study::DesignPoint& point) {
-        return point.objects > 0 ||
+        return point.hardware.objects > 0 ||
                (point.preset == Preset::exact &&
                 (point.method == study::Method::processors_1 || point.method == study::Method::processors_2));
       });
