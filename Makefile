@@ -60,6 +60,7 @@ about_AGAIN := evidence 1: measure pages of this commit, too
 about_JOBS := sim,view,live,board-sim,core-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
 
 variables := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
+flags := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/--\L\1/p' $(firstword $(MAKEFILE_LIST)) | tr _ -)
 comma := ,
 users_of = $(subst $(comma), ,$(firstword $(about_$(1))))
 text_of = $(wordlist 2,$(words $(about_$(1))),$(about_$(1)))
@@ -83,6 +84,10 @@ jobs := $${JOBS:-$$(nproc)}
 option = $${$(1):+$(2)="$$$(1)"}
 # Passes a flag if its variable is neither empty nor 0.
 flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
+# The options of a target's command: its variables are options of the same names, and flags if their texts begin with 1:.
+options = $(foreach name,$(filter-out SCENE FULL JOBS,$(variables)),$(if $(filter $@,$(call users_of,$(name))),$(call \
+  $(if $(filter 1:,$(word 2,$(about_$(name)))),flag,option),$(name),$(flag_of_$(name)))))
+$(foreach name,$(variables),$(eval flag_of_$(name) := $(firstword $(flags)))$(eval flags := $(wordlist 2,99,$(flags))))
 # Only one set-up, configuration or build at a time in this checkout: two runs of ninja would overwrite each other's
 # files. The commands do not inherit the lock (-o): a background process would keep it after the end of make.
 lock = mkdir -p build && { flock -n build/make.lock true || echo 'waiting for another make in this checkout' >&2; } \
@@ -96,12 +101,6 @@ measure = set -- $(2); if [ $$\# -gt 0 ]; then targets=$$(scripts/evidence.sh pr
   scripts/evidence.sh run "$(1)" "$(jobs)" "$$@"; else $(lock) cmake --build build -j "$(jobs)" --target halfway_page && \
   targets=$$(scripts/evidence.sh targets "$(1)") && $(build_targets) && scripts/evidence.sh measure "$(1)" "$(jobs)"; fi
 scene := $${SCENE:+-- "$$SCENE"}
-run_options := $(call option,SHADER,--shader) $(call option,PRESET,--preset) $(call option,SIZE,--size) \
-  $(call option,DEGREE,--degree) $(call option,FORM,--form) $(call flag,ALL_EFFECTS,--all-effects) $(call option,LIGHTS,--lights) \
-  $(call option,OBJECTS,--objects) $(call option,SUBPIXELS,--subpixels)
-sim_options := $(run_options) $(call flag,OWN_TABLES,--own-tables) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) \
-  $(call option,OUT,--out)
-table_options := $(call option,PRESET,--preset) $(call option,COSINE,--cosine)
 
 .PHONY: help help-all $(sort $(foreach name,$(variables),$(call users_of,$(name)))) configure setup diagrams doctor format \
   check-format clean
@@ -125,46 +124,38 @@ help-all: ## all targets and variables
 	  '$(if $(filter JOBS,$(name)),every target that builds,$(call users_of,$(name)))') | expand -t 16
 
 sim: program ## draw scenes by golden model, GHDL and Verilator, compare, write frames
-	@build/halfway sim $(sim_options) $(scene)
+	@build/halfway sim $(options) $(scene)
 
 view: program ## draw one scene from all sides, by the RTL in Verilator or lanes (SCENE; VIDEO=turn.mp4, TERMINAL=1)
-	@build/halfway view $(run_options) $(call option,SIMULATOR,--simulator) $(call option,THREADS,--threads) $(call option,OUT,--out) \
-	  $(call option,FRAMES,--frames) $(call option,VIDEO,--video) $(call option,RATE,--rate) \
-	  $(call flag,TERMINAL,--terminal) $(scene)
+	@build/halfway view $(options) $(scene)
 
 live: program ## write a page in which the RTL draws, live in a browser: build/live/index.html
-	@build/halfway live $(call option,DEVICE,--device) $(call option,THREADS,--threads)
+	@build/halfway live $(options)
 
 board-sim: program ## draw two frames on the simulated board, from the pins to the picture on a monitor (SCENE)
-	@build/halfway board-sim $(call option,SIMULATOR,--simulator) $(call option,OUT,--out) $(scene)
+	@build/halfway board-sim $(options) $(scene)
 
 core-sim: program ## draw scenes by the whole core in Verilator: registers, driver, picture in a simulated memory (SCENE)
-	@build/halfway core-sim $(run_options) $(call option,THREADS,--threads) $(call option,OUT,--out) \
-	  $(call option,FORMAT,--format) $(call option,BUS,--bus) $(call option,LATENCY,--latency) $(scene)
+	@build/halfway core-sim $(options) $(scene)
 
 compare: program ## compare the stored results of make sim again
-	@build/halfway compare $(call option,SHADER,--shader) $(call flag,ALL_EFFECTS,--all-effects) \
-	  $(call option,OUT,--out) $(scene)
+	@build/halfway compare $(options) $(scene)
 
 why: program ## show one pixel stage by stage, in golden model and RTL (SCENE, PIXEL)
-	@build/halfway why $(run_options) $(call option,PIXEL,--pixel) $(call option,OUT,--out) $(scene)
+	@build/halfway why $(options) $(scene)
 
 plan: program ## list the hardware that a scene needs, with reasons (SCENE; MEASURE=1: cells and time)
-	@build/halfway plan $(run_options) $(call flag,MEASURE,--measure) $(call option,SIMULATOR,--simulator) \
-	  $(call option,OBJECTS_PER_PIXEL,--objects-per-pixel) $(call option,RATE,--rate) $(call option,DEVICE,--device) $(call option,THREADS,--threads) $(scene)
+	@build/halfway plan $(options) $(scene)
 
 verilog: program ## write the hardware of a scene as Verilog in build/verilog/KEY (SCENE; AXI=1: with AXI4-Stream ports; CORE=1: the whole core)
-	@build/halfway verilog $(run_options) $(call flag,AXI,--axi) $(call flag,CORE,--core) $(call option,FORMAT,--format) $(call option,BUS,--bus) $(call option,MULTIPLIER_BITS,--multiplier-bits) $(call option,OUT,--out) $(scene)
+	@build/halfway verilog $(options) $(scene)
 
 savings: program ## measure the tables of docs/effects.md again (minutes)
-	@build/halfway savings $(call option,THREADS,--threads)
+	@build/halfway savings $(options)
 
 study: studies ## measure accuracy and time over the design space (FULL=1; SCENE; queries: ERROR, PSNR, TIME; EXECUTOR=slurm)
 	@case "$${SPACE:+$${FULL#0}}" in ('') ;; (*) echo 'study: FULL is a space, too; give it or SPACE' >&2; exit 2 ;; esac
-	@build/halfway study $${SPACE:+--space "$$SPACE"} $(call flag,FULL,--space sim/study/spaces/full.toml) $(call option,SIZE,--size) $(call option,TILE,--tile) $(call option,ERROR,--error) \
-	  $(call option,PSNR,--psnr) $(call option,TIME,--time) $(call option,CLOCK,--clock) $(call flag,PLACE,--place) $(call option,DEVICE,--device) \
-	  $(call option,EXECUTOR,--executor) $(call option,PARTS,--parts) $(call option,THREADS,--threads) \
-	  $(call option,OUT,--out) $(scene)
+	@build/halfway study $(call flag,FULL,--space sim/study/spaces/full.toml) $(options) $(scene)
 
 figures: configure ## make evidence PAGE=figures: draw and measure the papers' figures and tables again
 	@$(call measure,figures)
@@ -185,10 +176,10 @@ gallery: configure ## make evidence PAGE=gallery: draw the pictures and plots of
 	@export threads="$$THREADS"; $(call measure,gallery)
 
 tables: generator ## write the generated ROMs and formats
-	@build/halfway_generator tables $(table_options)
+	@build/halfway_generator tables $(options)
 
 check-tables: generator ## fail if make tables would change anything
-	@build/halfway_generator tables --check $(table_options)
+	@build/halfway_generator tables --check $(options)
 
 test: build ## test each feature, entity and shader, if not tested on these files before (TESTS: only some, of all tests)
 	@unset MAKEFLAGS; flock -o build/test.lock scripts/test.sh quick "$(jobs)" "$$TESTS"

@@ -1,11 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
-# Tests that the Makefile refuses unused variables, and that its table of variables agrees with its recipes.
+# Tests that the Makefile refuses unused variables, and that its table of variables agrees with its recipes and with the
+# options of the program.
 #
-#   variables.sh MAKEFILE WORK_FOLDER
+#   variables.sh MAKEFILE WORK_FOLDER PROGRAM
 set -u
 makefile=$(realpath "$1")
 work=$2
+program=$3
 unset MAKEFLAGS MFLAGS MAKELEVEL
 export LC_ALL=C
 rm -rf "$work"
@@ -37,10 +39,18 @@ for target in $(targets Makefile); do
     fail "make $target: its recipe uses $(used Makefile "$target" | xargs), its table says $(taken Makefile "$target" | xargs)"
 done
 
+for target in sim view live board-sim core-sim compare why plan verilog savings study; do
+  help=$("$program" "$target" --help)
+  for name in $(taken Makefile "$target" | grep -vxE 'SCENE|FULL|JOBS'); do
+    option=--$(echo "$name" | tr A-Z_ a-z-)
+    [[ $help == *" $option "* ]] || fail "halfway $target has no $option for $name"
+  done
+done
+
 # The check above must detect a variable that is missing in the table, and one too many.
-sed 's/^about_PIXEL := why /about_PIXEL := plan /' Makefile >lacking.mk
+sed 's/^about_TRIANGLES := search /about_TRIANGLES := plan /' Makefile >lacking.mk
 sed 's/^about_PIXEL := why /about_PIXEL := why,search /' Makefile >surplus.mk
-! agrees lacking.mk why || fail "a variable that the table lacks is not found"
+! agrees lacking.mk search || fail "a variable that the table lacks is not found"
 ! agrees surplus.mk search || fail "a variable too many in the table is not found"
 
 # Expected refusal: exit code 2, a complete message, and no other action.
