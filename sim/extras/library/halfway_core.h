@@ -64,8 +64,8 @@ halfway_core* halfway_open_core(const halfway_core_access* access, const halfway
 /* Ends the frame that is drawn, and disables the core. */
 void halfway_close_core(halfway_core* core);
 
-/* Refuses hardware whose vectors the core cannot take. The exponents of own tables cannot be checked: the core's
- * must be those of the hardware. */
+/* Refuses hardware whose vectors the core cannot take. The exponents of own tables cannot be checked: the
+ * core's must be those of the hardware. */
 int halfway_check_core(const halfway_core* core, const halfway_hardware* hardware, halfway_error* error);
 
 typedef struct halfway_core_frame {

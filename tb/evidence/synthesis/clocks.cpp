@@ -174,8 +174,8 @@ StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options,
     const std::lock_guard lock(mutex);
     seeds = seeds_of(options, placed, bench.stored);
     const auto found = bench.stored.find(placed.design.name);
-    const bool is_current = found != bench.stored.end() &&
-                            is_placed(found->second, bench.synthesizer.versions(), netlist, seeds);
+    const bool is_current =
+        found != bench.stored.end() && is_placed(found->second, bench.synthesizer.versions(), netlist, seeds);
     if (is_current && !(options.again && is_selected)) return found->second;
     if (!is_selected) {
       StoredClock old = found == bench.stored.end() ? StoredClock{.path = "not placed"} : found->second;
