@@ -14,6 +14,7 @@
 #include "sim/engines/verilator/verilator_simulator.hpp"
 #include "sim/files/init_file.hpp"
 #include "sim/files/trace.hpp"
+#include "sim/os/file.hpp"
 #include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
@@ -159,7 +160,8 @@ class Simulators : public FolderTest {
     replace(text, "@DELAY@", parts.delay);
     write("tree/rtl/formats_pkg.vhd", c_package);
     write("tree/rtl/shaders/quadratic_shader.vhd", text);
-    write("tree/rtl/files.f", "formats_pkg.vhd\nshaders/quadratic_shader.vhd\n");
+    write("tree/rtl/cosine_pkg.vhd", must(read_file(c_source_folder / "rtl/tables/cosine_pkg.vhd")));
+    write("tree/rtl/files.f", "formats_pkg.vhd\ncosine_pkg.vhd\nshaders/quadratic_shader.vhd\n");
   }
 
   void add_triangle(unsigned count) {
