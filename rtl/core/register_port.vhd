@@ -1,8 +1,9 @@
 -- SPDX-License-Identifier: Apache-2.0
 --
 -- Purpose     AXI4-Lite for a register file: accesses one after the other, each with one clock at the registers.
--- Contract    s_axi: AXI4-Lite; what waits does not change (a simulation stops otherwise). Address and data of
---             a write come in any order. All outputs depend on registers only. awprot and arprot are not needed. An access with an error is answered with SLVERR.
+-- Contract    s_axi: AXI4-Lite; what waits does not change (a simulation stops otherwise). Address and data of a write come
+--             in any order. All outputs depend on registers only. awprot and arprot are not needed. An access with an error
+--             is answered with SLVERR.
 --             write = '1' for one clock per write: write_error is its answer in this clock. read = '1' for one clock per
 --             read: read_data and read_error are its answer in this clock. Address and data are stable from then until
 --             the answer is taken. A write and a read may come in the same clock.

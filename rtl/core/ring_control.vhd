@@ -8,8 +8,9 @@
 --                                      +-----------------------------------------------+
 --
 -- Contract    ring_head, ring_tail: numbers of commands written and done. A command is taken if they differ while
---             enable = '1'; at most 2**ring_size may wait (a simulation stops otherwise). ring_tail is counted up
---             in the clock after command_done = '1'. faults, in this clock: bits of register faults. swap = '1' in this clock: the picture at colour_base is the one to show.
+--             enable = '1'; at most 2**ring_size may wait (a simulation stops otherwise). ring_tail is counted up in the clock
+--             after command_done = '1'. faults, in this clock: bits of register faults. swap = '1' in this clock: the picture
+--             at colour_base is the one to show.
 --             abort = '1' ends the frame that is drawn.
 --             read: the ports of burst_reader; words: its stream. packets: words for words_to_fragments, valid/ready. A word
 --             that waits is taken back only together with shader_reset = '1'. shader_reset = '1' before each frame: it

@@ -9,10 +9,10 @@
 --                                +--------------> pixel_store: depth, colour <----+--> keep bits --+
 --
 -- Contract    start = '1' while busy = '0' begins a frame: the clear, if frame.clear = '1', then the fragments up to tlast.
---             frame does not change from start to done (a simulation stops otherwise). done = '1' for one clock:
---             all writes of the frame have their responses. fault = '1': since start a response had an error, or tuser was not 0 in the transfer with tlast.
---             It stays until the next start. A frame with errors ends as any other. The data of a read with an error are
---             compared; its fragments are kept or not.
+--             frame does not change from start to done (a simulation stops otherwise). done = '1' for one clock: all writes
+--             of the frame have their responses. fault = '1': since start a response had an error, or tuser was not 0 in the
+--             transfer with tlast. It stays until the next start. A frame with errors ends as any other. The data of a read
+--             with an error are compared; its fragments are kept or not.
 --             The sum of pixels from start to done is the number of fragments that are kept; the clear is not counted.
 --             s_axis: fragments as of axi_adapter, and a cause of a fault as tuser in the transfer with tlast. What waits
 --             does not change (a simulation stops otherwise).
