@@ -25,7 +25,7 @@
 namespace halfway::proofs {
 namespace {
 
-constexpr std::size_t c_quick_faults = 4;  // per proof; all faults of a walker take longer than all proofs
+constexpr std::size_t c_few_faults = 4;  // of each proof on the page; all take longer than all proofs
 constexpr unsigned c_threads = 2;
 
 struct Options {
@@ -41,9 +41,9 @@ struct Options {
 // Keeps faults at equal distances.
 void keep_few(std::vector<Fault>& faults) {
   const std::size_t count = faults.size();
-  if (count <= c_quick_faults) return;
-  for (std::size_t i = 0; i < c_quick_faults; ++i) faults[i] = faults[i * count / c_quick_faults];
-  faults.resize(c_quick_faults);
+  if (count <= c_few_faults) return;
+  for (std::size_t i = 0; i < c_few_faults; ++i) faults[i] = faults[i * count / c_few_faults];
+  faults.resize(c_few_faults);
 }
 
 bool is_selected(const Options& options, const Proof& proof) {
@@ -57,7 +57,7 @@ std::vector<Proof> select_proofs(const Options& options, std::vector<Proof> proo
     throw Failure{bad_input(fmt::format("{}: no proof has this in its name", options.name))};
   for (Proof& proof : proofs) {
     if (!options.faults) proof.faults.clear();
-    if (options.quick) keep_few(proof.faults);
+    if (options.evidence) keep_few(proof.faults);
   }
   return proofs;
 }
@@ -221,12 +221,13 @@ int main(int argc, char** argv) {
                "halfway_proofs"};
   CLI::Option* quick =
       app.add_flag("--quick", options.quick,
-                   fmt::format("only proofs that take a few seconds, each with {} faults at most",
-                               proofs::c_quick_faults));
+                   "only proofs that take a few seconds");
   CLI::Option* slow =
       app.add_flag("--slow", options.slow, "only the proofs that --quick leaves out")->excludes(quick);
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
-  app.add_flag("--evidence", options.evidence, "measure the rows that are missing, and write the page")
+  app.add_flag("--evidence", options.evidence,
+               fmt::format("measure the rows that are missing, with {} faults of a proof at most, and write the page",
+                           proofs::c_few_faults))
       ->excludes(quick, slow, no_faults);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();
