@@ -12,7 +12,7 @@
 
 #include "sim/cost/families.hpp"
 #include "sim/driver/engine.hpp"
-#include "sim/os/program.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/run/draw_request.hpp"
 
 namespace halfway::cli {

@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "sim/driver/stages.hpp"
+#include "sim/driver/shader_stages.hpp"
 #include "words/processors_layout.hpp"
 #include "words/quadratic_layout.hpp"
 #include "words/spherical_layout.hpp"

@@ -14,7 +14,7 @@
 #include "golden_run/golden_run.hpp"
 #include "plan/hardware_key.hpp"
 #include "sim/driver/given_fields.hpp"
-#include "sim/driver/stages.hpp"
+#include "sim/driver/shader_stages.hpp"
 #include "sim/driver/vectors_around.hpp"
 
 namespace halfway {

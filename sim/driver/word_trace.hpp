@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "sim/driver/stages.hpp"
+#include "sim/driver/shader_stages.hpp"
 
 namespace halfway {
 

@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "sim/generator/generated_files.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 
 int main(int argc, char** argv) {
   using namespace halfway;

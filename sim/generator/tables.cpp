@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "sim/generator/generated_files.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/program.hpp"
 
 namespace halfway::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "plan/hardware_key.hpp"
-#include "sim/driver/stages.hpp"
+#include "sim/driver/shader_stages.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/files/init_file.hpp"
 

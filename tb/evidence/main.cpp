@@ -14,9 +14,9 @@
 
 #include "evidence/measured.hpp"
 #include "evidence/study_table.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 
 namespace halfway::page {
 namespace {

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "sim/os/command_line.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 
 namespace halfway::page {
 namespace {

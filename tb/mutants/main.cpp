@@ -18,8 +18,8 @@
 #include "mutants/replay.hpp"
 #include "mutants/rows.hpp"
 #include "mutants/source_faults.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
 

@@ -16,8 +16,8 @@
 #include "evidence/measured.hpp"
 #include "proof_files.hpp"
 #include "prover.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
 #include "text.hpp"
@@ -219,15 +219,14 @@ int main(int argc, char** argv) {
   proofs::Options options;
   CLI::App app{"Proves properties of the RTL, and checks that each proof refutes its faults",
                "halfway_proofs"};
-  CLI::Option* quick =
-      app.add_flag("--quick", options.quick,
-                   "only proofs that take a few seconds");
+  CLI::Option* quick = app.add_flag("--quick", options.quick, "only proofs that take a few seconds");
   CLI::Option* slow =
       app.add_flag("--slow", options.slow, "only the proofs that --quick leaves out")->excludes(quick);
   CLI::Option* no_faults = app.add_flag("--no-faults{false}", options.faults, "only the proofs");
   app.add_flag("--evidence", options.evidence,
-               fmt::format("measure the rows that are missing, with {} faults of a proof at most, and write the page",
-                           proofs::c_few_faults))
+               fmt::format(
+                   "measure the rows that are missing, with {} faults of a proof at most, and write the page",
+                   proofs::c_few_faults))
       ->excludes(quick, slow, no_faults);
   app.add_option("SOURCE", options.folders.source, "the project's root")->required();
   app.add_option("SCRATCH", options.folders.scratch, "folder for temporary files")->required();

@@ -14,9 +14,9 @@
 #include "sim/bench/program/bench.hpp"
 #include "sim/engines/ghdl/rtl_hash.hpp"
 #include "sim/files/template.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/machine.hpp"
-#include "sim/os/program.hpp"
 #include "sim/os/subprocess.hpp"
 
 namespace halfway {

@@ -14,9 +14,9 @@
 #include "sim/extras/library/halfway_core_registers.h"
 #include "sim/extras/library/objects.hpp"
 #include "sim/files/image.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 
 namespace halfway::core {
 namespace {

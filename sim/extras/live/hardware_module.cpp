@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/extras/live/hardware_module.hpp"
 
-#include "sim/driver/stages.hpp"
+#include "sim/driver/shader_stages.hpp"
 #include "sim/engines/verilator/shader_netlist.hpp"
 #include "sim/extras/lanes/lane_simulator.hpp"
 #include "sim/os/must.hpp"

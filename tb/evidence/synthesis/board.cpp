@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "pages.hpp"
+#include "measure.hpp"
 #include "sim/cost/bitstream.hpp"
 #include "sim/files/template.hpp"
 #include "sim/os/must.hpp"

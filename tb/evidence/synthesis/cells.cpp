@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "designs.hpp"
-#include "pages.hpp"
+#include "measure.hpp"
 #include "sim/cost/synthesis.hpp"
 
 namespace halfway::synth {

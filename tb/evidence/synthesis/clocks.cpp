@@ -6,7 +6,7 @@
 #include <string>
 
 #include "designs.hpp"
-#include "pages.hpp"
+#include "measure.hpp"
 #include "sim/cost/netlist_identity.hpp"
 #include "sim/cost/synthesis.hpp"
 #include "sim/os/must.hpp"

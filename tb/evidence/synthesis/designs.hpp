@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "pages.hpp"
+#include "measure.hpp"
 #include "sim/cost/design.hpp"
 
 namespace halfway::synth {

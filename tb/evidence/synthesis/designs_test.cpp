@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "evidence/thresholds.hpp"
-#include "pages.hpp"
+#include "measure.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway::synth {

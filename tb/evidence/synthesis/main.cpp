@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "pages.hpp"
-#include "sim/os/program.hpp"
+#include "measure.hpp"
+#include "sim/os/command_line.hpp"
 
 int main(int argc, char** argv) {
   using namespace halfway;

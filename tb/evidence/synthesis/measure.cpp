@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "measure.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cstdio>
 #include <mutex>
 
-#include "pages.hpp"
-#include "sim/os/program.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/threads.hpp"
 
 namespace halfway::synth {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "pages.hpp"
+#include "measure.hpp"
 #include "sim/files/template.hpp"
 #include "sim/os/must.hpp"
 

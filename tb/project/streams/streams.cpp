@@ -21,9 +21,9 @@
 #include "sim/files/init_file.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/files/trace.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/program.hpp"
 #include "sim/os/threads.hpp"
 
 namespace halfway {

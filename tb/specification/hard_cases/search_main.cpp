@@ -17,7 +17,7 @@
 
 #include "evidence/page.hpp"
 #include "sim/files/template.hpp"
-#include "sim/os/program.hpp"
+#include "sim/os/command_line.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/threads.hpp"
 #include "specification/hard_cases/search.hpp"

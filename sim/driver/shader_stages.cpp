@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/driver/stages.hpp"
+#include "sim/driver/shader_stages.hpp"
 
 #include <fmt/format.h>
 

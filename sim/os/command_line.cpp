@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/os/program.hpp"
+#include "sim/os/command_line.hpp"
 
 #include <fmt/format.h>
 
