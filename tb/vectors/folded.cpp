@@ -396,7 +396,7 @@ void write_shared_multiplier(const Folder& folder) {
           Product now{step, {}, colour ? p.config.channels : step == 4 ? 1 : 3, w};
           std::optional<std::int64_t> sum;
           const auto multiply = [&](const Axes& a, const Axes& b) {
-            for (std::size_t i = 0; i < a.size(); ++i) now.components[i] = a[i] * b[i];
+            for (std::size_t axis = 0; axis < a.size(); ++axis) now.components[axis] = a[axis] * b[axis];
             sum = golden::dot_product(a, b);
           };
           switch (step) {

@@ -109,7 +109,7 @@ TEST_F(AxiMemoryTest, FindsBurstsThatAxiDoesNotAllow) {
 
 TEST(AxiMemory, FindsTransfersThatChangeWhileTheyWait) {
   // The memory is not ready in the first clock; a signal changes in the second.
-  const auto finds = [](auto CoreOutputs::* valid, auto CoreOutputs::* signal, auto value) {
+  const auto finds = [](auto CoreOutputs::* valid, auto CoreOutputs::* signal, std::uint8_t value) {
     AxiMemory memory(4, {});
     CoreInputs in{};
     CoreOutputs out{};
