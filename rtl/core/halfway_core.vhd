@@ -218,20 +218,14 @@ begin
   check_reads : process (aclk)
     variable waiting                       : std_logic_vector(m_axi_rdata'length + m_axi_rresp'length + 1 downto 0);
     variable words_missing, bursts_missing : natural;
-    variable words, bursts                 : natural; -- that are requested in this clock
   begin
     if rising_edge(aclk) then
-      words  := 0;
-      bursts := 0;
-      if (m_axi_arvalid and m_axi_arready) = '1' then
-        words  := to_integer(m_axi_arlen) + 1;
-        bursts := 1;
-      end if;
       check_stream("halfway_core: m_axi_r", reset, m_axi_rready,
         m_axi_rvalid & m_axi_rlast & m_axi_rresp & m_axi_rdata, waiting);
-      check_answers("halfway_core: m_axi_r", reset, m_axi_rvalid, m_axi_rvalid and m_axi_rready, words, words_missing);
-      check_answers("halfway_core: m_axi_rlast", reset, m_axi_rvalid and m_axi_rlast,
-        m_axi_rvalid and m_axi_rready and m_axi_rlast, bursts, bursts_missing);
+      check_answers("halfway_core: m_axi_r", reset, m_axi_arvalid and m_axi_arready, m_axi_arlen,
+        m_axi_rvalid, m_axi_rvalid and m_axi_rready, words_missing);
+      check_answers("halfway_core: m_axi_rlast", reset, m_axi_arvalid and m_axi_arready, "0",
+        m_axi_rvalid and m_axi_rlast, m_axi_rvalid and m_axi_rready and m_axi_rlast, bursts_missing);
       assert (words_missing = 0) = (bursts_missing = 0)
         report "halfway_core: m_axi_rlast: not with the last word of a burst"
         severity failure;

@@ -175,21 +175,14 @@ begin
     variable b_waiting      : std_logic_vector(m_axi_bresp'length downto 0);
     variable words_missing  : natural;
     variable bursts_missing : natural; -- whose last word was taken
-    variable words, bursts  : natural; -- that are requested in this clock
   begin
     if rising_edge(clk) then
-      words  := 0;
-      bursts := 0;
-      if (m_axi_arvalid and m_axi_arready) = '1' then
-        words := to_integer(m_axi_arlen) + 1;
-      end if;
-      if (m_axi_wvalid and m_axi_wready and m_axi_wlast) = '1' then
-        bursts := 1;
-      end if;
       check_stream("fragments_to_memory: m_axi_r", reset, m_axi_rready, m_axi_rvalid & m_axi_rresp & m_axi_rdata, r_waiting);
       check_stream("fragments_to_memory: m_axi_b", reset, m_axi_bready, m_axi_bvalid & m_axi_bresp, b_waiting);
-      check_answers("fragments_to_memory: m_axi_r", reset, m_axi_rvalid, m_axi_rvalid and m_axi_rready, words, words_missing);
-      check_answers("fragments_to_memory: m_axi_b", reset, m_axi_bvalid, m_axi_bvalid and m_axi_bready, bursts, bursts_missing);
+      check_answers("fragments_to_memory: m_axi_r", reset, m_axi_arvalid and m_axi_arready, m_axi_arlen,
+        m_axi_rvalid, m_axi_rvalid and m_axi_rready, words_missing);
+      check_answers("fragments_to_memory: m_axi_b", reset, m_axi_wvalid and m_axi_wready and m_axi_wlast, "0",
+        m_axi_bvalid, m_axi_bvalid and m_axi_bready, bursts_missing);
     end if;
   end process;
 

@@ -7,6 +7,7 @@
 
 library ieee;
 use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
 
 package stream_pkg is
 
@@ -18,13 +19,15 @@ package stream_pkg is
     item         :       std_logic_vector;
     waiting      : inout std_logic_vector);
 
-  -- Stop the simulation if an answer comes without a request. Call it at each rising edge. asked: answers that are requested
-  -- in this clock. missing is the caller's memory: answers that have not come.
+  -- Stop the simulation if an answer comes without a request. Call it at each rising edge. request = '1': last + 1 answers
+  -- are requested in this clock. missing is the caller's memory: answers that have not come.
   procedure check_answers (
-    port_name            :       string;
-    reset, valid, answer :       std_logic; -- valid: an answer is offered; answer: it is taken
-    asked                :       natural;
-    missing              : inout natural);
+    port_name     :       string;
+    reset         :       std_logic;
+    request       :       std_logic;
+    last          :       unsigned;
+    valid, answer :       std_logic; -- valid: an answer is offered; answer: it is taken
+    missing       : inout natural);
 
 end package;
 
@@ -44,12 +47,16 @@ package body stream_pkg is
   end procedure;
 
   procedure check_answers (
-    port_name            :       string;
-    reset, valid, answer :       std_logic;
-    asked                :       natural;
-    missing              : inout natural) is
+    port_name     :       string;
+    reset         :       std_logic;
+    request       :       std_logic;
+    last          :       unsigned;
+    valid, answer :       std_logic;
+    missing       : inout natural) is
   begin
-    missing := missing + asked;
+    if request = '1' then
+      missing := missing + to_integer(last) + 1;
+    end if;
     assert missing > 0 or valid /= '1' or reset /= '0'
       report port_name & ": an answer without a request"
       severity failure;
