@@ -152,17 +152,14 @@ class ChainFiles {
 
 constexpr int c_objects = 4;  // processors, as in rows.toml
 
-// Strips of triangles, those at the limits first, with loads between. The last strip is ended.
+// Strips of triangles, those at the limits and `more` first, with loads between. The last strip is ended.
 template <class Preset>
-ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels) {
+ChainFiles<Preset> strips_of(const ProcessorsConfig& config, int subpixels,
+                             std::span<const Strip> more = {}) {
   ObjectScene<Preset> scene(config, subpixels, static_cast<std::uint64_t>(subpixels));
   ChainFiles<Preset> files(config, subpixels, c_objects);
   std::vector<Strip> strips = scene.limit_strips();
-  // Large enough for the upper bits of counts and distances: of the hardware of tb/mutants.
-  if (subpixels == 1 && !config.shadows) {
-    strips.push_back({7, 40, 100, 50, 1});
-    strips.push_back({8, 3, 0, 2500, 1});
-  }
+  strips.insert(strips.end(), more.begin(), more.end());
   for (int i = 0; i < 24; ++i) strips.push_back(scene.any_strip());
   for (const Strip& strip : strips) {
     while (!files.busy() && scene.random().one_in(2)) files.send(scene.any_load(15));
@@ -306,6 +303,14 @@ auto of_chains(std::vector<std::string_view> faulty, const Write& write) {
               fmt::format("{}_{}_fault", stem, set));
     });
   };
+}
+
+// Large enough for the upper bits of counts and distances, for the netlist of tb/mutants/designs.toml: it is
+// quicker than the testbench.
+void write_long(const Folder& folder) {
+  constexpr ProcessorsConfig c_config{3, 1, 0, 0, true, true, true, false};
+  constexpr Strip c_large[] = {{7, 40, 100, 50, 1}, {8, 3, 0, 2500, 1}};
+  strips_of<Exact>(c_config, 1, c_large).write_front(folder, stem_of<Exact>(c_config, 1) + "_long");
 }
 
 // A line: checked, load, line_step, pixel_step, start, dx, dy, centre, row, column; value, before the edge.
@@ -459,8 +464,12 @@ std::vector<Entity> objects_entities() {
       {"filter_queue", of_chains({}, [](const auto& files, const Folder& f,
                                         const std::string& s) { files.write_lists(f, s); })},
       {"object_front",
-       of_chains({"crowded", "refused"},
-                 [](const auto& files, const Folder& f, const std::string& s) { files.write_front(f, s); })},
+       [](const Folder& folder) {
+         of_chains({"crowded", "refused"}, [](const auto& files, const Folder& f, const std::string& s) {
+           files.write_front(f, s);
+         })(folder);
+         write_long(folder);
+       }},
   };
 }
 
