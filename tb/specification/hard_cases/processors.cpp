@@ -31,10 +31,9 @@ PlanRequest request_of(const Shade& how, ProcessorForm form) {
 }
 
 Drawing draw(Trial& trial, const Scene& scene, const Shade& how) {
-  if (!how.in_rtl) return *draw_golden(scene, {.plan = request_of(how, c_forms[0]), .frame = how.frame});
   Drawing drawing;
   for (const ProcessorForm form : c_forms)
-    drawing = trial.draw(scene, {.plan = request_of(how, form), .frame = how.frame});
+    drawing = trial.draw(scene, {.plan = request_of(how, form), .frame = how.frame, .in_rtl = how.in_rtl});
   return drawing;
 }
 

@@ -40,6 +40,7 @@ struct DrawOptions {
   PlanRequest plan{};
   FrameSize frame{64, 48};
   SetupOptions setup{};
+  bool in_rtl = true;  ///< of Trial::draw
 };
 
 /// A scene's stream and the golden model's fragments for it.
@@ -97,7 +98,7 @@ class Trial {
     if (!holds && failure_.empty()) failure_ = what();
   }
 
-  /// As draw_golden. The RTL must emit the same fragments.
+  /// As draw_golden. The RTL must emit the same fragments, if it is drawn.
   Drawing draw(const Scene& scene, const DrawOptions& options);
   /// Draws hand-made vectors, in whole triangles, on hardware without a prologue.
   std::vector<Fragment> draw(const HardwareKey& key, std::span<const std::uint32_t> words);
