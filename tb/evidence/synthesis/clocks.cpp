@@ -126,6 +126,11 @@ void add_hardware_of_spaces(const Options& options, const Sections& sections, st
   }
 }
 
+bool is_selected(const Placed& placed, const Options& options) {
+  return placed.design.name.find(options.part) != std::string::npos;
+}
+
+// Without a stored clock, hardware that is not selected has no row.
 Bench bench_of(const Options& options, const Sections& sections) {
   const Family& family = sections.family;
   Bench bench{.family = family,
@@ -133,6 +138,9 @@ Bench bench_of(const Options& options, const Sections& sections) {
               .hardware = listed_hardware(options, sections),
               .stored = must(read_clocks(options.folders.source, family))};
   if (options.page) add_hardware_of_spaces(options, sections, bench.hardware);
+  std::erase_if(bench.hardware, [&](const Placed& placed) {
+    return !is_selected(placed, options) && !bench.stored.contains(placed.design.name);
+  });
   return bench;
 }
 
@@ -167,7 +175,6 @@ StoredClock placed_clock(const Placed& placed, const Bench& bench, unsigned seed
 // Hardware that is not selected keeps its stored clock.
 StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options, std::mutex& mutex) {
   if (!options.page) return placed_clock(placed, bench, seeds_of(options, placed, bench.stored), options);
-  const bool is_selected = placed.design.name.find(options.part) != std::string::npos;
   const std::string netlist = identity_of(placed.design, options);
   unsigned seeds = 0;
   {
@@ -176,10 +183,10 @@ StoredClock clock_of(const Placed& placed, Bench& bench, const Options& options,
     const auto found = bench.stored.find(placed.design.name);
     const bool is_current =
         found != bench.stored.end() && is_placed(found->second, bench.synthesizer.versions(), netlist, seeds);
-    if (is_current && !(options.again && is_selected)) return found->second;
-    if (!is_selected) {
-      StoredClock old = found == bench.stored.end() ? StoredClock{.path = "not placed"} : found->second;
-      if (found != bench.stored.end()) old.path.insert(0, "of an earlier netlist or flow: ");
+    if (is_current && !(options.again && is_selected(placed, options))) return found->second;
+    if (!is_selected(placed, options)) {
+      StoredClock old = found->second;
+      old.path.insert(0, "of an earlier netlist or flow: ");
       return old;
     }
   }
