@@ -60,7 +60,8 @@ about_AGAIN := evidence 1: measure pages of this commit, too
 about_JOBS := sim,view,live,board-sim,core-sim,compare,why,plan,verilog,savings,study,figures,report,release,gallery,tables,check-tables,test,test-all,testbench,lint,sanitize,fuzz,mutate,prove,evidence,stability,search,bounds,synth,board,bench,build,program,studies,generator parallel compilations, tests and fuzzers (default: all cores)
 
 variables := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/\1/p' $(firstword $(MAKEFILE_LIST)))
-flags := $(shell sed -n 's/^about_\([A-Z_]*\) := .*/--\L\1/p' $(firstword $(MAKEFILE_LIST)) | tr _ -)
+# Each variable's option, such as ALL_EFFECTS=--all-effects.
+flags := $(shell sed -n '/^about_/{s/^about_\([A-Z_]*\) := .*/\1=--\L\1/;:a;s/=\(.*\)_/=\1-/;ta;p}' $(firstword $(MAKEFILE_LIST)))
 comma := ,
 users_of = $(subst $(comma), ,$(firstword $(about_$(1))))
 text_of = $(wordlist 2,$(words $(about_$(1))),$(about_$(1)))
@@ -86,8 +87,7 @@ option = $${$(1):+$(2)="$$$(1)"}
 flag = $$(case "$${$(1)}" in ('' | 0) ;; (*) echo $(2) ;; esac)
 # The options of a target's command: its variables are options of the same names, and flags if their texts begin with 1:.
 options = $(foreach name,$(filter-out SCENE FULL JOBS,$(variables)),$(if $(filter $@,$(call users_of,$(name))),$(call \
-  $(if $(filter 1:,$(word 2,$(about_$(name)))),flag,option),$(name),$(flag_of_$(name)))))
-$(foreach name,$(variables),$(eval flag_of_$(name) := $(firstword $(flags)))$(eval flags := $(wordlist 2,99,$(flags))))
+  $(if $(filter 1:,$(word 2,$(about_$(name)))),flag,option),$(name),$(patsubst $(name)=%,%,$(filter $(name)=%,$(flags))))))
 # Only one set-up, configuration or build at a time in this checkout: two runs of ninja would overwrite each other's
 # files. The commands do not inherit the lock (-o): a background process would keep it after the end of make.
 lock = mkdir -p build && { flock -n build/make.lock true || echo 'waiting for another make in this checkout' >&2; } \

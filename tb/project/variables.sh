@@ -41,9 +41,10 @@ done
 
 for target in sim view live board-sim core-sim compare why plan verilog savings study; do
   help=$("$program" "$target" --help)
-  for name in $(taken Makefile "$target" | grep -vxE 'SCENE|FULL|JOBS'); do
-    option=--$(echo "$name" | tr A-Z_ a-z-)
-    [[ $help == *" $option "* ]] || fail "halfway $target has no $option for $name"
+  options=$(make -n "$target" | grep '^build/halfway ' | grep -oE -- '--[a-z_-]+' | sort -u)
+  [ -n "$options" ] || fail "make $target gives halfway no option"
+  for option in $options; do
+    [[ $help == *" $option "* ]] || fail "halfway $target has no $option"
   done
 done
 
