@@ -148,38 +148,40 @@ std::string text_or_none(const std::optional<Number>& number) {
 using Point = DesignPoint;
 using Value = SpaceValue;
 
-const std::vector<Knob> c_own_knobs = {
-    {"size", true, always, [](const Value& v, Point& p) { p.size = v.size(1); },
-     [](const Point& p) { return to_string(p.size); }},
-    {"tile", true, always, [](const Value& v, Point& p) { p.tile = v.size(c_least_tile); },
-     [](const Point& p) { return to_string(p.tile); }},
-    {"tessellation", true, always, [](const Value& v, Point& p) { p.tessellation = v.number(0.05, 100.0); },
-     [](const Point& p) { return fmt::format("{:g}", p.tessellation); }},
-    {"exponent", true, always, [](const Value& v, Point& p) { p.exponent = v.number(1.0, 1e6); },
-     [](const Point& p) { return text_or_none(p.exponent); }},
-    {"method", false, always,
-     [](const Value& v, Point& p) {
-       std::vector<Method> methods;
-       for (std::size_t i = 0; i < c_method_names.size(); ++i) methods.push_back(static_cast<Method>(i));
-       p.method = v.name(methods);
-     },
-     [](const Point& p) { return std::string(to_string(p.method)); }},
-    {"preset", false, has_hardware,
-     [](const Value& v, Point& p) { p.preset = v.name<Preset>({Preset::exact, Preset::published}); },
-     [](const Point& p) { return std::string(to_string(p.preset)); }},
-    {"newton", false, is_processors,
-     [](const Value& v, Point& p) {
-       const bool newton = v.flag();
-       // In preset published, a square has no more bits than the table's entries are accurate for.
-       if (newton && p.preset == Preset::published && is_processors(p))
-         v.fail("is only allowed in preset exact");
-       if (newton != (p.preset == Preset::exact)) p.words.newton = newton;
-     },
-     [](const Point& p) { return text_or_none(p.words.newton); }},
-    {"own_tables", false, [](const Point& p) { return p.has_ends(); },
-     [](const Value& v, Point& p) { p.own_tables = v.flag(); },
-     [](const Point& p) { return std::string(p.own_tables ? "1" : ""); }},
-};
+std::vector<Knob> own_knobs() {
+  return {
+      {"size", true, always, [](const Value& v, Point& p) { p.size = v.size(1); },
+       [](const Point& p) { return to_string(p.size); }},
+      {"tile", true, always, [](const Value& v, Point& p) { p.tile = v.size(c_least_tile); },
+       [](const Point& p) { return to_string(p.tile); }},
+      {"tessellation", true, always, [](const Value& v, Point& p) { p.tessellation = v.number(0.05, 100.0); },
+       [](const Point& p) { return fmt::format("{:g}", p.tessellation); }},
+      {"exponent", true, always, [](const Value& v, Point& p) { p.exponent = v.number(1.0, 1e6); },
+       [](const Point& p) { return text_or_none(p.exponent); }},
+      {"method", false, always,
+       [](const Value& v, Point& p) {
+         std::vector<Method> methods;
+         for (std::size_t i = 0; i < c_method_names.size(); ++i) methods.push_back(static_cast<Method>(i));
+         p.method = v.name(methods);
+       },
+       [](const Point& p) { return std::string(to_string(p.method)); }},
+      {"preset", false, has_hardware,
+       [](const Value& v, Point& p) { p.preset = v.name<Preset>({Preset::exact, Preset::published}); },
+       [](const Point& p) { return std::string(to_string(p.preset)); }},
+      {"newton", false, is_processors,
+       [](const Value& v, Point& p) {
+         const bool newton = v.flag();
+         // In preset published, a square has no more bits than the table's entries are accurate for.
+         if (newton && p.preset == Preset::published && is_processors(p))
+           v.fail("is only allowed in preset exact");
+         if (newton != (p.preset == Preset::exact)) p.words.newton = newton;
+       },
+       [](const Point& p) { return text_or_none(p.words.newton); }},
+      {"own_tables", false, [](const Point& p) { return p.has_ends(); },
+       [](const Value& v, Point& p) { p.own_tables = v.flag(); },
+       [](const Point& p) { return std::string(p.own_tables ? "1" : ""); }},
+  };
+}
 
 // Splitting is the method's choice: of the quadratic shader's methods only adaptive has its knobs.
 bool belongs(const DrawKnob& knob, const DesignPoint& p) {
@@ -192,7 +194,7 @@ bool applies(const DrawKnob& knob, const DesignPoint& p) {
 }
 
 std::vector<Knob> all_knobs() {
-  std::vector<Knob> all = c_own_knobs;
+  std::vector<Knob> all = own_knobs();
   for (const tables::WordLength& length : tables::c_word_lengths)
     all.push_back({length.key, false,
                    [&length](const Point& p) {

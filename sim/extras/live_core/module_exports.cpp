@@ -202,7 +202,8 @@ int live_plan(int shader, int preset, unsigned tables) {
   c.hardware.reset();
   PlanRequest request{.shader = static_cast<Shader>(shader), .preset = static_cast<Preset>(preset)};
   const auto sizes = cosine_sizes(request.preset);
-  if (tables > 0 && tables < sizes.size()) request.tables = sizes[tables];
+  if (tables >= sizes.size()) return c.report(bad_input("the preset has no cosine tables of this size"));
+  if (tables > 0) request.tables = sizes[tables];
   const auto key = c.frame.plan(request);
   if (!key) return c.report(key.error());
   c.hardware.emplace(*key);
