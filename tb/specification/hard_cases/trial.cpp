@@ -7,12 +7,9 @@
 
 #include "golden_run/golden_run.hpp"
 #include "sim/driver/limits.hpp"
-#include "sim/driver/stream_comparator.hpp"
-#include "sim/engines/ghdl/ghdl_runner.hpp"
-#include "sim/files/init_file.hpp"
-#include "sim/files/trace.hpp"
-#include "sim/os/file.hpp"
-#include "words/init_vector.hpp"
+#include "sim/driver/rtl_frame.hpp"
+#include "sim/engines/ghdl/ghdl_engine.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
 
 namespace halfway::stability {
 namespace {
@@ -24,22 +21,6 @@ constexpr unsigned c_most_lights_for_ghdl = 3;
 bool is_for_ghdl(const HardwareKey& key, std::size_t fragments) {
   return fragments <= c_most_for_ghdl &&
          (key.shader != Shader::processors || key.processors.lights() <= c_most_lights_for_ghdl);
-}
-
-// The shading processors keep lights between streams. These words delete them, as after a reset.
-std::vector<std::uint32_t> forget_lights(const HardwareKey& key, unsigned words_each) {
-  using Request = words::Exact::request_header_at;
-  static_assert(words::Exact::c_request_header_bits == words::Published::c_request_header_bits);
-  std::vector<std::uint32_t> words;
-  const auto command = [&](words::Command c, std::uint32_t light) {
-    InitVector vector(words, 32 * words_each);
-    vector.put(Request::command, static_cast<std::uint32_t>(c));
-    vector.put(Request::light, light);
-  };
-  for (std::uint32_t light = 0; light <= key.processors.lights(); ++light)
-    command(words::Command::remove, light);
-  command(words::Command::new_frame, 0);
-  return words;
 }
 
 }  // namespace
@@ -84,8 +65,7 @@ Drawing Trial::draw(const Scene& scene, const DrawOptions& options) {
     require(false, [&] { return drawing.error().message; });
     return {};
   }
-  if (options.in_rtl)
-    compare_rtl(drawing->key, drawing->init_bits, drawing->words, drawing->golden, drawing->fault);
+  if (options.in_rtl) compare_rtl(drawing->key, drawing->words, drawing->golden, drawing->fault);
   return std::move(*drawing);
 }
 
@@ -93,75 +73,48 @@ std::vector<Fragment> Trial::draw(const HardwareKey& key, std::span<const std::u
   const auto golden = make_golden_model(key);
   std::vector<Fragment> fragments;
   golden->draw(words, fragments);
-  compare_rtl(key, golden->init_bits(), words, fragments, golden->fault());
+  compare_rtl(key, words, fragments, golden->fault());
   return fragments;
 }
 
-void Trial::compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
+void Trial::compare_rtl(const HardwareKey& key, std::span<const std::uint32_t> words,
                         std::span<const Fragment> golden, bool fault) {
   golden_fragments_ += golden.size();
   if (!tools_ || words.empty()) return;
-  const auto compare = [&](std::string_view name, const Status& status, std::span<const Fragment> drawn) {
-    if (!status && status.error().code == ExitCode::tool_failed) {
-      tools_ = status;
-      return;
-    }
-    rtl_fragments_ += drawn.size();
-    require(bool(status) != fault, [&] {
-      return fault ? fmt::format("{}: {} reports no fault, but the golden model does", key.name(), name)
-                   : fmt::format("{}: {}: {}", key.name(), name, status.error().message);
-    });
-    if (fault) return;  // after a fault the fragments have no meaning
-    StreamComparator comparator;
-    comparator.add(golden, drawn);
-    comparator.finish();
-    require(comparator.mismatches() == 0,
-            [&] { return fmt::format("{}: {}", key.name(), comparator.describe(name)); });
-  };
-  std::vector<Fragment> drawn;
-  const std::size_t most = golden.size() + c_most_surplus;
-  const Status verilated = run_verilator(key, init_bits, words, drawn, most);
-  compare("Verilator", verilated, drawn);
-  if (quick_ || !is_for_ghdl(key, golden.size()) || !rtl_.through_ghdl.insert(key.name()).second) return;
-  drawn.clear();
-  const Status simulated = run_ghdl(key, init_bits, words, drawn, most);
-  compare("GHDL", simulated, drawn);
+  tools_ = compare_with(verilated(key), key, words, golden, fault);
+  if (!tools_ || quick_ || !is_for_ghdl(key, golden.size()) || !rtl_.through_ghdl.insert(key.name()).second)
+    return;
+  tools_ = compare_with(shared_engine(GhdlEngine::open(key, folders_, 1, {.idle_limit = idle_limit(key)})),
+                        key, words, golden, fault);
 }
 
-Status Trial::run_verilator(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
-                            std::vector<Fragment>& drawn, std::size_t most) {
-  auto found = rtl_.verilated.find(key.name());
-  if (found == rtl_.verilated.end()) {
-    auto opened = VerilatorSimulator::open(key, folders_);
-    if (!opened) return opened.error();
-    found = rtl_.verilated.emplace(key.name(), std::move(*opened)).first;
-  }
-  VerilatorSimulator& rtl = found->second;
-  Status status = Ok{};
-  if (key.shader == Shader::processors)
-    status = rtl.run(forget_lights(key, (init_bits + 31) / 32), drawn, most);
-  if (status) status = rtl.run(words, drawn, most);
-  if (status) status = rtl.finish(drawn, most);
-  if (!status) rtl_.verilated.erase(found);  // its state is undefined
-  return status;
-}
-
-Status Trial::run_ghdl(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
-                       std::vector<Fragment>& drawn, std::size_t most) {
-  auto folder = TemporaryFolder::make(folders_.cache);
-  if (!folder) return folder.error();
-  const auto init = folder->path() / "init.txt", trace = folder->path() / "ghdl.trace";
-  if (auto written = write_init_file(init, key.name(), {init_bits, {words.begin(), words.end()}}); !written)
-    return written.error();
-  const auto runner = GhdlRunner::open(key, folders_);
-  if (!runner) return runner.error();
-  const auto run = runner->run(
-      init, trace, {.max_fragments = static_cast<std::uint32_t>(most), .idle_limit = c_idle_limit});
-  if (!run) return run.error();
-  auto read = read_trace(trace, key.name());
-  if (!read) return read.error();
-  drawn = std::move(read->fragments);
+Status Trial::compare_with(const Result<std::shared_ptr<Engine>>& engine, const HardwareKey& key,
+                           std::span<const std::uint32_t> words, std::span<const Fragment> golden,
+                           bool fault) {
+  if (!engine) return engine.error();
+  // Fragments are compared, and not assembled: hand-made vectors draw in the largest frame.
+  RtlFrame frame(*engine, {c_max_frame_side, c_max_frame_side}, {}, {.tile = Tile{0, 0, {1, 1}}});
+  if (const Status drawn = frame.add(words, golden); !drawn) return drawn;
+  if (const Status drawn = frame.finish(); !drawn) return drawn;
+  const SimulatorRun run = frame.result();
+  rtl_fragments_ += run.fragments;
+  require(run.fault.empty() != fault, [&] {
+    return fmt::format("{}: {}: {}", key.name(), run.simulator,
+                       fault ? "reports no fault, but the golden model does" : run.fault);
+  });
+  // After a fault the fragments have no meaning.
+  require(fault || run.mismatches == 0, [&] { return fmt::format("{}: {}", key.name(), run.description); });
   return Ok{};
+}
+
+Result<std::shared_ptr<Engine>> Trial::verilated(const HardwareKey& key) {
+  std::shared_ptr<Engine>& opened = rtl_.verilated[key.name()];
+  if (!opened) {
+    auto engine = shared_engine(VerilatorSimulator::open(key, folders_));
+    if (!engine) return engine.error();
+    opened = std::move(*engine);
+  }
+  return opened->another();
 }
 
 }  // namespace halfway::stability

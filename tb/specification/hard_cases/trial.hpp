@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <string>
@@ -14,9 +15,9 @@
 #include "common/result.hpp"
 #include "plan/plan.hpp"
 #include "scene/scene.hpp"
+#include "sim/driver/engine.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/engines/verilator/verilator_simulator.hpp"
 
 namespace halfway::stability {
 
@@ -53,8 +54,8 @@ Result<Drawing> draw_golden(const Scene& scene, const DrawOptions& options);
 
 /// Simulators that the cases share; for one thread.
 struct Simulators {
-  std::map<std::string, VerilatorSimulator> verilated{};  ///< RTL that runs in this process, by key
-  std::set<std::string> through_ghdl{};                   ///< keys for which GHDL has already drawn
+  std::map<std::string, std::shared_ptr<Engine>> verilated{};  ///< RTL that runs in this process, by key
+  std::set<std::string> through_ghdl{};                        ///< keys for which GHDL has already drawn
 };
 
 class Trial {
@@ -119,12 +120,12 @@ class Trial {
   std::uint64_t rtl_fragments() const { return rtl_fragments_; }
 
  private:
-  void compare_rtl(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
+  void compare_rtl(const HardwareKey& key, std::span<const std::uint32_t> words,
                    std::span<const Fragment> golden, bool fault);
-  Status run_verilator(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
-                       std::vector<Fragment>& drawn, std::size_t most);
-  Status run_ghdl(const HardwareKey& key, unsigned init_bits, std::span<const std::uint32_t> words,
-                  std::vector<Fragment>& drawn, std::size_t most);
+  Status compare_with(const Result<std::shared_ptr<Engine>>& engine, const HardwareKey& key,
+                      std::span<const std::uint32_t> words, std::span<const Fragment> golden, bool fault);
+  /// An engine after a reset.
+  Result<std::shared_ptr<Engine>> verilated(const HardwareKey& key);
 
   SimulatorFolders folders_;
   Simulators& rtl_;
