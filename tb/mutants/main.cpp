@@ -265,7 +265,7 @@ class Run {
       found += result.count(End::found);
       for (const Outcome& outcome : result.outcomes)
         if (options_.quick && outcome.end == End::survived &&
-            reasons_.of(reasons_.line_at(outcome.fault.place)).empty())
+            reasons_.of(reasons_.line_at(outcome.fault.place), name).empty())
           wrong.push_back(
               fmt::format("{}: fault {} ({}) survives; improve the vectors or give the reason in "
                           "tb/mutants/survivors.toml",

@@ -165,8 +165,10 @@ TEST(Rows, BecomeThePage) {
   must(make_folders(listed.parent_path()));
   must(write_file(listed,
                   "survivor = [{ file = \"stream/count.vhd\", text = \"if reset\", reason = \"starts at "
-                  "zero\" }]\n"));
+                  "zero\" }, { file = \"not known\", text = \"c.\", reason = \"constant\" }]\n"));
   const Reasons reasons(folder.path());
+  EXPECT_EQ(reasons.of("", "c.wide"), "constant");
+  EXPECT_EQ(reasons.of("", "d.wide"), "");
   const auto sections = mutant_sections(rows, reasons);
   ASSERT_EQ(sections.size(), 3U);
   EXPECT_THAT(

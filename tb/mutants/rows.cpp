@@ -58,10 +58,10 @@ std::string Reasons::line_at(const std::string& place) const {
   return begin == std::string::npos ? file : fmt::format("{}: {}", file, line.substr(begin, end + 1 - begin));
 }
 
-std::string Reasons::of(std::string_view line) const {
-  if (line.empty()) line = "not known:";
+std::string Reasons::of(std::string_view line, std::string_view netlist) const {
+  const std::string known = line.empty() ? fmt::format("not known: {}", netlist) : std::string(line);
   for (const Survivor& survivor : listed_)
-    if (line.starts_with(survivor.file + ":") && line.find(survivor.text) != std::string_view::npos)
+    if (known.starts_with(survivor.file + ":") && known.find(survivor.text) != std::string::npos)
       return survivor.reason;
   return {};
 }
@@ -103,7 +103,7 @@ std::vector<page::Section> mutant_sections(std::span<const page::Row> rows, cons
         "{}", fmt::join(texts.begin(),
                         texts.begin() + static_cast<std::ptrdiff_t>(std::min(texts.size(), c_shown)), "; "));
     if (texts.size() > c_shown) shown += fmt::format("; {} more", texts.size() - c_shown);
-    const std::string reason = reasons.of(at.first);
+    const std::string reason = reasons.of(at.first, at.second);
     survivor_rows.push_back({at.first.empty() ? "not known" : "`" + at.first + "`", "`" + at.second + "`",
                              std::to_string(texts.size()), "`" + shown + "`",
                              reason.empty() ? "not decided" : reason});

@@ -244,6 +244,12 @@ class ShaderFiles {
     send(scene_.end_vector());
     if (!twin_.fault()) throw Failure{tool_failed("processors_shader: no fault")};
   }
+  // A light that does not exist.
+  void add_wrong_load() {
+    add_strips(1, false);
+    send(scene_.load_vector(Command::define, s_.config.lights() + 1));
+    if (!twin_.fault()) throw Failure{tool_failed("processors_shader: no fault")};
+  }
   void write(const Folder& folder, const char* set) const {
     const std::string stem = fmt::format("{}_{}", s_.name, set);
     if (fragments_.size() == 0) throw Failure{tool_failed(stem + ": no fragment")};
@@ -272,13 +278,15 @@ class ShaderFiles {
 template <class Preset>
 void write_shaders_of(const Folder& folder, std::span<const Shaders> all) {
   for (const Shaders& s : all) {
-    ShaderFiles<Preset> dense(s), mixed(s), crowded(s);
+    ShaderFiles<Preset> dense(s), mixed(s), crowded(s), wrong(s);
     dense.add_strips(2, false);
     dense.write(folder, "dense");
     mixed.add_strips(6, true);
     mixed.write(folder, "mixed");
     crowded.add_crowd();
     crowded.write(folder, "fault");
+    wrong.add_wrong_load();
+    wrong.write(folder, "light_fault");
   }
 }
 

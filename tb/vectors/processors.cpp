@@ -191,9 +191,17 @@ void write_light_state_of(const Folder& folder) {
   file.write(folder / fmt::format("{}.txt", Preset::c_name));
 }
 
-// A line of _in: token. A line of _out: object, fault at the end.
+// The last token of a pipeline's file.
+struct Last {
+  Command command;
+  std::uint32_t light;
+};
+
+// A line of _in: token. A line of _out: object, fault at the end. Before `last` no token is for a light that
+// does not exist.
 template <class Preset>
-void write_pipeline(const Folder& folder, const ProcessorsConfig& config, int tokens) {
+void write_pipeline(const Folder& folder, const ProcessorsConfig& config, int tokens, const Last& last,
+                    const char* suffix = "") {
   const int bits = words::ProcessorsLayout<Preset>(config).token_bits();
   TokenMaker<Preset> maker(config, bits);
   golden::ShadingPipeline<Preset> twin(config);
@@ -205,18 +213,16 @@ void write_pipeline(const Folder& folder, const ProcessorsConfig& config, int to
                      ? maker.load(Command::define, static_cast<std::uint32_t>(done))
                      : maker.token(static_cast<int>(maker.random().between(0, config.lights())));
     if (token.is_for_light()) token.light_number = std::min(token.light_number, lights);
-    // At the end, a light that does not exist.
-    constexpr Command c_last[] = {Command::define, Command::redefine, Command::remove, Command::shadow};
-    if (done == tokens) token = maker.load(c_last[lights % 4], lights + 1);
+    if (done == tokens) token = maker.load(last.command, last.light);
     auto words = maker.words(token, bits);
     token = golden::ShadingToken<Preset>::decode(config, words);
     in.words_of(words, bits).end_vector();
     if (!twin.process(token)) continue;
     token.encode(config, words);
-    out.words_of(words, bits).flag(true).end_vector();
+    out.words_of(words, bits).flag(last.light > lights).end_vector();
   }
-  in.write(folder / (name_of<Preset>(config) + "_in.txt"));
-  out.write(folder / (name_of<Preset>(config) + "_out.txt"));
+  in.write(folder / (name_of<Preset>(config) + suffix + "_in.txt"));
+  out.write(folder / (name_of<Preset>(config) + suffix + "_out.txt"));
 }
 
 template <class Preset>
@@ -226,7 +232,22 @@ void write_pipelines(const Folder& folder, int tokens) {
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
                                       {3, 0, 0, 0, false, false, true, false}};
-  for (const ProcessorsConfig& config : configs) write_pipeline<Preset>(folder, config, tokens);
+  constexpr Command c_last[] = {Command::define, Command::redefine, Command::remove, Command::shadow};
+  for (const ProcessorsConfig& config : configs) {
+    const auto lights = static_cast<std::uint32_t>(config.lights());
+    write_pipeline<Preset>(folder, config, tokens, {c_last[lights % 4], lights + 1});
+  }
+}
+
+// Without a fault, and with each token and each bit that cause one, for the netlist of tb/mutants/designs.toml.
+void write_pipeline_faults(const Folder& folder) {
+  constexpr ProcessorsConfig c_config{3, 2, 0, 0, true, true, false, false};
+  constexpr int c_tokens = 240, c_few_tokens = 12;
+  write_pipeline<Exact>(folder, c_config, c_tokens, {Command::remove, 2}, "_right");
+  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::define, 3}, "_define");
+  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::redefine, 4}, "_redefine");
+  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::remove, 8}, "_remove");
+  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::shadow, 16}, "_shadow");
 }
 
 template <int divisor>
@@ -260,6 +281,7 @@ void write_shading_pipeline(const Folder& folder) {
   constexpr int c_tokens = 240 / divisor;
   write_pipelines<Exact>(folder, c_tokens);
   write_pipelines<Published>(folder, c_tokens);
+  if (divisor == 1) write_pipeline_faults(folder);
 }
 
 }  // namespace

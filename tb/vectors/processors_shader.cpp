@@ -86,11 +86,11 @@ class Host {
     }
   }
   // A load of a light that does not exist, or a command that no vector has.
-  void go_wrong() {
+  void go_wrong(bool load_light) {
     define_all();
     draw(line_walk(5, 3, 4, 1 << 20, 1));
-    if (p_.config.lights() == 1)
-      load(Command::define, 2);
+    if (load_light)
+      load(Command::define, p_.config.lights() + 1);
     else
       send(request(Command::new_pixel, 0));
   }
@@ -295,13 +295,16 @@ void write_parts(const Write& write) {
 }
 
 template <class Preset>
+void write_fault(const Folder& folder, const Processors& processors, bool load_light, const char* set) {
+  Host<Preset> host(processors);
+  host.go_wrong(load_light);
+  if (!host.fault()) throw Failure{tool_failed(fmt::format("{}: nothing went wrong", processors.name))};
+  host.write(folder, set);
+}
+
+template <class Preset>
 void write_set(const Folder& folder, const Processors& processors, const char* set) {
   Host<Preset> host(processors);
-  if (set == std::string_view("fault")) {
-    host.go_wrong();
-    if (!host.fault()) throw Failure{tool_failed(fmt::format("{}: nothing went wrong", processors.name))};
-    return host.write(folder, set);
-  }
   draw_set(host, set == std::string_view("dense") ? Mix::dense : Mix::mixed);
   if (host.fault())
     throw Failure{tool_failed(fmt::format("{}: a fault in the set {}", processors.name, set))};
@@ -312,10 +315,9 @@ template <class Preset>
 void write_all(const Folder& folder, std::span<const Processors> shaders, std::int64_t divisor) {
   for (Processors processors : shaders) {
     processors.pixels /= divisor;
-    for (const char* set : {"dense", "mixed", "fault"}) {
-      if (set == std::string_view("fault") && processors.config.lights() == 0) continue;
-      write_set<Preset>(folder, processors, set);
-    }
+    for (const char* set : {"dense", "mixed"}) write_set<Preset>(folder, processors, set);
+    const int lights = processors.config.lights();
+    if (lights > 0) write_fault<Preset>(folder, processors, lights == 1, "fault");
   }
 }
 
@@ -326,12 +328,15 @@ void write_processors_shader(const Folder& folder) {
   write_objects_shaders(folder);
 }
 
-// More pixels, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
+// More pixels and both faults, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
 template <class Preset>
 void write_long(const Folder& folder, std::span<const Processors> shaders) {
   for (Processors processors : shaders) {
     processors.pixels = processors.long_pixels;
-    if (processors.pixels > 0) write_set<Preset>(folder, processors, "long");
+    if (processors.pixels == 0) continue;
+    write_set<Preset>(folder, processors, "long");
+    write_fault<Preset>(folder, processors, false, "command_fault");
+    write_fault<Preset>(folder, processors, true, "light_fault");
   }
 }
 
