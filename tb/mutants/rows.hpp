@@ -21,8 +21,8 @@ class Reasons {
   explicit Reasons(const std::filesystem::path& source);
   /// "file: text of the line" for "file:line"; a comment above the line does not change it.
   std::string line_at(const std::string& place) const;
-  /// The reason for survivors of the line `line_at(place)`, or of the netlist if the line is not known; empty if
-  /// there is none.
+  /// The reason for survivors of the line `line_at(place)`, or of the netlist if the line is not known; empty
+  /// if there is none.
   std::string of(std::string_view line, std::string_view netlist) const;
 
  private:

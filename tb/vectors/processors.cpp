@@ -239,7 +239,8 @@ void write_pipelines(const Folder& folder, int tokens) {
   }
 }
 
-// Without a fault, and with each token and each bit that cause one, for the netlist of tb/mutants/designs.toml.
+// Without a fault, and with each token and each bit that cause one, for the netlist of
+// tb/mutants/designs.toml.
 void write_pipeline_faults(const Folder& folder) {
   constexpr ProcessorsConfig c_config{3, 2, 0, 0, true, true, false, false};
   constexpr int c_tokens = 240, c_few_tokens = 12;

@@ -328,7 +328,8 @@ void write_processors_shader(const Folder& folder) {
   write_objects_shaders(folder);
 }
 
-// More pixels and both faults, for the netlists of tb/mutants/designs.toml: they are quicker than the testbenches.
+// More pixels and both faults, for the netlists of tb/mutants/designs.toml: they are quicker than the
+// testbenches.
 template <class Preset>
 void write_long(const Folder& folder, std::span<const Processors> shaders) {
   for (Processors processors : shaders) {

@@ -6,7 +6,7 @@
 
 #include "common/to_integer.hpp"
 #include "golden_run/walk_counts.hpp"
-#include "sim/bench/program/bench.hpp"
+#include "sim/extras/bench/measurements.hpp"
 #include "sim/run/open_engine.hpp"
 
 namespace halfway {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "sim/bench/program/bench.hpp"
+#include "sim/extras/bench/measurements.hpp"
 #include "sim/extras/live/live_page.hpp"
 #include "sim/files/headless_browser.hpp"
 #include "sim/os/file.hpp"

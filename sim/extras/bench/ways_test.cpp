@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests `make bench`: every way to a picture draws the correct picture and detects a wrong one. Times are not
 // tested.
-#include "sim/bench/ways.hpp"
+#include "sim/extras/bench/ways.hpp"
 
 #include <gmock/gmock.h>
 
 #include "common/test/is_error.hpp"
 #include "golden_run/walk_counts.hpp"
-#include "sim/bench/workload.hpp"
 #include "sim/engines/ghdl/test/checkout.hpp"
+#include "sim/extras/bench/workload.hpp"
 #include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/test/folder_test.hpp"

@@ -2,8 +2,8 @@
 // Table of all ways to draw a picture, compared with the project's own.
 #include <fmt/format.h>
 
-#include "sim/bench/program/bench.hpp"
-#include "sim/bench/ways.hpp"
+#include "sim/extras/bench/measurements.hpp"
+#include "sim/extras/bench/ways.hpp"
 #include "sim/os/threads.hpp"
 
 namespace halfway {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/bench/workload.hpp"
+#include "sim/extras/bench/workload.hpp"
 
 #include <fmt/format.h>
 

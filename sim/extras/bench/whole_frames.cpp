@@ -4,8 +4,8 @@
 
 #include <thread>
 
-#include "sim/bench/program/bench.hpp"
-#include "sim/bench/ways.hpp"
+#include "sim/extras/bench/measurements.hpp"
+#include "sim/extras/bench/ways.hpp"
 #include "sim/extras/lanes/lane_simulator.hpp"
 #include "sim/os/threads.hpp"
 

@@ -15,8 +15,8 @@
 
 #include "golden_run/golden_run.hpp"
 #include "scene/scene.hpp"
-#include "sim/bench/workload.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/extras/bench/workload.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <regex>
 
-#include "sim/bench/program/bench.hpp"
+#include "sim/extras/bench/measurements.hpp"
 #include "sim/os/seconds.hpp"
 #include "sim/os/subprocess.hpp"
 

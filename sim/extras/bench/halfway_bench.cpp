@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <thread>
 
-#include "sim/bench/program/bench.hpp"
 #include "sim/engines/ghdl/rtl_hash.hpp"
+#include "sim/extras/bench/measurements.hpp"
 #include "sim/files/template.hpp"
 #include "sim/os/command_line.hpp"
 #include "sim/os/file.hpp"
@@ -66,7 +66,7 @@ void run(const Options& options) {
   speed["load"]["after"] = text(load()[0]);
   speed["load"]["long"] = text(load()[2]);
 
-  const std::string page = must(filled_template(c_source / "sim/bench/speed.md.mustache", speed));
+  const std::string page = must(filled_template(c_source / "sim/extras/bench/speed.md.mustache", speed));
   fmt::print("\n{}", page);
   if (!options.page.empty()) must(write_file(options.page, page));
 }

@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
-#include "sim/bench/workload.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
+#include "sim/extras/bench/workload.hpp"
 
 namespace halfway {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/bench/ways.hpp"
+#include "sim/extras/bench/ways.hpp"
 
 #include <fmt/format.h>
 

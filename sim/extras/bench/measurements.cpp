@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/bench/program/bench.hpp"
+#include "sim/extras/bench/measurements.hpp"
 
 #include <fmt/format.h>
 
