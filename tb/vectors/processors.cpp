@@ -232,23 +232,22 @@ void write_pipelines(const Folder& folder, int tokens) {
                                       {3, 2, 0, 0, true, true, false, false},
                                       {1, 0, 1, 1, false, true, true, false},
                                       {3, 0, 0, 0, false, false, true, false}};
-  constexpr Command c_last[] = {Command::define, Command::redefine, Command::remove, Command::shadow};
-  for (const ProcessorsConfig& config : configs) {
-    const auto lights = static_cast<std::uint32_t>(config.lights());
-    write_pipeline<Preset>(folder, config, tokens, {c_last[lights % 4], lights + 1});
+  constexpr Command c_wrong[] = {Command::define, Command::redefine, Command::remove, Command::shadow};
+  for (std::size_t i = 0; i < std::size(configs); ++i) {
+    const auto lights = static_cast<std::uint32_t>(configs[i].lights());
+    write_pipeline<Preset>(folder, configs[i], tokens, {Command::remove, lights});
+    write_pipeline<Preset>(folder, configs[i], tokens, {c_wrong[i], lights + 1}, "_fault");
   }
 }
 
-// Without a fault, and with each token and each bit that cause one, for the netlist of
-// tb/mutants/designs.toml.
+// Each token and each bit that cause a fault, for the netlist of tb/mutants/designs.toml.
 void write_pipeline_faults(const Folder& folder) {
   constexpr ProcessorsConfig c_config{3, 2, 0, 0, true, true, false, false};
-  constexpr int c_tokens = 240, c_few_tokens = 12;
-  write_pipeline<Exact>(folder, c_config, c_tokens, {Command::remove, 2}, "_right");
-  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::define, 3}, "_define");
-  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::redefine, 4}, "_redefine");
-  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::remove, 8}, "_remove");
-  write_pipeline<Exact>(folder, c_config, c_few_tokens, {Command::shadow, 16}, "_shadow");
+  constexpr int c_tokens = 12;
+  write_pipeline<Exact>(folder, c_config, c_tokens, {Command::define, 3}, "_define_fault");
+  write_pipeline<Exact>(folder, c_config, c_tokens, {Command::redefine, 4}, "_redefine_fault");
+  write_pipeline<Exact>(folder, c_config, c_tokens, {Command::remove, 8}, "_remove_fault");
+  write_pipeline<Exact>(folder, c_config, c_tokens, {Command::shadow, 16}, "_shadow_fault");
 }
 
 template <int divisor>
