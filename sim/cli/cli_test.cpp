@@ -73,6 +73,8 @@ TEST_F(CliTest, BadUsageExitsTwoAndSaysWhatToDo) {
        "why explains pixels of the rasterizer"},
       {{"init", "teapot", "--shader", "processors", "--objects", "2", "--size", "40x30"},
        "pieces of triangles lie on one line of one column, and the hardware has 2 object processors"},
+      {{"sim", "teapot", "--shader", "processors", "--objects", "2", "--size", "40x30"},
+       "give more by --objects (make: OBJECTS; a space: objects), up to 256, or leave them out"},
       {{"why", "spheres", "--pixel", "640,0"}, "outside the frame"},
       {{"render", "spheres", "--method", "oil"}, "--method: 'oil' is not a method"},
       {{"compare", "spheres"}, "run `make sim SCENE=spheres` first"},
