@@ -24,15 +24,16 @@ constexpr std::chrono::seconds c_yosys_time{3600};
 constexpr std::chrono::seconds c_miter_time{60};     // of a netlist; for larger ones nothing is proved
 constexpr std::chrono::seconds c_reduction_time{5};  // of one fault, before the proof
 
-// {0}: top, {1}: faults, {2}: seed, {3}: marks of the modules without faults. Make the faults after
-// optimization: a fault in logic that is constant, or that no output depends on, would have no effect.
+// {0}: top, {1}: faults, {2}: seed, {3}: marks of the modules without faults, {4}: cells without a module.
+// Make the faults after optimization: a fault in logic that is constant, or that no output depends on, would
+// have no effect.
 constexpr const char* c_mutate =
     "read_verilog netlist.v\n"
     "hierarchy -top {0}\n"
     "proc\n{3}flatten\nopt -full\nwreduce\nopt_dff\nopt_clean -purge\nmemory -nomap\nopt_clean "
     "-purge\n"
     "write_rtlil before.il\n"
-    "mutate -list {1} -seed {2} -ctrl mutsel 16 1 -o faults.ys c:* a:tested %d\n"
+    "mutate -list {1} -seed {2} -ctrl mutsel 16 1 -o faults.ys c:* a:tested %d{4}\n"
     "script faults.ys\n"
     "opt_clean\n"
     "write_verilog -noattr mutated.v\n";
@@ -243,7 +244,13 @@ FaultyNetlist make_faulty_netlist(const Design& design, const GhdlLibrary& libra
   std::string marks = design.without_faults.empty() ? "" : "opt -full\n";
   for (const std::string& module : modules_of(text, design.without_faults))
     marks += fmt::format("setattr -set tested 1 {}/*\n", module);
-  const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed, marks);
+  // After flattening Yosys makes logic for enables of registers, of which it does not say the module.
+  std::string unknown;
+  if (!marks.empty()) {
+    marks += fmt::format("setattr -set own 1 {}/c:$auto$opt_dff*\n", design.entity);
+    unknown = " c:$auto$opt_dff* a:own %d %d";
+  }
+  const std::string script = fmt::format(c_mutate, design.entity, design.faults, seed, marks, unknown);
   // Reuse the result of an earlier run on the same netlist.
   const std::string key = ContentHash().add(text).add(script).add(c_lint).hex();
   const auto kept = read_file(netlist.folder / "key");
