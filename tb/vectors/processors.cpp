@@ -86,7 +86,7 @@ void write_long(const Folder& folder) {
   for (const Processor& processor : processors())
     for (const Long& set : c_sets)
       if (name_of<Preset>(processor) == set.name)
-        write_processor<Preset>(folder, processor, 8000, "_long", set.latency);
+        write_processor<Preset>(folder, processor, 16000, "_long", set.latency);
 }
 
 // Tokens for the parts of a processor: one configuration with several lights.
