@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "plan/plan.hpp"
 
 namespace halfway {
@@ -19,6 +22,15 @@ Status check_pixels(const Scene& scene, const HardwareKey& key, const SetupCount
   if (fault)
     return tool_failed(fmt::format("{}: the hardware refused a vector; please report it", scene.name));
   return Ok{};
+}
+
+Status check_objects(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                     const SetupOptions& options) {
+  if (key.processors.objects == 0) return Ok{};
+  std::vector<std::uint32_t> words;
+  SetupCounts counts;
+  make_setup(scene, frame, key, options)->append_prologue(words, counts);
+  return check_pixels(scene, key, counts, false);
 }
 
 Status check_projection(const Scene& scene, const SetupCounts& counts) {

@@ -58,7 +58,8 @@ class Simulation {
   SceneSummary run() {
     const Clock::time_point start = Clock::now();
     summary_.plan = must(plan_scene(scene_, s_.plan));
-    refuse_crowded_lines();
+    // Engines may take minutes to build.
+    must(check_objects(scene_, s_.size, summary_.plan.key, s_.setup));
     must(make_folders(files_.folder));
     const auto lock = must(lock_folder(files_.folder, [this] { s_.on_wait(files_.folder); }));
     forget_old_results();
@@ -93,16 +94,6 @@ class Simulation {
   };
 
   const FrameAssembler& golden() const { return driver_->golden_frame(); }
-
-  // Refuse at once a frame that needs more object processors: engines may take minutes to build.
-  void refuse_crowded_lines() const {
-    const HardwareKey& key = summary_.plan.key;
-    if (key.processors.objects == 0) return;
-    std::vector<std::uint32_t> words;
-    SetupCounts counts;
-    make_setup(scene_, s_.size, key, s_.setup)->append_prologue(words, counts);
-    must(check_pixels(scene_, key, counts, false));
-  }
 
   // Remove old results: if this run is interrupted, they must not be taken for its own.
   void forget_old_results() const {

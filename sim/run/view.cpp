@@ -16,6 +16,7 @@
 #include "reference/renderer.hpp"
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
+#include "setup/check_counts.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/os/must.hpp"
@@ -241,6 +242,8 @@ ViewSummary view(const Scene& scene, const ViewSettings& settings) {
                       .compared = settings.compare,
                       .threads = settings.threads};
   const HardwareKey& key = summary.plan.key;
+  // Engines may take minutes to build.
+  must(check_objects(scene, settings.size, key, settings.setup));
   const double pixels = double(settings.size.width) * double(settings.size.height) * double(settings.frames);
   summary.engine =
       settings.engine.value_or(pixels >= c_least_lane_pixels ? EngineKind::lanes : EngineKind::verilator);
