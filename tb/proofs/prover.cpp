@@ -114,27 +114,102 @@ std::string with_clock(std::string text) {
                             std::regex_constants::format_first_only);
 }
 
+void replace(std::string& text, std::string_view part, std::string_view by) {
+  if (const std::size_t at = text.find(part); at != std::string::npos) text.replace(at, part.size(), by);
+}
+
+// The proved entity up to its end, without comments.
+std::string read_declaration(const Folders& folders, const Proof& proof) {
+  const std::string text = must(read_file(folders.source / "rtl" / (proof.entity + ".vhd")));
+  return std::regex_replace(text.substr(0, text.find("end entity")), std::regex("--[^\n]*"), "");
+}
+
+bool has_reset(const std::string& declaration) {
+  static const std::regex c_reset(R"(\breset *: *in )");
+  return std::regex_search(declaration, c_reset);
+}
+
+// Writes out `$around`: the head of an entity around the proved one, with the same context and the generics
+// that follow in the line.
+std::string with_around(const std::string& text, const Proof& proof, const std::string& declaration) {
+  static const std::regex c_around(R"(\$around *([^\n]*))");
+  std::smatch found;
+  if (!std::regex_search(text, found, c_around)) return text;
+  const std::string generics = found[1].length() == 0 ? "" : fmt::format("generic ({});", found[1].str());
+  return fmt::format(
+      "{}{}\nuse ieee.numeric_std.all;\nentity {}_proof is {} port (clk{} : in std_logic); end entity;\n"
+      "architecture proof of {}_proof is{}",
+      found.prefix().str(), declaration.substr(0, declaration.find("\nentity ")), entity_of(proof), generics,
+      has_reset(declaration) ? ", reset" : "", entity_of(proof), found.suffix().str());
+}
+
+// Writes out `$dut`: the proved entity, with signals of the same names at its ports, and with the generics
+// that follow in the line.
+std::string with_dut(const std::string& text, const Proof& proof, const std::string& declaration) {
+  static const std::regex c_instance(R"(\$dut *([^\n]*))"), c_port(R"((\w+) *: *(?:in|out|buffer) )");
+  std::smatch found;
+  if (!std::regex_search(text, found, c_instance)) return text;
+  std::string ports;
+  for (std::sregex_iterator at(declaration.begin(), declaration.end(), c_port), last; at != last; ++at)
+    ports += fmt::format("{}{} => {}", ports.empty() ? "" : ", ", (*at)[1].str(), (*at)[1].str());
+  const std::string generics = found[1].length() == 0 ? "" : fmt::format("generic map ({})", found[1].str());
+  return fmt::format("{}dut : entity work.{} {} port map ({});{}", found.prefix().str(), entity_of(proof),
+                     generics, ports, found.suffix().str());
+}
+
+// Writes out the process between `$ghost` and `$end`. At a reset, each signal that it assigns takes its
+// initial value, if it has one.
+std::string with_ghosts(std::string text, const std::string& declaration) {
+  const std::string block(between(text, "$ghost", "$end"));
+  static const std::regex c_initial(R"(\bsignal ([\w, ]+):[^;]*:= *([^;]*);)"), c_name(R"(\w+)");
+  std::string resets;
+  for (std::sregex_iterator at(text.begin(), text.end(), c_initial), last; at != last; ++at) {
+    const std::string names = (*at)[1];
+    for (std::sregex_iterator name(names.begin(), names.end(), c_name); name != last; ++name)
+      if (std::regex_search(block, std::regex(fmt::format(R"(\n *{}\b[^\n]* <= )", name->str()))))
+        resets += fmt::format("{} <= {}; ", name->str(), (*at)[2].str());
+  }
+  if (!resets.empty()) resets = fmt::format("if reset = '1' then {}end if; ", resets);
+  replace(text, "$ghost", "ghost : process (clk) begin if rising_edge(clk) then");
+  replace(text, "$end", fmt::format("{}end if; end process;", has_reset(declaration) ? resets : ""));
+  return text;
+}
+
+// Writes out `kept(valid, ready, word, ...)`: what waits stays valid, and its words are stable.
+std::string with_kept(const std::string& text) {
+  static const std::regex c_kept(R"(\bkept\((\w+), (\w+)([^()]*)\))"), c_word(R"(,\s*([\w.]+))");
+  std::string result;
+  auto rest = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), c_kept), last; at != last; ++at) {
+    result.append(rest, (*at)[0].first);
+    result += std::regex_replace((*at)[0].str(), c_kept, "prev($1 and not $2 and not reset) -> $1 = '1'");
+    result += std::regex_replace((*at)[3].str(), c_word, " and stable($1)");
+    rest = (*at)[0].second;
+  }
+  return result.append(rest, text.end());
+}
+
 struct Unit {
   std::string text;
   std::string top;
   PropertyCounts counts;
 };
 
-void replace(std::string& text, std::string_view part, std::string_view by) {
-  if (const std::size_t at = text.find(part); at != std::string::npos) text.replace(at, part.size(), by);
-}
-
 // The unit, with the table and the contracts that the proof needs.
 Unit make_unit(const Folders& folders, const Proof& proof) {
   std::string text = read_unit(folders, proof.unit);
   replace(text, "$entity", entity_of(proof));
   replace(text, "$entries\n", vhdl_of_table(proof));
+  const std::string declaration = read_declaration(folders, proof);
+  text = with_dut(with_around(text, proof, declaration), proof, declaration);
+  text = with_kept(with_ghosts(std::move(text), declaration));
   if (contains(text, " case "))
     throw Failure{bad_input(fmt::format(
         "tb/rtl/{}: GHDL drops what follows `when others`; write if and elsif instead of case", proof.unit))};
   Unit unit{.text = {}, .top = top_of(proof, text), .counts = {}};
   // GHDL takes the architecture that it analyses last.
-  for (const std::string& contract : proof.contracts) unit.text += with_clock(read_unit(folders, contract));
+  for (const std::string& contract : proof.contracts)
+    unit.text += with_clock(with_kept(read_unit(folders, contract)));
   unit.text += with_clock(std::move(text));
   unit.counts = count_properties(unit.text);
   return unit;
