@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 #include "golden_table.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
+#include "sim/os/toml_file.hpp"
 #include "words/generator/formats.hpp"
 
 namespace halfway::proofs {
@@ -52,12 +52,7 @@ class ProofFile {
       : source_(source), name_(name), file_((c_folder / name).string()) {}
 
   std::vector<Proof> read() {
-    try {
-      root_ = toml::parse(must(read_file(source_ / c_folder / name_)), file_);
-    } catch (const toml::parse_error& error) {
-      throw Failure{bad_input(fmt::format("{}:{}: bad TOML: {}; correct it", file_, error.source().begin.line,
-                                          error.description()))};
-    }
+    root_ = parse_toml(must(read_file(source_ / c_folder / name_)), file_);
     check_keys(root_, with_shared_keys({"entity", "unit", "shared_faults", "proof"}));
     read_entity();
     read_unit();

@@ -126,7 +126,7 @@ TEST_F(ProofFiles, NamesFileAndLineOfABadKeyOrValue) {
   const std::string proof = c_proof;
   const std::string file = "tb/rtl/raster/box.toml";
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"a = 1\nb = ]\n", file + ":2: bad TOML: "},
+      {"a = 1\nb = ]\n", file + ":2: "},
       {"depth = 3\n" + proof, file + ":1: unknown key 'depth'; the keys here are entity, "},
       {proof + "depth = 3\n", file + ":8: unknown key 'depth'; the keys here are property, "},
       {replaced(proof, "new", "from"), file + ":7: unknown key 'from'; the keys here are file, "},
