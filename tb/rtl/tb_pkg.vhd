@@ -115,9 +115,6 @@ package tb_pkg is
   -- xorshift32 (Marsaglia 2003, shifts 13, 17, 5)
   function next_random (state : unsigned(31 downto 0)) return unsigned;
 
-  -- A random word with runs of equal bits. One in four is all zeros, all ones, or the least or greatest signed number.
-  procedure draw_word (random : inout unsigned(31 downto 0); word : out unsigned);
-
   -- True with probability 1 / 2**exponent.
   function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean;
 
@@ -547,27 +544,6 @@ package body tb_pkg is
     x := x xor shift_left(x, 5);
     return x;
   end function;
-
-  procedure draw_word (random : inout unsigned(31 downto 0); word : out unsigned) is
-    variable bits : unsigned(word'length - 1 downto 0);
-  begin
-    for i in bits'range loop
-      random  := next_random(random);
-      bits(i) := random(7);
-      if i < bits'high and random(31 downto 29) /= "000" and random(28 downto 27) = "00" then
-        bits(i) := bits(i + 1);
-      end if;
-    end loop;
-    random := next_random(random);
-    case to_integer(random(3 downto 0)) is
-      when 0      => bits := (others => '0');
-      when 1      => bits := (others => '1');
-      when 2      => bits := (others => '0'); bits(bits'high) := '1';
-      when 3      => bits := (others => '1'); bits(bits'high) := '0';
-      when others => null;
-    end case;
-    word := bits;
-  end procedure;
 
   function chance (random : unsigned(7 downto 0); exponent : natural range 0 to 8) return boolean is
   begin
