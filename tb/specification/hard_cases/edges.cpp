@@ -58,18 +58,20 @@ std::vector<std::size_t> wrong_pixels(const std::vector<Shape>& shapes, FrameSiz
 // In preset published only the shapes within the frame are drawn.
 void cover(Trial& trial, Preset preset, std::vector<Shape> shapes, FrameSize frame,
            Wrong wrong = Wrong::any) {
-  const bool exact = preset == Preset::exact;
-  if (!exact)
+  if (preset == Preset::published)
     std::erase_if(shapes, [&](const Shape& shape) {
       return !std::ranges::all_of(shape.whole,
                                   [&](const ScreenPiece& whole) { return in_frame(whole, frame); });
     });
-  std::vector<std::uint32_t> words;
-  for (std::uint32_t i = 0; i < shapes.size(); ++i)
-    for (const ScreenPiece& piece : shapes[i].pieces)
-      exact ? append_exact(piece, i, frame, words) : append_published(piece, i, words);
-  const auto count =
-      wrong_pixels(shapes, frame, trial.draw(exact ? c_exact_key : c_published_key, words), wrong);
+  std::vector<ScreenPiece> pieces;
+  std::vector<std::uint32_t> shape_of;  // the piece
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    pieces.insert(pieces.end(), shapes[i].pieces.begin(), shapes[i].pieces.end());
+    shape_of.resize(pieces.size(), i);
+  }
+  std::vector<Fragment> fragments = draw_pieces(trial, preset, pieces, frame);
+  for (Fragment& f : fragments) f.triangle = shape_of[f.triangle];
+  const auto count = wrong_pixels(shapes, frame, fragments, wrong);
   for (std::size_t i = 0; i < shapes.size(); ++i)
     trial.measure(preset, static_cast<double>(count[i]), 0,
                   [&] { return name_of(shapes[i].whole[0].points, shapes[i].whole[0].unit_bits); });

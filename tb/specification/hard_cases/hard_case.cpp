@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+// halfway_stability: the hard cases. Each full sweep is a row of docs/results/hard_cases.md.
 #include "specification/hard_cases/hard_case.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
 
+#include "evidence/test_rows.hpp"
 #include "sim/os/toml_file.hpp"
 
 namespace halfway::stability {
@@ -91,3 +93,13 @@ TEST(Cases, HaveSweeps) {
 }
 
 }  // namespace halfway::stability
+
+int main(int argc, char** argv) {
+  using namespace halfway;
+  return page::run_tests(argc, argv,
+                         {.name = "hard_cases",
+                          .root = HALFWAY_SOURCE_DIR,
+                          .file = "docs/results/hard_cases.md",
+                          .tools = {"ghdl", "verilator"},
+                          .rows = {}});
+}

@@ -16,6 +16,14 @@ long double colour_error(const Fragment& f, const LongVec& radiance) {
   return std::max({off.x, off.y, off.z});
 }
 
+Scene scaled(Scene scene, double by) {
+  for (glm::dvec3& p : scene.positions_world) p *= by;
+  for (PositionalLight& l : scene.positional) l.position_world *= by;
+  for (SpotLight& l : scene.spots) l.position_world *= by;
+  scene.camera.eye_world *= by;
+  return scene;
+}
+
 Pieces::Pieces(const Scene& scene, FrameSize frame)
     : pieces_(Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all()) {
   std::ranges::stable_sort(pieces_, {}, &ScreenTriangle::source);
@@ -41,6 +49,19 @@ const ScreenTriangle& Pieces::nearest(std::uint32_t source, std::int64_t x, std:
   return *std::max_element(
       pieces.begin(), pieces.end(),
       [&](const ScreenTriangle& a, const ScreenTriangle& b) { return least(a) < least(b); });
+}
+
+LongVec Truth::radiance_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  const ScreenTriangle& t = pieces_.nearest(source, x, y);
+  const ExactSurface s = surface(t, c_subpixel_bits, x, y);
+  Material material = scene_.materials[t.material];
+  material.exponent = std::min(material.exponent, c_largest_exponent);
+  return radiance(scene_, material, s.position_world, unit_normal(t, s));
+}
+
+LongVec Truth::normal_at(std::uint32_t source, std::int64_t x, std::int64_t y) const {
+  const ScreenTriangle& t = pieces_.nearest(source, x, y);
+  return unit_normal(t, surface(t, c_subpixel_bits, x, y));
 }
 
 void for_each_error(const Scene& scene, const Pieces& pieces, std::span<const Fragment> fragments,

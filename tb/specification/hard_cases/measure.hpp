@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "frame/fragment.hpp"
+#include "golden_run/test/spherical_drawing.hpp"
 #include "projection/project.hpp"
 #include "setup/setup.hpp"
 #include "specification/hard_cases/specification.hpp"
@@ -36,6 +37,9 @@ inline std::array<std::uint8_t, 3> channels(const Fragment& f) {
 /// The error in colour steps of the worst channel, compared with the radiance clamped to white.
 long double colour_error(const Fragment& f, const LongVec& radiance);
 
+/// The scene with its lengths times `by`, except near and far plane.
+Scene scaled(Scene scene, double by);
+
 /// The triangles of a scene on the screen. Clipping makes several pieces of one triangle.
 class Pieces {
  public:
@@ -52,6 +56,20 @@ class Pieces {
   std::span<const ScreenTriangle> pieces_of(std::uint32_t source) const;
 
   std::vector<ScreenTriangle> pieces_;  ///< in order of their sources
+};
+
+/// The illumination model at the pixels of a scene, with exponents clamped as in the spherical shader.
+class Truth {
+ public:
+  /// The scene must outlive it.
+  Truth(const Scene& scene, FrameSize frame) : scene_(scene), pieces_(scene, frame) {}
+  /// For triangle `source` of the scene; linear, not clamped.
+  LongVec radiance_at(std::uint32_t source, std::int64_t x, std::int64_t y) const;
+  LongVec normal_at(std::uint32_t source, std::int64_t x, std::int64_t y) const;
+
+ private:
+  const Scene& scene_;
+  Pieces pieces_;
 };
 
 /// The error of a quadratic leaf, in units of the threshold, that the test is proved or calibrated to

@@ -306,11 +306,7 @@ void scales(Trial& trial) {
       add_mesh(scene, make_uv_sphere(9, 7, 1.0));
       scene.camera.eye_world = {0.0, 0.3, 3.4};
       random.add_lights(scene, 2, RandomScenes::any, 1.0, false);
-      for (glm::dvec3& p : scene.positions_world) p *= scale;
-      for (PositionalLight& l : scene.positional) l.position_world *= scale;
-      for (SpotLight& l : scene.spots) l.position_world *= scale;
-      scene.camera.eye_world *= scale;
-      shade(trial, scene, fmt::format("scene {} scaled by {}", i, scale));
+      shade(trial, scaled(scene, scale), fmt::format("scene {} scaled by {}", i, scale));
     }
 }
 

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <random>
 
-#include "golden_run/test/spherical_drawing.hpp"
-#include "projection/project.hpp"
+#include "scene/test/random_scenes.hpp"
 #include "specification/hard_cases/hard_case.hpp"
 #include "specification/hard_cases/screen_drawing.hpp"
 #include "specification/hard_cases/specification.hpp"
@@ -188,81 +186,60 @@ void long_spans(Trial& trial) {
   }
 }
 
-// A triangle of a surface as seen by the eye, with a light.
-struct Patch {
+// A triangle with normals up to 40 degrees apart, and with a highlight.
+Scene highlighted(RandomScenes& random) {
   Scene scene;
-  ScreenTriangle seen;
-};
-
-class RandomPatches {
- public:
-  explicit RandomPatches(unsigned seed) : random_(seed) {}
-  double within(double a, double b) { return std::uniform_real_distribution<double>(a, b)(random_); }
-
-  /// Normals up to 40 degrees apart, with a highlight on the triangle.
-  Patch highlighted(FrameSize frame) {
-    for (;;) {
-      Patch patch;
-      Scene& scene = patch.scene;
-      const glm::dvec3 to_eye(0, 0, 1);
-      for (int i = 0; i < 3; ++i) {
-        const double turn = 2.0 * std::numbers::pi * (i + within(0, 0.5)) / 3, lean = within(0.05, 0.4);
-        scene.positions_world.push_back(
-            {within(0.5, 1) * std::cos(turn), within(0.5, 1) * std::sin(turn), within(-0.2, 0.2)});
-        scene.normals_world.push_back(
-            glm::normalize(glm::dvec3(lean * std::cos(turn), lean * std::sin(turn), 1)));
-      }
-      scene.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
-      scene.materials.push_back({.name = "m",
-                                 .diffuse = within(0, 0.5),
-                                 .specular = within(0.5, 1),
-                                 .exponent = std::exp(within(std::log(20.0), std::log(500.0)))});
-      scene.ambient = glm::dvec3(0.05);
-      scene.camera.eye_world = {0, 0, within(3, 10)};
-      scene.camera.vertical_fov_degrees = 2 * 57.3 * std::atan(1.1 / scene.camera.eye_world.z);
-      glm::dvec3 weight(within(0, 1), within(0, 1), within(0, 1));
-      weight /= weight.x + weight.y + weight.z;
-      glm::dvec3 normal(0);
-      for (int i = 0; i < 3; ++i) normal += weight[i] * scene.normals_world[static_cast<std::size_t>(i)];
-      normal = glm::normalize(normal);
-      scene.directional.push_back(
-          {2 * glm::dot(normal, to_eye) * normal - to_eye, glm::dvec3(within(0.5, 1))});
-      const auto seen = Projector(scene, frame, {.subpixel_bits = c_subpixel_bits}).project_all();
-      if (seen.size() != 1) continue;
-      patch.seen = seen[0];
-      return patch;
-    }
+  const glm::dvec3 to_eye(0, 0, 1);
+  const auto within = [&](double low, double high) { return random.within(low, high); };
+  for (int i = 0; i < 3; ++i) {
+    const double turn = 2.0 * std::numbers::pi * (i + within(0, 0.5)) / 3, lean = within(0.05, 0.4);
+    scene.positions_world.push_back(
+        {within(0.5, 1) * std::cos(turn), within(0.5, 1) * std::sin(turn), within(-0.2, 0.2)});
+    scene.normals_world.push_back(
+        glm::normalize(glm::dvec3(lean * std::cos(turn), lean * std::sin(turn), 1)));
   }
-
- private:
-  std::mt19937 random_;
-};
+  scene.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
+  scene.materials.push_back({.name = "m",
+                             .diffuse = within(0, 0.5),
+                             .specular = within(0.5, 1),
+                             .exponent = random.log_within(20.0, 500.0)});
+  scene.ambient = glm::dvec3(0.05);
+  scene.camera.eye_world = {0, 0, within(3, 10)};
+  scene.camera.vertical_fov_degrees = 2 * 57.3 * std::atan(1.1 / scene.camera.eye_world.z);
+  glm::dvec3 weight(within(0, 1), within(0, 1), within(0, 1));
+  weight /= weight.x + weight.y + weight.z;
+  glm::dvec3 normal(0);
+  for (int i = 0; i < 3; ++i) normal += weight[i] * scene.normals_world[static_cast<std::size_t>(i)];
+  normal = glm::normalize(normal);
+  scene.directional.push_back({2 * glm::dot(normal, to_eye) * normal - to_eye, glm::dvec3(within(0.5, 1))});
+  return scene;
+}
 
 void between_samples(Trial& trial) {
   constexpr FrameSize c_patch_frame{80, 80};
-  RandomPatches random(9);
+  RandomScenes random(9);
   std::uint64_t split = 0;
   int unresolved = 0;
   const int patches = trial.rounds(40, 4'000);
   for (int i = 0; i < patches; ++i) {
-    const Patch patch = random.highlighted(c_patch_frame);
+    Scene scene = highlighted(random);
+    while (Pieces(scene, c_patch_frame).all().size() != 1) scene = highlighted(random);
+    const Truth truth(scene, c_patch_frame);
     const auto off = [&](const Fragment& f) {
-      const ExactSurface s = surface(patch.seen, c_subpixel_bits, f.x, f.y);
-      return colour_error(f, radiance(patch.scene, patch.scene.materials[0], s.position_world,
-                                      glm::normalize(s.normal_world)));
+      return colour_error(f, truth.radiance_at(f.triangle, f.x, f.y));
     };
     DrawOptions options{.frame = c_patch_frame};
     // The test is tuned to, and may exceed, twice the threshold (setup/highlight_bound.hpp). The rest is
     // rounding.
     const double bound = 2 * options.setup.quadratic.threshold + colour_bound(Preset::exact, 3 * 80);
-    const Drawing ours = trial.draw(patch.scene, options);
+    const Drawing ours = trial.draw(scene, options);
     split += ours.counts.subdivided;
     unresolved += ours.counts.unresolved > 0;
     if (ours.counts.unresolved == 0)
       for (const Fragment& f : ours.golden)
         trial.ours(off(f), bound, [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
     options.setup.quadratic.test = HighlightTest::centroid;
-    for (const Fragment& f : trial.draw(patch.scene, options).golden)
+    for (const Fragment& f : trial.draw(scene, options).golden)
       trial.published(off(f), bound, [&] { return fmt::format("patch {}, pixel {},{}", i, f.x, f.y); });
   }
   trial.require(split > 10, [] { return std::string("nothing is split"); });
@@ -452,25 +429,18 @@ void cancelling_normals(Trial& trial) {
 
 // Lengths times a power of two give the same fragments. 10^-6 and 10^6 are rounded, so they are compared.
 void scales(Trial& trial) {
-  const auto scaled = [](double by) {
-    Scene scene = bright_stage(50);
-    add_side_lights(scene);
-    for (glm::dvec3& p : scene.positions_world) p *= by;
-    scene.positional[0].position_world *= by;
-    scene.spots[0].position_world *= by;
-    scene.camera.eye_world *= by;
-    return scene;
-  };
+  Scene scene = bright_stage(50);
+  add_side_lights(scene);
   for (const HighlightTest test : {HighlightTest::conservative, HighlightTest::proved}) {
     DrawOptions options;
     options.setup.quadratic.test = test;
-    const std::vector<Fragment> one = trial.draw(scaled(1), options).golden;
+    const std::vector<Fragment> one = trial.draw(scene, options).golden;
     for (const double by : {0x1p-20, 0x1p-200, 0x1p20, 0x1p200})
-      trial.require(trial.draw(scaled(by), options).golden == one,
+      trial.require(trial.draw(scaled(scene, by), options).golden == one,
                     [&] { return fmt::format("another picture, scaled by {:g}", by); });
   }
   for (const double by : {1e-6, 1.0, 1e6})
-    against_model(trial, scaled(by), fmt::format("scaled by {:g}", by));
+    against_model(trial, scaled(scene, by), fmt::format("scaled by {:g}", by));
 }
 
 constexpr HardCase c_cases[] = {{"no_divisor", no_divisor},

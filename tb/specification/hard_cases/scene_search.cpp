@@ -6,20 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
+#include <iterator>
 #include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "scene/lights.hpp"
 #include "scene/test/random_scenes.hpp"
 #include "setup/walk_header.hpp"
 #include "specification/hard_cases/measure.hpp"
 #include "specification/hard_cases/screen_drawing.hpp"
 #include "specification/hard_cases/search.hpp"
 #include "specification/hard_cases/shading_bound.hpp"
-#include "specification/hard_cases/spherical_trial.hpp"
 
 namespace halfway::stability {
 namespace {
@@ -148,109 +146,31 @@ Input input_of(Shader shader, std::uint32_t seed) {
   return input;
 }
 
-// Simpler inputs: without a light, a triangle, a term or a colour.
-std::vector<Input> simpler(const Input& input) {
-  std::vector<Input> all;
-  const auto add = [&](auto&& change) { change(all.emplace_back(input).scene); };
-  const auto erase_each = [&](auto list) {
-    for (std::size_t i = 0; i < (input.scene.*list).size(); ++i)
-      add([&](Scene& s) { (s.*list).erase((s.*list).begin() + static_cast<std::ptrdiff_t>(i)); });
-  };
-  erase_each(&Scene::directional);
-  erase_each(&Scene::positional);
-  erase_each(&Scene::spots);
-  if (input.scene.triangles.size() > 1) erase_each(&Scene::triangles);
-  const Material& m = input.scene.materials[0];
-  if (input.scene.ambient != glm::dvec3(0)) add([](Scene& s) { s.ambient = glm::dvec3(0); });
-  if (m.diffuse != 0) add([](Scene& s) { s.materials[0].diffuse = 0; });
-  if (m.specular != 0) add([](Scene& s) { s.materials[0].specular = 0; });
-  if (m.colour != glm::dvec3(1)) add([](Scene& s) { s.materials[0].colour = glm::dvec3(1); });
-  if (m.specular_colour != glm::dvec3(1))
-    add([](Scene& s) { s.materials[0].specular_colour = glm::dvec3(1); });
-  if (m.exponent != std::round(m.exponent))
-    add([](Scene& s) { s.materials[0].exponent = std::round(s.materials[0].exponent); });
-  return all;
+// The number of pixels that are drawn too often or not often enough. Each piece draws its pixels once; with
+// object processors each pixel is drawn once.
+std::size_t wrong_pixels(const Pieces& pieces, FrameSize frame, const std::vector<Fragment>& fragments,
+                         bool nearest_alone) {
+  using Pixel = std::tuple<std::uint32_t, std::int64_t, std::int64_t>;  // triangle, x, y
+  std::vector<Pixel> covered, drawn, wrong;
+  for (const ScreenTriangle& t : pieces.all())
+    for_each_covered(screen_points(t), c_subpixel_bits, frame, [&](std::int64_t x, std::int64_t y) {
+      covered.emplace_back(nearest_alone ? 0 : t.source, x, y);
+    });
+  for (const Fragment& f : fragments) drawn.emplace_back(nearest_alone ? 0 : f.triangle, f.x, f.y);
+  std::ranges::sort(covered);
+  std::ranges::sort(drawn);
+  if (nearest_alone) covered.erase(std::unique(covered.begin(), covered.end()), covered.end());
+  std::ranges::set_symmetric_difference(covered, drawn, std::back_inserter(wrong));
+  return wrong.size();
 }
-
-std::string description(const Input& input) {
-  const Scene& s = input.scene;
-  const Material& m = s.materials[0];
-  const auto point = [](const glm::dvec3& v) {
-    return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z);
-  };
-  std::string text = fmt::format(
-      "{}x{}, eye {}, {:.9g} degrees; BRDF {}, k_d {:.9g}, k_s {:.9g}, n {:.9g}, m {:.9g}, colours {} {}",
-      input.frame.width, input.frame.height, point(s.camera.eye_world), s.camera.vertical_fov_degrees,
-      static_cast<int>(m.brdf), m.diffuse, m.specular, m.exponent, m.roughness, point(m.colour),
-      point(m.specular_colour));
-  for (const SceneTriangle& t : s.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      text += fmt::format("; vertex {} normal {}", point(s.positions_world[t.position[i]]),
-                          point(s.normals_world[t.normal[i]]));
-  for_each_light(s, [&](const Light& l) {
-    text += fmt::format("; {} {} of {}", to_string(l.ref.kind), point(l.point.xyz_world), point(l.intensity));
-    if (l.cone)
-      text += fmt::format(" along {}, cosines {:.9g} {:.9g}", point(l.cone->axis_world), l.cone->cos_inner,
-                          l.cone->cos_outer);
-  });
-  return text;
-}
-
-// Counts the pieces that cover each pixel, for each triangle and for all.
-class Cover {
- public:
-  Cover(const Pieces& pieces, FrameSize frame) {
-    for (const ScreenTriangle& t : pieces.all())
-      for_each_covered(screen_points(t), 4, frame, [&](std::int64_t x, std::int64_t y) {
-        ++by_triangle_[{t.source, x, y}];
-        ++pixels_[{x, y}];
-      });
-  }
-  /// Pixels that are drawn too often or not often enough. Each piece draws its pixels once; with object
-  /// processors each pixel is drawn once.
-  std::uint64_t wrong(const std::vector<Fragment>& fragments, bool nearest_alone) const {
-    std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, int> drawn;
-    std::map<std::pair<std::int64_t, std::int64_t>, int> pixels;
-    for (const Fragment& f : fragments) ++drawn[{f.triangle, f.x, f.y}], ++pixels[{f.x, f.y}];
-    std::uint64_t wrong = 0;
-    if (nearest_alone) {
-      for (const auto& [at, count] : pixels) wrong += count != 1 || !pixels_.contains(at);
-      for (const auto& [at, count] : pixels_) wrong += !pixels.contains(at);
-      return wrong;
-    }
-    for (const auto& [at, count] : by_triangle_) wrong += drawn[at] != count;
-    for (const auto& [at, count] : drawn) wrong += !by_triangle_.contains(at);
-    return wrong;
-  }
-
- private:
-  std::map<std::tuple<std::uint32_t, std::int64_t, std::int64_t>, int> by_triangle_;
-  std::map<std::pair<std::int64_t, std::int64_t>, int> pixels_;
-};
 
 class SceneSearch final : public Search {
  public:
   SceneSearch(Shader shader, SimulatorFolders folders, bool quick)
       : shader_(shader), folders_(std::move(folders)), quick_(quick) {}
 
-  // Of an input that fails, returns the simplest form that still fails.
   std::string check(std::uint32_t seed, Tally& tally) override {
-    Input input = input_of(shader_, seed);
-    const std::string failure = failure_of(input, tally);
-    if (failure.empty()) return "";
-    const auto quantity = [](const std::string& f) { return f.substr(0, f.find(':')); };
-    for (bool simplified = true; std::exchange(simplified, false);)
-      for (Input& next : simpler(input)) {
-        Tally apart;
-        if (quantity(failure_of(next, apart)) != quantity(failure)) continue;
-        input = std::move(next);
-        simplified = true;
-        break;
-      }
-    return fmt::format("{}; simplified: {}", failure, description(input));
-  }
-
-  std::string failure_of(const Input& input, Tally& tally) const {
+    const Input input = input_of(shader_, seed);
     const auto& [scene, frame, input_plan, many_lights, setup] = input;
     PlanRequest plan = input_plan;
     if (scene.shadows) plan.objects = c_golden_objects;
@@ -266,7 +186,8 @@ class SceneSearch final : public Search {
     const Pieces pieces(scene, frame);
     Worst coverage, colour;
     coverage.add(
-        static_cast<double>(Cover(pieces, frame).wrong(drawing->golden, drawing->key.processors.objects > 0)),
+        static_cast<double>(
+            wrong_pixels(pieces, frame, drawing->golden, drawing->key.processors.objects > 0)),
         0, [] { return "pixels"; });
     const std::string wrong = tally.add("coverage", coverage);
     if (published || !wrong.empty()) return wrong;
@@ -361,14 +282,8 @@ class SceneSearch final : public Search {
 
 }  // namespace
 
-std::unique_ptr<Search> make_quadratic_search(const SimulatorFolders& folders, bool quick) {
-  return std::make_unique<SceneSearch>(Shader::quadratic, folders, quick);
-}
-std::unique_ptr<Search> make_spherical_search(const SimulatorFolders& folders, bool quick) {
-  return std::make_unique<SceneSearch>(Shader::spherical, folders, quick);
-}
-std::unique_ptr<Search> make_processors_search(const SimulatorFolders& folders, bool quick) {
-  return std::make_unique<SceneSearch>(Shader::processors, folders, quick);
+std::unique_ptr<Search> make_scene_search(Shader shader, const SimulatorFolders& folders, bool quick) {
+  return std::make_unique<SceneSearch>(shader, folders, quick);
 }
 
 }  // namespace halfway::stability

@@ -8,19 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "setup/quadratic_setup.hpp"
 #include "setup/test/random_triangles.hpp"
 #include "specification/hard_cases/measure.hpp"
 #include "specification/hard_cases/specification.hpp"
 #include "specification/hard_cases/trial.hpp"
 #include "words/formats.hpp"
-#include "words/init_vector.hpp"
 
 namespace halfway::stability {
-
-inline constexpr HardwareKey c_exact_key{.shader = Shader::quadratic, .preset = Preset::exact, .channels = 1};
-inline constexpr HardwareKey c_published_key{
-    .shader = Shader::quadratic, .preset = Preset::published, .channels = 1};
 
 /// A triangle or a piece of one, with samples of one channel in colour steps and depths in depth steps.
 struct ScreenPiece {
@@ -31,36 +25,6 @@ struct ScreenPiece {
 };
 
 std::string name_of(const Points& points, int unit_bits);
-
-/// Appends the piece's vectors for the preset. `tag` is the triangle's number.
-inline void append_exact(const ScreenPiece& piece, std::uint32_t tag, FrameSize frame,
-                         std::vector<std::uint32_t>& words) {
-  const Walks walks = plan_walks(piece.points, piece.unit_bits, frame);
-  if (walks.empty()) return;
-  const auto depth = [&](std::size_t i) {
-    return fixed(piece.depth[i], words::Exact::c_depth_sum_fraction_bits);
-  };
-  halfway::append_exact({words, 1}, {tag,
-                                     piece.points,
-                                     piece.unit_bits,
-                                     walks,
-                                     DepthFit(piece.points, piece.unit_bits, {depth(0), depth(1), depth(2)}),
-                                     {piece.sample}});
-}
-
-/// The vertices of preset published: each is the pixel in which the point lies.
-inline std::array<HalfVertex, 3> published_vertices(const ScreenPiece& piece) {
-  const auto vertex = [&](std::size_t i) {
-    const std::int32_t half_pixel = 1 << (piece.unit_bits - 1);
-    const ScreenPoint from_centre = {piece.points[i].x - half_pixel, piece.points[i].y - half_pixel};
-    return half_vertex(from_centre, piece.unit_bits, piece.depth[i]);
-  };
-  return {vertex(0), vertex(1), vertex(2)};
-}
-
-inline void append_published(const ScreenPiece& piece, std::uint32_t tag, std::vector<std::uint32_t>& words) {
-  halfway::append_published({words, 1}, tag, published_vertices(piece), {piece.sample});
-}
 
 /// Returns whether preset published can draw the piece without cutting it at the frame.
 inline bool in_frame(const ScreenPiece& piece, FrameSize frame) {
@@ -95,16 +59,12 @@ inline double depth_bound(double k) {
   return 0.5 + std::ldexp(1 + k + 1, -words::Exact::c_depth_sum_fraction_bits - 1);
 }
 
-/// The quadratic through a piece's samples at a pixel's centre, and the plane through its depths.
+/// The quadratic through a piece's samples at a pixel's centre.
 inline long double exact_colour(const ScreenPiece& piece, std::int64_t x, std::int64_t y) {
   std::array<long double, 6> sample;
   std::ranges::copy(piece.sample, sample.begin());
   return quadratic(barycentric(piece.points, centre(x, piece.unit_bits), centre(y, piece.unit_bits)).real(),
                    sample);
-}
-inline long double exact_depth(const ScreenPiece& piece, std::int64_t x, std::int64_t y) {
-  return linear(barycentric(piece.points, centre(x, piece.unit_bits), centre(y, piece.unit_bits)).real(),
-                {piece.depth[0], piece.depth[1], piece.depth[2]});
 }
 
 /// The four quarters of a triangle, with points in units of half the size, as in the setup's split.
@@ -118,12 +78,9 @@ inline std::array<Points, 4> quarters(const Points& p) {
 /// The pieces of a triangle that is fully split `level` times, in 1/2^level of its units.
 std::vector<Points> split(const Points& whole, int level);
 
-/// The error of a fragment of the piece, in colour steps and in depth steps.
+/// The error of a fragment of the piece, in colour steps.
 inline double colour_off(const Fragment& f, const ScreenPiece& piece) {
   return static_cast<double>(std::abs(f.red - std::clamp(exact_colour(piece, f.x, f.y), 0.0L, 255.0L)));
-}
-inline double depth_off(const Fragment& f, const ScreenPiece& piece) {
-  return static_cast<double>(std::abs(f.z - exact_depth(piece, f.x, f.y)));
 }
 
 std::string pixel_of(const ScreenPiece& piece, std::int64_t x, std::int64_t y);

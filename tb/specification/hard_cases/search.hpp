@@ -42,8 +42,8 @@ class Search {
 /// Adds `inputs` inputs, drawn by the trial, to the tally. Returns how RTL and golden model differ.
 Result<std::string> rtl_failure(const Trial& trial, std::uint64_t inputs, Tally& tally);
 
-/// With `quick`, a search leaves out hardware that takes minutes to build.
-using MakeSearch = std::unique_ptr<Search>(const SimulatorFolders& folders, bool quick);
-MakeSearch make_triangle_search, make_quadratic_search, make_spherical_search, make_processors_search;
+std::unique_ptr<Search> make_triangle_search(const SimulatorFolders& folders);
+/// With `quick`, the search leaves out hardware that takes minutes to build.
+std::unique_ptr<Search> make_scene_search(Shader shader, const SimulatorFolders& folders, bool quick);
 
 }  // namespace halfway::stability

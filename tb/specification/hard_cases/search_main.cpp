@@ -10,6 +10,7 @@
 #include <ctime>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -33,7 +34,7 @@ struct SearchKind {
   std::string_view about;                 ///< for the page
   std::uint64_t quick_count, full_count;  ///< inputs of `make test` and of `make search`
   std::uint64_t rtl_every;                ///< one batch in so many is checked in the RTL
-  MakeSearch* make;
+  std::optional<Shader> shader{};         ///< of scenes; the triangles have none
 };
 
 constexpr SearchKind c_searches[] = {
@@ -43,7 +44,7 @@ constexpr SearchKind c_searches[] = {
      "split triangle, down to level 5. Samples are up to 1023 steps, depths from the near to the far plane, "
      "sides of frames 1 to 4096 pixels. Colour and depth are in steps, minus the half step of rounding; the "
      "bound is that of the pixel's forward differences.",
-     20'000, 10'000'000, 25, make_triangle_search},
+     20'000, 10'000'000, 25},
     {"patches",
      "Random triangles of 1 to 4096 pixels in the quadratic shader, preset `exact`, with the conservative "
      "and the proved test and thresholds T of 0.5 to 8 steps: flat or curved, with normals that agree, "
@@ -53,18 +54,18 @@ constexpr SearchKind c_searches[] = {
      "Planes with the proved test, too. The figure of a triangle is the error of its worst pixel beyond the "
      "rounding of the hardware, divided by T. The last row counts triangles with leaves that `make sim` "
      "reports as unresolved; they have no bound.",
-     2'000, 1'000'000, 100, make_quadratic_search},
+     2'000, 1'000'000, 100, Shader::quadratic},
     {"spherical-scenes",
      "Random scenes in the spherical shader, both presets: up to eight triangles with their own normals, up "
      "to sixteen lights of all kinds, from close to the surface to far away. The figure of a scene is that "
      "of its worst pixel; the bound is that of the set-up's threshold, of bells and of tables. Preset "
      "`published` is only drawn by the RTL.",
-     200, 25'000, 10, make_spherical_search},
+     200, 25'000, 10, Shader::spherical},
     {"processor-scenes",
      "The same scenes in the shading processors, both presets and both forms, with and without shadows, with "
      "near planes that cut triangles. The figure of a scene is that of its worst pixel; the bound is that of "
      "the errors of the units. A shadow may fall on any pixel here; the family `shadows` checks shadows.",
-     200, 25'000, 10, make_processors_search},
+     200, 25'000, 10, Shader::processors},
 };
 
 struct Options {
@@ -110,7 +111,9 @@ Status check_all(const SearchKind& kind, const Options& options, std::uint64_t c
   return for_each_on_threads(threads, (count + c_batch - 1) / c_batch, [&](std::size_t batch) {
     std::unique_lock lock(shared.mutex);
     if (isatty(STDERR_FILENO)) fmt::print(stderr, "{}: {} of {}\r", kind.name, batch * c_batch, count);
-    if (shared.idle.empty()) shared.idle.push_back(kind.make(options.folders(), options.quick));
+    if (shared.idle.empty())
+      shared.idle.push_back(kind.shader ? make_scene_search(*kind.shader, options.folders(), options.quick)
+                                        : make_triangle_search(options.folders()));
     std::unique_ptr<Search> search = std::move(shared.idle.back());
     shared.idle.pop_back();
     lock.unlock();
@@ -181,6 +184,34 @@ ExitCode run_all(const Options& options) {
 }
 
 }  // namespace
+
+void Tally::add(const Tally& other) {
+  inputs += other.inputs;
+  fragments += other.fragments;
+  rtl_inputs += other.rtl_inputs;
+  rtl_fragments += other.rtl_fragments;
+  for (const auto& [quantity, theirs] : other.worst) {
+    Worst& ours = worst[quantity];
+    const std::uint64_t count = ours.count + theirs.count;
+    ours.add(theirs.figure, theirs.bound, [&where = theirs.where] { return where; });
+    ours.count = count;
+  }
+}
+
+std::string Tally::add(const char* quantity, const Worst& of_input) {
+  if (of_input.count == 0) return "";
+  worst[quantity].add(of_input.figure, of_input.bound, [&] { return of_input.where; });
+  if (of_input.within()) return "";
+  return fmt::format("{}: {}: {:.4g} of {:.4g}", quantity, of_input.where, of_input.figure, of_input.bound);
+}
+
+Result<std::string> rtl_failure(const Trial& trial, std::uint64_t inputs, Tally& tally) {
+  if (!trial.tools()) return trial.tools().error();
+  tally.rtl_inputs += inputs;
+  tally.rtl_fragments += trial.rtl_fragments();
+  return trial.failure();
+}
+
 }  // namespace halfway::stability
 
 int main(int argc, char** argv) {

@@ -6,19 +6,82 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
+#include <optional>
+#include <tuple>
 
 #include "golden_run/test/spherical_drawing.hpp"
 #include "scene/test/random_scenes.hpp"
 #include "specification/hard_cases/hard_case.hpp"
-#include "specification/hard_cases/specification.hpp"
-#include "specification/hard_cases/spherical_trial.hpp"
+#include "specification/hard_cases/measure.hpp"
 #include "specification/hard_cases/trial.hpp"
 
 namespace halfway::stability {
 namespace {
 
 constexpr double c_pi = std::numbers::pi;
+
+struct Shown {
+  std::uint64_t fragments = 0;
+  int brightest = 0, published_brightest = 0;  ///< of the red channel
+  SetupCounts counts{};
+};
+
+struct ShowOptions {
+  FrameSize frame = c_stage_frame;
+  int least_red = 0;  ///< least red of the brightest pixel
+  std::optional<words::CosineSize> published_tables{};
+};
+
+// Draws the scene in preset exact, with ends on the surface. Compares each fragment's largest channel error
+// with the bound that setup's threshold, bells and tables guarantee (promised_steps), in colour steps.
+// Compares the same pixels of preset published with the same bound. Ends by slerp cover the same pixels.
+Shown show(Trial& trial, const Scene& scene, const std::string& name, const ShowOptions& options = {}) {
+  DrawOptions draw{.plan = {.shader = Shader::spherical, .all_effects = true, .lights = 3},
+                   .frame = options.frame};
+  const Drawing exact = trial.draw(scene, draw);
+  trial.require(!exact.golden.empty(), [&] { return name + ": nothing is drawn"; });
+  const double bound = promised_steps(scene, exact.key, draw.setup.spherical.threshold);
+  const Truth truth(scene, options.frame);
+
+  Shown shown{.fragments = exact.golden.size(), .counts = exact.counts};
+  std::map<std::tuple<std::uint32_t, int, int>, LongVec> there;
+  const auto where = [&](const Fragment& f) { return fmt::format("{}, pixel {}, {}", name, f.x, f.y); };
+  for (const Fragment& f : exact.golden) {
+    const LongVec radiance = there[{f.triangle, f.x, f.y}] = truth.radiance_at(f.triangle, f.x, f.y);
+    trial.ours(colour_error(f, radiance), bound, [&] { return where(f); });
+    shown.brightest = std::max(shown.brightest, int{f.red});
+  }
+
+  trial.require(shown.brightest >= options.least_red, [&] { return name + ": too dark"; });
+
+  draw.setup.spherical.ends = SpanEnds::slerped_along_edges;
+  const Drawing slerped = trial.draw(scene, draw);
+  trial.require(slerped.golden.size() == exact.golden.size(),
+                [&] { return name + ": ends by slerp cover other pixels"; });
+
+  draw.plan.preset = Preset::published;
+  draw.plan.tables = options.published_tables;
+  const Drawing published = trial.draw(scene, draw);
+  for (const Fragment& f : published.golden) {
+    trial.require(f.x < options.frame.width && f.y < options.frame.height,
+                  [&] { return where(f) + ": preset published draws outside the frame"; });
+    shown.published_brightest = std::max(shown.published_brightest, int{f.red});
+    // Vertices on whole pixels: along the edges the pixels differ from the exact ones.
+    const auto found = there.find({f.triangle, f.x, f.y});
+    if (found != there.end())
+      trial.published(colour_error(f, found->second), bound, [&] { return where(f); });
+  }
+  return shown;
+}
+
+// The surface of the first triangle at a pixel's centre, as in setup.
+SurfacePoint surface_at(const Scene& scene, FrameSize frame, std::int64_t x, std::int64_t y) {
+  const ScreenTriangle t = Pieces(scene, frame).all().at(0);
+  return surface_point(t,
+                       barycentric_screen(t, (2 * x + 1) << c_subpixel_bits, (2 * y + 1) << c_subpixel_bits));
+}
 
 // ---- Bells
 

@@ -67,8 +67,6 @@ class Trial {
       : folders_(std::move(folders)), rtl_(rtl), quick_(quick), conditioned_(conditioned) {}
 
   bool quick() const { return quick_; }
-  /// The project's root.
-  const std::filesystem::path& source() const { return folders_.source; }
   /// Number of rounds of a random sweep.
   int rounds(int quick, int full) const { return quick_ ? quick : full; }
 
@@ -85,12 +83,6 @@ class Trial {
   void measure(Preset preset, long double figure, long double bound,
                const std::function<std::string()>& where) {
     preset == Preset::exact ? ours(figure, bound, where) : published(figure, bound, where);
-  }
-  /// Adds figures of both forms, which share one bound.
-  void both(long double ours_figure, long double published_figure, long double bound,
-            const std::function<std::string()>& where) {
-    ours(ours_figure, bound, where);
-    published(published_figure, bound, where);
   }
   /// Adds a figure of our form: 0 if the property holds, else 1.
   void check(bool holds, const std::function<std::string()>& where) { ours(holds ? 0 : 1, 0, where); }

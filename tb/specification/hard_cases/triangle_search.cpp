@@ -234,7 +234,7 @@ class TriangleSearch final : public Search {
 
 }  // namespace
 
-std::unique_ptr<Search> make_triangle_search(const SimulatorFolders& folders, bool /*quick*/) {
+std::unique_ptr<Search> make_triangle_search(const SimulatorFolders& folders) {
   return std::make_unique<TriangleSearch>(folders);
 }
 
