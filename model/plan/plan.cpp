@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plan/plan.hpp"
 
+#include <fmt/format.h>
+
 #include "plan/shader_plans.hpp"
 #include "scene/check_numbers.hpp"
 
 namespace halfway {
 
-PlannedEffect planned(const SceneCalls& calls, Effect effect, DoneBy by, std::string how) {
-  const Call& call = calls[effect];
-  return {effect, call.called_for, call.why, by, std::move(how)};
-}
-
-PlannedEffect in_hardware(const SceneCalls& calls, Effect effect, std::string how) {
-  return planned(calls, effect, DoneBy::hardware, std::move(how));
-}
-
-PlannedEffect always_elaborated(const SceneCalls& calls, Effect effect, std::string how) {
-  PlannedEffect out = in_hardware(calls, effect, std::move(how));
-  out.elaborated = true;
-  return out;
+Result<unsigned> lights_of_everything(const Scene& scene, const SceneCalls& calls, const PlanRequest& request,
+                                      const char* name) {
+  const std::size_t lights = calls.lights.size(), least = std::max<std::size_t>(lights, 1);
+  if (lights > c_most_lights)
+    return bad_input(
+        fmt::format("{}: {} lights; the {} up to {}: remove some, or use the quadratic shader", scene.name,
+                    lights, name, c_most_lights));
+  const std::size_t most = request.lights.value_or(static_cast<unsigned>(least));
+  if (most < least || most > c_most_lights)
+    return bad_input(fmt::format("--lights: {} is not {} to {}", most, least, c_most_lights));
+  return static_cast<unsigned>(most);
 }
 
 Result<Plan> plan_scene(const Scene& scene, const PlanRequest& request) {

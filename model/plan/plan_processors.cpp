@@ -84,10 +84,10 @@ HardwareKey every_processor(HardwareKey key, unsigned lights) {
   return key;
 }
 
-class ProcessorsPlanner {
+class ProcessorsPlanner : public EffectPlanner {
  public:
   ProcessorsPlanner(const SceneCalls& calls, const Call& normalize, const Plan& plan)
-      : calls_(calls), normalize_(normalize), key_(plan.key) {}
+      : EffectPlanner(calls, plan.key, without_idle_processors), normalize_(normalize) {}
 
   PlannedEffect effect_of(Effect effect) const {
     const ProcessorUnits& p = key_.processors;
@@ -96,9 +96,9 @@ class ProcessorsPlanner {
     ProcessorUnits& o = other.processors;
     switch (effect) {
       case Effect::ambient:
-        return always_elaborated(calls_, effect, "the first processor");
+        return in_hardware(effect, "the first processor", true);
       case Effect::depth:
-        return always_elaborated(calls_, effect, "");
+        return in_hardware(effect, "", true);
       case Effect::diffuse:
         o.diffuse = !p.diffuse;
         if (o.lights() == 0) o.directional = 1;
@@ -111,11 +111,8 @@ class ProcessorsPlanner {
         if (!p.specular) return in_hardware(effect, "");
         other.channels = key_.channels == 1 ? 3 : 1;
         return in_hardware(effect, "separate channels for all colours", key_.channels == 3, other);
-      case Effect::exponents: {
-        PlannedEffect out = in_hardware(effect, "any exponent, set per material");
-        out.elaborated = p.specular;
-        return out;
-      }
+      case Effect::exponents:
+        return in_hardware(effect, "any exponent, set per material", p.specular);
       case Effect::directional:
         return lights_of(effect, LightKind::directional, "");
       case Effect::positional:
@@ -142,7 +139,7 @@ class ProcessorsPlanner {
         other.channels = key_.channels == 1 ? 3 : 1;
         return in_hardware(effect, "separate channels", key_.channels == 3, other);
       case Effect::subdivision: {
-        PlannedEffect out = planned(calls_, effect, DoneBy::none, "not needed");
+        PlannedEffect out = planned(effect, DoneBy::none, "not needed");
         out.called_for = false;
         out.why = "each pixel is shaded separately";
         return out;
@@ -150,20 +147,11 @@ class ProcessorsPlanner {
       case Effect::perspective:
         break;
     }
-    if (exact) return planned(calls_, effect, DoneBy::host, "planes of values that are linear on the screen");
-    return planned(calls_, effect, DoneBy::none, "as published, N and P are linear on the screen");
+    if (exact) return planned(effect, DoneBy::host, "planes of values that are linear on the screen");
+    return planned(effect, DoneBy::none, "as published, N and P are linear on the screen");
   }
 
  private:
-  PlannedEffect in_hardware(Effect effect, std::string how) const {
-    return halfway::in_hardware(calls_, effect, std::move(how));
-  }
-  PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
-    PlannedEffect out = in_hardware(effect, std::move(how));
-    out.elaborated = elaborated;
-    out.other = without_idle_processors(other);
-    return out;
-  }
   PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {
     const auto count = static_cast<unsigned>(calls_.count(kind));
     HardwareKey other = key_;
@@ -186,9 +174,7 @@ class ProcessorsPlanner {
     return in_hardware(effect, std::move(how), false, other);
   }
 
-  const SceneCalls& calls_;
   const Call& normalize_;
-  const HardwareKey& key_;
 };
 
 }  // namespace
@@ -196,11 +182,8 @@ class ProcessorsPlanner {
 Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const PlanRequest& request) {
   if (request.tables) return bad_input("--cosine: only the spherical shader has cosine tables");
   if (request.degree) return bad_input(c_degree_of_another);
-  if (calls.lights.size() > c_most_lights)
-    return bad_input(fmt::format(
-        "{}: {} lights; the shading processors support up to {}: remove some, or use the quadratic shader",
-        scene.name, calls.lights.size(), c_most_lights));
-  const auto lights = static_cast<unsigned>(calls.lights.size());
+  const auto most = lights_of_everything(scene, calls, request, "shading processors support");
+  if (!most) return most.error();
   const Call normalize = call_normalize(scene, calls, request.preset);
 
   Plan plan;
@@ -210,8 +193,7 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   key.channels = calls[Effect::colour].called_for ? 3 : 1;
   ProcessorUnits& units = key.processors;
   for (const LightKind kind : c_light_kinds)
-    if (const auto count = calls.count(kind); count > 0)
-      light_units(units, kind) += static_cast<unsigned>(count);
+    light_units(units, kind) = static_cast<unsigned>(calls.count(kind));
   units.diffuse = calls[Effect::diffuse].called_for;
   units.specular = calls[Effect::specular].called_for;
   units.normalize = normalize.called_for;
@@ -225,10 +207,7 @@ Result<Plan> plan_processors(const Scene& scene, const SceneCalls& calls, const 
   if (units.specular)
     if (Status status = check_highlights(scene); !status) return status.error();
 
-  const unsigned most = request.lights.value_or(std::max(lights, 1U));
-  if (most < std::max(lights, 1U) || most > c_most_lights)
-    return bad_input(fmt::format("--lights: {} is not {} to {}", most, std::max(lights, 1U), c_most_lights));
-  plan.everything = every_processor(key, most);
+  plan.everything = every_processor(key, *most);
   plan.key = request.all_effects ? plan.everything : plan.called_for;
   const ProcessorsPlanner planner(calls, normalize, plan);
   for (std::size_t i = 0; i < c_effects; ++i)

@@ -24,70 +24,44 @@ std::string key(const Scene& scene, const PlanRequest& request = {}) {
 std::string refusal(const Scene& scene, PlanRequest request = {}) {
   request.shader = Shader::processors;
   const auto plan = plan_scene(scene, request);
-  EXPECT_FALSE(plan);
-  if (plan) return {};
-  EXPECT_EQ(plan.error().code, ExitCode::bad_input);
-  return plan.error().message;
+  EXPECT_TRUE(is_error(plan, ExitCode::bad_input));
+  return plan ? "" : plan.error().message;
 }
 
-TEST(PlanProcessors, LightsByTheirKinds) {
+// AllEffects/EachShader tests that the hardware has what a scene needs, and no more.
+TEST(PlanProcessors, HasTheProcessorsThatTheSceneNeeds) {
   EXPECT_EQ(key(grey_scene()), "processors_shader-exact-c1-l0.0.0-unrolled");
-  EXPECT_EQ(key(with_lights(1)), "processors_shader-exact-c1-l1.0.0-d-s-unrolled");
-  EXPECT_EQ(key(with_lights(1, 2, 3)), "processors_shader-exact-c1-l1.2.3-d-s-unrolled");
-  Scene dark = with_lights(2, 2, 2);
-  dark.directional[1].intensity = dark.positional[0].intensity = glm::dvec3(0.0);
-  EXPECT_EQ(key(dark), "processors_shader-exact-c1-l1.1.2-d-s-unrolled");
-  EXPECT_EQ(key(with_lights(16)), "processors_shader-exact-c1-l16.0.0-d-s-unrolled");
-  EXPECT_THAT(refusal(with_lights(8, 8, 1)), AllOf(HasSubstr("17 lights"), HasSubstr("up to 16")));
-}
-
-TEST(PlanProcessors, NoProcessorsForTermsThatNoMaterialReflects) {
-  Scene scene = with_lights(1, 1);
-  scene.materials[0].specular = 0.0;
-  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-d-unrolled");
+  Scene scene = with_lights(1, 2, 3);
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.2.3-d-s-unrolled");
+  scene.positional[0].intensity = glm::dvec3(0.0);
   scene.materials[0].diffuse = 0.0;
   scene.shadows = true;
+  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.3-s-shadows-unrolled-o16x1");
+  EXPECT_EQ(key(scene, {.objects = 5}), "processors_shader-exact-c1-l1.1.3-s-shadows-unrolled-o5x1");
+  EXPECT_EQ(effect(planned_processors(scene), Effect::shadow).by, DoneBy::hardware);
+  scene.materials[0].specular = 0.0;
   EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
   EXPECT_EQ(effect(planned_processors(scene), Effect::normalization).why, "no material reflects a light");
-  scene.materials[0].specular = 0.3;
-  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.1.0-s-shadows-unrolled-o16x1");
 }
 
 TEST(PlanProcessors, NormalizesIfNormalsDifferOrAsPublishedForLightsWithAPlace) {
   Scene curved = with_lights(1);
   curved.triangles.push_back({{0, 1, 2}, {0, 1, 2}, 0});
   for (const Preset preset : {Preset::exact, Preset::published}) {
-    const auto normalization = [&](const Scene& scene) {
+    const bool exact = preset == Preset::exact;
+    const auto expect_normalization = [&](const Scene& scene, bool called_for, const char* why) {
       const Plan plan = planned_processors(scene, {.preset = preset});
       const PlannedEffect& e = effect(plan, Effect::normalization);
-      EXPECT_EQ(e.called_for, plan.key.processors.normalize);
-      EXPECT_EQ(e.elaborated, plan.key.processors.normalize);
-      return e;
+      for (const bool is : {e.called_for, e.elaborated, plan.key.processors.normalize})
+        EXPECT_EQ(is, called_for);
+      EXPECT_THAT(e.why, HasSubstr(why));
     };
-    const bool exact = preset == Preset::exact;
-    EXPECT_FALSE(normalization(with_lights(1)).called_for);
-    EXPECT_EQ(normalization(with_lights(0, 1)).called_for, !exact);
-    EXPECT_EQ(normalization(with_lights(0, 0, 1)).called_for, !exact);
-    EXPECT_EQ(normalization(curved).called_for, exact);
-    EXPECT_THAT(normalization(curved).why, HasSubstr(exact ? "triangle 1" : "version I:"));
-    Scene late = with_lights(1);
-    late.triangles.push_back({{0, 1, 2}, {0, 2, 1}, 0});
-    EXPECT_EQ(normalization(late).called_for, exact);
-    Scene unlit = curved;
-    unlit.directional.clear();
-    EXPECT_FALSE(normalization(unlit).called_for);
+    expect_normalization(with_lights(1), false, exact ? "each triangle has one normal" : "version I:");
+    expect_normalization(with_lights(0, 0, 1), !exact, "");
+    expect_normalization(curved, exact, exact ? "triangle 1" : "version I:");
+    curved.triangles[1].normal = {0, 2, 1};
+    expect_normalization(curved, exact, "");
   }
-}
-
-TEST(PlanProcessors, ShadowsWhereALightIsReflected) {
-  Scene scene = with_lights(1);
-  scene.shadows = true;
-  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled-o16x1");
-  EXPECT_EQ(effect(planned_processors(scene), Effect::shadow).by, DoneBy::hardware);
-  EXPECT_TRUE(effect(planned_processors(scene), Effect::shadow).elaborated);
-  EXPECT_EQ(key(scene, {.objects = 5}), "processors_shader-exact-c1-l1.0.0-d-s-shadows-unrolled-o5x1");
-  scene.directional.clear();
-  EXPECT_EQ(key(scene), "processors_shader-exact-c1-l0.0.0-unrolled");
 }
 
 TEST(PlanProcessors, OnlyBlinnHighlightsAreSupported) {
@@ -142,36 +116,22 @@ TEST(PlanProcessors, OtherKeysDifferInOneEffect) {
   Scene shaded = with_lights(1, 1, 1);
   shaded.shadows = true;
   shaded.triangles[0].normal = {0, 1, 2};
-  for (const Preset preset : {Preset::exact, Preset::published})
-    for (const bool all_effects : {false, true})
-      for (const Scene& scene : {grey_scene(), with_lights(1), with_lights(0, 2), shaded}) {
-        const Plan plan = planned_processors(scene, {.preset = preset, .all_effects = all_effects});
-        for (const PlannedEffect& e : plan.effects) {
-          SCOPED_TRACE(plan.key.name() + ": " + to_string(e.effect));
-          if (!e.other) continue;
-          // The two keys differ in this effect only.
-          EXPECT_NE(e.other->name(), plan.key.name());
-          const ProcessorUnits &here = plan.key.processors, &other = e.other->processors;
-          switch (e.effect) {
-            case Effect::shadow:
-              EXPECT_NE(here.shadows, other.shadows);
-              EXPECT_EQ(e.elaborated, here.shadows);
-              break;
-            case Effect::diffuse:
-              EXPECT_NE(here.diffuse, other.diffuse);
-              break;
-            case Effect::normalization:
-              EXPECT_NE(here.normalize, other.normalize);
-              break;
-            case Effect::spot:
-              EXPECT_NE(here.spots, other.spots);
-              EXPECT_EQ(e.elaborated, here.spots > 0);
-              break;
-            default:
-              break;
-          }
-        }
+  for (const bool all_effects : {false, true})
+    for (const Scene& scene : {grey_scene(), with_lights(1), with_lights(0, 2), shaded}) {
+      const Plan plan = planned_processors(scene, {.all_effects = all_effects});
+      const ProcessorUnits& here = plan.key.processors;
+      SCOPED_TRACE(plan.key.name());
+      for (const PlannedEffect& e : plan.effects) {
+        EXPECT_NE(e.other.value_or(HardwareKey{}).name(), plan.key.name()) << to_string(e.effect);
       }
+      const auto other = [&](Effect of) { return effect(plan, of).other->processors; };
+      EXPECT_NE(here.shadows, other(Effect::shadow).shadows);
+      EXPECT_EQ(effect(plan, Effect::shadow).elaborated, here.shadows);
+      EXPECT_NE(here.diffuse, other(Effect::diffuse).diffuse);
+      EXPECT_NE(here.normalize, other(Effect::normalization).normalize);
+      EXPECT_NE(here.spots, other(Effect::spot).spots);
+      EXPECT_EQ(effect(plan, Effect::spot).elaborated, here.spots > 0);
+    }
 }
 
 }  // namespace

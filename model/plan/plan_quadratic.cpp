@@ -5,7 +5,7 @@ namespace halfway {
 namespace {
 
 // The host computes the radiance, and therefore nearly every effect.
-PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKey& key) {
+PlannedEffect effect_of(const EffectPlanner& planner, Effect effect, const HardwareKey& key) {
   switch (effect) {
     case Effect::ambient:
     case Effect::diffuse:
@@ -17,24 +17,22 @@ PlannedEffect effect_of(const SceneCalls& calls, Effect effect, const HardwareKe
     case Effect::spot:
     case Effect::normalization:
     case Effect::perspective:
-      return planned(calls, effect, DoneBy::host, "at each sample");
+      return planner.planned(effect, DoneBy::host, "at each sample");
     case Effect::subdivision:
-      return planned(calls, effect, DoneBy::host, "triangles split into four above a threshold");
+      return planner.planned(effect, DoneBy::host, "triangles split into four above a threshold");
     case Effect::shadow:
       break;
     case Effect::colour: {
-      PlannedEffect out = planned(calls, effect, DoneBy::hardware,
-                                  key.degree == 1 ? "one plane per channel" : "one interpolator per channel");
-      out.elaborated = key.channels == 3;
       HardwareKey other = key;
-      other.channels = out.elaborated ? 1 : 3;
-      out.other = other;
-      return out;
+      other.channels = key.channels == 3 ? 1 : 3;
+      return planner.in_hardware(effect,
+                                 key.degree == 1 ? "one plane per channel" : "one interpolator per channel",
+                                 key.channels == 3, other);
     }
     case Effect::depth:
-      return always_elaborated(calls, effect, "");
+      return planner.in_hardware(effect, "", true);
   }
-  return planned(calls, effect, DoneBy::none, "not by this shader");
+  return planner.planned(effect, DoneBy::none, "not by this shader");
 }
 
 }  // namespace
@@ -50,8 +48,9 @@ Result<Plan> plan_quadratic(const Scene&, const SceneCalls& calls, const PlanReq
   plan.called_for.channels = calls[Effect::colour].called_for ? 3 : 1;
   plan.everything.channels = 3;
   plan.key = request.all_effects ? plan.everything : plan.called_for;
+  const EffectPlanner planner(calls, plan.key, [](HardwareKey key) { return key; });
   for (std::size_t i = 0; i < c_effects; ++i)
-    plan.effects.push_back(effect_of(calls, static_cast<Effect>(i), plan.key));
+    plan.effects.push_back(effect_of(planner, static_cast<Effect>(i), plan.key));
   return plan;
 }
 

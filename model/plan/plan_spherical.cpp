@@ -85,10 +85,10 @@ HardwareKey every_spherical_unit(HardwareKey key, unsigned lights) {
   return key;
 }
 
-class SphericalPlanner {
+class SphericalPlanner : public EffectPlanner {
  public:
   SphericalPlanner(const SceneCalls& calls, const Plan& plan)
-      : calls_(calls), key_(plan.key), called_for_(plan.called_for.spherical) {}
+      : EffectPlanner(calls, plan.key, without_idle_lights), called_for_(plan.called_for.spherical) {}
 
   PlannedEffect effect_of(Effect effect) const {
     const SphericalUnits& s = key_.spherical;
@@ -97,9 +97,9 @@ class SphericalPlanner {
     SphericalUnits& o = other.spherical;
     switch (effect) {
       case Effect::ambient:
-        return always_elaborated(calls_, effect, "its word also contains the rounding of the colours");
+        return in_hardware(effect, "its word also contains the rounding of the colours", true);
       case Effect::depth:
-        return always_elaborated(calls_, effect, "");
+        return in_hardware(effect, "", true);
       case Effect::diffuse:
         o.diffuse = !s.diffuse;
         o.lights = std::max(s.lights, 1U);
@@ -116,7 +116,7 @@ class SphericalPlanner {
         return in_hardware(effect, "one multiplier per channel", s.highlight_channels == 3, other);
       case Effect::exponents: {
         if (!exact)
-          return planned(calls_, effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
+          return planned(effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
         if (!s.specular) return in_hardware(effect, "");
         const bool several = std::popcount(s.powers) > 1;
         o.powers = several ? std::bit_floor(s.powers) : every_power(key_);
@@ -133,35 +133,26 @@ class SphericalPlanner {
       case Effect::spot:
         return lights_of(effect, LightKind::spot, "the host computes the vectors to it and its cone");
       case Effect::normalization:
-        return planned(calls_, effect, DoneBy::host,
+        return planned(effect, DoneBy::host,
                        exact ? "at both ends of a span" : "only at the vertices, angles need no others");
       case Effect::colour:
         other.channels = key_.channels == 1 ? 3 : 1;
         return in_hardware(effect, "multipliers and one sum per channel", key_.channels == 3, other);
       case Effect::subdivision:
         if (!exact) break;
-        return planned(calls_, effect, DoneBy::host, "triangles cut into strips above a threshold");
+        return planned(effect, DoneBy::host, "triangles cut into strips above a threshold");
       case Effect::perspective:
         return planned(
-            calls_, effect, DoneBy::host,
+            effect, DoneBy::host,
             exact ? "at both ends of a span" : "only at the vertices, none between them, as published");
       case Effect::shadow:
         break;
     }
-    return planned(calls_, effect, DoneBy::none,
+    return planned(effect, DoneBy::none,
                    effect == Effect::shadow ? "not by this shader" : "not by preset published");
   }
 
  private:
-  PlannedEffect in_hardware(Effect effect, std::string how) const {
-    return halfway::in_hardware(calls_, effect, std::move(how));
-  }
-  PlannedEffect in_hardware(Effect effect, std::string how, bool elaborated, const HardwareKey& other) const {
-    PlannedEffect out = in_hardware(effect, std::move(how));
-    out.elaborated = elaborated;
-    out.other = without_idle_lights(other);
-    return out;
-  }
   // The slices of a light are the same for all kinds.
   PlannedEffect lights_of(Effect effect, LightKind kind, std::string how) const {
     const auto count = static_cast<unsigned>(calls_.count(kind));
@@ -177,8 +168,6 @@ class SphericalPlanner {
     return in_hardware(effect, std::move(how), count > 0, other);
   }
 
-  const SceneCalls& calls_;
-  const HardwareKey& key_;
   const SphericalUnits& called_for_;
 };
 
@@ -199,11 +188,8 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
   if (request.degree) return bad_input(c_degree_of_another);
   const auto tables = table_size(request);
   if (!tables) return tables.error();
-  if (calls.lights.size() > c_most_lights)
-    return bad_input(fmt::format(
-        "{}: {} lights; the spherical shader supports up to {}: remove some, or use the quadratic shader",
-        scene.name, calls.lights.size(), c_most_lights));
-  const auto lights = static_cast<unsigned>(calls.lights.size());
+  const auto most = lights_of_everything(scene, calls, request, "spherical shader supports");
+  if (!most) return most.error();
 
   Plan plan;
   HardwareKey& key = plan.called_for;
@@ -214,7 +200,7 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
   units.tables = *tables;
   units.made_tables = request.made_tables;
   units.own = request.own;
-  units.lights = lights;
+  units.lights = static_cast<unsigned>(calls.lights.size());
   units.diffuse = calls[Effect::diffuse].called_for;
   units.specular = calls[Effect::specular].called_for;
   units.highlight_channels = calls[Effect::highlight_colour].called_for ? key.channels : 1;
@@ -224,10 +210,7 @@ Result<Plan> plan_spherical(const Scene& scene, const SceneCalls& calls, const P
     units.powers = *powers;
   }
 
-  const unsigned most = request.lights.value_or(std::max(lights, 1U));
-  if (most < std::max(lights, 1U) || most > c_most_lights)
-    return bad_input(fmt::format("--lights: {} is not {} to {}", most, std::max(lights, 1U), c_most_lights));
-  plan.everything = every_spherical_unit(key, most);
+  plan.everything = every_spherical_unit(key, *most);
   plan.key = request.all_effects ? plan.everything : plan.called_for;
   const SphericalPlanner planner(calls, plan);
   for (std::size_t i = 0; i < c_effects; ++i)

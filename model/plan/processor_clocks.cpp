@@ -6,33 +6,33 @@
 namespace halfway {
 namespace {
 
-bool has_view(const HardwareKey& key) {
-  return key.preset == Preset::exact &&
-         words::ProcessorsLayout<words::Exact>(processors_config(key)).has_view();
+constexpr std::uint64_t c_second_ns = 1'000'000'000;
+
+constexpr std::uint64_t divide_up(std::uint64_t a, std::uint64_t b) {
+  return (a + b - 1) / b;
+}
+
+bool has_light(const ProcessorUnits& units, LightKind kind) {
+  switch (kind) {
+    case LightKind::directional:
+      return units.directional > 0;
+    case LightKind::positional:
+      return units.positional > 0;
+    case LightKind::spot:
+      return units.spots > 0;
+  }
+  std::abort();
 }
 
 bool has(const HardwareKey& key, const ProcessorClocks& row) {
   const ProcessorUnits& p = key.processors;
   if (!row.term) return false;
-  switch (*row.term) {
-    case words::Term::ambient:
-      return row.normalize == p.normalize && row.view == has_view(key);
-    case words::Term::diffuse:
-      if (!p.diffuse) return false;
-      break;
-    case words::Term::specular:
-      if (!p.specular) return false;
-      break;
+  if (*row.term == words::Term::ambient) {
+    const words::ProcessorsLayout<words::Exact> layout(processors_config(key));
+    return row.normalize == p.normalize &&
+           row.view == (key.preset == Preset::exact && layout.has_view());
   }
-  switch (*row.light) {
-    case LightKind::directional:
-      return p.directional > 0;
-    case LightKind::positional:
-      return p.positional > 0;
-    case LightKind::spot:
-      return p.spots > 0;
-  }
-  std::abort();
+  return (*row.term == words::Term::diffuse ? p.diffuse : p.specular) && has_light(p, *row.light);
 }
 
 }  // namespace
@@ -43,6 +43,31 @@ const ProcessorClocks& slowest_processor(const HardwareKey& key) {
   for (const ProcessorClocks& row : c_processor_clocks)
     if (has(key, row) && row.clocks(key.preset) > slowest->clocks(key.preset)) slowest = &row;
   return *slowest;
+}
+
+PipelineCount count_pipelines(std::uint64_t clocks, std::uint64_t per_pipeline, const ShadingLoad& load) {
+  PipelineCount count{};
+  count.pipeline_ns = clocks * load.objects * c_processor_cycle_ns;
+  count.per_pipeline = per_pipeline;
+  const std::uint64_t busy_ns = load.frames * load.pixels * count.pipeline_ns;  // per second
+  count.pipelines_needed = static_cast<double>(busy_ns) / static_cast<double>(c_second_ns);
+  count.pipelines = divide_up(busy_ns, c_second_ns);
+  return count;
+}
+
+ProcessorCount count_processors(ProcessorVersion version, const ShadingLoad& load) {
+  const bool one = version == ProcessorVersion::one;
+  const std::uint64_t positional = one ? 0 : load.positional;
+  // Two processors per light, and one for ambient light.
+  ProcessorCount count{
+      count_pipelines(pipeline_clocks(version), 2 * (load.directional + positional) + 1, load)};
+  const std::uint64_t single_clocks = 14 * load.directional + 26 * positional + (one ? 4 : 6);
+  count.single_ns = single_clocks * load.objects * c_processor_cycle_ns;
+  if (const std::uint64_t due_ns = c_second_ns / (load.frames * load.pixels); due_ns > 0) {
+    count.published_due_ns = due_ns;
+    count.published_pipelines = divide_up(count.pipeline_ns, due_ns);
+  }
+  return count;
 }
 
 }  // namespace halfway

@@ -3,17 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
 #include <set>
-#include <string>
 #include <tuple>
-#include <utility>
-
-#include "plan/plan.hpp"
-#include "plan/processor_count.hpp"
-#include "sim/files/load_scene.hpp"
-#include "sim/os/must.hpp"
 
 namespace halfway {
 namespace {
@@ -42,28 +33,6 @@ TEST(Table4, OneRowPerOperation) {
   EXPECT_EQ(works.size(), 1 + 4 + 2 * 3U);
 }
 
-Plan plan_of(const std::string& name, Preset preset) {
-  const auto scene = must(load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes"));
-  return must(plan_scene(scene, {.shader = Shader::processors, .preset = preset}));
-}
-
-TEST(Table5, TheSlowestProcessorIsOneThatTheSceneHas) {
-  const auto slowest = [](const HardwareKey& key) -> std::string { return slowest_processor(key).what; };
-  const std::tuple<const char*, const char*, const char*> cases[] = {
-      {"matte", "directional diffuse", "ambient, N normalized"},
-      {"spheres", "directional specular", "directional specular"},
-      {"teapot", "directional specular", "directional specular"},
-      {"shadows", "positional specular", "positional specular"},
-      {"lights", "positional specular", "positional specular"},
-  };
-  for (const auto& [scene, published, exact] : cases) {
-    EXPECT_EQ(slowest(plan_of(scene, Preset::published).called_for), published) << scene;
-    EXPECT_EQ(slowest(plan_of(scene, Preset::exact).called_for), exact) << scene;
-    EXPECT_EQ(slowest(plan_of(scene, Preset::published).everything), "spot specular") << scene;
-    EXPECT_EQ(slowest(plan_of(scene, Preset::exact).everything), "spot specular") << scene;
-  }
-}
-
 // No row of a pipeline takes longer. Here the rows are enumerated by another method.
 TEST(Table5, NoProcessorOfThePipelineIsSlower) {
   for (const Preset preset : {Preset::exact, Preset::published})
@@ -90,23 +59,52 @@ TEST(Table5, NoProcessorOfThePipelineIsSlower) {
     }
 }
 
-// The paper's worked example with the clocks measured here.
-TEST(Table5, WorkedExampleAsMeasured) {
-  HardwareKey key{.shader = Shader::processors, .preset = Preset::published};
-  key.processors = {.directional = 5, .positional = 5, .diffuse = true, .specular = true, .normalize = true};
-  const ShadingLoad load{.pixels = 1'000'000, .frames = 30, .objects = 3, .directional = 5, .positional = 5};
-  const auto count = [&] {
-    return count_pipelines(*slowest_processor(key).clocks(key.preset),
-                           static_cast<std::uint64_t>(processors_config(key).processors()), load);
-  };
-  const ProcessorCount paper = count_processors(ProcessorVersion::two, load);
-  EXPECT_EQ(count().pipeline_ns, paper.pipeline_ns);
-  EXPECT_EQ(count().pipelines, paper.pipelines);
-  EXPECT_EQ(count().processors(), paper.processors());
-  key.preset = Preset::exact;
-  EXPECT_EQ(count().pipeline_ns, 7650U);
-  EXPECT_EQ(count().pipelines, 230U);
-  EXPECT_EQ(count().processors(), 4830U);
+TEST(Table5, FormulasEqualThePapers) {
+  constexpr double c_cycle = 50e-9;
+  for (const std::uint64_t pixels : {1ULL, 307'200ULL, 1'000'000ULL, 4096ULL * 4096})
+    for (const std::uint64_t frames : {1U, 25U, 30U, 60U, 144U})
+      for (const std::uint64_t objects : {1U, 3U, 8U})
+        for (const std::uint64_t r : {0U, 1U, 5U})
+          for (const std::uint64_t p : {0U, 2U, 5U}) {
+            const ShadingLoad load{pixels, frames, objects, r, p};
+            const auto m = static_cast<double>(pixels), hz = static_cast<double>(frames),
+                       o = static_cast<double>(objects);
+            const ProcessorCount one = count_processors(ProcessorVersion::one, load),
+                                 two = count_processors(ProcessorVersion::two, load);
+            EXPECT_EQ(one.pipeline_ns, 7 * objects * 50);
+            EXPECT_EQ(two.pipeline_ns, 13 * objects * 50);
+            EXPECT_EQ(one.single_ns, (14 * r + 4) * objects * 50);
+            EXPECT_EQ(two.single_ns, (14 * r + 26 * p + 6) * objects * 50);
+            EXPECT_EQ(one.per_pipeline, 2 * r + 1);
+            EXPECT_EQ(two.per_pipeline, 2 * r + 2 * p + 1);
+            EXPECT_NEAR(one.pipelines_needed, hz * m * 7 * o * c_cycle, 1e-9 * one.pipelines_needed);
+            EXPECT_NEAR(two.pipelines_needed, hz * m * 13 * o * c_cycle, 1e-9 * two.pipelines_needed);
+            for (const ProcessorCount& count : {one, two}) {
+              EXPECT_GE(static_cast<double>(count.pipelines), count.pipelines_needed);
+              EXPECT_LT(static_cast<double>(count.pipelines), count.pipelines_needed + 1);
+              EXPECT_EQ(count.processors(), count.pipelines * count.per_pipeline);
+              // Truncating the nanoseconds never gives fewer pipelines.
+              EXPECT_GE(count.published_pipelines.value_or(count.pipelines), count.pipelines);
+            }
+          }
+}
+
+// An exact number of pipelines must not be rounded up: no rounding of seconds in between.
+TEST(Table5, WholeNumbersOfPipelinesStayWhole) {
+  for (std::uint64_t n = 1; n <= 1000; ++n) {
+    // 20 000 000 pixels per second, of 7 n * 50 ns each.
+    const ProcessorCount count = count_processors(
+        ProcessorVersion::one, {.pixels = 200'000, .frames = 100, .objects = n, .directional = 1});
+    EXPECT_EQ(count.pipelines, 7 * n) << n;
+  }
+}
+
+TEST(Table5, NothingIsPublishedBelowANanosecond) {
+  const ShadingLoad load{.pixels = 4096 * 4096, .frames = 60, .directional = 1};
+  const ProcessorCount count = count_processors(ProcessorVersion::two, load);
+  EXPECT_FALSE(count.published_due_ns);
+  EXPECT_FALSE(count.published_pipelines);
+  EXPECT_EQ(count.pipelines, 655U);  // 60 * 4096^2 * 650 ns = 654.3 s
 }
 
 }  // namespace

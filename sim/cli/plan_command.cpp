@@ -17,7 +17,6 @@
 #include "golden_run/object_count.hpp"
 #include "plan/plan.hpp"
 #include "plan/processor_clocks.hpp"
-#include "plan/processor_count.hpp"
 #include "projection/project.hpp"
 #include "reference/renderer.hpp"
 #include "setup/setup.hpp"

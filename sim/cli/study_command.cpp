@@ -17,7 +17,7 @@
 #include "sim/study/frame_time.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/host_setup.hpp"
-#include "sim/study/pictures.hpp"
+#include "sim/study/measure.hpp"
 #include "sim/study/query.hpp"
 #include "sim/study/slurm.hpp"
 #include "sim/study/study.hpp"
@@ -185,7 +185,7 @@ std::string clocks_text(const synth::Family& family, const study::HardwareTable&
 int conclude(const StudyPlan& plan, const study::Study& made, const study::HardwareTable& hardware,
              study::Clock clock) {
   const std::vector<study::Market> markets = study::markets_of(made.records, hardware, clock);
-  const std::string csv = study::to_csv(made.provenance, made.records, hardware, markets);
+  const std::string csv = study::study_csv(made.provenance, made.records, hardware, markets);
   const std::filesystem::path table =
       plan.settings.out / (plan.demand.any() ? c_question_table : c_study_table);
   must(write_file(table, csv));

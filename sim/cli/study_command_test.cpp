@@ -60,7 +60,7 @@ TEST_F(StudyCommandTest, AnswersOrSaysThatNothingIsGoodEnough) {
                             HasSubstr("most accurate  adaptive exact"))));
   // With three channels; these are stored as not fitting the device.
   EXPECT_THAT(study({"spheres", "--time", "1s", "--device", "hx8k"}),
-              Ends(1, HasSubstr("2 points have no clock: they do not fit the device")));
+              Ends(1, HasSubstr("2 points: too large for the device")));
   EXPECT_THAT(study({"--time", "1s", "--clock", "50"}),
               Ends(0, AllOf(HasSubstr("cheapest       quadratic exact"), HasSubstr("us)"),
                             Not(HasSubstr("no clock")))));

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/cost/cost.hpp"
 
-#include "sim/cost/netlist_identity.hpp"
-#include "sim/os/subprocess.hpp"
-
 namespace halfway::synth {
 namespace {
 

@@ -34,4 +34,9 @@ bool takes_multiplier_bits(std::string_view entity);
 /// The netlist by GHDL, mended. Cached. Throws Failure.
 std::string netlist_of(const Design& design, const std::filesystem::path& cache);
 
+/// The identity of a mended netlist: equal hardware has the same one, in whatever it is contained. GHDL
+/// counts all objects that it has visited, and adds a hash of the generics to a module's name. Both are
+/// replaced by numbers in the order of first use; the result is the hash of that text.
+std::string netlist_identity(std::string_view netlist);
+
 }  // namespace halfway::synth

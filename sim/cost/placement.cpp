@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/cost/placement.hpp"
+#include "sim/cost/synthesis.hpp"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -13,7 +12,6 @@
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/subprocess.hpp"
 
 namespace halfway::synth {
 namespace {

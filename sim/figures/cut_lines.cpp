@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/figures/cut_lines.hpp"
+#include "sim/figures/figure_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "sim/files/template.hpp"
 
@@ -76,26 +75,14 @@ std::string Claim::limit() const {
 }
 
 const char* to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::agrees:
-      return "agrees";
-    case Verdict::by_construction:
-      return "by construction";
-    case Verdict::ours:
-      return "ours";
-    case Verdict::differs:
-      break;
-  }
-  return "differs";
-}
-
-bool Claim::holds(const Measured& found) const {
-  if (criterion.kind == Criterion::Kind::same) return !ours.empty() || found.text == published;
-  return criterion.holds(found.value);
+  constexpr std::array c_names{"agrees", "by construction", "ours", "differs"};
+  return c_names[static_cast<std::size_t>(verdict)];
 }
 
 bool Row::holds() const {
-  return claim.holds(measured);
+  if (claim.criterion.kind == Criterion::Kind::same)
+    return !claim.ours.empty() || measured.text == claim.published;
+  return claim.criterion.holds(measured.value);
 }
 
 Verdict Row::verdict() const {
@@ -191,15 +178,14 @@ std::string to_page(std::span<const Entry> entries, const std::filesystem::path&
       if (figure["paper"] == name) paper["figures"].push_back(figure);
     papers.push_back(std::move(paper));
   }
-  const auto count = [&](Verdict verdict) { return counts[to_string(verdict)]; };
-  const std::int64_t agreeing = count(Verdict::agrees), differing = count(Verdict::differs),
-                     constructed = count(Verdict::by_construction), ours = count(Verdict::ours);
+  std::int64_t rows = 0;
+  for (const auto& [verdict, count] : counts) rows += count;
   return must(filled_template(source / "sim/figures/figures.md.mustache",
-                              {{"rows_in_all", agreeing + differing + constructed + ours},
-                               {"agreeing", agreeing},
-                               {"differing", differing},
-                               {"constructed", constructed},
-                               {"ours", ours},
+                              {{"rows_in_all", rows},
+                               {"agreeing", counts["agrees"]},
+                               {"differing", counts["differs"]},
+                               {"constructed", counts["by construction"]},
+                               {"ours", counts["ours"]},
                                {"papers", papers},
                                {"figures", figures}}));
 }

@@ -74,7 +74,6 @@ struct Claim {
   std::optional<Measured> fails_for{};  ///< what a plausible fault would measure
   bool slow = false;
 
-  bool holds(const Measured& found) const;
   /// Text of the criterion; "no limit" for a value of ours without one.
   std::string limit() const;
 };

@@ -3,15 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
 #include "sim/run/stage_trace.hpp"
-#include "words/word.hpp"
 
 namespace halfway::figures {
 

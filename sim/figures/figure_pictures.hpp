@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures for figures: scenes, hardware that draws them, and sheets of several frames.
+// Pictures for figures: scenes, software and hardware that draws them, sheets of several frames, and plots.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,12 @@
 #include "frame/frame.hpp"
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
+#include "projection/screen_triangle.hpp"
 #include "reference/renderer.hpp"
 #include "scene/mesh.hpp"
 #include "scene/scene.hpp"
 #include "sim/figures/figure.hpp"
+#include "sim/files/gnuplot.hpp"
 #include "sim/run/verilator_frame.hpp"
 
 namespace halfway::figures {
@@ -73,5 +75,50 @@ struct Likeness {
   Measured measured() const;
 };
 Likeness likeness(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask);
+
+/// The three renderers that the quadratic paper compares, as plain software. They share one scan conversion.
+/// Per pixel and channel they compute one addition, two additions, or the illumination model.
+enum class SoftwareShading {
+  gouraud,    ///< shaded at the three vertices, linear in between
+  quadratic,  ///< shaded at six points, with forward differences
+  phong       ///< shaded at each pixel; normal and position are linear on the screen, as in the paper
+};
+
+struct SoftwareFrame {
+  Frame frame;
+  double seconds;  ///< processor seconds for drawing the triangles into an existing frame
+};
+
+/// Computed in double with a depth buffer, from triangles with 4 subpixel bits, on the calling thread.
+SoftwareFrame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
+                                SoftwareShading shading);
+
+/// The published spherical hardware with a host that cuts lines where a bell ends. The paper sets the bell to
+/// zero outside of +-pi/2a and has an angle register of 12 bits. Preset published lets the register wrap.
+/// This is the other reading: the register never leaves the bell, because the host sends another record where
+/// the bell ends.
+struct CutLines {
+  Frame frame;
+  std::uint64_t vectors = 0, records = 0;  ///< that the host sends
+};
+
+/// Draw by the golden model of preset published. A line on which a highlight's angle leaves its bell is sent
+/// in pieces; outside of the bell the factor of the highlight is zero. Each piece is a triangle of one line:
+/// an init vector and a record. The angle at its start is the one that the uncut line's register has there.
+CutLines draw_with_cut_lines(const Scene& scene, FrameSize size);
+
+/// A plot as SVG.
+struct Plot {
+  std::string title;    ///< title of the SVG, and text on the page
+  std::string words{};  ///< alternative text; may be empty
+  std::string script;   ///< for gnuplot, from plot_style on
+};
+
+/// "$name << EOD", rows of numbers, "EOD".
+std::string data_block(const std::string& name, std::span<const std::vector<double>> rows);
+
+/// Write NAME.svg and its script into the context's folder, and register the picture in the drawing. Throws
+/// Failure without gnuplot.
+void draw_plot(const Context& context, const std::string& name, const Plot& plot, Drawing& drawing);
 
 }  // namespace halfway::figures

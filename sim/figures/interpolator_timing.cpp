@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/figures/figure.hpp"
-#include "sim/figures/figure_plot.hpp"
+#include "sim/figures/figure_pictures.hpp"
 #include "sim/files/timing_diagram.hpp"
 #include "words/generator/cosine.hpp"
 

@@ -11,8 +11,7 @@
 #include <numbers>
 #include <utility>
 
-#include "plan/processor_count.hpp"
-#include "sim/figures/figure.hpp"
+#include "plan/processor_clocks.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/files/table4.hpp"

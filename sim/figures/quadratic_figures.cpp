@@ -9,12 +9,9 @@
 
 #include "common/to_integer.hpp"
 #include "golden/line_interpolator.hpp"
-#include "sim/figures/figure.hpp"
 #include "sim/figures/figure7.hpp"
 #include "sim/figures/figure_pictures.hpp"
-#include "sim/figures/figure_plot.hpp"
 #include "sim/figures/six_point_fit.hpp"
-#include "sim/figures/software_shading.hpp"
 #include "sim/files/timing_diagram.hpp"
 
 namespace halfway::figures {

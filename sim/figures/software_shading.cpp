@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/figures/software_shading.hpp"
+#include "sim/figures/figure_pictures.hpp"
 
 #include <array>
 #include <glm/geometric.hpp>

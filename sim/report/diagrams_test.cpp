@@ -15,6 +15,7 @@ namespace halfway::report {
 namespace {
 
 using ::testing::ElementsAreArray;
+using ::testing::IsSupersetOf;
 
 const std::filesystem::path c_rtl = c_source_folder / "rtl";
 
@@ -52,6 +53,7 @@ class Diagram : public ::testing::TestWithParam<Shader> {
  protected:
   std::string name_ = to_string(GetParam());
   std::string dot_ = must(read_file(c_rtl / "diagrams" / (name_ + ".dot")));
+  std::set<std::string> nodes_ = found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)");
 };
 INSTANTIATE_TEST_SUITE_P(Of, Diagram, ::testing::ValuesIn(c_shaders),
                          [](const auto& shader) { return to_string(shader.param); });
@@ -59,15 +61,13 @@ INSTANTIATE_TEST_SUITE_P(Of, Diagram, ::testing::ValuesIn(c_shaders),
 TEST_P(Diagram, NamesTheEntitiesOfTheShader) {
   // Names of nodes and clusters. The part after __ is a role.
   std::set<std::string> shown = found(dot_, R"(\n\s*subgraph cluster_(\w+) \{)");
-  for (const std::string& node : found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)"))
+  for (const std::string& node : nodes_)
     if (!node.starts_with("port_")) shown.insert(node.substr(0, node.find("__")));
   EXPECT_THAT(shown, ElementsAreArray(tree_of(name_ + "_shader")));
 }
 
 TEST_P(Diagram, LinksConnectItsNodes) {
-  const std::set<std::string> nodes = found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)");
-  for (const std::string& end : found(dot_, R"(-> (\w+))")) EXPECT_TRUE(nodes.contains(end)) << end;
-  for (const std::string& end : found(dot_, R"((\w+) ->)")) EXPECT_TRUE(nodes.contains(end)) << end;
+  for (const char* end : {R"(-> (\w+))", R"((\w+) ->)"}) EXPECT_THAT(nodes_, IsSupersetOf(found(dot_, end)));
 }
 
 TEST_P(Diagram, IsDrawnFromItsText) {
@@ -82,14 +82,12 @@ TEST_P(Diagram, IsDrawnFromItsText) {
       EXPECT_NE(svg.find('>' + line + '<'), std::string::npos) << line << ": run make diagrams";
       at = end == std::string::npos ? end : end + 2;
     }
-  for (const std::string& node : found(dot_, R"(\n\s*(\w+) \[[^\]]*label=)"))
+  for (const std::string& node : nodes_)
     EXPECT_NE(svg.find("<title>" + node + "</title>"), std::string::npos) << node << ": run make diagrams";
-  const auto count = [](const std::string& text, const std::string& word) {
-    std::size_t n = 0;
-    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += word.size()) ++n;
-    return n;
+  const auto count = [](const std::string& text, const std::regex& word) {
+    return std::distance(std::sregex_iterator(text.begin(), text.end(), word), {});
   };
-  EXPECT_EQ(count(svg, "class=\"edge\""), count(dot_, " -> "));
+  EXPECT_EQ(count(svg, std::regex("class=\"edge\"")), count(dot_, std::regex(" -> ")));
 }
 
 }  // namespace

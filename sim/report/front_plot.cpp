@@ -8,7 +8,6 @@
 #include <array>
 #include <map>
 #include <set>
-#include <span>
 
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
@@ -117,29 +116,20 @@ std::string page_front(const Table& front) {
     if (!front.number(point.number, c_cells))
       throw_bad_input("front: not all cells are counted; install Yosys");
   if (plot.front.size() < 2) throw_bad_input("front: no two designs to join");
-  const auto name = [&](const PlotPoint& point) {
-    const std::string& text = front.text(point.number, "point");
-    return text.substr(0, text.find(fmt::format(", {}x{}", front.text(point.number, "width"),
-                                                front.text(point.number, "height"))));
-  };
-  const auto all = [&](const auto& which) {
-    std::vector<std::string> names;
-    for (const PlotPoint& point : plot.points)
-      if (which(point)) names.push_back(name(point));
-    return fmt::format("{}", fmt::join(names, " and "));
-  };
+  // The designs at each place of the plot.
+  std::map<std::pair<double, double>, std::vector<std::string>> places;
+  for (const PlotPoint& point : plot.points) {
+    const std::string& name = front.text(point.number, "point");
+    const std::string size = fmt::format(", {}x{}", front.text(point.number, "width"),
+                                         front.text(point.number, "height"));
+    places[{point.x, point.y}].push_back(name.substr(0, name.find(size)));
+  }
   std::vector<std::string> joined, hidden;
   for (const std::pair<double, double>& corner : plot.front)
-    joined.push_back(fmt::format("{} ({} cells, {:.3g})",
-                                 all([&](const PlotPoint& p) { return std::pair(p.x, p.y) == corner; }),
-                                 corner.first, corner.second));
-  for (std::size_t at = 0; at < plot.points.size(); ++at) {
-    const PlotPoint& here = plot.points[at];
-    const auto same = [&](const PlotPoint& p) { return p.x == here.x && p.y == here.y; };
-    const auto others = std::span(plot.points).first(at);
-    if (std::ranges::find_if(others, same) == others.end() && std::ranges::count_if(plot.points, same) > 1)
-      hidden.push_back(all(same));
-  }
+    joined.push_back(fmt::format("{} ({} cells, {:.3g})", fmt::join(places.at(corner), " and "), corner.first,
+                                 corner.second));
+  for (const auto& [place, designs] : places)
+    if (designs.size() > 1) hidden.push_back(fmt::format("{}", fmt::join(designs, " and ")));
   const std::size_t any = plot.points.front().number;
   return fmt::format(
       "![Rms error against cells, one point for each of {0} designs](results/gallery/front.svg)\n\n"

@@ -13,20 +13,17 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(Html, JsonDoesNotEndTheScript) {
+TEST(Html, TextsBecomePartsOfThePage) {
   EXPECT_EQ(script_safe("{\"a\": \"</script><!--\"}"), "{\"a\": \"\\u003c/script>\\u003c!--\"}");
-}
-
-TEST(Html, MarkdownBecomesAPartOfThePage) {
   const std::string html = from_markdown(
       "<!-- SPDX -->\n# Title\n\nSee [`here`](../there/README.md) and [there](https://example.org/).\n\n"
       "![a picture](x.png)\n\n| a | b |\n| --- | --- |\n| 1 | < 2 |\n",
       "A \"name\"");
-  EXPECT_THAT(html, AllOf(HasSubstr("<h3>Title</h3>"), HasSubstr("See <code>here</code> and"),
-                          HasSubstr("<a href=\"https://example.org/\">there</a>"), HasSubstr("a picture"),
-                          HasSubstr("aria-label=\"A &quot;name&quot;: table\" tabindex=\"0\"><table>"),
-                          HasSubstr("<td>&lt; 2</td>"), HasSubstr("</table></div>")));
-  EXPECT_THAT(html, AllOf(Not(HasSubstr("SPDX")), Not(HasSubstr("README")), Not(HasSubstr("<img"))));
+  for (const char* part : {"<h3>Title</h3>", "See <code>here</code> and", "a picture", "<td>&lt; 2</td>",
+                           "<a href=\"https://example.org/\">there</a>", "</table></div>",
+                           "aria-label=\"A &quot;name&quot;: table\" tabindex=\"0\"><table>"})
+    EXPECT_THAT(html, HasSubstr(part));
+  for (const char* part : {"SPDX", "README", "<img"}) EXPECT_THAT(html, Not(HasSubstr(part)));
 }
 
 TEST(Html, SvgsBecomeElementsOfThePage) {

@@ -9,6 +9,41 @@
 #include "sim/report/section.hpp"
 
 namespace halfway::report {
+namespace {
+
+// A page that another command writes.
+struct OtherPage {
+  const char* id;
+  const char* title;
+  const char* file;     // relative to the checkout
+  const char* command;  // the command that writes it
+};
+constexpr std::array c_pages = {
+    OtherPage{"stability", "Hard cases", "docs/results/hard_cases.md", "make stability"},
+    OtherPage{"proofs", "Proofs", "docs/results/proofs.md", "make prove"},
+    OtherPage{"mutants", "Mutants", "docs/results/mutants.md", "make mutate"},
+    OtherPage{"bounds", "Bounds", "docs/results/bounds.md", "make bounds"},
+    OtherPage{"synthesis", "Synthesis", "docs/results/synthesis.md", "make synth"},
+    OtherPage{"bench", "Speed of simulation", "docs/results/speed.md", "make bench"},
+};
+
+// Add a section for each page.
+void add_pages(Page& page) {
+  Json& pages = page.view["pages"] = Json::array();
+  for (const OtherPage& other : c_pages) {
+    const std::filesystem::path file = page.settings.folders.source / other.file;
+    if (!std::filesystem::exists(file)) continue;
+    page.settings.on_progress(other.file);
+    const auto text = must(read_file(file));
+    pages.push_back({{"id", other.id},
+                     {"title", other.title},
+                     {"command", other.command},
+                     {"file", other.file},
+                     {"html", from_markdown(text, other.title)}});
+  }
+}
+
+}  // namespace
 
 Json Page::lacks(const std::string& what, const std::string& command) {
   report.notes.push_back(fmt::format("{}: {} makes it", what, command));

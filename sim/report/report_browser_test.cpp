@@ -69,7 +69,7 @@ class ReportPage : public CommandTest {
     settings.points.push_back(
         {.method = study::Method::adaptive, .host = {.quadratic = {.threshold = 250}}, .size = {160, 120}});
     const study::Study made = study::run_study(settings);
-    write("study/study.csv", study::to_csv(made.provenance, made.records, {}, {}));
+    write("study/study.csv", study::study_csv(made.provenance, made.records, {}, {}));
   }
 
   void TearDown() override {
@@ -176,23 +176,11 @@ TEST_F(ReportPage, PrintsFoldedSections) {
   EXPECT_EQ(evaluate("document.querySelector('main').textContent.split('" + word + "').length - 1"), whole);
 }
 
-TEST_F(ReportPage, FiguresHaveSizesAndTexts) {
+TEST_F(ReportPage, EverythingHasAName) {
   const std::string image = "document.querySelector('img.figure')";
   EXPECT_EQ(evaluate(image + ".getAttribute('width')"), "9");
   EXPECT_EQ(evaluate(image + ".getAttribute('height')"), "9");
-  const std::string words = evaluate("document.getElementById('figure/quadratic-09').textContent");
-  EXPECT_NE(words.find("A <sphere> of lights"), std::string::npos) << words;
   EXPECT_EQ(evaluate("document.querySelector('#figures details code').textContent"), "lights");
-}
-
-TEST_F(ReportPage, StartsWithAPixelOfABody) {
-  const Frame reference = frame("reference");
-  // no body is at the centre
-  ASSERT_EQ(pixel(reference, 48, 36), pixel(reference, 0, 0));
-  EXPECT_NE(shown("#frame-viewer", "reference"), pixel(reference, 0, 0));
-}
-
-TEST_F(ReportPage, EverythingHasAName) {
   evaluate("document.querySelectorAll('details').forEach((d) => d.open = true)");
   const Json tree = browser_->send("Accessibility.getFullAXTree")["nodes"];
   std::map<std::string, int> seen;
@@ -215,6 +203,9 @@ TEST_F(ReportPage, EverythingHasAName) {
 TEST_F(ReportPage, WipesAndZoomsToThePngsPixels) {
   const Frame reference = frame("reference"), difference = frame("diff");
   const std::string canvas = "#frame-viewer canvas";
+  // It starts with a pixel of a body; no body is at the centre.
+  ASSERT_EQ(pixel(reference, 48, 36), pixel(reference, 0, 0));
+  EXPECT_NE(shown("#frame-viewer", "reference"), pixel(reference, 0, 0));
   evaluate("{ const s = document.querySelector('#frame-viewer .right'); s.value = 'diff'; s.onchange(); }");
   // Find a pixel in the right half where the two differ, so that moving the wipe over it is visible.
   std::uint32_t x = 55, y = 1;

@@ -29,6 +29,5 @@ void add_frames(Page& page);  ///< and "effects"
 void add_study(Page& page);
 void add_figures(Page& page);
 void add_hardware(Page& page);
-void add_pages(Page& page);  ///< stability, proofs, mutants and others
 
 }  // namespace halfway::report

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include "sim/files/gnuplot.hpp"
@@ -25,9 +24,8 @@ double ms(const Table& table, std::size_t row, const char* column) {
 std::string ms_text(const Table& table, std::size_t row, const char* column) {
   return table.text(row, column).empty() ? "–" : fmt::format("{:.3g}", ms(table, row, column));
 }
-std::string clock_text(const Table& table, std::size_t row) {
-  const std::string& mhz = table.text(row, "clock_mhz");
-  return mhz.empty() ? "–" : mhz;
+std::string text_or_dash(const std::string& text) {
+  return text.empty() ? "–" : text;
 }
 std::string millions(const Table& table, std::size_t row, const char* column) {
   const auto value = table.number(row, column);
@@ -68,6 +66,19 @@ bool has_filtered(const Table& picture) {
   return false;
 }
 
+// The rows that no other row beats in time and error, from the quickest. Filtered pictures are not compared.
+std::vector<std::size_t> front_rows(const Table& picture) {
+  std::vector<study::Costs> costs;
+  std::vector<std::size_t> rows, front;
+  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
+    if (is_filtered(picture, row)) continue;
+    costs.push_back({ms(picture, row, "overlapped_ns"), rms(picture, row)});
+    rows.push_back(row);
+  }
+  for (const std::size_t at : study::ordered_front_of(costs)) front.push_back(rows[at]);
+  return front;
+}
+
 Plot times_plot(const Table& picture) {
   Plot plot{.x_label = "ms per frame, host and hardware overlapped",
             .y_label = "rms error, steps of 1/255",
@@ -87,12 +98,12 @@ Plot times_plot(const Table& picture) {
                            .ring = is_hardware(picture, row) && picture.text(row, "bound") == "host"});
   }
   // Name the points of the front; of equal ones the first.
-  plot.front = lower_left(plot.points);
-  for (const std::pair<double, double>& corner : plot.front) {
-    const auto at = std::ranges::find(plot.points, corner,
-                                      [](const PlotPoint& point) { return std::pair(point.x, point.y); });
-    at->label = picture.text(at->number, "design");
-  }
+  for (const std::size_t row : front_rows(picture))
+    if (const std::pair corner(plot.points[row].x, plot.points[row].y);
+        plot.front.empty() || plot.front.back() != corner) {
+      plot.front.push_back(corner);
+      plot.points[row].label = picture.text(row, "design");
+    }
   return plot;
 }
 
@@ -106,19 +117,6 @@ std::vector<std::size_t> by_time(const Table& picture) {
   return rows;
 }
 
-// The rows that no other row beats in time and error, from the quickest. Filtered pictures are not compared.
-std::vector<std::size_t> front_rows(const Table& picture) {
-  std::vector<study::Costs> costs;
-  std::vector<std::size_t> rows, front;
-  for (std::size_t row = 0; row < picture.rows.size(); ++row) {
-    if (is_filtered(picture, row)) continue;
-    costs.push_back({ms(picture, row, "overlapped_ns"), rms(picture, row)});
-    rows.push_back(row);
-  }
-  for (const std::size_t at : study::ordered_front_of(costs)) front.push_back(rows[at]);
-  return front;
-}
-
 std::string table_of(const Table& picture, const std::vector<std::size_t>& rows) {
   std::string text =
       "| design | ms per frame, overlapped | bound by | in sequence | host | hardware | clock, MHz | host, "
@@ -129,8 +127,8 @@ std::string table_of(const Table& picture, const std::vector<std::size_t>& rows)
                         picture.text(row, "design"), ms_text(picture, row, "overlapped_ns"),
                         picture.text(row, "bound"), ms_text(picture, row, "sequential_ns"),
                         ms_text(picture, row, "host_ns"), ms_text(picture, row, "hardware_ns"),
-                        clock_text(picture, row), millions(picture, row, "host_instructions"),
-                        is_hardware(picture, row) ? picture.text(row, "words") : "–", rms(picture, row),
+                        text_or_dash(picture.text(row, "clock_mhz")), millions(picture, row, "host_instructions"),
+                        text_or_dash(picture.text(row, "words")), rms(picture, row),
                         picture.text(row, "largest_error"), picture.text(row, "perceived_pixels"));
   return text;
 }

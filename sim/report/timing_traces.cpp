@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <optional>
 #include <string_view>
 
 #include "plan/plan.hpp"
@@ -27,12 +25,10 @@ constexpr std::size_t c_row = 50;        // number of clocks that fit the page's
 constexpr double c_clock = 23;           // pixels
 constexpr std::size_t c_read = 200;      // clocks read to find the first vector
 
-enum class Shown { wire, decimal };
 struct ShownSignal {
   const char* label;
-  std::string path;  // in the testbench's hierarchy
-  Shown as;
-  std::string valid{};  // name of a wire: the value is valid only while it is 1; empty: always
+  std::string path;     // in the testbench
+  std::string valid{};  // of a decimal value: name of the wire that is 1 while it is valid; empty: a wire
 };
 
 // In the order of the data flow: inputs at the top, outputs at the bottom.
@@ -43,28 +39,25 @@ std::vector<ShownSignal> signals_of(Shader shader) {
   const std::string front = stalls ? "dut/in_front/rasterizer/" : "dut/";
   const std::string walking = stalls ? front + "drawing" : "dut/walking";
   const std::string walked = stalls ? front + "drawn_valid" : "dut/span_step";
-  std::vector<ShownSignal> signals = {
-      {"init_valid", "init_valid", Shown::wire},
-      {"init_ready", "init_ready", Shown::wire},
-      {"line_load", front + "line_load", Shown::wire},
-      {"line_step", front + "line_step", Shown::wire},
-      {"line_y", front + "walker/line_y", Shown::decimal, walking},
-      {"line_start", front + "walker/line_start", Shown::decimal, walking},
-      {"line_stop", front + "walker/line_stop", Shown::decimal, walking},
-      {"span_load", front + "span_load", Shown::wire},
-      {"span_step", front + "span_step", Shown::wire},
-      {"y", front + "y", Shown::decimal, walked},
-      {"x", front + "x", Shown::decimal, walked},
-  };
-  if (!stalls) signals.push_back({"pixel_valid", "dut/pixel_valid", Shown::wire});  // input of the queue
+  std::vector<ShownSignal> signals = {{"init_valid", "init_valid"},
+                                      {"init_ready", "init_ready"},
+                                      {"line_load", front + "line_load"},
+                                      {"line_step", front + "line_step"},
+                                      {"line_y", front + "walker/line_y", walking},
+                                      {"line_start", front + "walker/line_start", walking},
+                                      {"line_stop", front + "walker/line_stop", walking},
+                                      {"span_load", front + "span_load"},
+                                      {"span_step", front + "span_step"},
+                                      {"y", front + "y", walked},
+                                      {"x", front + "x", walked}};
+  if (!stalls) signals.push_back({"pixel_valid", "dut/pixel_valid"});  // input of the queue
   if (shader == Shader::processors) {
-    signals.push_back({"token_valid", "dut/token_valid", Shown::wire});
-    signals.push_back({"shaded_valid", "dut/shaded_valid", Shown::wire});
+    signals.push_back({"token_valid", "dut/token_valid"});
+    signals.push_back({"shaded_valid", "dut/shaded_valid"});
   }
-  signals.insert(signals.end(), {{"fragment_valid", "fragment_valid", Shown::wire},
-                                 {"fragment_y", "fragment_y", Shown::decimal, "fragment_valid"},
-                                 {"fragment_x", "fragment_x", Shown::decimal, "fragment_valid"},
-                                 {"fragment_red", "fragment_red", Shown::decimal, "fragment_valid"}});
+  signals.push_back({"fragment_valid", "fragment_valid"});
+  for (const char* field : {"fragment_y", "fragment_x", "fragment_red"})
+    signals.push_back({field, field, "fragment_valid"});
   return signals;
 }
 
@@ -73,10 +66,10 @@ std::string in_testbench(const std::string& path) {
 }
 
 // At most 32 bits. A value with metavalues is '?'.
-std::string shown(const std::string& bits, Shown as) {
+std::string decimal(const std::string& bits) {
   std::uint64_t word = 0;
   for (const char bit : bits) {
-    if (bit != '0' && bit != '1') return as == Shown::wire ? "0" : "?";
+    if (bit != '0' && bit != '1') return "?";
     word = word << 1 | (bit == '1' ? 1U : 0U);
   }
   return std::to_string(word);
@@ -124,11 +117,14 @@ ShaderTiming draw_shader_timing(Shader shader, const SimulatorFolders& folders) 
   for (std::size_t fragments = 0; last < sampled.edges && fragments < c_fragments; ++last)
     fragments += drawn[last] == "1" ? 1 : 0;
 
+  const auto bits_at = [&](const std::string& path, std::size_t edge) {
+    return sampled.values.at(in_testbench(path))[edge];
+  };
   // The value at an edge; std::nullopt: it is invalid.
   const auto value_at = [&](const ShownSignal& signal, std::size_t edge) -> std::optional<std::string> {
-    if (!signal.valid.empty() && sampled.values.at(in_testbench(signal.valid))[edge] != "1")
-      return std::nullopt;
-    return shown(sampled.values.at(in_testbench(signal.path))[edge], signal.as);
+    if (signal.valid.empty()) return bits_at(signal.path, edge) == "1" ? "1" : "0";
+    if (bits_at(signal.valid, edge) != "1") return std::nullopt;
+    return decimal(bits_at(signal.path, edge));
   };
   ShaderTiming timing{.key = key.name()};
   const std::size_t clocks = last - first, rows = (clocks + c_row - 1) / c_row;
@@ -147,7 +143,7 @@ ShaderTiming draw_shader_timing(Shader shader, const SimulatorFolders& folders) 
       for (std::size_t from = begin, until = begin; from < end; from = until) {
         const auto value = value_at(signal, from);
         while (until < end && value_at(signal, until) == value) ++until;
-        if (signal.as == Shown::wire)
+        if (signal.valid.empty())
           lane.levels.push_back({at(from), at(until), value == "1"});
         else if (value)
           lane.boxes.push_back({at(from), at(until), *value});

@@ -4,16 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <iterator>
 #include <set>
 
-#include "common/to_integer.hpp"
-#include "frame/frame.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/toml_file.hpp"
 #include "sim/run/draw_knobs.hpp"
-#include "words/cosine_tables.hpp"
 #include "words/generator/formats.hpp"
 
 namespace halfway::study {

@@ -1,57 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/frame_time.hpp"
 
-#include <fmt/format.h>
-
-#include <utility>
-
-#include "sim/os/csv.hpp"
-#include "sim/study/front.hpp"
-
 namespace halfway::study {
 namespace {
 
 constexpr double c_ms = 1e-6;  // ns to ms
-
-// A line's values with the names of their columns.
-using TimeLine = std::vector<std::pair<const char*, std::string>>;
-
-TimeLine line_of(const Provenance& provenance, const Record& record, const FrameTime& time) {
-  const auto& [p, m] = record;
-  const bool has_hardware = time.hardware_ns.has_value();
-  const auto of_hardware = [&](const auto& value) {
-    return has_hardware ? fmt::format("{}", value) : std::string();
-  };
-  return {{"scene", provenance.scene},
-          {"scene_hash", provenance.scene_hash},
-          {"point", p.name()},
-          {"design", p.design()},
-          {"method", to_string(p.method)},
-          {"preset", in_hardware(p.method) ? to_string(p.preset) : ""},
-          {"form", text_of("form", p)},
-          {"tessellation", fmt::format("{:g}", p.tessellation)},
-          {"exponent", p.exponent ? fmt::format("{:g}", *p.exponent) : ""},
-          {"width", fmt::format("{}", p.size.width)},
-          {"height", fmt::format("{}", p.size.height)},
-          {"hardware", m.hardware},
-          {"triangles", fmt::format("{}", m.triangles)},
-          {"host_ns", fmt::format("{:.6g}", time.host_ns)},
-          {"host_instructions", m.host_instructions ? fmt::format("{}", *m.host_instructions) : ""},
-          {"words", of_hardware(m.host_time->words)},
-          {"cycles", of_hardware(m.cycles)},
-          {"hardware_ns", has_hardware ? fmt::format("{:.6g}", *time.hardware_ns) : ""},
-          {"overlapped_ns", fmt::format("{:.6g}", time.overlapped_ns())},
-          {"sequential_ns", fmt::format("{:.6g}", time.sequential_ns())},
-          {"bound", time.bound()},
-          {"rms", fmt::format("{}", m.picture.rms)},
-          {"largest_error", fmt::format("{}", m.picture.max_lsb)},
-          {"perceived_pixels", fmt::format("{}", m.perceived)},
-          {"clock_mhz", time.mhz ? fmt::format("{:.1f}", *time.mhz) : ""},
-          {"highlight_test", text_of("highlight_test", p)},
-          {"span_ends", text_of("span_ends", p)},
-          {"device", time.device},
-          {"subpixels", text_of("subpixels", p)}};
-}
 
 constexpr const char* c_line = "  {:>10} {:>11} {:>9} {:>9}  {:<8} {:>9} {:>8}  {}\n";
 
@@ -111,20 +64,6 @@ std::string to_text(const PictureTimes& picture, std::span<const Record> records
   for (const std::size_t at : quickest_of(picture, records))
     text += line_text(picture.times[at], records[picture.times[at].record]);
   return text;
-}
-
-std::string times_csv(const Provenance& provenance, std::span<const Record> records,
-                      std::span<const PictureTimes> pictures) {
-  Table table;
-  for (const PictureTimes& picture : pictures)
-    for (const FrameTime& time : picture.times) {
-      const TimeLine line = line_of(provenance, records[time.record], time);
-      if (table.columns.empty())
-        for (const auto& [column, value] : line) table.columns.emplace_back(column);
-      std::vector<std::string>& row = table.rows.emplace_back();
-      for (const auto& [column, value] : line) row.push_back(value);
-    }
-  return to_csv(table);
 }
 
 }  // namespace halfway::study

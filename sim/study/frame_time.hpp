@@ -44,8 +44,4 @@ std::vector<std::size_t> quickest_of(const PictureTimes& picture, std::span<cons
 /// The front as a table for people.
 std::string to_text(const PictureTimes& picture, std::span<const Record> records);
 
-/// times.csv: one line per point with a known time. Columns: sim/study/spaces/README.md.
-std::string times_csv(const Provenance& provenance, std::span<const Record> records,
-                      std::span<const PictureTimes> pictures);
-
 }  // namespace halfway::study

@@ -4,12 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/os/csv.hpp"
 #include "sim/os/test/folder_test.hpp"
 #include "sim/study/host_setup.hpp"
+#include "sim/study/table.hpp"
 
 namespace halfway::study {
 namespace {
@@ -36,24 +35,17 @@ class FrameTimes : public FolderTest {
 
 TEST_F(FrameTimes, AddAndOverlapHostAndHardware) {
   add(Method::quadratic, "q", 3e5, 20'000, 2);  // 20 000 clocks of 10 ns
+  add(Method::gouraud, "", 4e5, 0, 5);
   const auto pictures = frame_times_of(records_, hardware_, {});
   ASSERT_EQ(pictures.size(), 1U);
-  ASSERT_EQ(pictures[0].times.size(), 1U);
-  const FrameTime& time = pictures[0].times[0];
+  const FrameTime &time = pictures[0].times.at(0), &software = pictures[0].times.at(1);
   EXPECT_DOUBLE_EQ(*time.hardware_ns, 2e5);
   EXPECT_DOUBLE_EQ(time.overlapped_ns(), 3e5);
   EXPECT_DOUBLE_EQ(time.sequential_ns(), 5e5);
-  EXPECT_STREQ(time.bound(), "host");
-}
-
-TEST_F(FrameTimes, SoftwareIsTheHostsWork) {
-  add(Method::gouraud, "", 4e5, 0, 5);
-  const auto pictures = frame_times_of(records_, hardware_, {});
-  const FrameTime& time = pictures.at(0).times.at(0);
-  EXPECT_FALSE(time.hardware_ns);
-  EXPECT_DOUBLE_EQ(time.overlapped_ns(), 4e5);
-  EXPECT_DOUBLE_EQ(time.sequential_ns(), 4e5);
-  EXPECT_STREQ(time.bound(), "host");
+  EXPECT_FALSE(software.hardware_ns);
+  EXPECT_DOUBLE_EQ(software.overlapped_ns(), 4e5);
+  EXPECT_DOUBLE_EQ(software.sequential_ns(), 4e5);
+  for (const FrameTime& each : {time, software}) EXPECT_STREQ(each.bound(), "host");
 }
 
 TEST_F(FrameTimes, HardwareWithoutAClockHasNoTime) {
@@ -103,10 +95,11 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
     EXPECT_EQ(table.text(0, column), hardware);
     EXPECT_EQ(table.text(1, column), software);
   }
-  EXPECT_EQ(table.number(0, "host_ns"), 1e5);
-  EXPECT_EQ(table.number(0, "hardware_ns"), 2e5);
-  EXPECT_EQ(table.number(0, "overlapped_ns"), 2e5);
-  EXPECT_EQ(table.number(0, "sequential_ns"), 3e5);
+  for (const auto& [column, ns] : {std::pair{"host_ns", 1e5},
+                                   {"hardware_ns", 2e5},
+                                   {"overlapped_ns", 2e5},
+                                   {"sequential_ns", 3e5}})
+    EXPECT_EQ(table.number(0, column), ns);
   EXPECT_EQ(table.text(1, "hardware_ns"), "");
 }
 

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/hardware.hpp"
 
-#include <fmt/format.h>
-
 #include <mutex>
-#include <optional>
 #include <set>
-#include <utility>
 
 #include "plan/own_bells.hpp"
 #include "sim/os/file.hpp"
-#include "sim/os/must.hpp"
 #include "sim/os/threads.hpp"
-#include "sim/study/pictures.hpp"
 
 namespace halfway::study {
 

@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/hardware.hpp"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdint>
 #include <cstdlib>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "sim/cost/clock_store.hpp"
-#include "sim/cost/netlist_identity.hpp"
 #include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/test_files.hpp"
 #include "sim/study/host_setup.hpp"
-#include "sim/study/pictures.hpp"
 #include "sim/study/study.hpp"
 
 namespace halfway::study {
@@ -48,8 +37,6 @@ constexpr const char* c_nextpnr = R"(#!/bin/sh
 [ "$1" = --version ] && echo 'nextpnr-ice40 (Version 0.4)' && exit
 case "$*" in
   *--pack-only*) echo 'Info: 	 ICESTORM_LC:  '$PACKED'/ 7680    1%' ; exit ;;
-  *"--router router1"*) ;;
-  *) [ "$ENDLESS" = 1 ] && kill -XCPU $$ ;;
 esac
 seed=${*##*--seed } ; seed=${seed%% *}
 echo "$seed" >>"$LOG"
@@ -75,7 +62,6 @@ class HardwareFiguresTest : public FolderTest {
     ::setenv("PATH", (at("bin").string() + ":" + path_).c_str(), 1);
     ::setenv("LOG", log().c_str(), 1);
     ::unsetenv("PRODUCT");
-    ::unsetenv("ENDLESS");
     set_results("4", "30", "6912");  // as full as can be placed
     key_ = hardware_of(point_, drawn_scene(scene_, c_built_in_scenes, point_)).key;
     Record record{point_, {}};
@@ -121,58 +107,38 @@ class HardwareFiguresTest : public FolderTest {
 };
 
 TEST_F(HardwareFiguresTest, AStoredClockIsUsedForTheSameNetlistOrOfAnotherGhdlForTheSameHardware) {
-  const synth::Cost none = figures(false);
-  EXPECT_FALSE(none.mhz);
-  EXPECT_EQ(none.clock, synth::c_not_placed);
+  EXPECT_EQ(figures(false).clock, synth::c_not_placed);
+  const auto with = [&](const synth::StoredClock& clock, bool place = false) {
+    store({{"any", clock}});
+    return figures(place);
+  };
   const synth::StoredClock clock = stored_clock();
-  store({{"any", clock}});
-  const synth::Cost stored = figures(true);
+  const synth::Cost stored = with(clock, true);
   EXPECT_EQ(stored.mhz, 87.5);
   EXPECT_EQ(stored.clock, synth::c_stored);
   EXPECT_EQ(stored.device_cells, (Cells{1, 2, 3, 4}));
   EXPECT_EQ(stored.tools, "placed with Placer 1, cells by Yosys 0.23");
-  EXPECT_EQ(placements(), 0U);
   synth::StoredClock of_another = clock;
   of_another.netlist += "0";
-  store({{"any", of_another}});
-  EXPECT_FALSE(figures(false).mhz);
+  EXPECT_FALSE(with(of_another).mhz);
   // Of another GHDL, whose netlist cannot be compared; of this one, it is other hardware.
-  of_another.tools = "GHDL 0, Placer 1";
   of_another.hardware = key_.name();
-  store({{"any", of_another}});
-  const synth::Cost other = figures(true);
+  of_another.tools = synth::ghdl_name() + ", Placer 1";
+  EXPECT_FALSE(with(of_another).mhz);
+  of_another.tools = "GHDL 0, Placer 1";
+  const synth::Cost other = with(of_another, true);
   EXPECT_EQ(other.mhz, 87.5);
   EXPECT_THAT(other.tools,
               ::testing::HasSubstr("GHDL 0, Placer 1, from a netlist that this GHDL does not write"));
-  EXPECT_EQ(placements(), 0U);
-  of_another.tools = synth::ghdl_name() + ", Placer 1";
-  store({{"any", of_another}});
-  EXPECT_FALSE(figures(false).mhz);
-  of_another.tools = "GHDL 0, Placer 1";
   of_another.hardware += "-fraction12";
-  store({{"any", of_another}});
-  EXPECT_FALSE(figures(false).mhz);
+  EXPECT_FALSE(with(of_another).mhz);
   // Hardware that has no placement.
-  store({{"any", {.cells = {7681, 2, 3, 4}, .tools = "Placer 1", .netlist = clock.netlist}}});
-  const synth::Cost large = figures(true);
+  const synth::Cost large =
+      with({.cells = {7681, 2, 3, 4}, .tools = "Placer 1", .netlist = clock.netlist}, true);
   EXPECT_FALSE(large.mhz);
   EXPECT_FALSE(large.fits);
   EXPECT_EQ(large.clock, "does not fit the HX8K: 7681 LUTs of 7680");
   EXPECT_EQ(placements(), 0U);
-}
-
-TEST_F(HardwareFiguresTest, AClockIsTheMedianOfAllSeedsAndIsCached) {
-  const synth::Cost placed = figures(true);
-  // 102, 104, 101
-  EXPECT_EQ(placed.mhz, 102.0);
-  EXPECT_EQ(placed.clock, "placed");
-  EXPECT_TRUE(placed.fits);
-  EXPECT_EQ(placed.device_cells, (Cells{.luts = 30, .flip_flops = 4}));
-  EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
-                                "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
-  EXPECT_EQ(placements(), synth::c_seeds);
-  EXPECT_EQ(figures(true).mhz, 102.0);
-  EXPECT_EQ(placements(), synth::c_seeds);
 }
 
 TEST_F(HardwareFiguresTest, HardwareThatDoesNotFitHasAReasonInsteadOfAClock) {
@@ -266,22 +232,20 @@ TEST_F(HardwareFiguresTest, PlacementsAreSpreadOverParts) {
   EXPECT_EQ(run(1), 0U);
   EXPECT_EQ(run(2) + run(0), 2U);
   EXPECT_TRUE(open().empty());
-  EXPECT_EQ(placements(), synth::c_seeds);
+  // The clock is the median of all seeds: 102, 104, 101.
   const synth::Cost placed = figures(true);
   EXPECT_EQ(placed.mhz, 102.0);
   EXPECT_EQ(placed.clock, "placed");
+  EXPECT_TRUE(placed.fits);
+  EXPECT_EQ(placed.device_cells, (Cells{.luts = 30, .flip_flops = 4}));
+  EXPECT_THAT(placed.tools, ::testing::MatchesRegex(
+                                "cells by Yosys 0.23, placed with GHDL .*, Yosys 0.23, nextpnr-ice40 0.4"));
   EXPECT_EQ(placements(), synth::c_seeds);
   // Changing the RTL makes the piece open again.
   fs::remove(folders_.source / "rtl");
   fs::copy(c_source_folder / "rtl", folders_.source / "rtl", fs::copy_options::recursive);
   write("source/rtl/notes", "another");
   EXPECT_THAT(open(), ElementsAre(0U, 1U, 2U));
-}
-
-TEST_F(HardwareFiguresTest, APlacementThatDoesNotEndIsRepeatedWithTheOlderRouter) {
-  ::setenv("ENDLESS", "1", 1);
-  EXPECT_EQ(figures(true).mhz, 102.0);
-  EXPECT_EQ(placements(), synth::c_seeds);
 }
 
 TEST_F(HardwareFiguresTest, APieceThatDoesNotFitIsDone) {

@@ -7,21 +7,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
-#include <memory>
 #include <sstream>
-#include <string_view>
 
-#include "projection/project.hpp"
-#include "reference/renderer.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
@@ -29,7 +21,6 @@
 #include "sim/os/seconds.hpp"
 #include "sim/os/subprocess.hpp"
 #include "sim/study/hardware.hpp"
-#include "sim/study/pictures.hpp"
 
 namespace halfway::study {
 namespace {

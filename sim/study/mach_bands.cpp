@@ -7,11 +7,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec2.hpp>
-#include <limits>
 #include <map>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "reference/visible_pixels.hpp"
 

@@ -38,41 +38,27 @@ Frame roof(int steps) {
   return frame;
 }
 
-TEST(MachBands, AreTheJumpOfTheSlopeAcrossAnEdge) {
-  const Scene scene = square();
-  const auto triangles = Projector(scene, c_size, {}).project_all();
-  ASSERT_EQ(triangles.size(), 2U);
-  const auto bands = mach_bands(roof(2), roof(0), scene, triangles);
+MachBands bands_of(const Scene& scene, const Frame& frame, const Frame& reference) {
+  return mach_bands(frame, reference, scene, Projector(scene, c_size, {}).project_all());
+}
+
+TEST(MachBands, AreTheJumpOfTheSlopeAcrossAnEdgeWithoutTheReferences) {
+  const auto bands = bands_of(square(), roof(2), roof(0)), same = bands_of(square(), roof(2), roof(2));
   EXPECT_EQ(bands.edges, 1U);
   EXPECT_NEAR(bands.largest, 2 * 2 * std::numbers::sqrt2, 1e-9);
   EXPECT_NEAR(bands.rms, bands.largest, 1e-12);
+  EXPECT_EQ(same.edges, 1U);
+  EXPECT_EQ(same.largest, 0.0);
 }
 
-TEST(MachBands, TheReferencesJumpsAreSubtracted) {
-  const Scene scene = square();
-  const auto triangles = Projector(scene, c_size, {}).project_all();
-  const auto bands = mach_bands(roof(2), roof(2), scene, triangles);
-  EXPECT_EQ(bands.edges, 1U);
-  EXPECT_EQ(bands.largest, 0.0);
-}
-
-TEST(MachBands, ACreaseIsNotEvaluated) {
-  Scene scene = square();
-  scene.triangles[1].normal = {1, 1, 1};
-  const auto triangles = Projector(scene, c_size, {}).project_all();
-  const auto bands = mach_bands(roof(2), roof(0), scene, triangles);
-  EXPECT_EQ(bands.edges, 0U);
-}
-
-TEST(MachBands, HiddenTrianglesAreNotEvaluated) {
-  Scene scene = square();
+TEST(MachBands, CreasesAndHiddenTrianglesAreNotEvaluated) {
+  Scene crease = square(), hidden = square();
+  crease.triangles[1].normal = {1, 1, 1};
+  EXPECT_EQ(bands_of(crease, roof(2), roof(0)).edges, 0U);
   // Cover part of one triangle.
-  scene.positions_world.insert(scene.positions_world.end(), {{-1, -0.9, 0.5}, {1, 1, 0.5}, {-1, 1, 0.5}});
-  scene.triangles.push_back({{4, 5, 6}, {0, 0, 0}, 0});
-  const auto triangles = Projector(scene, c_size, {}).project_all();
-  ASSERT_EQ(triangles.size(), 3U);
-  const auto bands = mach_bands(roof(2), roof(0), scene, triangles);
-  EXPECT_EQ(bands.edges, 0U);
+  hidden.positions_world.insert(hidden.positions_world.end(), {{-1, -0.9, 0.5}, {1, 1, 0.5}, {-1, 1, 0.5}});
+  hidden.triangles.push_back({{4, 5, 6}, {0, 0, 0}, 0});
+  EXPECT_EQ(bands_of(hidden, roof(2), roof(0)).edges, 0U);
 }
 
 }  // namespace

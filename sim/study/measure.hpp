@@ -1,20 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measurement of one point of a study: the difference of its picture from the reference, and its cost.
+// Measurement of one point of a study: scene and reference picture, the difference of the point's picture
+// from the reference, and its cost.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "frame/metrics.hpp"
+#include "projection/screen_triangle.hpp"
+#include "reference/renderer.hpp"
+#include "scene/scene.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/mesa/mesa_picture.hpp"
 #include "sim/run/verilator_frame.hpp"
 #include "sim/study/design_point.hpp"
 #include "sim/study/mach_bands.hpp"
-#include "sim/study/pictures.hpp"
 
 namespace halfway::study {
+
+/// The scene to draw.
+struct Subject {
+  std::string name;  ///< as for load_scene
+  Scene scene;
+  std::vector<ScreenTriangle> triangles;
+};
+
+/// The correct picture of a frame or a tile.
+struct Reference {
+  ReferenceImage image;
+  /// Pixels where highlights raise the reference by c_highlight steps or more; one byte per pixel.
+  std::vector<std::uint8_t> highlight;
+};
+inline constexpr int c_highlight = 8;
+
+/// Subject and reference of a whole frame.
+struct Pictures {
+  std::shared_ptr<const Subject> subject;
+  Reference reference;
+};
+
+/// The scene with the point's tessellation and exponent.
+Scene drawn_scene(const std::string& scene, const std::filesystem::path& scenes_folder,
+                  const DesignPoint& point);
+
+/// The point's scene, and its triangles at the point's size.
+Subject subject_of(const std::string& scene, const std::filesystem::path& scenes_folder,
+                   const DesignPoint& point);
+
+/// The reference of the point's picture. A filtered one is of the whole frame.
+Reference render(const Subject& subject, const DesignPoint& point, const std::optional<Tile>& tile = {});
 
 /// The picture of a point's design and its cost, for a frame or a tile. In software, fragments, cycles and
 /// counts are 0, and an empty mask stands for the reference's.
@@ -52,5 +89,41 @@ Drawing draw(const DesignPoint& point, const Subject& subject, const SimulatorFo
 /// Compare the drawing of the whole frame with the reference. Without a drawing, the reference is compared
 /// with itself.
 Measurement measure(const Pictures& pictures, std::optional<Drawing> drawing);
+
+/// Call `visit` with each setup counter and its name.
+template <class Counts, class Visit>
+void for_each_setup_figure(Counts& setup, const Visit& visit) {
+  visit("screen_triangles", setup.triangles);
+  visit("leaves", setup.leaves);
+  visit("unresolved", setup.unresolved);
+  visit("init_vectors", setup.vectors);
+  visit("line_records", setup.records);
+  visit("host_evaluations", setup.shaded);
+}
+
+/// Call `visit` with every value of a measurement and its column name, in the table's order.
+template <class Measured, class Visit>
+void for_each_figure(Measured& m, const Visit& visit) {
+  visit("hardware", m.hardware);
+  visit("triangles", m.triangles);
+  visit("fragments", m.fragments);
+  visit("cycles", m.cycles);
+  visit("pixels", m.picture.pixels);
+  visit("largest_error", m.picture.max_lsb);
+  visit("error_99", m.picture.percentile99);
+  visit("rms", m.picture.rms);
+  visit("psnr_db", m.picture.psnr_db);
+  visit("highlight_pixels", m.highlight.pixels);
+  visit("highlight_largest_error", m.highlight.max_lsb);
+  visit("highlight_error_99", m.highlight.percentile99);
+  visit("highlight_rms", m.highlight.rms);
+  visit("highlight_psnr_db", m.highlight.psnr_db);
+  visit("perceived_pixels", m.perceived);
+  visit("mach_edges", m.mach_bands.edges);
+  visit("mach_rms", m.mach_bands.rms);
+  visit("mach_largest", m.mach_bands.largest);
+  for_each_setup_figure(m.counts, visit);
+  visit("host_instructions", m.host_instructions);
+}
 
 }  // namespace halfway::study

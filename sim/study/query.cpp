@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/query.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <set>
-#include <string_view>
-#include <utility>
-
-#include "sim/os/must.hpp"
 
 namespace halfway::study {
 namespace {
@@ -141,17 +132,15 @@ std::string difference_text(const Offer& here, const Offer& there) {
 
 // The searched space: the number of designs and the parameters in which they differ.
 std::string knobs_text(const Market& market, std::span<const Record> records) {
-  std::vector<std::pair<std::string, std::set<std::string>>> values;
+  std::vector<const char*> turned, left;
   for (const Knob& knob : knobs()) {
     if (knob.is_picture) continue;
-    std::set<std::string> of;
+    std::set<std::string> values;
     for (const Offer& offer : market.offers)
       if (const DesignPoint& point = records[offer.record].point; knob.applies(point))
-        of.insert(knob.text(point));
-    if (!of.empty()) values.emplace_back(knob.name, std::move(of));
+        values.insert(knob.text(point));
+    if (!values.empty()) (values.size() > 1 ? turned : left).push_back(knob.name);
   }
-  std::vector<std::string> turned, left;
-  for (const auto& [name, of] : values) (of.size() > 1 ? turned : left).push_back(name);
   std::string text = fmt::format("  {:<14} {} points of hardware", "looked at", market.offers.size());
   if (!turned.empty()) text += fmt::format("; varied: {}", fmt::join(turned, ", "));
   if (!left.empty()) text += fmt::format("; not varied: {}", fmt::join(left, ", "));
@@ -177,10 +166,6 @@ std::string front_text(const Market& market, const Answer& answer, const Demand&
                         o.host ? fmt::format("{:.0f}", *o.host) : "-", records[o.record].point.design());
   }
   return text;
-}
-
-std::string points_text(std::size_t count) {
-  return fmt::format("{} point{}", count, count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -314,30 +299,29 @@ std::string to_text(const Market& market, const Answer& answer, const Demand& de
     if (answer.fastest)
       line("fastest", *answer.fastest, scales.cycles ? "; among those with a known clock" : "");
     if (answer.fewest_cycles && scales.cycles) line("fewest cycles", *answer.fewest_cycles, "");
-  } else if (!demand.accuracy()) {
-    line("cheapest", *answer.cheapest, "");
-    line("most accurate", *answer.best_met, against(*answer.cheapest, *answer.best_met));
   } else {
     line("cheapest", *answer.cheapest, "");
-    if (answer.quickest) line("quickest", *answer.quickest, "");
     const auto neighbour = [&](const char* what, std::optional<std::size_t> at, const char* none) {
       if (at)
         line(what, *at, against(*answer.cheapest, *at));
       else
         text += fmt::format("  {:<14} {}\n", what, none);
     };
-    neighbour("cheaper", answer.cheaper, "none");
-    neighbour("more accurate", answer.accurate, demand.seconds ? "none within that time" : "none");
+    if (demand.accuracy()) {
+      if (answer.quickest) line("quickest", *answer.quickest, "");
+      neighbour("cheaper", answer.cheaper, "none");
+      neighbour("more accurate", answer.accurate, demand.seconds ? "none within that time" : "none");
+    } else {
+      neighbour("most accurate", answer.best_met, "");
+    }
   }
-  if (answer.unknown > 0)
-    text += fmt::format("  {} {}, but {} known (--place, or --clock)\n", points_text(answer.unknown),
-                        demand.accuracy() ? "would be accurate enough" : "might be fast enough",
-                        answer.unknown == 1 ? "its clock is not" : "their clocks are not");
-  if (answer.no_room > 0)
-    text += fmt::format("  {}{} {}\n", points_text(answer.no_room),
-                        demand.accuracy() ? " would be accurate enough, but" : "",
-                        answer.no_room == 1 ? "has no clock: it does not fit the device"
-                                            : "have no clock: they do not fit the device");
+  const auto uncounted = [&](std::size_t count, const char* why) {
+    if (count == 0) return;
+    text += fmt::format("  {} point{}: {}{}\n", count, count == 1 ? "" : "s",
+                        demand.accuracy() ? "accurate enough, but " : "", why);
+  };
+  uncounted(answer.unknown, "the clock is not known (--place, or --clock)");
+  uncounted(answer.no_room, "too large for the device");
   return text + knobs_text(market, records) + front_text(market, answer, demand, records);
 }
 

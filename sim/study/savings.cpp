@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <mutex>
 
 #include "sim/files/load_scene.hpp"

@@ -13,6 +13,7 @@ namespace {
 
 constexpr const char* c_install = "apt-get install slurm-client, on a machine of the cluster";
 constexpr std::size_t c_shown = 2000;  // characters of a task's output
+constexpr unsigned c_retries = 2;      // of a failing task, by Slurm
 
 std::filesystem::path task_log(const JobArray& array, std::size_t part) {
   return array.folder / fmt::format("task-{}.log", part);
@@ -33,7 +34,7 @@ std::string job_script(const JobArray& array) {
       "  scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\"\n"
       "fi\n"
       "exit $status\n",
-      command, array.parts, array.retries);
+      command, array.parts, c_retries);
 }
 
 void run_job_array(const JobArray& array) {

@@ -17,7 +17,6 @@ struct JobArray {
   std::vector<std::size_t> open;  ///< the parts to submit
   /// for the job's script and the output of its tasks; the nodes must be able to access it
   std::filesystem::path folder;
-  unsigned retries = 2;              ///< of a failing task, by Slurm
   std::vector<std::string> options;  ///< additional options of sbatch, such as --partition=short
 };
 

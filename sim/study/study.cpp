@@ -3,15 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <deque>
-#include <map>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <set>
-#include <span>
-#include <utility>
 
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
@@ -20,9 +14,6 @@
 #include "sim/os/threads.hpp"
 #include "sim/study/hardware.hpp"
 #include "sim/study/host_setup.hpp"
-#include "sim/study/measure.hpp"
-#include "sim/study/pictures.hpp"
-#include "sim/study/tile_record.hpp"
 
 namespace halfway::study {
 namespace {
@@ -120,8 +111,7 @@ class Bench {
   explicit Bench(const StudySettings& settings)
       : settings_(settings),
         provenance_(provenance_of(must(load_scene(settings.scene, scenes())), settings.folders)),
-        kept_(points(), provenance_),
-        tiles_(points(), provenance_) {
+        kept_(points(), provenance_) {
     must(make_folders(points()));
     if (!settings.placed.empty())
       placements_.emplace(settings.scene, settings.placed, settings.folders, provenance_.rtl,
@@ -139,11 +129,11 @@ class Bench {
   }
   // A tile is also done when all its points are done.
   bool is_done(const Piece& piece) const {
-    if (!is_point(piece) && tiles_.has(point_of(piece), piece.kind, piece.tile)) return true;
+    if (!is_point(piece) && kept_.has_tile(point_of(piece), piece.kind, piece.tile)) return true;
     return std::ranges::all_of(std::span(settings_.points).subspan(piece.point, piece.points),
                                [&](const DesignPoint& each) { return kept_.find(each).has_value(); });
   }
-  bool can_gather(const Piece& piece) const { return is_done(piece) || tiles_.complete(point_of(piece)); }
+  bool can_gather(const Piece& piece) const { return is_done(piece) || kept_.has_tiles(point_of(piece)); }
 
   // A point's record; only figures stay in memory.
   std::optional<Record> make(const Piece& piece) {
@@ -165,31 +155,30 @@ class Bench {
     const auto subject = subject_of(point);
     const Tile tile = point.tiles()[number];
     if (kind == PieceKind::reference_tile)
-      tiles_.add_reference(point, number, render(*subject, point, tile));
+      kept_.add_reference(point, number, render(*subject, point, tile));
     else
-      tiles_.add_drawing(point, number, draw(point, *subject, settings_.folders, tile));
+      kept_.add_drawing(point, number, draw(point, *subject, settings_.folders, tile));
   }
 
   Record make_point(const DesignPoint& point, bool of_tiles) {
     const auto pictures = pictures_.of(point.picture(), [&] {
       const auto subject = subject_of(point);
-      return Pictures{subject, of_tiles ? tiles_.reference(point) : render(*subject, point)};
+      return Pictures{subject, of_tiles ? kept_.reference(point) : render(*subject, point)};
     });
     std::optional<Drawing> drawing;
     if (is_drawn(point.method))
-      drawing = of_tiles ? tiles_.drawing(point) : draw(point, *pictures->subject, settings_.folders);
+      drawing = of_tiles ? kept_.drawing(point) : draw(point, *pictures->subject, settings_.folders);
     Record record{point, measure(*pictures, std::move(drawing))};
     kept_.add_frame(point, record.measured.frame);
     record.measured.frame = {};
     kept_.add(record);
-    if (of_tiles) tiles_.remove_drawing(point);
+    if (of_tiles) kept_.remove_drawing(point);
     return record;
   }
 
   const StudySettings& settings_;
   Provenance provenance_;
   Records kept_;
-  TileRecords tiles_;
   std::optional<Placements> placements_;
   Shelf<Subject> subjects_;
   Shelf<Pictures> pictures_;
@@ -219,23 +208,19 @@ std::map<std::string, Group> by_host_work(std::vector<Record>& records) {
   return groups;
 }
 
-// The value that a record of the group has.
+// Give all records of the group the value, or else the value that one of them has, and store them. False if
+// there is no value.
 template <class Value>
-std::optional<Value> known(const Group& group, std::optional<Value> Measurement::* value) {
-  const auto found =
-      std::ranges::find_if(group, [&](const Record* r) { return (r->measured.*value).has_value(); });
-  return found == group.end() ? std::nullopt : (*found)->measured.*value;
-}
-
-// Give the records of the group the value, and store them.
-template <class Value>
-void give(const Records& kept, const Group& group, std::optional<Value> Measurement::* member,
-          const std::optional<Value>& value) {
+bool share(const Records& kept, const Group& group, std::optional<Value> Measurement::* member,
+           std::optional<Value> value = {}) {
+  for (const Record* record : group)
+    if (!value) value = record->measured.*member;
   for (Record* record : group) {
-    if (record->measured.*member) continue;
+    if (!value || record->measured.*member) continue;
     record->measured.*member = value;
     kept.add(*record);
   }
+  return value.has_value();
 }
 
 // Count the host instructions for the records that lack them.
@@ -244,10 +229,7 @@ void count_instructions(const StudySettings& settings, const Records& kept, std:
   const auto groups = by_host_work(records);
   std::vector<const Group*> open;
   for (const auto& [work, group] : groups) {
-    if (!in_hardware(group.front()->point.method)) continue;
-    if (const auto count = known(group, &Measurement::host_instructions))
-      give(kept, group, &Measurement::host_instructions, count);
-    else
+    if (in_hardware(group.front()->point.method) && !share(kept, group, &Measurement::host_instructions))
       open.push_back(&group);
   }
   // Batches, because starting Valgrind takes seconds.
@@ -262,7 +244,7 @@ void count_instructions(const StudySettings& settings, const Records& kept, std:
     for (const Group* group : batch) names.push_back(group->front()->point.name());
     const auto counted = host_instructions(settings.set_up, names, settings.out / "points");
     for (std::size_t i = 0; counted && i < batch.size(); ++i)
-      give(kept, *batch[i], &Measurement::host_instructions, std::optional((*counted)[i]));
+      share(kept, *batch[i], &Measurement::host_instructions, std::optional((*counted)[i]));
     const std::scoped_lock lock(mutex);
     done += batch.size();
     settings.on_progress(fmt::format("the host's instructions of {} of {} set-ups", done, open.size()));
@@ -276,9 +258,9 @@ void time_hosts(const StudySettings& settings, const Records& kept, std::vector<
   std::size_t done = 0;
   for (const auto& [work, group] : groups) {
     settings.on_progress(fmt::format("the host's time of {} of {} set-ups", ++done, groups.size()));
-    std::optional<HostTime> time = known(group, &Measurement::host_time);
-    if (!time) time = host_time(group.front()->point, settings.scene, settings.folders);
-    give(kept, group, &Measurement::host_time, time);
+    if (share(kept, group, &Measurement::host_time)) continue;
+    const HostTime time = host_time(group.front()->point, settings.scene, settings.folders);
+    share(kept, group, &Measurement::host_time, std::optional(time));
   }
 }
 

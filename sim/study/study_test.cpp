@@ -5,20 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <optional>
-#include <sstream>
-#include <utility>
-
 #include "common/test/is_error.hpp"
 #include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/image.hpp"
 #include "sim/generator/word_lengths/made_tables.hpp"
+#include "sim/os/csv.hpp"
 #include "sim/os/sanitizers.hpp"
 #include "sim/os/subprocess.hpp"
 #include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/test_files.hpp"
-#include "sim/study/figures.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/table.hpp"
 
@@ -27,10 +22,9 @@ namespace {
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::string table_of(const Study& study) {
-  return to_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
+  return study_csv(study.provenance, study.records, {}, markets_of(study.records, {}, {}));
 }
 
 class StudyTest : public FolderTest {
@@ -76,41 +70,18 @@ TEST_F(StudyTest, MeasuresEachMethod) {
   EXPECT_GT(adaptive.counts.leaves, quadratic.counts.leaves);
 }
 
-TEST_F(StudyTest, ContinuesAfterAnInterruption) {
-  const std::string first = table_of(study());
+TEST_F(StudyTest, ContinuesAfterAnInterruptionAndMeasuresOtherScenesAgain) {
+  const Study first = study();
   EXPECT_EQ(study().measured, 0U);
-  // Remove one point's figures and another point's frame.
-  const Provenance provenance = study().provenance;
-  EXPECT_TRUE(std::filesystem::remove(file(provenance, settings_.points[0], ".json")));
-  EXPECT_TRUE(std::filesystem::remove(file(provenance, settings_.points[1], ".png")));
+  // Remove one point's figures and another point's frame; damage a third point's figures.
+  EXPECT_TRUE(std::filesystem::remove(file(first.provenance, settings_.points[0], ".json")));
+  EXPECT_TRUE(std::filesystem::remove(file(first.provenance, settings_.points[1], ".png")));
+  write(file(first.provenance, settings_.points[2], ".json"), "{");
   const Study again = study();
-  EXPECT_EQ(again.measured, 2U);
-  EXPECT_EQ(table_of(again), first);
-}
-
-TEST_F(StudyTest, MeasuresUnreadablePointsAndOtherScenesAgain) {
-  const std::string table = table_of(study());
-  write(file(study().provenance, settings_.points[0], ".json"), "{");
-  const Study again = study();
-  EXPECT_EQ(again.measured, 1U);
-  EXPECT_EQ(table_of(again), table);
+  EXPECT_EQ(again.measured, 3U);
+  EXPECT_EQ(table_of(again), table_of(first));
   settings_.scene = "matte";
   EXPECT_EQ(study().measured, 4U);
-}
-
-TEST_F(StudyTest, PartsTogetherEqualTheWhole) {
-  settings_.parts = 3;
-  std::vector<std::string> names;
-  for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part)
-    for (const Record& record : study().records) names.push_back(record.point.name());
-  std::vector<std::string> all;
-  for (const DesignPoint& point : settings_.points) all.push_back(point.name());
-  EXPECT_EQ(names, all);
-  EXPECT_TRUE(open_parts(settings_).empty());
-  std::filesystem::remove_all(at("points"));
-  settings_.part = 1;
-  study();
-  EXPECT_THAT(open_parts(settings_), ::testing::ElementsAre(0U, 2U));
 }
 
 // Drawing in tiles gives the same figures as drawing the whole frame, except for the clocks of the hardware.
@@ -144,16 +115,6 @@ class TiledStudyTest : public StudyTest {
   }
   Study whole_;
 };
-
-TEST_F(TiledStudyTest, TilesTogetherEqualTheWhole) {
-  const Study tiled = study();
-  EXPECT_EQ(tiled.measured, 4U);
-  EXPECT_EQ(tiled.drawn_tiles, 4U * 4U);  // tiles of the reference and of all methods except phong
-  expect_whole(tiled);
-  EXPECT_THAT(tiled.records[2].point.name(), HasSubstr("64x48 in tiles of 37x29"));
-  EXPECT_THAT(table_of(tiled), HasSubstr(",4,,,,,\n"));
-  EXPECT_THAT(table_of(whole_), Not(HasSubstr(",4,,,,,\n")));
-}
 
 // A study that was interrupted before any point was assembled.
 class InterruptedStudyTest : public TiledStudyTest {
@@ -190,41 +151,29 @@ class InterruptedStudyTest : public TiledStudyTest {
   std::string table_;
 };
 
-// Only lost tiles are drawn again.
+// Only lost tiles are drawn again. A study stops at a damaged tile, and draws it again when it is removed.
 TEST_F(InterruptedStudyTest, ContinuesTileByTile) {
   EXPECT_TRUE(std::filesystem::remove(tile_file(drawing_, "-tile-1.json")));
   EXPECT_TRUE(std::filesystem::remove(tile_file(drawing_, "-tile-2-mask.png")));
   EXPECT_TRUE(std::filesystem::remove(tile_file(reference_, "-tile-0.png")));
   expect_anew(3);
-}
-
-// A study stops at a damaged tile, and draws it again when it is removed.
-TEST_F(InterruptedStudyTest, RefusesTilesOfAnotherSize) {
-  const std::pair<std::filesystem::path, FrameSize> cases[] = {
-      {tile_file(drawing_, "-tile-0.png"), {37, 8}}, {tile_file(reference_, "-tile-0-mask.png"), {64, 48}}};
-  for (const auto& [tile, size] : cases) {
+  const auto expect_refused = [&](const std::filesystem::path& tile, const std::string& message) {
+    const auto made = caught([&] { return study(); });
+    EXPECT_TRUE(is_error(made, ExitCode::bad_input, tile.string() + message));
+    EXPECT_TRUE(is_error(made, "; remove it"));
+    restore();
+  };
+  restore();
+  for (const auto& [tile, size] : {std::pair{tile_file(drawing_, "-tile-0.png"), FrameSize{37, 8}},
+                                   {tile_file(reference_, "-tile-0-mask.png"), {64, 48}}}) {
     ASSERT_TRUE(write_png(tile, Frame(size)));
-    EXPECT_TRUE(
-        is_error(caught([&] { return study(); }), ExitCode::bad_input,
-                 fmt::format("{}: {}, but the tile has 37x29; remove it", tile.string(), to_string(size))));
-    restore();
-    EXPECT_TRUE(std::filesystem::remove(tile));
-    expect_anew(1);
-    restore();
+    expect_refused(tile, fmt::format(": {}, but the tile has 37x29", to_string(size)));
   }
-}
-
-TEST_F(InterruptedStudyTest, RefusesTilesWithoutFigures) {
   const std::filesystem::path figures = tile_file(drawing_, "-tile-1.json");
   for (const char* text : {"{", "{}", R"({"hardware": "quadratic", "fragments": "many"})"}) {
     write(figures, text);
-    const auto made = caught([&] { return study(); });
-    EXPECT_TRUE(is_error(made, ExitCode::bad_input, figures.string() + ": [json.exception."));
-    EXPECT_TRUE(is_error(made, ExitCode::bad_input, "; remove it"));
+    expect_refused(figures, ": [json.exception.");
   }
-  restore();
-  EXPECT_TRUE(std::filesystem::remove(figures));
-  expect_anew(1);
 }
 
 // Drawings are removed after assembly. The reference's tiles stay for later points; losing them does no harm.
@@ -249,19 +198,19 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
   std::size_t drawn = 0;
   const auto run_parts = [&](const std::vector<std::size_t>& parts) {
     std::size_t measured = 0;
-    for (settings_.part = 0; settings_.part < settings_.parts; ++settings_.part) {
-      if (std::ranges::find(parts, settings_.part) == parts.end()) continue;
-      const Study part = study();
-      drawn += part.drawn_tiles;
-      measured += part.measured;
+    for (const std::size_t part : parts) {
+      settings_.part = part;
+      const Study made = study();
+      drawn += made.drawn_tiles;
+      measured += made.measured;
     }
     return measured;
   };
-  // Run the parts backwards. The reference comes last, so no point can be assembled before.
+  // The reference comes last, so no point can be assembled before.
   EXPECT_EQ(run_parts({1, 2, 3, 4}), 0U);
   EXPECT_THAT(open_parts(settings_), ::testing::ElementsAre(0U, 1U, 2U, 3U, 4U));
   run_parts({0});
-  EXPECT_EQ(drawn, 4U * 4U);
+  EXPECT_EQ(drawn, 4U * 4U);  // tiles of the reference and of all methods except phong
   const std::vector<std::size_t> open = open_parts(settings_);
   EXPECT_FALSE(open.empty());
   run_parts(open);
@@ -272,6 +221,8 @@ TEST_F(TiledStudyTest, PartsDrawTilesAndTheLastOneAssembles) {
   const Study all = study();
   EXPECT_EQ(all.measured + all.drawn_tiles, 0U);
   expect_whole(all);
+  EXPECT_THAT(all.records[2].point.name(), HasSubstr("64x48 in tiles of 37x29"));
+  EXPECT_THAT(table_of(all), HasSubstr(",4,,,,,\n"));
 }
 
 TEST_F(StudyTest, ReportsThePointThatFails) {
@@ -282,38 +233,27 @@ TEST_F(StudyTest, ReportsThePointThatFails) {
   EXPECT_TRUE(is_error(made, ExitCode::bad_input, "version II"));
 }
 
-// Draw with table sizes that are not compiled in, in RTL and golden model. measure() compares each fragment.
-TEST_F(StudyTest, DrawsWithTablesOfAnySize) {
+// Draw with table sizes and word lengths that are not compiled in, in setup, golden model and RTL: words of
+// 16 bits with 4 fraction bits. measure() compares each fragment.
+TEST_F(StudyTest, DrawsWithTablesAndWordsOfAnySize) {
   settings_.points.clear();
   for (const auto size : {std::optional<words::CosineSize>{}, std::optional(words::CosineSize{5, 4}),
                           std::optional(words::CosineSize{3, 2})})
-    settings_.points.push_back(
-        {.method = Method::spherical, .hardware = {.tables = size}, .tessellation = 0.5, .size = {160, 120}});
+    settings_.points.push_back({.method = Method::spherical, .hardware = {.tables = size}});
+  for (const auto bits : {std::optional<int>{}, std::optional(4)})
+    settings_.points.push_back({.method = Method::quadratic, .words = {.fraction_bits = bits}});
+  for (DesignPoint& point : settings_.points) point.tessellation = 0.5, point.size = {160, 120};
   const Study made = study();
-  ASSERT_EQ(made.records.size(), 3U);
-  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured,
-                    &least = made.records[2].measured;
-  EXPECT_THAT(usual.hardware, HasSubstr("rom9x8"));
-  EXPECT_THAT(coarse.hardware, HasSubstr("rom5x4"));
-  EXPECT_THAT(least.hardware, HasSubstr("rom3x2"));
-  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
-  EXPECT_LT(coarse.picture.rms, least.picture.rms);
-  EXPECT_EQ(usual.fragments, least.fragments);
-}
-
-// Draw with word lengths that are not compiled in, in setup, golden model and RTL: 16 bits with 4 fraction
-// bits.
-TEST_F(StudyTest, DrawsWithWordsOfAnyLength) {
-  settings_.points = {
-      {.method = Method::quadratic, .tessellation = 0.5, .size = {160, 120}},
-      {.method = Method::quadratic, .words = {.fraction_bits = 4}, .tessellation = 0.5, .size = {160, 120}}};
-  const Study made = study();
-  ASSERT_EQ(made.records.size(), 2U);
-  const Measurement &usual = made.records[0].measured, &coarse = made.records[1].measured;
-  EXPECT_THAT(coarse.hardware, EndsWith("-fraction4"));
-  EXPECT_LT(usual.picture.rms, coarse.picture.rms);
-  EXPECT_EQ(usual.fragments, coarse.fragments);
-  EXPECT_EQ(usual.counts.shaded, coarse.counts.shaded);
+  ASSERT_EQ(made.records.size(), 5U);
+  const char* const hardware[] = {"rom9x8", "rom5x4", "rom3x2", "quadratic", "-fraction4"};
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_THAT(made.records[i].measured.hardware, HasSubstr(hardware[i]));
+    if (i == 0 || i == 3) continue;
+    const Measurement &finer = made.records[i - 1].measured, &coarser = made.records[i].measured;
+    EXPECT_LT(finer.picture.rms, coarser.picture.rms);
+    EXPECT_EQ(finer.fragments, coarser.fragments);
+  }
+  EXPECT_EQ(made.records[3].measured.counts.shaded, made.records[4].measured.counts.shaded);
   EXPECT_THAT(table_of(made), HasSubstr(",,4,,,1,,,,,\n"));
 }
 
@@ -390,43 +330,40 @@ TEST_F(StudyTest, MesaDrawsThePicture) {
 }
 
 TEST_F(StudyTest, TheTableContainsTheFront) {
-  settings_.points.push_back({.method = Method::gouraud, .size = {160, 120}});
   const Study made = study();
+  const Measurement& quadratic = made.records[2].measured;
   HardwareTable hardware;
-  synth::Cost& figures = hardware[made.records[2].measured.hardware];
+  synth::Cost& figures = hardware[quadratic.hardware];
   figures.cells = Cells{.luts = 100, .flip_flops = 20};
   figures.mhz = 80.0;
   figures.clock = "stored";
   figures.tools = "cells by Tool 1";
-  std::vector<std::string> lines;
-  std::istringstream stream(
-      to_csv(made.provenance, made.records, hardware, markets_of(made.records, hardware, {})));
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  ASSERT_EQ(lines.size(), 1 + made.records.size());
-  EXPECT_THAT(
-      lines[0],
-      HasSubstr(",host_instructions,luts,flip_flops,memory_bits,multipliers,product_bits,cells,front,"
-                "cycles_a_fragment,host_instructions_a_triangle,record,multiplier_luts,clock_mhz,clock,"
-                "frame_ns,fragment_ns,device,device_luts,device_carries,device_flip_flops,device_rams,"
-                "device_multipliers,"
-                "angle_bits,fraction_bits,seed_bits,newton,tiles,highlight_test,span_ends,own_tables,"
-                "objects,subpixels"));
-  EXPECT_THAT(lines[1], HasSubstr(",,,,,,,,,,," + record_name(made.provenance, made.records[0].point) +
-                                  ",,,,,,,,,,,,,,,,1,,,,,"));
-  EXPECT_THAT(lines[3], HasSubstr(",100,20,0,0,0,120,1,1."));
+  const auto markets = markets_of(made.records, hardware, {});
+  const Table table =
+      must(read_csv(write("study.csv", study_csv(made.provenance, made.records, hardware, markets))));
+  ASSERT_EQ(table.rows.size(), made.records.size());
   // The line names the tools that made its figures.
-  EXPECT_THAT(lines[1], HasSubstr(",\"" + made.provenance.tools + "\","));
-  EXPECT_THAT(lines[3], HasSubstr(",\"" + made.provenance.tools + ", cells by Tool 1\","));
-  const auto cycles = static_cast<double>(made.records[2].measured.cycles),
-             fragments = static_cast<double>(made.records[2].measured.fragments);
-  EXPECT_THAT(lines[3], EndsWith(fmt::format(",0,80.0,\"stored\",{:.6g},{:.6g},,,,,,,,,,,1,,,,,",
-                                             12.5 * cycles, 12.5 * cycles / fragments)));
-  EXPECT_THAT(lines[4], HasSubstr(",100,20,0,0,0,120,1,1."));
-  const auto commas = [](const std::string& line) {
-    bool quoted = false;
-    return std::ranges::count_if(line, [&](char c) { return (quoted ^= c == '"', c == ',' && !quoted); });
-  };
-  for (const std::string& line : lines) EXPECT_EQ(commas(line), commas(lines[0])) << line;
+  EXPECT_EQ(table.text(0, "tools"), made.provenance.tools);
+  EXPECT_EQ(table.text(2, "tools"), made.provenance.tools + ", cells by Tool 1");
+  for (const char* column : {"luts", "front", "clock_mhz", "clock", "frame_ns"})
+    EXPECT_EQ(table.text(0, column), "");
+  EXPECT_EQ(table.text(0, "record"), record_name(made.provenance, made.records[0].point));
+  const double cycles = static_cast<double>(quadratic.cycles),
+               fragments = static_cast<double>(quadratic.fragments);
+  const std::pair<const char*, std::string> values[] = {
+      {"luts", "100"},
+      {"flip_flops", "20"},
+      {"cells", "120"},
+      {"front", "1"},
+      {"clock_mhz", "80.0"},
+      {"clock", "stored"},
+      {"cycles_a_fragment", fmt::format("{:.6g}", cycles / fragments)},
+      {"frame_ns", fmt::format("{:.6g}", 12.5 * cycles)},
+      {"fragment_ns", fmt::format("{:.6g}", 12.5 * cycles / fragments)},
+      {"tiles", "1"}};
+  for (const auto& [column, value] : values) EXPECT_EQ(table.text(2, column), value) << column;
+  EXPECT_THAT(table.columns, ::testing::IsSupersetOf({"angle_bits", "highlight_test", "own_tables", "objects",
+                                                      "subpixels", "device_multipliers"}));
 }
 
 TEST_F(StudyTest, CountsTheHostsInstructions) {

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/study/table.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <optional>
-#include <utility>
-#include <vector>
-
-#include "sim/study/figures.hpp"
+#include "sim/os/csv.hpp"
 
 namespace halfway::study {
 namespace {
@@ -39,10 +31,6 @@ std::string text_of(const std::optional<Whole>& whole, Part Whole::* part) {
   return whole ? text_of((*whole).*part) : "";
 }
 
-std::string quoted(const std::string& text) {
-  return '"' + text + '"';
-}
-
 std::string ratio(std::uint64_t part, std::uint64_t whole) {
   if (part == 0 || whole == 0) return "";
   return fmt::format("{:.6g}", static_cast<double>(part) / static_cast<double>(whole));
@@ -56,8 +44,17 @@ Column knob_of(const DesignPoint& point, std::string_view name) {
   return {std::string(name), text_of(name, point)};
 }
 
-Line line_of(const Provenance& provenance, const Record& record, const synth::Cost* known,
-             const std::optional<bool>& on_front) {
+// The first line names the columns.
+void add(Table& table, const Line& line) {
+  std::vector<std::string>& row = table.rows.emplace_back();
+  for (const auto& [name, value] : line) {
+    if (table.rows.size() == 1) table.columns.push_back(name);
+    row.push_back(value);
+  }
+}
+
+Line study_line(const Provenance& provenance, const Record& record, const synth::Cost* known,
+                const std::optional<bool>& on_front) {
   const auto& [p, m] = record;
   const synth::Cost hardware = known != nullptr ? *known : synth::Cost{};
   const std::optional<Cells>& cells = hardware.cells;
@@ -67,10 +64,10 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
   if (hardware.mhz) frame_ns = 1e3 * cycles / *hardware.mhz;
   if (hardware.mhz && m.fragments > 0)
     fragment_ns = 1e3 * cycles / static_cast<double>(m.fragments) / *hardware.mhz;
-  Line line = {{"scene", quoted(provenance.scene)},
+  Line line = {{"scene", provenance.scene},
                {"scene_hash", provenance.scene_hash},
-               {"tools", quoted(provenance.tools + (hardware.tools.empty() ? "" : ", " + hardware.tools))},
-               {"point", quoted(p.name())},
+               {"tools", provenance.tools + (hardware.tools.empty() ? "" : ", " + hardware.tools)},
+               {"point", p.name()},
                knob_of(p, "method"),
                knob_of(p, "preset"),
                {"address_bits", text_of(p.hardware.tables, &words::CosineSize::address_bits)},
@@ -94,7 +91,7 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
                      {"record", record_name(provenance, p)},
                      {"multiplier_luts", text_of(cells, &Cells::multiplier_luts)},
                      {"clock_mhz", text_of(hardware.mhz, "{:.1f}")},
-                     {"clock", known != nullptr ? quoted(hardware.clock) : ""},
+                     {"clock", known != nullptr ? hardware.clock : ""},
                      {"frame_ns", text_of(frame_ns, "{:.6g}")},
                      {"fragment_ns", text_of(fragment_ns, "{:.6g}")},
                      {"device", hardware.device},
@@ -119,27 +116,61 @@ Line line_of(const Provenance& provenance, const Record& record, const synth::Co
   return line;
 }
 
-/// The names or the values of all columns, with commas.
-std::string joined(const Line& line, std::string Column::* part) {
-  std::vector<std::string_view> parts;
-  for (const Column& column : line) parts.push_back(column.*part);
-  return fmt::format("{}", fmt::join(parts, ","));
+Line time_line(const Provenance& provenance, const Record& record, const FrameTime& time) {
+  const auto& [p, m] = record;
+  const bool has_hardware = time.hardware_ns.has_value();
+  return {{"scene", provenance.scene},
+          {"scene_hash", provenance.scene_hash},
+          {"point", p.name()},
+          {"design", p.design()},
+          knob_of(p, "method"),
+          knob_of(p, "preset"),
+          knob_of(p, "form"),
+          knob_of(p, "tessellation"),
+          knob_of(p, "exponent"),
+          {"width", text_of(p.size.width)},
+          {"height", text_of(p.size.height)},
+          {"hardware", m.hardware},
+          {"triangles", text_of(m.triangles)},
+          {"host_ns", fmt::format("{:.6g}", time.host_ns)},
+          {"host_instructions", text_of(m.host_instructions)},
+          {"words", has_hardware ? text_of(m.host_time->words) : ""},
+          {"cycles", has_hardware ? text_of(m.cycles) : ""},
+          {"hardware_ns", text_of(time.hardware_ns, "{:.6g}")},
+          {"overlapped_ns", fmt::format("{:.6g}", time.overlapped_ns())},
+          {"sequential_ns", fmt::format("{:.6g}", time.sequential_ns())},
+          {"bound", time.bound()},
+          {"rms", text_of(m.picture.rms)},
+          {"largest_error", text_of(m.picture.max_lsb)},
+          {"perceived_pixels", text_of(m.perceived)},
+          {"clock_mhz", text_of(time.mhz, "{:.1f}")},
+          knob_of(p, "highlight_test"),
+          knob_of(p, "span_ends"),
+          {"device", time.device},
+          knob_of(p, "subpixels")};
 }
 
 }  // namespace
 
-std::string to_csv(const Provenance& provenance, std::span<const Record> records,
-                   const HardwareTable& hardware, std::span<const Market> markets) {
+std::string study_csv(const Provenance& provenance, std::span<const Record> records,
+                      const HardwareTable& hardware, std::span<const Market> markets) {
   const auto on_front = on_fronts(records.size(), markets);
-  const Line head = line_of(provenance, {}, nullptr, {});
-  std::string text = fmt::format("{}\n", joined(head, &Column::first));
+  Table table;
   for (std::size_t at = 0; at < records.size(); ++at) {
     const auto found = hardware.find(records[at].measured.hardware);
-    const Line line =
-        line_of(provenance, records[at], found == hardware.end() ? nullptr : &found->second, on_front[at]);
-    text += fmt::format("{}\n", joined(line, &Column::second));
+    const synth::Cost* cost = found == hardware.end() ? nullptr : &found->second;
+    add(table, study_line(provenance, records[at], cost, on_front[at]));
   }
-  return text;
+  return to_csv(table);
+}
+
+std::string times_csv(const Provenance& provenance, std::span<const Record> records,
+                      std::span<const PictureTimes> pictures) {
+  Table table;
+  for (const PictureTimes& picture : pictures)
+    for (const FrameTime& time : picture.times)
+      add(table, time_line(provenance, records[time.record], time));
+  return to_csv(table);
 }
 
 }  // namespace halfway::study

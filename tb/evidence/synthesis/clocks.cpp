@@ -7,7 +7,6 @@
 
 #include "designs.hpp"
 #include "measure.hpp"
-#include "sim/cost/netlist_identity.hpp"
 #include "sim/cost/synthesis.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/page_part.hpp"

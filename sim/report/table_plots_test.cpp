@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/report/times.hpp"
-
+// The plots and page parts that are made from the tables of studies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "sim/report/table_test.hpp"
+#include "sim/os/csv.hpp"
+#include "sim/os/subprocess.hpp"
+#include "sim/os/test/folder_test.hpp"
+#include "sim/report/front_plot.hpp"
+#include "sim/report/times.hpp"
 
 namespace halfway::report {
 namespace {
@@ -12,6 +15,64 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
+
+class TablePlots : public FolderTest {
+ protected:
+  void SetUp() override {
+    ASSERT_FALSE(find_program("gnuplot").empty()) << "no gnuplot here: apt-get install gnuplot-nox";
+  }
+  Table read(const std::string& text) const { return must(read_csv(write("t.csv", text))); }
+};
+
+// Two pictures with two and three hardware designs.
+constexpr const char* c_front_study =
+    R"(point,method,preset,scene_hash,exponent,hardware,cells,cycles,rms,record
+p,phong,,7,5,,,0,0,a
+q5,quadratic,exact,7,5,q,100,10,4,b
+s5,spherical,exact,7,5,s,200,10,2,c
+p,phong,,7,20,,,0,0,d
+q,quadratic,exact,7,20,q,100,10,8,e
+s,spherical,exact,7,20,s,200,20,2,f
+dear,spherical,published,7,20,d,300,15,4,g
+)";
+
+TEST_F(TablePlots, PlotsThePictureThatMostDesignsDraw) {
+  const Table study = read(c_front_study);
+  const Table front = front_of(study);
+  ASSERT_EQ(front.rows.size(), 4U);
+  EXPECT_EQ(front.text(1, "point"), "q");
+  EXPECT_EQ(front.text(3, "cells"), "300");
+  EXPECT_EQ(front.text(3, "record"), "");
+  EXPECT_THAT(
+      draw_front(front, here()),
+      AllOf(HasSubstr("aria-label=\"q\""), HasSubstr("aria-label=\"s\""), HasSubstr("aria-label=\"dear\""),
+            HasSubstr("spherical, published"), Not(HasSubstr("aria-label=\"p\"")),
+            Not(HasSubstr("aria-label=\"q5\"")), HasSubstr("cells")));
+  // A design that costs more and errs more is not on the line.
+  EXPECT_EQ(lower_left({{100, 8}, {200, 2}, {300, 4}}),
+            (std::vector<std::pair<double, double>>{{100, 8}, {200, 2}}));
+  EXPECT_EQ(lower_left({{.x = 50, .y = 1, .aside = true}, {200, 2}}),
+            (std::vector<std::pair<double, double>>{{200, 2}}));
+  // The page lists the designs on the line, including those hidden under another mark.
+  EXPECT_THAT(page_front(front),
+              AllOf(HasSubstr("each of 3 designs"),
+                    HasSubstr("1/255 of white):\nq (100 cells, 8);\ns (200 cells, 2)."),
+                    Not(HasSubstr("dear")), Not(HasSubstr("Equal in cells and in rms error"))));
+  std::string equal = c_front_study;
+  equal += "twin,adaptive,exact,7,20,q,100,10,8,h\n";
+  EXPECT_THAT(page_front(front_of(read(equal))),
+              AllOf(HasSubstr("q and twin (100 cells, 8)"),
+                    HasSubstr("Equal in cells and in rms error: q and twin.")));
+  // If one count is missing, the axis shows clocks instead of cells.
+  std::string uncounted = c_front_study;
+  uncounted.replace(uncounted.find(",300,"), 5, ",,");
+  EXPECT_THAT(draw_front(front_of(read(uncounted)), here()), HasSubstr("clocks of the frame"));
+  EXPECT_THROW(page_front(front_of(read(uncounted))), Failure);
+  const Table empty = read("point,method\n");
+  EXPECT_THROW(draw_front(front_of(empty), here()), Failure);
+  EXPECT_THROW(page_times(empty), Failure);
+  EXPECT_THROW(readme_times(empty), Failure);
+}
 
 // Two pictures. Times in ms: q 1, a 2, s and t 3 (beaten by a), v 2.5 (beaten by a), phong 10.
 constexpr const char* c_times =
@@ -32,9 +93,7 @@ constexpr const char* c_times =
     "large,q,quadratic,published,,1,20,80,60,k,690,2e5,1e6,5,4e6,4e6,4.2e6,hardware,7,9,10,135.0,FPGA "
     "1\n";
 
-using TimesTest = TableTest;
-
-TEST_F(TimesTest, EachPictureHasAPlot) {
+TEST_F(TablePlots, EachPictureHasAPlot) {
   const auto pictures = pictures_of(read(c_times));
   ASSERT_EQ(pictures.size(), 2U);
   EXPECT_EQ(pictures[0].rows.size(), 7U);
@@ -49,7 +108,7 @@ TEST_F(TimesTest, EachPictureHasAPlot) {
   EXPECT_TRUE(std::filesystem::exists(at("out/times.csv")));
 }
 
-TEST_F(TimesTest, SentencesAreOfTheFront) {
+TEST_F(TablePlots, SentencesAreOfTheFront) {
   EXPECT_THAT(
       readme_times(read(c_times)),
       AllOf(HasSubstr("| q | 1 | hardware | 1.2 | 8 | 9 |\n"),
@@ -70,7 +129,7 @@ TEST_F(TimesTest, SentencesAreOfTheFront) {
 }
 
 // Their errors are against another reference.
-TEST_F(TimesTest, FilteredPicturesAreNotOnTheFront) {
+TEST_F(TablePlots, FilteredPicturesAreNotOnTheFront) {
   EXPECT_THAT(readme_times(read(c_times)), Not(HasSubstr("filtered")));
   Table times = read(c_times);
   times.columns.emplace_back("subpixels");
@@ -87,11 +146,6 @@ TEST_F(TimesTest, FilteredPicturesAreNotOnTheFront) {
   EXPECT_THAT(page_times(times), HasSubstr("| f | 1 | hardware |"));
   write_times(times, at("out"), here());
   EXPECT_THAT(text_of("out/times-ball-64x48.svg"), HasSubstr("filtered published"));
-}
-
-TEST_F(TimesTest, WithoutDesignsThereIsNothingToSay) {
-  EXPECT_THROW(page_times(read("point,method\n")), Failure);
-  EXPECT_THROW(readme_times(read("point,method\n")), Failure);
 }
 
 }  // namespace

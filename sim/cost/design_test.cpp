@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/cost/netlist_identity.hpp"
+#include "sim/cost/design.hpp"
 
 #include <gtest/gtest.h>
 
