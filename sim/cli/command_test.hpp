@@ -15,7 +15,6 @@
 #include "sim/os/subprocess.hpp"
 #include "sim/os/test/folder_test.hpp"
 #include "sim/os/test/source_folder.hpp"
-#include "sim/os/test/test_files.hpp"
 
 namespace halfway {
 

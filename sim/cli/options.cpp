@@ -53,6 +53,7 @@ void apply_knobs(const DrawOptions& o, DrawSettings& s) {
 void DrawOptions::add_to(CLI::App& command) {
   command.add_option("--shader", shader, c_shader_names)->capture_default_str();
   command.add_option("--preset", preset, "exact, or published: the paper's word lengths and edges")
+      ->check(CLI::IsMember({"exact", "published"}))
       ->capture_default_str();
   command.add_option("--size", size, "WIDTHxHEIGHT in pixels, each 1 to 4096")->capture_default_str();
   command.add_option("--out", out, "folder for results")->capture_default_str();
@@ -62,6 +63,7 @@ void DrawOptions::add_to(CLI::App& command) {
       "have coefficients of zero, and the frame stays the same");
   for (const DrawKnob& knob : draw_knobs()) command.add_option(knob.option(), knobs[knob.name], knob.help);
   command.add_option("--threads", threads, "threads for setup and golden model (0: all cores)")
+      ->check(CLI::Range(0, 1024))
       ->capture_default_str();
 }
 
@@ -84,15 +86,12 @@ FrameSize checked_size(const std::string& text, const char* option) {
 DrawSettings checked(const DrawOptions& o) {
   DrawSettings s;
   s.plan.shader = checked_shader(o.shader);
-  if (o.preset != "exact" && o.preset != "published")
-    throw_bad_input("--preset: '{}' is not a preset; take exact or published", o.preset);
   s.plan.preset = o.preset == "exact" ? Preset::exact : Preset::published;
   s.plan.all_effects = o.all_effects;
   s.size = checked_size(o.size);
   s.setup.quadratic.test =
       s.plan.preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
   apply_knobs(o, s);
-  if (o.threads > 1024) throw_bad_input("--threads: {} is more than 1024", o.threads);
   s.threads = o.threads != 0 ? o.threads : std::max(1U, std::thread::hardware_concurrency());
   if (o.out.empty()) throw_bad_input("--out: the folder has no name");
   if (std::ranges::any_of(o.out, [](unsigned char c) { return std::iscntrl(c); }))
@@ -103,21 +102,15 @@ DrawSettings checked(const DrawOptions& o) {
 
 void CoreOptions::add_to(CLI::App& command, CLI::Option* needed) {
   for (CLI::Option* option :
-       {command.add_option("--format", format,
-                           "rgb565, with 16 bits of depth, or xrgb8888, with 32 bits of depth"),
-        command.add_option("--bus", bus_bits, "width of the bus to the memory: 32 or 64")}) {
+       {command
+            .add_option("--format", format,
+                        "rgb565, with 16 bits of depth, or xrgb8888, with 32 bits of depth")
+            ->check(CLI::IsMember({"rgb565", "xrgb8888"})),
+        command.add_option("--bus", bus_bits, "width of the bus to the memory: 32 or 64")
+            ->check(CLI::IsMember({32, 64}))}) {
     option->capture_default_str();
     if (needed != nullptr) option->needs(needed);
   }
-}
-
-CoreSettings checked(const CoreOptions& options) {
-  const bool true_colour = options.format == "xrgb8888";
-  if (!true_colour && options.format != "rgb565")
-    throw_bad_input("--format: '{}' is not a format; take rgb565 or xrgb8888", options.format);
-  if (options.bus_bits != 32 && options.bus_bits != 64)
-    throw_bad_input("--bus: {} is not 32 or 64", options.bus_bits);
-  return {true_colour, options.bus_bits};
 }
 
 std::string hardware_options(const DrawOptions& o) {

@@ -13,7 +13,7 @@
 #include "sim/cost/families.hpp"
 #include "sim/driver/engine.hpp"
 #include "sim/os/command_line.hpp"
-#include "sim/run/draw_request.hpp"
+#include "sim/run/draw_knobs.hpp"
 
 namespace halfway::cli {
 
@@ -43,17 +43,10 @@ struct CoreOptions {
   std::string format = "rgb565";  ///< of pixels
   unsigned bus_bits = 64;
 
+  bool true_colour() const { return format == "xrgb8888"; }
   /// With `needed`, they are refused without this option.
   void add_to(CLI::App& command, CLI::Option* needed = nullptr);
 };
-
-/// The checked options.
-struct CoreSettings {
-  bool true_colour;  ///< XRGB8888
-  unsigned bus_bits;
-};
-
-CoreSettings checked(const CoreOptions& options);
 
 /// The given options that select the hardware of a scene, as on the command line.
 std::string hardware_options(const DrawOptions& options);

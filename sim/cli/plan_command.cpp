@@ -8,7 +8,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "common/to_integer.hpp"
 #include "frame/assemble.hpp"
@@ -44,8 +43,6 @@ struct PlanCommand {
   std::string netlist;  // file to write; empty: none
   const synth::Family* family = &synth::c_default_family;
 };
-
-constexpr std::uint64_t c_most_objects = 1000, c_most_rate = 1000;
 
 using CellsByKey = std::map<std::string, Cells>;
 
@@ -368,9 +365,6 @@ int run(const Folders& folders, const PlanCommand& command) {
   const DrawSettings draw = checked(command.draw);
   constexpr EngineKind c_measured[] = {EngineKind::ghdl, EngineKind::verilator};
   const std::vector<EngineKind> simulators = checked_simulators(command.simulators, c_measured);
-  for (const auto& [name, given, most] : {std::tuple{"--objects-per-pixel", command.objects, c_most_objects},
-                                          std::tuple{"--rate", command.rate, c_most_rate}})
-    if (given && (*given < 1 || *given > most)) throw_bad_input("{}: {} is not 1 to {}", name, *given, most);
   const Scene scene = must(load_scene(command.scene, folders.scenes()));
   const Plan plan = must(plan_scene(scene, draw.plan));
   const SimulatorFolders simulator_folders{folders.source, folders.cache()};
@@ -431,8 +425,10 @@ void add_plan(CLI::App& app, const Folders& folders, int& exit_code) {
       "also the cells of each effect. Takes minutes for shading processors, longer for ten lights");
   sub->add_option("--simulator", command->simulators, "for --measure: ghdl or verilator (default: both)");
   sub->add_option("--objects-per-pixel", command->objects,
-                  "objects per pixel, for the number of processors (processors paper, table 5)");
-  sub->add_option("--rate", command->rate, "frames per second, for the same table (default: 30)");
+                  "objects per pixel, for the number of processors (processors paper, table 5)")
+      ->check(CLI::Range(1, 1000));
+  sub->add_option("--rate", command->rate, "frames per second, for the same table (default: 30)")
+      ->check(CLI::Range(1, 1000));
   add_device(*sub, command->family);
   sub->add_option("--netlist", command->netlist,
                   "file to write: the planned hardware as Verilog, GHDL's netlist with its faults repaired");

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -65,20 +64,10 @@ TEST_F(PlanCommand, ComparesPlanesWithQuadratics) {
   EXPECT_THAT(few, ContainsRegex("\nstored clock, MHz, ECP5 LFE5U-85F +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
   EXPECT_THAT(lines({"plan", "matte", "--size", "80x60", "--device", "hx8k"}),
               ContainsRegex("\nstored clock, MHz, iCE40 HX8K +[0-9]+[.][0-9] +[0-9]+[.][0-9]"));
-  // Splitting makes the error of planes smaller, and that of quadratics is smaller unsplit.
-  const auto figures = [&](const std::string& name) {
-    double planes = 0, quadratics = 0;
-    const std::size_t at = few.find("\n" + name);
-    const char* const numbers = at == std::string::npos ? "" : few.c_str() + at + 1 + name.size();
-    EXPECT_EQ(std::sscanf(numbers, "%lf %lf", &planes, &quadratics), 2) << name;
-    return std::pair(planes, quadratics);
-  };
-  const auto whole = figures("rms error, steps of 1/255, never split"),
-             split = figures("rms error, steps of 1/255, split");
-  EXPECT_GT(whole.first, whole.second);
-  EXPECT_GT(whole.first, 2 * split.first);
-  EXPECT_LE(figures("largest error, split").first, 3);  // the threshold 2, and rounding
-  EXPECT_GT(figures("largest error, never split").first, 3);
+  // Split planes are within the threshold 2, and rounding.
+  EXPECT_THAT(few, AllOf(ContainsRegex("\nlargest error, split +[0-3] "),
+                         ContainsRegex("\nlargest error, never split +([4-9]|[1-9][0-9]+) "),
+                         ContainsRegex("\nrms error, steps of 1/255, never split +[0-9.]+ +[0-9.]+ *\n")));
   const std::string all = lines({"plan", "matte", "--size", "160x120", "--threshold", "255"});
   EXPECT_THAT(all, HasSubstr(" triangles are within 255 steps, so planes are enough\n"));
   EXPECT_EQ(lines({"plan", "matte", "--shader", "spherical"}), "");
@@ -95,26 +84,16 @@ TEST_F(PlanCommand, WritesTheRepairedNetlist) {
                     Not(HasSubstr("/*")), Not(HasSubstr("//")), Not(HasSubstr("\"")), Not(HasSubstr("'bZ"))));
 }
 
+// Its formulas are tested with the plan.
 TEST_F(PlanCommand, Table5OfTheLights) {
-  const Outcome asked =
-      run({"plan", "lights", "--objects-per-pixel", "3", "--rate", "30", "--size", "1000x1000"});
-  EXPECT_EQ(asked.exit_code, 0) << asked.output;
-  EXPECT_THAT(asked.output,
-              AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
-                    ContainsRegex("13 O dt +1950 ns\n"), ContainsRegex("30 M 13 O dt +59 \\(58.50\\)\n"),
-                    ContainsRegex("p \\(2 R \\+ 2 P \\+ 1\\) +1239 \\(21 a pipeline\\)\n"),
-                    ContainsRegex("a pixel due in 33 ns +60 pipelines, 1260 processors\n"),
-                    ContainsRegex("\\(14 R \\+ 4\\) O dt +11100 ns\n"),
-                    ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n")));
-  // The clocks of this scene's own pipeline, from table 4.
   EXPECT_THAT(
-      asked.output,
-      AllOf(ContainsRegex(
-                "published +folded +positional specular +13 +59 \\(58.50\\) +1239 \\(21 a pipeline\\)\n"),
-            ContainsRegex("published +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n"),
-            ContainsRegex(
-                "exact +folded +positional specular +51 +230 \\(229.50\\) +4830 \\(21 a pipeline\\)\n"),
-            ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 \\(21 a pipeline\\)\n")));
+      run({"plan", "lights", "--objects-per-pixel", "3", "--rate", "30", "--size", "1000x1000"}),
+      Ends(0, AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
+                    ContainsRegex("p \\(2 R \\+ 2 P \\+ 1\\) +1239 \\(21 a pipeline\\)\n"),
+                    ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n"),
+                    // The clocks of this scene's own pipeline, from table 4.
+                    ContainsRegex("exact +folded +positional specular +51 +230 \\(229.50\\) +4830 "),
+                    ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 "))));
   // Either option suffices.
   EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
   EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));
@@ -159,8 +138,8 @@ TEST_F(PlanCommand, BadUsageExitsTwo) {
        "quadratic shader"},
       {{"plan", "matte", "--shader", "spherical", "--all-effects", "--lights", "0"}, "0 is not 1 to 16"},
       {{"plan", "lights", "--shader", "spherical", "--all-effects", "--lights", "9"}, "9 is not 10 to 16"},
-      {{"plan", "matte", "--rate", "1001"}, "--rate: 1001 is not 1 to 1000"},
-      {{"plan", "matte", "--objects-per-pixel", "0"}, "--objects-per-pixel: 0 is not 1 to 1000"},
+      {{"plan", "matte", "--rate", "1001"}, "--rate: Value 1001 not in range 1 to 1000"},
+      {{"plan", "matte", "--objects-per-pixel", "0"}, "--objects-per-pixel: Value 0 not in range 1 to 1000"},
       {{"plan", "matte", "--form", "folded"},
        "--form belongs to the processors shader, and does not apply to the quadratic shader"},
       {{"plan", "matte", "--shader", "processors", "--form", "flat"}, "take unrolled or folded"},

@@ -2,11 +2,6 @@
 // `halfway render`: software pictures only, by the reference, Gouraud shading, the golden model, or spherical
 // interpolation in double.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <array>
-#include <string_view>
 
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
@@ -21,9 +16,6 @@
 
 namespace halfway::cli {
 namespace {
-
-constexpr std::array<std::string_view, 5> c_methods{"reference", "gouraud", "golden", "spherical-fixed",
-                                                    "spherical-both"};
 
 struct RenderCommand {
   DrawOptions draw;
@@ -52,8 +44,6 @@ void run(const Folders& folders, const RenderCommand& command) {
   // these methods take the options of the spherical shader
   if (spherical) options_given.shader = to_string(Shader::spherical);
   const auto draw = checked(options_given);
-  if (std::find(c_methods.begin(), c_methods.end(), command.method) == c_methods.end())
-    throw_bad_input("--method: '{}' is not a method; take {}", command.method, fmt::join(c_methods, ", "));
   const auto scene = must(load_scene(command.scene, folders.scenes()));
   for (const std::string& note : scene.notes) say(note);
 
@@ -89,6 +79,7 @@ void add_render(CLI::App& app, const Folders& folders, int&) {
   sub->add_option("--method", command->method,
                   "reference, gouraud or golden; spherical-fixed or spherical-both: spherical interpolation\n"
                   "in double, with one vector fixed or both interpolated")
+      ->check(CLI::IsMember({"reference", "gouraud", "golden", "spherical-fixed", "spherical-both"}))
       ->capture_default_str();
   sub->add_option("--file", command->file, "PNG to write (default: <scene>-<method>.png)");
   sub->callback([=, &folders] { run(folders, *command); });

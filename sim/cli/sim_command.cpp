@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <future>
 #include <mutex>
-#include <new>
 #include <optional>
 #include <thread>
 
@@ -91,20 +90,6 @@ SceneSummary draw_scene(const std::string& name, std::size_t number, const Folde
   return must(std::move(summary));
 }
 
-// The scene's outcome, when it is drawn. Each exception becomes an error.
-Result<SceneSummary> outcome_of(std::promise<SceneSummary>& promise) {
-  try {
-    return promise.get_future().get();
-  } catch (const Failure& failure) {
-    return failure.error;
-  } catch (const std::bad_alloc&) {
-    return tool_failed(
-        "halfway: out of memory; a smaller frame or mesh, fewer scenes at once, or fewer threads, may fit");
-  } catch (const std::exception& error) {
-    return tool_failed(fmt::format("halfway: {}; this should not happen, please report it", error.what()));
-  }
-}
-
 // Returns true if at least one fragment was compared and all are equal.
 bool print(const SceneSummary& summary) {
   for (const std::string& note : summary.notes) say(note);
@@ -169,15 +154,15 @@ int run(const Folders& folders, const SimOptions& options) {
     fmt::print(stderr, "{}\n", message);
     equal = false;
   }
-  for (std::size_t n = 0; n < scenes.size(); ++n) {
-    const auto outcome = outcome_of(outcomes[n]);
-    board.clear();
-    if (!outcome) {
+  for (std::promise<SceneSummary>& outcome : outcomes) try {
+      const SceneSummary summary = outcome.get_future().get();
+      board.clear();
+      equal = print(summary) && equal;
+    } catch (...) {
+      board.clear();
       stop = true;
-      return report(outcome.error());
+      throw;
     }
-    equal = print(*outcome) && equal;
-  }
   return static_cast<int>(equal ? ExitCode::equal : ExitCode::differs);
 }
 

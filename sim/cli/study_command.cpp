@@ -64,14 +64,12 @@ StudyPlan checked(const StudyCommand& command, const Folders& folders) {
   const synth::Device& device = *command.family->device;
   if (command.place && (find_program("yosys").empty() || find_program(std::string(device.placer)).empty()))
     throw_tool_failed("--place: yosys or {} is not found; install both: {}", device.placer, device.install);
-  if (command.executor != "local" && command.executor != "slurm")
-    throw_bad_input("--executor: '{}' is not an executor; take local or slurm", command.executor);
+  if (command.parts == 0) throw_bad_input("--parts: takes 1 or more");
   study::StudySettings& settings = plan.settings;
   if (!command.part.empty() &&
       (std::sscanf(command.part.c_str(), "%zu/%zu", &settings.part, &settings.parts) != 2 ||
        settings.part >= settings.parts))
     throw_bad_input("--part: '{}' is not a part; take I/N, I from 0 to N - 1", command.part);
-  if (command.parts == 0) throw_bad_input("--parts: takes 1 or more");
   settings.scene = command.scene.empty() ? (studies / "sphere.toml").string() : command.scene;
   settings.out = command.out;
   settings.family = command.family;
@@ -285,6 +283,7 @@ void add_study(CLI::App& app, const Folders& folders, int& exit_code) {
       ->capture_default_str();
   study->add_option("--threads", command->threads, "points at a time (0: all cores)")->capture_default_str();
   study->add_option("--executor", command->executor, "local, or slurm: as a job array (sbatch)")
+      ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
   study->add_option("--parts", command->parts, "slurm: tasks of the array")->capture_default_str();
   study->add_option("--slurm-option", command->slurm_options,

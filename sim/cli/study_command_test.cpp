@@ -36,7 +36,7 @@ TEST_F(StudyCommandTest, RefusesInvalidQueries) {
       {{"--clock", "0"}, "--clock: takes MHz above 0"},
       {{"--device", "xcv300"}, "--device: 'xcv300' is not a device; take hx8k or ecp5"},
       {{"--size", "huge"}, "--size: 'huge'"},
-      {{"--executor", "cloud"}, "--executor: 'cloud'"},
+      {{"--executor", "cloud"}, "--executor: cloud not in {local,slurm}"},
       {{"--part", "3/3"}, "--part: '3/3'"},
       {{"--executor", "slurm", "--parts", "0"}, "--parts: takes 1 or more"},
       {{"no-such-scene"}, "no-such-scene"}};

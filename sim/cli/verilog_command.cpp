@@ -40,8 +40,8 @@ std::string with_prefix(const std::string& netlist) {
 using Generics = std::vector<std::pair<std::string, std::string>>;
 
 Generics generics_of(const HardwareKey& key, const std::string& top, const VerilogCommand& command) {
-  const auto [true_colour, bus_bits] = checked(command.core_options);
-  auto generics = top == c_core_top     ? key.core_generics(true_colour, bus_bits)
+  const CoreOptions& core = command.core_options;
+  auto generics = top == c_core_top     ? key.core_generics(core.true_colour(), core.bus_bits)
                   : top == c_stream_top ? key.stream_generics()
                                         : key.generics();
   if (synth::takes_multiplier_bits(top))

@@ -50,14 +50,14 @@ struct ViewCommand {
   DrawOptions draw;
   bool out_given = false;
   std::string scene;
-  std::int64_t frames = 36;
+  std::uint32_t frames = 36;
   std::string engine = "auto";
   bool no_compare = false;
   std::optional<std::string> format;
   std::optional<std::string> video;
-  std::optional<std::int64_t> rate;
+  unsigned rate = c_usual_rate;
   bool terminal = false;
-  std::optional<std::int64_t> columns;
+  std::optional<std::uint32_t> columns;
   std::optional<std::string> colours;
 };
 
@@ -76,11 +76,6 @@ struct Outputs {
   }
 };
 
-void check_range(const char* option, const std::optional<std::int64_t>& value, std::int64_t greatest) {
-  if (value && (*value < 1 || *value > greatest))
-    throw_bad_input("{}: {} is not 1 to {}", option, *value, greatest);
-}
-
 TerminalColours colours_of_terminal() {
   const char* said = std::getenv("COLORTERM");
   const std::string_view text = said == nullptr ? "" : said;
@@ -88,36 +83,25 @@ TerminalColours colours_of_terminal() {
 }
 
 Outputs checked(const ViewCommand& c) {
-  check_range("--frames", c.frames, c_most_view_frames);
-  check_range("--rate", c.rate, c_most_rate);
-  check_range("--columns", c.columns, c_most_columns);
   Outputs o;
   o.images = c.out_given || (!c.video && !c.terminal);
   if (c.format && !o.images)
     throw_bad_input("--format is of images, and none are asked for; give --out as well");
-  if (c.format && *c.format != "png" && *c.format != "ppm")
-    throw_bad_input("--format: '{}' is not a format; take png or ppm", *c.format);
   o.ppm = c.format == "ppm";
-  if (c.rate && !c.video) throw_bad_input("--rate goes with --video; give both");
-  if (c.rate) o.rate = static_cast<unsigned>(*c.rate);
+  o.rate = c.rate;
   if (c.video) {
     o.video = *c.video;
     VideoWriter::check(*o.video);
   }
-  if (c.columns && !c.terminal) throw_bad_input("--columns goes with --terminal; give both");
-  if (c.colours && !c.terminal) throw_bad_input("--colours goes with --terminal; give both");
   o.terminal = c.terminal;
-  if (c.columns) o.columns = static_cast<std::uint32_t>(*c.columns);
+  o.columns = c.columns;
   if (o.terminal && !o.columns && isatty(STDOUT_FILENO) == 0)
     throw_bad_input(
         "--terminal: standard output is no terminal; with --columns the pictures are still written");
-  o.colours = colours_of_terminal();
-  if (c.colours == "24bit")
-    o.colours = TerminalColours::full;
-  else if (c.colours == "256")
-    o.colours = TerminalColours::palette;
-  else if (c.colours)
-    throw_bad_input("--colours: '{}' is not a kind; take 24bit or 256", *c.colours);
+  if (!c.colours)
+    o.colours = colours_of_terminal();
+  else
+    o.colours = *c.colours == "24bit" ? TerminalColours::full : TerminalColours::palette;
   return o;
 }
 
@@ -134,12 +118,9 @@ std::optional<EngineKind> checked_engine(const std::string& name) {
 void forget_frames(const std::filesystem::path& folder) {
   const std::regex ours("frame_[0-9]{4}\\.(png|ppm)(\\.part-.*)?");
   std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;) {
-    const std::filesystem::path path = entry->path();
-    entry.increment(error);
-    if (error || !std::regex_match(path.filename().string(), ours)) continue;
-    if (!std::filesystem::remove(path, error) && error) break;
-  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (!error && std::regex_match(entry.path().filename().string(), ours))
+      std::filesystem::remove(entry.path(), error);
   if (error) throw_tool_failed("{}: cannot remove old frames: {}", folder.string(), error.message());
 }
 
@@ -240,7 +221,7 @@ bool draw_turn(const ViewCommand& command, const Folders& folders, const DrawSet
   Clock::time_point start;
   std::optional<Interruption> interruption;
   ViewSettings settings{draw};
-  settings.frames = static_cast<std::uint32_t>(command.frames);
+  settings.frames = command.frames;
   settings.compare = !command.no_compare;
   settings.folders = {folders.source, folders.cache()};
   settings.engine = engine;
@@ -318,17 +299,27 @@ void add_view(CLI::App& app, const Folders& folders, int& exit_code) {
   sub->add_option(
          "--frames", command->frames,
          fmt::format("frames of one turn of the camera around its target, 1 to {}", c_most_view_frames))
+      ->check(CLI::Range(1U, c_most_view_frames))
       ->capture_default_str();
-  sub->add_option("--format", command->format, "format of images: png or ppm (default: png)");
-  sub->add_option("--video", command->video, "file for a video, by ffmpeg, such as turn.mp4");
+  sub->add_option("--format", command->format, "format of images: png or ppm (default: png)")
+      ->check(CLI::IsMember({"png", "ppm"}));
+  CLI::Option* video =
+      sub->add_option("--video", command->video, "file for a video, by ffmpeg, such as turn.mp4");
   sub->add_option("--rate", command->rate,
                   fmt::format("frames per second of the video, 1 to {} (default: {}, as in the papers)",
-                              c_most_rate, c_usual_rate));
-  sub->add_flag("--terminal", command->terminal, "draw in the terminal, by half blocks");
+                              c_most_rate, c_usual_rate))
+      ->check(CLI::Range(1U, c_most_rate))
+      ->needs(video);
+  CLI::Option* terminal =
+      sub->add_flag("--terminal", command->terminal, "draw in the terminal, by half blocks");
   sub->add_option("--columns", command->columns,
                   "with --terminal: width of the pictures; they are then also written without a terminal\n"
-                  "(default: the terminal's)");
-  sub->add_option("--colours", command->colours, "with --terminal: 24bit or 256 (default: by COLORTERM)");
+                  "(default: the terminal's)")
+      ->check(CLI::Range(1U, c_most_columns))
+      ->needs(terminal);
+  sub->add_option("--colours", command->colours, "with --terminal: 24bit or 256 (default: by COLORTERM)")
+      ->check(CLI::IsMember({"24bit", "256"}))
+      ->needs(terminal);
   sub->add_option("--simulator", command->engine,
                   "verilator; lanes: many copies of the RTL in one vector, faster, but longer to build; or\n"
                   "auto: lanes from 2^26 pixels of all frames on")

@@ -48,10 +48,7 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
   const std::string text = text_of(c_built_in_scenes / "matte.toml");
   const Scene scene = built_in_scene("matte");
   for (const std::string shader : {"quadratic", "spherical", "processors"}) {
-    const bool first = shader == "quadratic";
-    const std::vector<std::string> thread_counts =
-        first ? std::vector<std::string>{"1", "2"} : std::vector<std::string>{"2"};
-    for (const std::string& threads : thread_counts) {
+    for (const std::string threads : {"1", "2"}) {
       const Outcome drawn =
           view({"matte", "--frames", "3", "--shader", shader, "--threads", threads, "--out", threads});
       ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
@@ -66,8 +63,7 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
                         HasSubstr(threads + "/frame_0000.png to frame_0002.png\n")));
       EXPECT_THAT(names(threads), ElementsAre("frame_0000.png", "frame_0001.png", "frame_0002.png"));
     }
-    for (const std::uint32_t n :
-         first ? std::vector<std::uint32_t>{0, 1, 2} : std::vector<std::uint32_t>{2}) {
+    for (const std::uint32_t n : {0, 1, 2}) {
       const glm::dvec3 eye = turned(scene.camera, n, 3).eye_world;
       std::string moved = text;
       const std::size_t line = moved.find("eye = ");
@@ -78,11 +74,10 @@ TEST_F(ViewCommand, DrawsTheFramesOfSimFromEachPosition) {
                                "verilator", "--out", "out"});
       ASSERT_EQ(sim.exit_code, 0) << sim.output;
       const Frame expected = frame("out/moved/" + shader + "/verilator.png");
-      for (const std::string& threads : thread_counts)
+      for (const char* threads : {"1", "2"})
         EXPECT_EQ(frame(fmt::format("{}/frame_{:04}.png", threads, n)).rgb, expected.rgb) << shader << n;
     }
     EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0001.png").rgb);
-    EXPECT_NE(frame("2/frame_0000.png").rgb, frame("2/frame_0002.png").rgb);
   }
 }
 
@@ -100,17 +95,17 @@ TEST_F(ViewCommand, ReplacesOlderFramesAndNothingElse) {
 TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"matte", "--simulator", "ghdl"}, "--simulator: 'ghdl' is none of auto, verilator and lanes"},
-      {{"matte", "--frames", "0"}, "--frames: 0 is not 1 to 10000"},
-      {{"matte", "--format", "gif"}, "--format: 'gif' is not a format"},
+      {{"matte", "--frames", "0"}, "--frames: Value 0 not in range 1 to 10000"},
+      {{"matte", "--format", "gif"}, "--format: gif not in {png,ppm}"},
       {{"matte", "--format", "ppm", "--terminal", "--columns", "9"}, "give --out as well"},
-      {{"matte", "--rate", "16"}, "--rate goes with --video"},
+      {{"matte", "--rate", "16"}, "--rate requires --video"},
       {{"matte", "--video", "turn"}, "--video: 'turn' is not the name of a video"},
       {{"matte", "--video", "turn.xyz"},
        "--video: 'turn.xyz' does not have the ending of a video; take one of .mp4"},
       // Image formats: ffmpeg would overwrite one file, or write several, and no file with the given name.
       {{"matte", "--video", "turn%d.png"}, "--video: 'turn%d.png' does not have the ending of a video"},
-      {{"matte", "--columns", "20"}, "--columns goes with --terminal"},
-      {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: '16' is not a kind"},
+      {{"matte", "--columns", "20"}, "--columns requires --terminal"},
+      {{"matte", "--terminal", "--columns", "9", "--colours", "16"}, "--colours: 16 not in {24bit,256}"},
       {{"matte", "--terminal"}, "standard output is no terminal"},
       // No user, not even root, can write to this folder.
       {{"matte", "--out", "/proc/sys"}, "/proc/sys"},
@@ -120,19 +115,6 @@ TEST_F(ViewCommand, BadUsageExitsTwoAndSaysWhatToDo) {
   EXPECT_THAT(names("."), ElementsAre("file"));
   EXPECT_THAT(view({"matte", "--video", "/proc/sys/turn.mp4"}, path_with_ffmpeg(c_copy)),
               Ends(2, ::testing::_));
-}
-
-TEST_F(ViewCommand, AVideoHasEachFrameInOrder) {
-  EXPECT_THAT(view({"matte", "--frames", "5", "--threads", "3", "--video", "films/turn.mp4", "--rate", "24",
-                    "--out", "turn", "--format", "ppm"},
-                   path_with_ffmpeg(c_copy)),
-              Ends(0, HasSubstr("films/turn.mp4: 24 frames a second\n")));
-  EXPECT_THAT(text_of("arguments"), HasSubstr("-f rawvideo -pix_fmt rgb24 -s 64x48 -r 24 -i pipe:0 "));
-  std::string frames;
-  for (int n = 0; n < 5; ++n) frames += text_of(fmt::format("turn/frame_{:04}.ppm", n)).substr(13);
-  EXPECT_EQ(frames.size(), 5U * 3 * 64 * 48);
-  EXPECT_TRUE(text_of("films/turn.mp4") == frames);
-  EXPECT_THAT(names("films"), ElementsAre("turn.mp4"));
 }
 
 TEST_F(ViewCommand, NoFfmpegExitsThreeBeforeAnythingIsDrawn) {
@@ -155,7 +137,7 @@ TEST_F(ViewCommand, AFailedVideoLeavesNoPartialFile) {
   }
 }
 
-// With every ending that the error message offers.
+// Each frame in order, with every ending that the error message offers.
 TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
   ASSERT_FALSE(find_program("ffmpeg").empty()) << "no ffmpeg: apt-get install ffmpeg";
   const std::string refused = view({"matte", "--video", "turn.xyz"}).output, offer = "take one of ";
@@ -165,8 +147,9 @@ TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
   for (std::string ending; endings >> ending; ++played) {
     const std::string video = "turn 100%d" + ending;
     const Outcome drawn =
-        view({"spheres", "--frames", "3", "--video", video, "--out", "turn", "--format", "ppm"});
-    ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+        view({"spheres", "--frames", "3", "--threads", "3", "--video", video, "--rate", "24", "--out", "turn",
+              "--format", "ppm"});
+    ASSERT_THAT(drawn, Ends(0, HasSubstr(video + ": 24 frames a second\n")));
     const Outcome decoded =
         run_as({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-i", at(video).string(), "-f", "rawvideo",
                 "-pix_fmt", "rgb24", "-fps_mode", "passthrough", at("decoded").string()});

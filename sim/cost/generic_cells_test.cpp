@@ -11,7 +11,6 @@
 #include "sim/cost/synthesis.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/os/test/folder_test.hpp"
-#include "sim/os/test/test_files.hpp"
 
 namespace halfway::synth {
 namespace {

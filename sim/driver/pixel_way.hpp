@@ -13,11 +13,23 @@
 
 #include "golden_run/golden_run.hpp"
 #include "plan/hardware_key.hpp"
-#include "sim/driver/given_fields.hpp"
 #include "sim/driver/shader_stages.hpp"
 #include "sim/driver/vectors_around.hpp"
+#include "words/formats.hpp"
 
 namespace halfway {
+
+/// A field of a flat vector that golden model and RTL get, with the position of its block.
+struct PlacedField {
+  std::string name;
+  words::Field field;
+  int block_low;
+};
+
+struct GivenFields {
+  std::vector<PlacedField> init;    ///< of a triangle's first vector
+  std::vector<PlacedField> record;  ///< of a line's record; empty without line records
+};
 
 struct FramePixel {
   std::uint32_t x, y;
@@ -28,8 +40,7 @@ struct StageValue {
   std::string name;
   std::uint64_t golden = 0;
   std::optional<std::uint64_t> rtl;  ///< std::nullopt if a bit is neither 0 nor 1
-  int bits = 0, fraction_bits = 0;
-  bool is_signed = false;
+  WordFormat format{};
 };
 
 /// A word of this value in hexadecimal, and the number that it represents: "0c80 = 0.781250".

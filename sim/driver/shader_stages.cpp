@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -26,12 +27,7 @@ std::string within(std::string_view entity, std::string_view around) {
   return fmt::format("{}, or {} around it", entity, around);
 }
 
-// Number format of a word.
-struct Number {
-  int bits = 1, fraction_bits = 0;
-  bool is_signed = false;
-};
-constexpr Number c_flag{};
+constexpr WordFormat c_flag{};
 
 // The table of a shader's stages: how to read each word in the golden model and in the RTL.
 template <class GoldenShader>
@@ -60,9 +56,8 @@ class StagesOf : public ShaderStages {
     stages_.push_back(std::move(stage));
     golden_.emplace_back();
   }
-  void add(std::string name, Number number, std::string entity, Golden golden, Signal signal) {
-    stages_.back().words.push_back({std::move(name), number.bits, number.fraction_bits, number.is_signed,
-                                    std::move(entity), std::move(signal)});
+  void add(std::string name, WordFormat format, std::string entity, Golden golden, Signal signal) {
+    stages_.back().words.push_back({std::move(name), format, std::move(entity), std::move(signal)});
     golden_.back().push_back(std::move(golden));
   }
 
@@ -72,7 +67,7 @@ class StagesOf : public ShaderStages {
   void add_line_stage(const std::string& around, int depth_clocks, const std::string& front = {}) {
     constexpr bool c_exact = std::is_same_v<Walk, Exact>;
     const std::string edges = within(c_exact ? "edge_walker" : "slope_walker", "triangle_walker");
-    constexpr Number c_x{Walk::c_span_x_bits, 0, true};
+    constexpr WordFormat c_x{Walk::c_span_x_bits, 0, true};
     // GHDL's netlist omits signals that are only for traces, but has the ports that drive them.
     const auto line_signal = [&](const char* field) {
       return Signal{.path = fmt::format("{}walker/line_{}", front, field),
@@ -121,7 +116,7 @@ class StagesOf : public ShaderStages {
 
  private:
   template <class Walk>
-  static constexpr Number c_depth{Walk::c_depth_sum_bits, Walk::c_depth_sum_fraction_bits, true};
+  static constexpr WordFormat c_depth{Walk::c_depth_sum_bits, Walk::c_depth_sum_fraction_bits, true};
 
   struct Watch {
     StagesOf& table;
@@ -389,8 +384,8 @@ std::set<TracedPart> ShaderStages::parts() const {
   add({c_first_ready}, 1);
   for (const Stage& stage : stages_) {
     for (const std::string& strobe : stage.strobes) add({strobe}, 1);
-    for (const StageWord& word : stage.words) add(word.signal, word.bits);
-    if (stage.command) add(*stage.command, stage.words.front().bits);
+    for (const StageWord& word : stage.words) add(word.signal, word.format.bits);
+    if (stage.command) add(*stage.command, stage.words.front().format.bits);
   }
   return parts;
 }
@@ -422,13 +417,13 @@ std::vector<std::vector<RtlEvent>> ShaderStages::read(const SignalTrace& trace) 
         continue;
       const std::size_t held = edge + static_cast<std::size_t>(stage.clocks);
       if (stage.command) {
-        const auto command = word_at(*stage.command, stage.words.front().bits, held);
+        const auto command = word_at(*stage.command, stage.words.front().format.bits, held);
         if (command && !is_object(*command)) continue;
       }
       RtlEvent event{held - first, {}};
       for (const StageWord& word : stage.words)
         event.words.push_back(
-            word_at(word.signal, word.bits, held + static_cast<std::size_t>(word.signal.clocks)));
+            word_at(word.signal, word.format.bits, held + static_cast<std::size_t>(word.signal.clocks)));
       events[s].push_back(std::move(event));
     }
   }
@@ -437,6 +432,35 @@ std::vector<std::vector<RtlEvent>> ShaderStages::read(const SignalTrace& trace) 
 
 std::unique_ptr<ShaderStages> make_stages(const HardwareKey& key) {
   return key.preset == Preset::exact ? make<Exact>(key) : make<words::Published>(key);
+}
+
+SignalTrace word_trace(const std::set<TracedPart>& parts, std::vector<std::uint32_t> words) {
+  struct Place {
+    int low, bits;
+    std::size_t word;
+  };
+  std::map<std::string, std::vector<Place>> places;  // by path
+  std::size_t per_edge = 0;
+  for (const TracedPart& part : parts) {
+    places[part.path].push_back({part.low, part.bits, per_edge});
+    per_edge += static_cast<std::size_t>(part.bits + 31) / 32;
+  }
+  const std::size_t edges = per_edge == 0 ? 0 : words.size() / per_edge;
+  return {edges,
+          [=, words = std::move(words)](const std::string& path, std::size_t edge, int low,
+                                        int bits) -> std::optional<std::uint64_t> {
+            const auto found = places.find(path);
+            if (found == places.end() || edge >= edges) return std::nullopt;
+            for (const Place& place : found->second) {
+              if (low < place.low || low + bits > place.low + place.bits) continue;
+              const std::uint32_t* const from = &words[edge * per_edge + place.word];
+              std::uint64_t word = 0;
+              for (int i = low - place.low + bits - 1; i >= low - place.low; --i)
+                word = word << 1 | (from[i / 32] >> (i % 32) & 1);
+              return word;
+            }
+            return std::nullopt;
+          }};
 }
 
 }  // namespace halfway

@@ -27,11 +27,16 @@ struct Signal {
   std::string netlist_path{};  ///< path of an equal signal of the netlist, if it omits this one
 };
 
+/// Number format of a word.
+struct WordFormat {
+  int bits = 1, fraction_bits = 0;
+  bool is_signed = false;
+};
+
 /// A register of a stage.
 struct StageWord {
   std::string name;
-  int bits = 1, fraction_bits = 0;
-  bool is_signed = false;
+  WordFormat format;
   std::string entity;  ///< the register's entity and the entity of its inputs
   Signal signal;
 };
@@ -74,6 +79,10 @@ struct SignalTrace {
   std::function<std::optional<std::uint64_t>(const std::string& path, std::size_t edge, int low, int bits)>
       part{};
 };
+
+/// A trace of parts of signals as 32-bit words, as a hardware module records it. `words`: edge by edge, the
+/// words of each part in their order, the least significant first.
+SignalTrace word_trace(const std::set<TracedPart>& parts, std::vector<std::uint32_t> words);
 
 /// The stages of a key's shader in pipeline order: line, span, ..., fragment.
 class ShaderStages {

@@ -153,10 +153,9 @@ class CoreFile {
 
 // ---- Writes
 
-std::array<int, 3> numbers_of(const std::string& version) {
+std::array<int, 3> version_numbers() {
   std::array<int, 3> numbers{};
-  if (std::sscanf(version.c_str(), "%d.%d.%d", &numbers[0], &numbers[1], &numbers[2]) != 3)
-    throw Failure{bad_input(fmt::format("the version '{}' is not MAJOR.MINOR.PATCH", version))};
+  std::sscanf(HALFWAY_VERSION, "%d.%d.%d", &numbers[0], &numbers[1], &numbers[2]);
   return numbers;
 }
 
@@ -195,8 +194,8 @@ CoreRegisters core_registers(std::string_view toml, const std::string& file) {
   return CoreFile(file).read(parse_toml(toml, file));
 }
 
-std::string core_registers_vhdl(const CoreRegisters& core, const std::string& version) {
-  const auto [major, minor, patch] = numbers_of(version);
+std::string core_registers_vhdl(const CoreRegisters& core) {
+  const auto [major, minor, patch] = version_numbers();
   std::string out = fmt::format(
       "-- SPDX-License-Identifier: Apache-2.0\n-- {}\n"
       "-- Registers of halfway_core: byte offsets, lowest bit and number of bits of fields. The same for the "
@@ -238,8 +237,8 @@ std::string core_registers_vhdl(const CoreRegisters& core, const std::string& ve
   return out + "\nend package;\n";
 }
 
-std::string core_registers_header(const CoreRegisters& core, const std::string& version) {
-  const auto [major, minor, patch] = numbers_of(version);
+std::string core_registers_header(const CoreRegisters& core) {
+  const auto [major, minor, patch] = version_numbers();
   std::string out = fmt::format(
       "// SPDX-License-Identifier: Apache-2.0\n// {}\n"
       "// Registers of halfway_core: byte offsets, shifts and masks of fields. The same for the words of a "

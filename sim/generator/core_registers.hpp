@@ -36,9 +36,8 @@ struct CoreRegisters {
 /// `file` is for messages. Throws Failure with file and line.
 CoreRegisters core_registers(std::string_view toml, const std::string& file);
 
-/// `version`: MAJOR.MINOR.PATCH.
-std::string core_registers_vhdl(const CoreRegisters& core, const std::string& version);
-std::string core_registers_header(const CoreRegisters& core, const std::string& version);
+std::string core_registers_vhdl(const CoreRegisters& core);
+std::string core_registers_header(const CoreRegisters& core);
 
 /// The tables of docs/rtl/core.md.
 std::string register_table(const CoreRegisters& core);

@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers and commands as data: bad data, and the files of the checkout.
+// Bad data. The test of `halfway tables` compares what is written from the data of the checkout.
 #include "sim/generator/core_registers.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/test/is_error.hpp"
-#include "sim/generator/generated_files.hpp"
-#include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
-#include "sim/os/test/source_folder.hpp"
 
 namespace halfway::tables {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 constexpr std::string_view c_data =
     R"(identity = 0x48414C46
@@ -78,42 +71,6 @@ TEST(CoreRegisters, BadDataNamesFileAndLine) {
     EXPECT_TRUE(
         is_error(caught([&] { core_registers(with(old, text), "f.toml"); }), ExitCode::bad_input, expected))
         << old << " -> " << text;
-}
-
-// What the checkout has is what its data says, and a change of the data makes each file stale.
-TEST(CoreRegisters, FilesOfTheCheckoutAreCurrent) {
-  const TemporaryFolder folder = must(TemporaryFolder::make(std::filesystem::temp_directory_path()));
-  const std::string files[] = {"rtl/core/core_registers_pkg.vhd",
-                               "sim/extras/library/halfway_core_registers.h", "docs/rtl/core.md"};
-  const std::string data = must(read_file(c_source_folder / "rtl/core/core_registers.toml"));
-  must(make_folders(folder.path() / "rtl/core"));
-  must(write_file(folder.path() / "rtl/core/core_registers.toml", data));
-  // A copy of the sources has no pages.
-  for (const GeneratedFile& file : generated_files(folder.path(), {}))
-    EXPECT_NE(file.path, "docs/rtl/core.md");
-  must(make_folders(folder.path() / "docs/rtl"));
-  must(write_file(folder.path() / "docs/rtl/core.md", "no parts\n"));
-  EXPECT_TRUE(
-      is_error(caught([&] { generated_files(folder.path(), {}); }), "docs/rtl/core.md: wants one part"));
-  for (const std::string& file : files) {
-    must(make_folders((folder.path() / file).parent_path()));
-    must(write_file(folder.path() / file, must(read_file(c_source_folder / file))));
-  }
-  must(write_files(folder.path(), generated_files(folder.path(), {})));
-  EXPECT_THAT(stale_files(folder.path(), {}), ::testing::IsEmpty());
-  for (const std::string& file : files)
-    EXPECT_TRUE(must(read_file(folder.path() / file)) == must(read_file(c_source_folder / file)))
-        << file << ": run `make tables`";
-
-  std::string changed = data;
-  const std::string old = "name = \"ring_size\"\noffset = 0x30";
-  ASSERT_NE(changed.find(old), std::string::npos);
-  changed.replace(changed.find(old), old.size(), "name = \"ring_size\"\noffset = 0xFC");
-  must(write_file(folder.path() / "rtl/core/core_registers.toml", changed));
-  std::vector<::testing::Matcher<std::string>> stale;
-  for (const std::string& file : files)
-    stale.push_back(AllOf(HasSubstr(file + ":"), HasSubstr("edit rtl/core/core_registers.toml")));
-  EXPECT_THAT(stale_files(folder.path(), {}), ::testing::ElementsAreArray(stale));
 }
 
 }  // namespace

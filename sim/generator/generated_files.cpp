@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
-#include "sim/generator/core_file.hpp"
 #include "sim/generator/core_registers.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/must.hpp"
@@ -18,16 +18,45 @@ namespace halfway::tables {
 namespace {
 
 constexpr const char* c_registers = "rtl/core/core_registers.toml";
-constexpr const char* c_core_page = "docs/rtl/core.md";
-
-std::string core_page(std::string page, const CoreRegisters& core) {
-  for (const auto& [part, table] :
-       {std::pair{"registers", register_table(core)}, std::pair{"command", command_table(core)}}) {
-    Result<std::string> with = with_page_part(page, part, table);
-    if (!with) throw_bad_input("{}: {}", c_core_page, with.error().message);
-    page = std::move(*with);
+// Adds a page of the checkout with these parts written again. A copy of the sources has no pages.
+void add_page(std::vector<GeneratedFile>& files, const std::filesystem::path& checkout, const char* path,
+              const std::vector<std::pair<std::string, std::string>>& parts, const std::string& source) {
+  auto page = read_file(checkout / path);
+  if (!page) return;
+  for (const auto& [part, table] : parts) {
+    page = with_page_part(*page, part, table);
+    if (!page) throw_bad_input("{}: {}", path, page.error().message);
   }
-  return page;
+  files.push_back({path, *page, source});
+}
+
+// The core file of FuseSoC (CAPI2): the RTL for other designs. `files`: the text of rtl/files.f.
+std::string core_text(const std::string& files) {
+  std::string text = fmt::format(
+      "CAPI=2:\n"
+      "# SPDX-License-Identifier: Apache-2.0\n"
+      "# For FuseSoC. Made by `make tables` from rtl/files.f: change that file.\n"
+      "name: ::halfway:{}\n"
+      "description: Shading hardware between Gouraud and Phong, with AXI4-Stream ports or as a core with "
+      "AXI4\n\n"
+      "filesets:\n"
+      "  rtl:\n"
+      "    file_type: vhdlSource-2008\n"
+      "    logical_name: halfway\n"
+      "    files:\n",
+      HALFWAY_VERSION);
+  std::istringstream lines(files);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && line.front() != '#') text += fmt::format("      - rtl/{}\n", line);
+  return text +
+         "\ntargets:\n"
+         "  default:\n"
+         "    filesets: [rtl]\n"
+         "  # Analyses all files in their order and elaborates the core, which contains words_to_fragments.\n"
+         "  check:\n"
+         "    default_tool: ghdl\n"
+         "    filesets: [rtl]\n"
+         "    toplevel: halfway.halfway_core\n";
 }
 
 }  // namespace
@@ -36,18 +65,17 @@ std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout
   const auto presets = preset_formats();
   std::vector<GeneratedFile> files = {{"rtl/tables/formats_pkg.vhd", vhdl_package(presets)},
                                       {"rtl/tables/cosine_pkg.vhd", cosine_vhdl_package(sizes)},
-                                      {"rtl/tables/function_pkg.vhd", function_vhdl_package()},
-                                      {"docs/rtl/init-vectors.md", layout_page(presets)}};
+                                      {"rtl/tables/function_pkg.vhd", function_vhdl_package()}};
+  add_page(files, checkout, "docs/rtl/init-vectors.md", layout_tables(presets), "model/words/generator");
   if (const auto list = read_file(checkout / "rtl/files.f"))
-    files.push_back({"halfway.core", core_text(*list, HALFWAY_VERSION), "rtl/files.f"});
+    files.push_back({"halfway.core", core_text(*list), "rtl/files.f"});
   if (const auto toml = read_file(checkout / c_registers)) {
     const CoreRegisters core = core_registers(*toml, c_registers);
+    files.push_back({"rtl/core/core_registers_pkg.vhd", core_registers_vhdl(core), c_registers});
     files.push_back(
-        {"rtl/core/core_registers_pkg.vhd", core_registers_vhdl(core, HALFWAY_VERSION), c_registers});
-    files.push_back({"sim/extras/library/halfway_core_registers.h",
-                     core_registers_header(core, HALFWAY_VERSION), c_registers});
-    if (const auto page = read_file(checkout / c_core_page))
-      files.push_back({c_core_page, core_page(*page, core), c_registers});
+        {"sim/extras/library/halfway_core_registers.h", core_registers_header(core), c_registers});
+    add_page(files, checkout, "docs/rtl/core.md",
+             {{"registers", register_table(core)}, {"command", command_table(core)}}, c_registers);
   }
   return files;
 }

@@ -19,8 +19,9 @@ struct GeneratedFile {
   std::string source = "model/words/generator";  ///< what to edit
 };
 
-/// The files for this checkout. halfway.core is made only if the checkout has rtl/files.f, and the files of
-/// registers only if it has rtl/core/core_registers.toml. Throws Failure.
+/// The files for this checkout. halfway.core is made only if the checkout has rtl/files.f, the files of
+/// registers only if it has rtl/core/core_registers.toml, and a page only if the checkout has it. Throws
+/// Failure.
 std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout, const CosineSizes& sizes);
 
 /// words/formats.hpp, words/cosine_tables.hpp and words/function_tables.hpp. `words`: lengths of preset

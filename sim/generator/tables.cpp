@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <tuple>
 
 #include "sim/generator/generated_files.hpp"
 #include "sim/os/command_line.hpp"
@@ -22,21 +23,13 @@ struct TablesOptions {
   std::optional<std::string> cosine;
 };
 
-/// The parsed and checked settings.
-struct TablesSettings {
-  bool exact;
+tables::CosineSizes checked_sizes(const TablesOptions& o) {
   tables::CosineSizes sizes;
-};
-
-TablesSettings checked(const TablesOptions& o) {
-  if (o.preset != "exact" && o.preset != "published")
-    throw_bad_input("--preset: '{}' is not a preset; take exact or published", o.preset);
-  TablesSettings s{o.preset == "exact", {}};
-  if (!o.cosine) return s;
+  if (!o.cosine) return sizes;
   const auto size = tables::parse_cosine_size(*o.cosine);
   if (!size) throw_bad_input("--cosine: '{}' is not {}", *o.cosine, tables::c_cosine_values);
-  (s.exact ? s.sizes.exact : s.sizes.published).front() = *size;
-  return s;
+  (o.preset == "exact" ? sizes.exact : sizes.published).front() = *size;
+  return sizes;
 }
 
 void print_tables(const tables::CosineSizes& sizes) {
@@ -66,37 +59,34 @@ void print_errors(bool exact) {
   }
 }
 
-// Sizes of the checkout's tables that this run would remove.
-std::vector<tables::CosineSize> sizes_that_go(const std::filesystem::path& checkout, bool exact,
-                                              const tables::CosineSizes& sizes) {
+// Names the sizes of the checkout's tables that this run removes.
+void print_removed(const std::filesystem::path& checkout, const tables::CosineSizes& sizes) {
   const auto package = read_file(checkout / "rtl/tables/cosine_pkg.vhd");
   const tables::CosineSizes present = tables::cosine_sizes_in(package ? *package : "");
-  std::vector<tables::CosineSize> gone = exact ? present.exact : present.published;
-  const auto& kept = exact ? sizes.exact : sizes.published;
-  std::erase_if(gone, [&](const auto& size) { return std::ranges::find(kept, size) != kept.end(); });
-  return gone;
-}
-
-int run(const Folders& folders, const TablesOptions& options) {
-  const TablesSettings settings = checked(options);
-  if (options.errors) {
-    print_errors(settings.exact);
-    return static_cast<int>(ExitCode::equal);
-  }
-  bool differs = false;
-  if (!options.check)
-    for (const bool exact : {true, false})
-      for (const tables::CosineSize size : sizes_that_go(folders.source, exact, settings.sizes))
+  for (const auto& [preset, before, kept] :
+       {std::tuple{"exact", present.exact, sizes.exact}, {"published", present.published, sizes.published}})
+    for (const tables::CosineSize size : before)
+      if (std::ranges::find(kept, size) == kept.end())
         fmt::print(
             "preset {0}: the tables of {1} address x data bits go; for them again: make tables PRESET={0} "
             "COSINE={1}\n",
-            exact ? "exact" : "published", to_string(size));
+            preset, to_string(size));
+}
+
+int run(const Folders& folders, const TablesOptions& options) {
+  const tables::CosineSizes sizes = checked_sizes(options);
+  if (options.errors) {
+    print_errors(options.preset == "exact");
+    return static_cast<int>(ExitCode::equal);
+  }
+  bool differs = false;
+  if (!options.check) print_removed(folders.source, sizes);
   if (options.check)
-    for (const std::string& message : tables::stale_files(folders.source, settings.sizes)) {
+    for (const std::string& message : tables::stale_files(folders.source, sizes)) {
       fmt::print(stderr, "{}\n", message);
       differs = true;
     }
-  for (const tables::GeneratedFile& file : tables::generated_files(folders.source, settings.sizes)) {
+  for (const tables::GeneratedFile& file : tables::generated_files(folders.source, sizes)) {
     if (tables::first_different_line(folders.source, file) == 0) {
       fmt::print("{}: as generated\n", file.path.string());
     } else if (!options.check) {
@@ -104,7 +94,7 @@ int run(const Folders& folders, const TablesOptions& options) {
       fmt::print("{}: written\n", file.path.string());
     }
   }
-  print_tables(settings.sizes);
+  print_tables(sizes);
   return static_cast<int>(differs ? ExitCode::differs : ExitCode::equal);
 }
 
@@ -119,6 +109,7 @@ void add_tables(CLI::App& app, const Folders& folders, int& exit_code) {
   command
       ->add_option("--preset", options->preset,
                    "preset of the cosine tables with these sizes: exact or published")
+      ->check(CLI::IsMember({"exact", "published"}))
       ->capture_default_str();
   const tables::CosineSizes sizes;
   CLI::Option* cosine = command->add_option(

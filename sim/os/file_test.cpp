@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <fstream>
+#include <optional>
+#include <thread>
 
 #include "common/test/is_error.hpp"
 #include "sim/os/test/folder_test.hpp"
@@ -20,14 +23,6 @@ class File : public FolderTest {
   }
 };
 
-TEST_F(File, WritesAndReadsWhole) {
-  std::string content(3'000'001, 'x');
-  content[17] = '\0';
-  ASSERT_TRUE(write_file(at("a/b/c"), content));
-  EXPECT_TRUE(must(read_file(at("a/b/c"))) == content);
-  EXPECT_EQ(read_file(at("none")).error().code, ExitCode::bad_input);
-}
-
 TEST_F(File, ErrorsNameTheFileAndLeaveNothing) {
   EXPECT_TRUE(is_error(LineWriter::open("/proc/halfway/file"), ExitCode::bad_input, "/proc/halfway"));
   // A folder has the name of the file, so the rename fails after everything was written.
@@ -42,14 +37,6 @@ TEST_F(File, WithoutCommitThereIsNoFile) {
     writer.append("text");
   }
   EXPECT_EQ(files(), 0U);
-}
-
-TEST_F(File, AreListedByName) {
-  for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"}) write(name, "");
-  using Files = std::vector<std::filesystem::path>;
-  EXPECT_EQ(must(files_below(here())), (Files{"a.vhd", "b/a.txt", "b/d.vhd", "c.vhd"}));
-  EXPECT_EQ(must(files_below(here(), ".vhd")), (Files{"a.vhd", "b/d.vhd", "c.vhd"}));
-  EXPECT_TRUE(is_error(files_below(at("none")), "none: No such file or directory"));
 }
 
 TEST_F(File, ReadsLines) {
@@ -73,19 +60,6 @@ TEST_F(File, RefusesLinesThatAreTooLong) {
     ASSERT_TRUE(must(reader.next(line)));
     EXPECT_TRUE(is_error(reader.next(line), "/a:2: "));
   }
-}
-
-TEST_F(File, ReadsLinesAcrossBuffers) {
-  std::string content;
-  for (int i = 0; i < 400'000; ++i) content += std::to_string(i) + '\n';
-  write("a", content);
-  auto reader = must(LineReader::open(at("a")));
-  std::string_view line;
-  for (int i = 0; i < 400'000; ++i) {
-    ASSERT_TRUE(must(reader.next(line)));
-    ASSERT_EQ(line, std::to_string(i));
-  }
-  EXPECT_FALSE(must(reader.next(line)));
 }
 
 TEST(ContentHash, SeparatesFields) {
@@ -143,6 +117,22 @@ TEST_F(File, LeftoversAreRemovedAndFilesInUseStay) {
   ASSERT_TRUE(writer.commit());
   EXPECT_EQ(text_of("f"), "whole");
   EXPECT_FALSE(std::filesystem::exists(at("f.part-new")));
+}
+
+TEST_F(File, TheSecondToLockAFolderWaitsForTheFirst) {
+  std::optional<Descriptor> held = must(lock_folder(here(), [] { FAIL() << "it is not locked"; }));
+  std::atomic<bool> waited = false, taken = false;
+  std::jthread second([&] {
+    const auto lock = lock_folder(here(), [&] { waited = true; });
+    EXPECT_TRUE(lock);
+    taken = true;
+  });
+  for (int i = 0; i < 10'000 && !waited; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_TRUE(waited) << "the second did not meet the first's lock";
+  EXPECT_FALSE(taken);
+  held.reset();
+  second.join();
+  EXPECT_TRUE(taken);
 }
 
 }  // namespace

@@ -8,13 +8,12 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <system_error>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "common/host.hpp"
-#include "common/result.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway {
@@ -53,39 +52,31 @@ inline Workers on_threads(unsigned threads) {
           }};
 }
 
-/// Call `each`, which returns a Status, once with every number below `count`, in order, on at most `threads`
-/// threads. After a failure or an exception no further call starts. The result is the failure of the smallest
-/// failing number, independent of the number of threads.
+/// Call `each` once with every number below `count`, in order, on at most `threads` threads. After an
+/// exception no further call starts. Throws the Failure of the smallest failing number, independent of the
+/// number of threads, or another exception.
 template <class Each>
-Status for_each_on_threads(unsigned threads, std::size_t count, const Each& each) {
+void must_for_each(unsigned threads, std::size_t count, const Each& each) {
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   std::size_t failed = count;
-  Status result = Ok{};
+  std::optional<Failure> first;
   work_on_threads(static_cast<unsigned>(std::min<std::size_t>(threads, count)), [&] {
     for (std::size_t at; (at = next++) < count;) {
       try {
-        Status done = each(at);
-        if (done) continue;
+        each(at);
+      } catch (const Failure& failure) {
         next = count;
         const std::scoped_lock lock(mutex);
-        if (at < failed) {
-          failed = at;
-          result = std::move(done);
-        }
+        if (at < failed) first.emplace(failure);
+        failed = std::min(failed, at);
       } catch (...) {
         next = count;
         throw;
       }
     }
   });
-  return result;
-}
-
-/// The same for a function that throws Failure.
-template <class Each>
-void must_for_each(unsigned threads, std::size_t count, const Each& each) {
-  must(for_each_on_threads(threads, count, [&](std::size_t at) { return caught([&] { each(at); }); }));
+  if (first) throw Failure(*first);
 }
 
 }  // namespace halfway

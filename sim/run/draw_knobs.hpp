@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The knobs of drawing. Each is declared once, in the table of draw_knobs.cpp: options of the commands that
-// draw, keys of spaces, columns of a study's table and names of designs are made from it.
+// What to draw, and the knobs of drawing. Each knob is declared once, in the table of draw_knobs.cpp: options
+// of the commands that draw, keys of spaces, columns of a study's table and names of designs are made from it.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,14 @@
 #include "setup/setup.hpp"
 
 namespace halfway {
+
+/// What to draw of a scene: the part that all settings of jobs have in common.
+struct DrawRequest {
+  PlanRequest plan{};
+  FrameSize size{};
+  SetupOptions setup{};
+  unsigned threads = 1;
+};
 
 /// A value as text, with what begins its messages: an option, or file, line and key.
 struct KnobText {

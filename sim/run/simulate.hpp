@@ -15,7 +15,7 @@
 #include "sim/driver/rtl_frame.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/engines/ghdl/hardware_units.hpp"
-#include "sim/run/draw_request.hpp"
+#include "sim/run/draw_knobs.hpp"
 #include "sim/run/result_files.hpp"
 
 namespace halfway {

@@ -3,6 +3,8 @@
 // same cycles, and detect each fault.
 #include "sim/run/simulators_test.hpp"
 
+#include <tuple>
+
 namespace halfway {
 namespace {
 
@@ -40,35 +42,29 @@ TEST_F(Simulators, NoVectorsGiveAnEmptyTrace) {
   EXPECT_EQ(from_verilator.cycles, 0U);
 }
 
-TEST_F(Simulators, AHangIsSeen) {
-  write_rtl({.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"});
-  expect_both_fail("hang", "hang");
-}
-
-TEST_F(Simulators, AFaultThatTheHardwareReportsIsDetected) {
-  // The fault comes with the last vector's fragment, and a few cycles later when the pipeline is empty.
-  for (const char* delay : {"0", "4"}) {
-    write_rtl(
-        {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
-    expect_both_fail("refused a vector", "refused a vector");
+TEST_F(Simulators, FaultsOfTheHardwareAreSeen) {
+  const std::string alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))";
+  // With the message of GHDL, and of Verilator if it sees the fault.
+  const std::vector<std::tuple<Parts, std::string, std::string>> cases = {
+      {{.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"},
+       "hang",
+       "hang"},
+      // The fault comes with the last vector's fragment, and a few cycles later when the pipeline is empty.
+      {{.alarm = alarm}, "refused a vector", "refused a vector"},
+      {{.alarm = alarm, .delay = "4"}, "refused a vector", "refused a vector"},
+      // The payload changes only with fragment_ready.
+      {{.red = "(7 downto 1 => '0') & fragment_ready"},
+       "changed while it was not taken",
+       "changed or was withdrawn"},
+      {{.fault =
+            "if r.left = 7 and fragment_ready = '0' then v.left := r.left - 1; v.valid := '0'; end if;"},
+       "was withdrawn",
+       "withdrawn"},
+      {{.red = "\"0000000X\" when r.left = 3 else x\"00\""}, "metavalue in fragment", ""}};
+  for (const auto& [parts, in_ghdl, in_verilator] : cases) {
+    write_rtl(parts);
+    expect_both_fail(in_ghdl, in_verilator);
   }
-}
-
-TEST_F(Simulators, APayloadThatChangesIsDetected) {
-  write_rtl({.red = "(7 downto 1 => '0') & fragment_ready"});
-  // The payload changes only with fragment_ready.
-  expect_both_fail("changed while it was not taken", "changed or was withdrawn");
-}
-
-TEST_F(Simulators, AWithdrawnFragmentIsSeen) {
-  write_rtl(
-      {.fault = "if r.left = 7 and fragment_ready = '0' then v.left := r.left - 1; v.valid := '0'; end if;"});
-  expect_both_fail("was withdrawn", "withdrawn");
-}
-
-TEST_F(Simulators, AMetavalueIsSeen) {
-  write_rtl({.red = "\"0000000X\" when r.left = 3 else x\"00\""});
-  expect_both_fail("metavalue in fragment", "");
 }
 
 TEST_F(Simulators, MoreFragmentsThanAllowedAreSeen) {

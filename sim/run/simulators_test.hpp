@@ -20,26 +20,13 @@
 namespace halfway {
 
 inline const char* const c_package = R"(
-package formats_pkg is
-  function init_bits(exact : boolean; channels : positive) return positive;
-end package;
-package body formats_pkg is
-  function init_bits(exact : boolean; channels : positive) return positive is
-  begin
-    if exact then
-      return 70 + channels;
-    end if;
-    return 60;
-  end function;
-end package body;
-
 package quadratic_pkg is
   function init_bits(exact : boolean; degree, channels : positive) return positive;
 end package;
 package body quadratic_pkg is
   function init_bits(exact : boolean; degree, channels : positive) return positive is
   begin
-    return work.formats_pkg.init_bits(exact, channels);
+    return 70 + channels;
   end function;
 end package body;
 )";
@@ -50,14 +37,14 @@ inline const char* const c_shader = R"(
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
-use work.formats_pkg.all;
+use work.quadratic_pkg.all;
 entity quadratic_shader is
   generic (g_exact : boolean := true; g_channels : positive := 3;
            g_degree : positive := 2);
   port (
     clk, reset : in std_logic;
     init_valid : in std_logic; init_ready : out std_logic;
-    init_data : in std_logic_vector(init_bits(g_exact, g_channels) - 1 downto 0);
+    init_data : in std_logic_vector(init_bits(g_exact, g_degree, g_channels) - 1 downto 0);
     fragment_valid : out std_logic; fragment_ready : in std_logic;
     fragment_triangle : out std_logic_vector(31 downto 0);
     fragment_y, fragment_x : out std_logic_vector(11 downto 0);
@@ -158,10 +145,10 @@ class Simulators : public FolderTest {
     replace(text, "@RED@", parts.red);
     replace(text, "@ALARM@", parts.alarm);
     replace(text, "@DELAY@", parts.delay);
-    write("tree/rtl/formats_pkg.vhd", c_package);
+    write("tree/rtl/quadratic_pkg.vhd", c_package);
     write("tree/rtl/shaders/quadratic_shader.vhd", text);
     write("tree/rtl/cosine_pkg.vhd", must(read_file(c_source_folder / "rtl/tables/cosine_pkg.vhd")));
-    write("tree/rtl/files.f", "formats_pkg.vhd\ncosine_pkg.vhd\nshaders/quadratic_shader.vhd\n");
+    write("tree/rtl/files.f", "quadratic_pkg.vhd\ncosine_pkg.vhd\nshaders/quadratic_shader.vhd\n");
   }
 
   void add_triangle(unsigned count) {

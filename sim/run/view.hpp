@@ -13,7 +13,7 @@
 #include "sim/driver/engine.hpp"
 #include "sim/driver/rtl_frame.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/run/draw_request.hpp"
+#include "sim/run/draw_knobs.hpp"
 
 namespace halfway {
 

@@ -15,7 +15,7 @@
 #include "sim/driver/pixel_way.hpp"
 #include "sim/driver/stream_comparator.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/run/draw_request.hpp"
+#include "sim/run/draw_knobs.hpp"
 
 namespace halfway {
 

@@ -9,7 +9,6 @@
 #include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/test/folder_test.hpp"
-#include "sim/os/test/test_files.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/study.hpp"
 

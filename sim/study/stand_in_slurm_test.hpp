@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "sim/os/test/test_files.hpp"
+#include "sim/os/test/folder_test.hpp"
 
 namespace halfway::study {
 

@@ -13,7 +13,6 @@
 #include "sim/os/sanitizers.hpp"
 #include "sim/os/subprocess.hpp"
 #include "sim/os/test/folder_test.hpp"
-#include "sim/os/test/test_files.hpp"
 #include "sim/study/host_setup.hpp"
 #include "sim/study/table.hpp"
 

@@ -469,17 +469,13 @@ constexpr std::string_view c_formats_notice =
 
 }  // namespace
 
-std::vector<PresetFormats> preset_formats() {
-  return {
+std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) {
+  std::vector<PresetFormats> presets = {
       {"exact", joined(common_formats(), exact_formats()),
        joined(joined(exact_layouts(), spherical_layouts(true)), processors_layouts(true))},
       {"published", joined(common_formats(), published_formats()),
        joined(joined(published_layouts(), spherical_layouts(false)), processors_layouts(false))},
   };
-}
-
-std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words) {
-  std::vector<PresetFormats> presets = preset_formats();
   PresetFormats& preset = presets[exact ? 0 : 1];
   const auto format = [&](std::string_view name) -> Format& {
     const Format& found = format_of(preset, name);

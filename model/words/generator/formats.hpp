@@ -60,11 +60,9 @@ const Format& format_of(const PresetFormats& preset, std::string_view name);
 
 int total_bits(const PresetFormats& preset, const std::vector<Field>& fields);
 
-/// Both presets. Each format name exists in both.
-std::vector<PresetFormats> preset_formats();
-
-/// The same with other word lengths in one preset. The texts of the bounds stay those of the preset.
-std::vector<PresetFormats> preset_formats(bool exact, const WordLengths& words);
+/// Both presets. Each format name exists in both. `words`: other word lengths of one preset; the texts of the
+/// bounds stay those of the preset.
+std::vector<PresetFormats> preset_formats(bool exact = true, const WordLengths& words = {});
 
 /// The result of a bound's derivation with the preset's formats. If it increases with the exponent, it is
 /// computed for the given exponent, or else for the largest.

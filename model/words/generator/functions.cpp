@@ -76,42 +76,22 @@ int root_raise(const FunctionTable& table) {
 // 1/2; from 2 on 4w and 2^-2.5.) Rounding adds an error of u/2. With the value at a cell's middle add half a
 // cell times the slope. With interpolation along a chord add w^2/8 of the second derivative, and u for the
 // truncation of the product.
-std::vector<FunctionTable> function_tables() {
+std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words) {
+  // 1/sqrt(x) with `bits` bits, or with those of other word lengths.
+  const auto root = [&](bool of_exact, int bits, double error) {
+    const int made_bits = of_exact == exact ? words.seed_bits.value_or(bits) : bits;
+    FunctionTable table = made({of_exact, Function::reciprocal_root, made_bits - c_seed_cells, made_bits,
+                                made_bits, 0, off_by(error, "", "u / 2 + 2 * w / 2 * (1 / 2)"), {}});
+    if (made_bits != bits) table.error.value = derived(table);
+    return table;
+  };
   return {
-      made({true,
-            Function::reciprocal_root,
-            9,
-            12,
-            12,
-            0,
-            off_by(0.0011, "", "u / 2 + 2 * w / 2 * (1 / 2)"),
-            {}}),
+      root(true, 12, 0.0011),
       made({true, Function::logarithm, 9, 24, 24, 16, off_by(7.8e-7, "", "u / 2 + w^2 / 8 / ln2 + u"), {}}),
       made({true, Function::decay, 6, 19, 18, 12, off_by(2.04e-5, "", "u / 2 + w^2 / 8 * ln2^2 + u"), {}}),
-      made({false,
-            Function::reciprocal_root,
-            6,
-            9,
-            9,
-            0,
-            off_by(0.0088, "", "u / 2 + 2 * w / 2 * (1 / 2)"),
-            {}}),
+      root(false, 9, 0.0088),
       made({false, Function::logarithm, 6, 10, 10, 0, off_by(0.0118, "", "u / 2 + w / 2 / ln2"), {}}),
       made({false, Function::decay, 6, 8, 8, 0, off_by(0.0074, "", "u / 2 + w / 2 * ln2"), {}})};
-}
-
-std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words) {
-  std::vector<FunctionTable> tables = function_tables();
-  if (!words.seed_bits) return tables;
-  for (FunctionTable& table : tables) {
-    if (table.exact != exact || table.function != Function::reciprocal_root) continue;
-    table.value_bits = table.fraction_bits = *words.seed_bits;
-    table.cell_bits = *words.seed_bits - c_seed_cells;
-    table.values.clear();
-    table = made(std::move(table));
-    table.error.value = derived(table);
-  }
-  return tables;
 }
 
 double derived(const FunctionTable& table) {

@@ -44,22 +44,14 @@ struct FunctionTable {
   std::vector<std::uint32_t> values;
 };
 
-/// The tables of preset exact in the order of c_functions, then those of published.
-std::vector<FunctionTable> function_tables();
-
-/// The same with another table of 1/sqrt(x) in one preset.
-std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words);
+/// The tables of preset exact in the order of c_functions, then those of published. `words`: with another
+/// table of 1/sqrt(x) in one preset.
+std::vector<FunctionTable> function_tables(bool exact = true, const WordLengths& words = {});
 
 /// The result of the derivation of the table's bound.
 double derived(const FunctionTable& table);
 
-std::string function_vhdl_package(const std::vector<FunctionTable>& tables);
+std::string function_vhdl_package(const std::vector<FunctionTable>& tables = function_tables());
 std::string function_cpp_header(const std::vector<FunctionTable>& tables);
-inline std::string function_vhdl_package() {
-  return function_vhdl_package(function_tables());
-}
-inline std::string function_cpp_header() {
-  return function_cpp_header(function_tables());
-}
 
 }  // namespace halfway::tables

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page that lists every field of the vectors that the host sends: docs/rtl/init-vectors.md.
+// The tables of docs/rtl/init-vectors.md, which list every field of the vectors that the host sends.
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "words/generator/formats.hpp"
 
 namespace halfway::tables {
 
-/// Markdown: for each vector its fields with bits, format, meaning and the source that computes them.
-std::string layout_page(const std::vector<PresetFormats>& presets);
+/// The page's parts, by name: for each vector or block its fields with bits, format and meaning.
+std::vector<std::pair<std::string, std::string>> layout_tables(const std::vector<PresetFormats>& presets);
 
 }  // namespace halfway::tables

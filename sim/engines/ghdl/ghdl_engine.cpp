@@ -76,11 +76,10 @@ std::vector<std::uint64_t> Cuts::parts() const {
   }
 }
 
-Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
-                                   const std::filesystem::path& init_file,
-                                   std::span<const std::uint64_t> first_vectors,
-                                   const GhdlRunOptions& options, unsigned threads,
-                                   const Engine::OnDrawn& on_drawn) try {
+std::uint64_t run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
+                           const std::filesystem::path& init_file,
+                           std::span<const std::uint64_t> first_vectors, const GhdlRunOptions& options,
+                           unsigned threads, const Engine::OnDrawn& on_drawn) {
   const std::size_t parts = first_vectors.size();
   std::vector<std::filesystem::path> inits, traces;
   for (std::size_t part = 0; part < parts; ++part) {
@@ -92,7 +91,7 @@ Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& 
   std::mutex mutex;
   std::vector<std::uintmax_t> bytes(parts, 0);
   std::uint64_t cycles = 0;
-  must(for_each_on_threads(threads, parts, [&](std::size_t part) -> Status {
+  must_for_each(threads, parts, [&](std::size_t part) {
     GhdlRunOptions of_part = options;
     if (options.on_progress)
       of_part.on_progress = [&, part](std::uintmax_t written) {
@@ -101,18 +100,16 @@ Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& 
         options.on_progress(std::accumulate(bytes.begin(), bytes.end(), std::uintmax_t{0}));
       };
     const auto run = runner.run(inits[part], traces[part], of_part);
-    if (!run && parts == 1) return run.error();
-    if (!run)
-      return Error{run.error().code, fmt::format("{}, in part {} of {}, from init vector {} on",
-                                                 run.error().message, part + 1, parts, first_vectors[part])};
+    if (!run && parts > 1)
+      throw Failure{{run.error().code,
+                     fmt::format("{}, in part {} of {}, from init vector {} on", run.error().message,
+                                 part + 1, parts, first_vectors[part])}};
+    const std::uint64_t of_run = must(run).cycles;
     const std::scoped_lock lock(mutex);
-    cycles += run->cycles;
-    return Ok{};
-  }));
+    cycles += of_run;
+  });
   for (const std::filesystem::path& trace : traces) pass_on(trace, key.name(), on_drawn);
   return cycles;
-} catch (const Failure& failure) {
-  return failure.error;
 }
 
 Result<GhdlEngine> GhdlEngine::open(const HardwareKey& key, const SimulatorFolders& folders, unsigned threads,
@@ -149,7 +146,7 @@ Status GhdlEngine::drain(std::uint64_t most, const OnDrawn& on_drawn) {
     parts_ = first_vectors.size();
     options_.max_fragments = static_cast<std::uint32_t>(std::min<std::uint64_t>(most, 0x7fffffff));
     cycles_ = cycles_.value_or(0) +
-              must(run_in_parts(runner_, key_, init_file(), first_vectors, options_, threads_, on_drawn));
+              run_in_parts(runner_, key_, init_file(), first_vectors, options_, threads_, on_drawn);
   });
 }
 

@@ -44,12 +44,11 @@ class Cuts {
 /// Runs `runner` on each part of `init_file`, at most `threads` at a time, each after a reset. Then outputs
 /// the fragments in the order of a single run, or none if a part ends with a fault. Returns the sum of the
 /// parts' cycles. This is more than the cycles of a single run, because each part fills and drains the
-/// pipeline. The parts' files stay next to `init_file`.
-Result<std::uint64_t> run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
-                                   const std::filesystem::path& init_file,
-                                   std::span<const std::uint64_t> first_vectors,
-                                   const GhdlRunOptions& options, unsigned threads,
-                                   const Engine::OnDrawn& on_drawn);
+/// pipeline. The parts' files stay next to `init_file`. Throws Failure.
+std::uint64_t run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
+                           const std::filesystem::path& init_file,
+                           std::span<const std::uint64_t> first_vectors, const GhdlRunOptions& options,
+                           unsigned threads, const Engine::OnDrawn& on_drawn);
 
 class GhdlEngine final : public Engine {
  public:

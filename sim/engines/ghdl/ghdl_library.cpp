@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <string_view>
 
-#include "sim/engines/ghdl/rtl_hash.hpp"
 #include "sim/os/file.hpp"
 #include "sim/os/shared_library.hpp"
 
@@ -71,6 +71,47 @@ std::vector<std::pair<std::string, std::string>> synthesis_environment(
 
 }  // namespace
 
+std::string bare_vhdl(std::string_view text) {
+  std::string bare;
+  // Skips text up to and with `end`, and returns it.
+  const auto take = [&text](std::string_view end, std::size_t from) {
+    const std::size_t found = text.find(end, from);
+    const std::string_view taken =
+        text.substr(0, found == std::string_view::npos ? text.size() : found + end.size());
+    text.remove_prefix(taken.size());
+    return taken;
+  };
+  const auto separate = [&bare] {
+    if (!bare.empty() && bare.back() != ' ') bare += ' ';
+  };
+  while (!text.empty()) {
+    const char c = text.front();
+    if (c == '"' || c == '\\') {  // a string, an extended identifier
+      bare += take(text.substr(0, 1), 1);
+    } else if (c == '\'' && text.size() > 2 && text[2] == '\'') {
+      bare += take("'", 1);
+    } else if (text.starts_with("--") || text.starts_with("/*")) {
+      take(c == '-' ? "\n" : "*/", 2);
+      separate();
+    } else {
+      if (std::isspace(static_cast<unsigned char>(c)) != 0)
+        separate();
+      else
+        bare += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      text.remove_prefix(1);
+    }
+  }
+  return bare;
+}
+
+Result<std::string> rtl_hash(const std::filesystem::path& source_folder) {
+  const auto sources = read_rtl_sources(source_folder);
+  if (!sources) return sources.error();
+  ContentHash hash;
+  for (const VhdlSource& source : *sources) hash.add(source.name).add(bare_vhdl(source.content));
+  return hash.hex();
+}
+
 Result<GhdlTool> GhdlTool::find() {
   Command command{.arguments = {"ghdl", "--version"}, .timeout = std::chrono::minutes(5)};
   const auto end = run_process(command, c_install_ghdl);
@@ -78,10 +119,8 @@ Result<GhdlTool> GhdlTool::find() {
   if (!end->succeeded())
     return tool_failed(fmt::format("ghdl: does not run ({}): {}; install it with: {}", end->how(),
                                    end->output, c_install_ghdl));
-  GhdlTool tool{GhdlBackEnd::mcode, end->output};
-  if (end->output.find("llvm") != std::string::npos) tool.back_end = GhdlBackEnd::llvm;
-  if (end->output.find("GCC") != std::string::npos) tool.back_end = GhdlBackEnd::gcc;
-  return tool;
+  const auto says = [&](const char* back_end) { return end->output.find(back_end) != std::string::npos; };
+  return GhdlTool{says("llvm") || says("GCC"), end->output};
 }
 
 Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, const std::string& name) {
@@ -125,9 +164,9 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
       first = first_testbench;
     }
     Command analyse{.arguments = {tool.program, "-a"}, .working_folder = fresh};
-    if (tool.back_end != GhdlBackEnd::mcode) analyse.arguments.emplace_back("-O2");
+    if (tool.makes_program) analyse.arguments.emplace_back("-O2");
     run_on(std::move(analyse), {first, sources.end()});
-    if (!top.empty() && tool.back_end != GhdlBackEnd::mcode)
+    if (!top.empty() && tool.makes_program)
       must(run_tool({.arguments = {tool.program, "-e", "--std=08", top}, .working_folder = fresh},
                     c_install_ghdl, "elaboration of " + top));
   });
@@ -191,7 +230,7 @@ std::string GhdlLibrary::netlist(const std::string& entity, const Generics& gene
 }
 
 std::vector<std::string> GhdlLibrary::run_arguments(const std::string& top) const {
-  if (tool_.back_end == GhdlBackEnd::mcode) return {tool_.program, "-r", "--std=08", top};
+  if (!tool_.makes_program) return {tool_.program, "-r", "--std=08", top};
   return {(folder_ / top).string()};
 }
 

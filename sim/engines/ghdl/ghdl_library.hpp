@@ -4,10 +4,9 @@
 // GHDL's messages are those of the copies.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
-#include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,10 +22,8 @@ struct SimulatorFolders {
 
 inline constexpr const char* c_install_ghdl = "apt-get install ghdl-llvm";
 
-enum class GhdlBackEnd { mcode, llvm, gcc };
-
 struct GhdlTool {
-  GhdlBackEnd back_end;
+  bool makes_program;            ///< as the back ends llvm and gcc do; mcode runs in memory
   std::string version;           ///< the output of `ghdl --version`
   std::string program = "ghdl";  ///< a name in PATH, or a path; tests name another
 
@@ -43,6 +40,12 @@ struct VhdlSource {
 Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& source_folder,
                                                  const std::string& rtl_folder = "rtl");
 Result<VhdlSource> read_vhdl_source(const std::filesystem::path& source_folder, const std::string& name);
+
+/// VHDL without comments, in lower case outside of literals, with one space for white space: equal for equal
+/// tokens.
+std::string bare_vhdl(std::string_view text);
+/// Hash of the sources of rtl/files.f, each as bare_vhdl.
+Result<std::string> rtl_hash(const std::filesystem::path& source_folder);
 
 class GhdlLibrary {
  public:

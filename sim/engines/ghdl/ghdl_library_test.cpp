@@ -8,6 +8,21 @@
 namespace halfway {
 namespace {
 
+TEST(BareVhdl, HasNoCommentsAndOneSpace) {
+  EXPECT_EQ(bare_vhdl("A  <= b; -- c\n\n  d <= \"-- E\";\n"), "a <= b; d <= \"-- E\"; ");
+  EXPECT_EQ(bare_vhdl("x; -- \"\ny;"), bare_vhdl("x;\n  y;"));
+  EXPECT_EQ(bare_vhdl("a/* b\n -- */<= c;"), "a <= c;");
+  EXPECT_NE(bare_vhdl("a <= b;"), bare_vhdl("a <= c;"));
+}
+
+TEST(BareVhdl, KeepsLiterals) {
+  // A quote as a character begins no string, and no comment is in a literal.
+  EXPECT_EQ(bare_vhdl("c = '\"' -- A\nD"), "c = '\"' d");
+  EXPECT_NE(bare_vhdl("a = \"--1\";"), bare_vhdl("a = \"--2\";"));
+  EXPECT_NE(bare_vhdl("\\a--1\\"), bare_vhdl("\\a--2\\"));
+  EXPECT_NE(bare_vhdl("a = 'X';"), bare_vhdl("a = 'x';"));
+}
+
 constexpr const char* c_entity = R"(library ieee;
 use ieee.std_logic_1164.all;
 entity held is

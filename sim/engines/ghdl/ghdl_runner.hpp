@@ -2,11 +2,9 @@
 // Runs a shader's RTL in GHDL with tb/rtl/frame_tb.vhd: reads an init file, writes a trace.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +18,8 @@ struct GhdlRunOptions {
   std::uint32_t max_fragments = 0x7fffffff;
   std::uint32_t idle_limit = 100'000;  ///< cycles without progress that count as a hang
   std::uint32_t stall_seed = 0;        ///< 0: full speed; otherwise both streams stall at random
-  std::optional<std::chrono::milliseconds> timeout{};
   std::function<void(std::uintmax_t trace_bytes)> on_progress{};  ///< argument: bytes written so far
-  std::filesystem::path wave_file{};                              ///< .ghw, .fst or .vcd; empty: none
+  std::filesystem::path wave_file{};                              ///< .fst or .vcd; empty: none
   /// Signals in the wave file, such as frame_tb/dut/walker/x; empty: every signal. A signal of a generate
   /// loop selects it in all iterations.
   std::vector<std::string> wave_signals{};
@@ -34,9 +31,6 @@ struct GhdlRun {
 
 class GhdlRunner {
  public:
-  /// tb/rtl/frame_tb.vhd with the key's shader inserted.
-  static Result<VhdlSource> testbench(const HardwareKey& key, const std::filesystem::path& source_folder);
-
   /// Analyses the RTL and the testbench unless the cache has them.
   static Result<GhdlRunner> open(const HardwareKey& key, const SimulatorFolders& folders);
 

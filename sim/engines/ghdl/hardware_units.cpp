@@ -8,20 +8,23 @@
 
 namespace halfway {
 
+namespace {
+
+// The names of the sources: each file of the RTL contains one entity or package of its name.
 std::set<std::string> entities_of(const std::vector<VhdlSource>& sources) {
   std::set<std::string> entities;
   for (const VhdlSource& source : sources) entities.insert(std::filesystem::path(source.name).stem());
   return entities;
 }
 
+// The entity of a module of GHDL's netlist: the longest name of an entity that the module's name is, or starts
+// with; empty without one. GHDL appends a module's generics to the name of its entity.
 std::string entity_of(std::string_view module, const std::set<std::string>& entities) {
   std::string entity;
   for (const std::string& name : entities)
     if ((module == name || module.starts_with(name + "_")) && name.size() > entity.size()) entity = name;
   return entity;
 }
-
-namespace {
 
 bool is_label(std::string_view label, const std::string& name) {
   return label == name || label.starts_with(name + "_");
@@ -68,41 +71,22 @@ InstanceTree::InstanceTree(std::string_view netlist, const std::set<std::string>
   }
 }
 
-UnitCounts InstanceTree::count(const std::string& top) const {
+UnitCounts InstanceTree::count(const std::string& top, const std::vector<std::string>& names) const {
   UnitCounts counts;
-  add(top, counts);
+  add(top, names, counts);
   return counts;
 }
 
-UnitCounts InstanceTree::count_named(const std::string& top, const std::vector<std::string>& names) const {
-  UnitCounts counts;
-  add_named(top, names, counts);
-  return counts;
-}
-
-void InstanceTree::add(const std::string& module, UnitCounts& counts) const {
+void InstanceTree::add(const std::string& module, const std::vector<std::string>& names,
+                       UnitCounts& counts) const {
   const auto at = instances_.find(module);
   if (at == instances_.end()) return;
   for (const Instance& instance : at->second) {
-    ++counts[instance.entity];
-    add(instance.module, counts);
-  }
-}
-
-void InstanceTree::add_named(const std::string& module, const std::vector<std::string>& names,
-                             UnitCounts& counts) const {
-  const auto at = instances_.find(module);
-  if (at == instances_.end()) return;
-  for (const Instance& instance : at->second) {
-    const bool is_named = std::ranges::any_of(names, [&](const std::string& name) {
-      return instance.entity == name || is_label(instance.label, name);
-    });
-    if (is_named) {
-      ++counts[instance.entity];
-      add(instance.module, counts);
-    } else {
-      add_named(instance.module, names, counts);
-    }
+    const bool is_counted = names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
+                              return instance.entity == name || is_label(instance.label, name);
+                            });
+    if (is_counted) ++counts[instance.entity];
+    add(instance.module, is_counted ? std::vector<std::string>{} : names, counts);
   }
 }
 
@@ -128,8 +112,9 @@ UnitCounts UnitCounter::count(const HardwareKey& key, const PlannedEffect& effec
     const UnitCounts here = count(key), there = count(*effect.other);
     return effect.elaborated ? difference(here, there) : difference(there, here);
   }
-  if (!effect.elaborated) return {};
-  return tree(key).count_named(key.entity(), instances_of(effect.effect, key.shader));
+  const std::vector<std::string> names = instances_of(effect.effect, key.shader);
+  if (!effect.elaborated || names.empty()) return {};
+  return tree(key).count(key.entity(), names);
 }
 
 }  // namespace halfway

@@ -14,12 +14,6 @@
 
 namespace halfway {
 
-/// The names of the sources: each file of the RTL contains one entity or package of its name.
-std::set<std::string> entities_of(const std::vector<VhdlSource>& sources);
-/// The entity of a module of GHDL's netlist: the longest name of an entity that the module's name is, or
-/// starts with; empty without one. GHDL appends a module's generics to the name of its entity.
-std::string entity_of(std::string_view module, const std::set<std::string>& entities);
-
 using UnitCounts = std::map<std::string, int>;  ///< by entity; every count is at least one
 
 /// The instances in a netlist, as a tree.
@@ -28,18 +22,16 @@ class InstanceTree {
   /// `netlist` is GHDL's Verilog.
   InstanceTree(std::string_view netlist, const std::set<std::string>& entities);
 
-  /// All instances below the module `top`.
-  UnitCounts count(const std::string& top) const;
-  /// Count the instances below `top` with one of these names, and all instances inside them. A name is an
-  /// entity or a label. The label of a generate statement is a prefix of the label in the netlist.
-  UnitCounts count_named(const std::string& top, const std::vector<std::string>& names) const;
+  /// Count the instances below `top` with one of these names, and all instances inside them; without names
+  /// all instances. A name is an entity or a label. The label of a generate statement is a prefix of the
+  /// label in the netlist.
+  UnitCounts count(const std::string& top, const std::vector<std::string>& names = {}) const;
 
  private:
   struct Instance {
     std::string module, entity, label;
   };
-  void add(const std::string& module, UnitCounts& counts) const;
-  void add_named(const std::string& module, const std::vector<std::string>& names, UnitCounts& counts) const;
+  void add(const std::string& module, const std::vector<std::string>& names, UnitCounts& counts) const;
   std::map<std::string, std::vector<Instance>> instances_;  ///< by module
 };
 

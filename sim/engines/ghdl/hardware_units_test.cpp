@@ -35,10 +35,10 @@ TEST(InstanceTree, CountsInstancesAtEveryDepth) {
 }
 
 TEST(InstanceTree, CountsNamedInstancesAndWhatIsBelowThem) {
-  EXPECT_EQ(tree().count_named("top", {"pair"}), (UnitCounts{{"box", 4}, {"pair", 2}}));
-  EXPECT_EQ(tree().count_named("top", {"units_n1"}), (UnitCounts{{"box", 2}, {"pair", 1}}));
-  EXPECT_EQ(tree().count_named("top", {"left", "single"}), (UnitCounts{{"big_box", 1}, {"box", 2}}));
-  EXPECT_THAT(tree().count_named("top", {"none"}), IsEmpty());
+  EXPECT_EQ(tree().count("top", {"pair"}), (UnitCounts{{"box", 4}, {"pair", 2}}));
+  EXPECT_EQ(tree().count("top", {"units_n1"}), (UnitCounts{{"box", 2}, {"pair", 1}}));
+  EXPECT_EQ(tree().count("top", {"left", "single"}), (UnitCounts{{"big_box", 1}, {"box", 2}}));
+  EXPECT_THAT(tree().count("top", {"none"}), IsEmpty());
 }
 
 Plan plan_of(const std::string& name, Shader shader, Preset preset) {
@@ -53,52 +53,6 @@ class HardwareUnits : public ::testing::Test {
   }
   UnitCounter counter_ = must(UnitCounter::open(c_checkout));
 };
-
-// Counted by hand in the entities' source text.
-TEST_F(HardwareUnits, OfAQuadraticShader) {
-  EXPECT_EQ(units({.shader = Shader::quadratic, .preset = Preset::published, .channels = 1}),
-            (UnitCounts{{"deskew", 2},
-                        {"edge_pair", 1},
-                        {"line_counter", 1},
-                        {"line_stage", 1},
-                        {"parameter_register", 33},
-                        {"part_interpolator", 14},
-                        {"plane_interpolator", 1},
-                        {"quadratic_interpolator", 1},
-                        {"saturate", 1},
-                        {"skewed_interpolator", 7},
-                        {"skewed_register", 6},
-                        {"skewed_strobe", 20},
-                        {"slope_walker", 2},
-                        {"span_stage", 1},
-                        {"stream_queue", 1},
-                        {"stream_register", 1},
-                        {"triangle_walker", 1},
-                        {"word_buffer", 1},
-                        {"z_interpolator", 1}}));
-}
-
-TEST_F(HardwareUnits, OfEffectsOfTheSphericalShader) {
-  const Plan plan = plan_of("matte", Shader::spherical, Preset::exact);
-  EXPECT_EQ(units(plan, Effect::depth), (UnitCounts{{"deskew", 1},
-                                                    {"parameter_register", 8},
-                                                    {"part_interpolator", 4},
-                                                    {"plane_interpolator", 1},
-                                                    {"skewed_interpolator", 2},
-                                                    {"skewed_multiplexer", 1},
-                                                    {"skewed_register", 2},
-                                                    {"skewed_strobe", 7},
-                                                    {"z_interpolator", 1}}));
-  EXPECT_EQ(units(plan, Effect::ambient),
-            (UnitCounts{{"ambient_light", 1}, {"delay_line", 1}, {"parameter_register", 1}}));
-  EXPECT_EQ(units(plan, Effect::specular), (UnitCounts{{"angle_address", 1},
-                                                       {"cosine_rom", 1},
-                                                       {"line_interpolator", 1},
-                                                       {"multiplier", 1},
-                                                       {"parameter_register", 3},
-                                                       {"specular_slice", 1}}));
-  EXPECT_THAT(units(plan, Effect::highlight_colour), IsEmpty());
-}
 
 TEST_F(HardwareUnits, OfEffectsOfTheProcessors) {
   const Plan plan = plan_of("spheres", Shader::processors, Preset::published);

@@ -6,21 +6,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 namespace halfway {
 namespace {
-
-std::vector<std::string_view> lines_of(std::string_view text) {
-  std::vector<std::string_view> lines;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    lines.push_back(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
-  return lines;
-}
 
 std::string_view trim(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -133,7 +124,8 @@ Result<std::string> mend_netlist(std::string_view netlist) {
   mended.reserve(netlist.size());
   std::size_t number = 0;
   bool in_always = false;
-  for (const std::string_view line : lines_of(netlist)) {
+  std::istringstream lines{std::string(netlist)};
+  for (std::string line; std::getline(lines, line);) {
     ++number;
     if (is_wrong_division(line)) return refuse(number, line, "a signed division, printed wrongly");
     std::string code = without_comments(line);

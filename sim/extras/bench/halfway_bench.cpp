@@ -11,7 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "sim/engines/ghdl/rtl_hash.hpp"
+#include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/extras/bench/measurements.hpp"
 #include "sim/files/template.hpp"
 #include "sim/os/command_line.hpp"

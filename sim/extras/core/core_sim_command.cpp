@@ -31,10 +31,9 @@ struct CoreSimCommand {
 
 /// The core that the scene needs.
 core::CoreKey key_for(const Scene& scene, const CoreSimCommand& command) {
-  const auto [true_colour, bus_bits] = checked(command.core);
   return {.shader = must(plan_scene(scene, checked(command.draw).plan)).key,
-          .format = true_colour ? core::PixelFormat::xrgb8888 : core::PixelFormat::rgb565,
-          .bus_bits = bus_bits};
+          .format = command.core.true_colour() ? core::PixelFormat::xrgb8888 : core::PixelFormat::rgb565,
+          .bus_bits = command.core.bus_bits};
 }
 
 Scene loaded(const std::string& name, const Folders& folders) {
@@ -86,7 +85,6 @@ void serve(const Folders& folders, const CoreSimCommand& command) {
 }
 
 void run(const Folders& folders, const CoreSimCommand& command) {
-  checked(command.core);
   if (command.timing.latency < 1 || command.timing.latency > c_most_latency)
     throw_bad_input("--latency: {} is not 1 to {}", command.timing.latency, c_most_latency);
   if (!command.socket.empty()) return serve(folders, command);

@@ -14,8 +14,8 @@
 
 #include "common/test/is_error.hpp"
 #include "sim/driver/frame_driver.hpp"
+#include "sim/driver/shader_stages.hpp"
 #include "sim/driver/test/golden_engine.hpp"
-#include "sim/driver/word_trace.hpp"
 #include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/extras/live_core/stream_parts.hpp"
 #include "sim/extras/live_core/way_lines.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "golden_run/golden_run.hpp"
-#include "sim/driver/word_trace.hpp"
+#include "sim/driver/shader_stages.hpp"
 #include "sim/engines/verilator/harness_api.h"
 #include "sim/extras/live_core/core_values.hpp"
 #include "sim/extras/live_core/live_frame.hpp"

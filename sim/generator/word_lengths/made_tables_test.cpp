@@ -21,24 +21,6 @@ using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-TEST(MadeTables, EqualTheCompiledTables) {
-  std::size_t compared = 0;
-  for (const words::CosineTable& table : words::c_cosine_tables) {
-    const CosineSize size = table.size;
-    EXPECT_TRUE(compiled_in(table.exact, size));
-    const MadeTables made(table.exact, size);
-    for (const words::CosineTable& other : made.tables()) {
-      EXPECT_EQ(other.exact, table.exact);
-      EXPECT_EQ(other.size, size);
-      if (other.power != table.power) continue;
-      EXPECT_THAT(other.entries, ElementsAreArray(table.entries));
-      ++compared;
-    }
-  }
-  EXPECT_EQ(compared, words::c_cosine_tables.size());
-  EXPECT_FALSE(compiled_in(true, {5, 4}));
-}
-
 class MadeTablesTest : public FolderTest {
  protected:
   fs::path copy(bool exact, const WordLengths& words = {}) const {
@@ -102,13 +84,6 @@ TEST(MadeWords, TheTableOfRootsHasTheSeedsSize) {
   const WordLengths same{.seed_bits = 12, .newton = true};
   EXPECT_EQ(function_vhdl_package(function_tables(true, same)), function_vhdl_package());
   EXPECT_EQ(vhdl_package(preset_formats(true, same)), vhdl_package(preset_formats()));
-}
-
-TEST_F(MadeTablesTest, AreCopiedWithTheWords) {
-  const auto folder = copy(true, {.angle_bits = 12});
-  EXPECT_THAT(text_of(folder / "rtl/tables/formats_pkg.vhd"),
-              AllOf(HasSubstr("angle => (23, 12)"), HasSubstr("angle => (12, 11)")));
-  EXPECT_THAT(text_of(folder / "rtl/tables/cosine_pkg.vhd"), HasSubstr("c_exact_cosine_1_5x4"));
 }
 
 }  // namespace

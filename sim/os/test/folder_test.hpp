@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A test with a folder of its own. A file that cannot be read or written ends the test by an exception.
+// A test with a folder of its own, and files that tests write or change. A failure throws, and so ends the
+// test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,6 +13,22 @@
 #include "sim/os/must.hpp"
 
 namespace halfway {
+
+/// Write an executable file, such as a replacement for a tool.
+inline void put_program(const std::filesystem::path& file, const std::string& script) {
+  must(write_file(file, script));
+  std::filesystem::permissions(file, std::filesystem::perms::all);
+}
+
+/// Replace the first `from` that follows `after` in a file, which must contain it.
+inline void replace_in(const std::filesystem::path& file, const std::string& from, const std::string& to,
+                       const std::string& after = "") {
+  std::string text = must(read_file(file));
+  const std::size_t at = text.find(from, text.find(after));
+  if (at == std::string::npos)
+    throw Failure{bad_input(file.string() + ": mend this test, it has no " + from)};
+  must(write_file(file, text.replace(at, from.size(), to)));
+}
 
 class FolderTest : public ::testing::Test {
  protected:

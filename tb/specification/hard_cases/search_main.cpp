@@ -108,23 +108,25 @@ Status check_batch(const SearchKind& kind, const Options& options, std::uint64_t
 // the number of threads.
 Status check_all(const SearchKind& kind, const Options& options, std::uint64_t count, Shared& shared) {
   const unsigned threads = options.quick ? 1 : std::max(1U, std::thread::hardware_concurrency());
-  return for_each_on_threads(threads, (count + c_batch - 1) / c_batch, [&](std::size_t batch) {
-    std::unique_lock lock(shared.mutex);
-    if (isatty(STDERR_FILENO)) fmt::print(stderr, "{}: {} of {}\r", kind.name, batch * c_batch, count);
-    if (shared.idle.empty())
-      shared.idle.push_back(kind.shader ? make_scene_search(*kind.shader, options.folders(), options.quick)
-                                        : make_triangle_search(options.folders()));
-    std::unique_ptr<Search> search = std::move(shared.idle.back());
-    shared.idle.pop_back();
-    lock.unlock();
-    Tally tally;
-    const std::uint64_t first = options.first + batch * c_batch,
-                        end = options.first + std::min((batch + 1) * c_batch, count);
-    Status status = check_batch(kind, options, first, end, *search, tally);
-    lock.lock();
-    shared.idle.push_back(std::move(search));
-    shared.tally.add(tally);
-    return status;
+  return caught([&] {
+    must_for_each(threads, (count + c_batch - 1) / c_batch, [&](std::size_t batch) {
+      std::unique_lock lock(shared.mutex);
+      if (isatty(STDERR_FILENO)) fmt::print(stderr, "{}: {} of {}\r", kind.name, batch * c_batch, count);
+      if (shared.idle.empty())
+        shared.idle.push_back(kind.shader ? make_scene_search(*kind.shader, options.folders(), options.quick)
+                                          : make_triangle_search(options.folders()));
+      std::unique_ptr<Search> search = std::move(shared.idle.back());
+      shared.idle.pop_back();
+      lock.unlock();
+      Tally tally;
+      const std::uint64_t first = options.first + batch * c_batch,
+                          end = options.first + std::min((batch + 1) * c_batch, count);
+      Status status = check_batch(kind, options, first, end, *search, tally);
+      lock.lock();
+      shared.idle.push_back(std::move(search));
+      shared.tally.add(tally);
+      must(std::move(status));
+    });
   });
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/driver/word_trace.hpp"
+#include "sim/driver/shader_stages.hpp"
 
 #include <gtest/gtest.h>
 
