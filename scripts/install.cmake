@@ -12,7 +12,7 @@ target_include_directories(libhalfway INTERFACE $<INSTALL_INTERFACE:${CMAKE_INST
 
 install(TARGETS libhalfway EXPORT halfway ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES sim/extras/library/halfway.h sim/extras/library/halfway_core.h
-  sim/extras/library/halfway_core_registers.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  ${CMAKE_BINARY_DIR}/generated/sim/extras/library/halfway_core_registers.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 file(GLOB scenes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/sim/scenes/*.toml)
 install(FILES ${scenes} DESTINATION ${scenes_folder})
 

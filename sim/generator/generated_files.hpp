@@ -28,6 +28,8 @@ std::vector<GeneratedFile> generated_files(const std::filesystem::path& checkout
 /// exact, or of published, other than its own.
 std::vector<GeneratedFile> cpp_headers(const CosineSizes& sizes, bool exact = true,
                                        const WordLengths& words = {});
+/// The C header of the registers of halfway_core. Throws Failure.
+GeneratedFile registers_header(const std::filesystem::path& checkout);
 /// Write these files into the folder. Files that are already equal keep their times.
 Status write_files(const std::filesystem::path& folder, const std::vector<GeneratedFile>& files);
 

@@ -16,9 +16,12 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   cli::add_tables(app, folders, exit_code);
   std::filesystem::path out;
-  CLI::App* headers = app.add_subcommand("headers", "write the C++ headers of formats and tables");
+  CLI::App* headers = app.add_subcommand("headers", "write the headers of formats, tables and registers");
   headers->add_option("FOLDER", out, "folder that is written to")->required();
-  headers->callback(
-      [&] { must(tables::write_files(out, tables::cpp_headers(tables::sizes_of(folders.source)))); });
+  headers->callback([&] {
+    auto files = tables::cpp_headers(tables::sizes_of(folders.source));
+    files.push_back(tables::registers_header(folders.source));
+    must(tables::write_files(out, files));
+  });
   return cli::run_program(app, argc, argv, exit_code);
 }

@@ -23,22 +23,27 @@
 namespace halfway {
 namespace {
 
-struct Name {
+struct Facts {
   const char *short_name, *title;
+  bool compared = false, in_lanes = false;
+  LaneVectors vectors = LaneVectors::avx512;
 };
-const Name& name_of(Way way) {
-  static constexpr std::array<Name, c_ways.size()> c_names = {
-      {{"lanes_compared", "RTL in lanes, every field compared with the golden model drawn on the same core"},
-       {"lanes", "RTL in lanes alone"},
-       {"lanes_without_avx512_compared", "RTL in lanes, compiled without AVX-512, compared likewise"},
-       {"lanes_without_avx512", "RTL in lanes, compiled without AVX-512, alone"},
-       {"verilator_compared", "RTL in Verilator, compared likewise"},
+const Facts& facts_of(Way way) {
+  static constexpr std::array<Facts, c_ways.size()> c_facts = {
+      {{"lanes_compared", "RTL in lanes, every field compared with the golden model drawn on the same core",
+        true, true},
+       {"lanes", "RTL in lanes alone", false, true},
+       {"lanes_without_avx512_compared", "RTL in lanes, compiled without AVX-512, compared likewise", true,
+        true, LaneVectors::avx2},
+       {"lanes_without_avx512", "RTL in lanes, compiled without AVX-512, alone", false, true,
+        LaneVectors::avx2},
+       {"verilator_compared", "RTL in Verilator, compared likewise", true},
        {"verilator", "RTL in Verilator alone"},
        {"ghdl", "RTL in GHDL"},
        {"golden", "golden model alone"},
        {"reference", "Phong shading per pixel in double, the reference renderer"},
        {"mesa", "Phong shading per pixel by OpenGL on Mesa's llvmpipe"}}};
-  return c_names.at(static_cast<std::size_t>(way));
+  return c_facts.at(static_cast<std::size_t>(way));
 }
 
 void check(bool right, Way way, const GoldenStream& s) {
@@ -47,18 +52,13 @@ void check(bool right, Way way, const GoldenStream& s) {
                    fmt::format("{}, {}: not the golden model's fragments", to_string(way), s.key.name())}};
 }
 
-bool without_avx512(Way way) {
-  return way == Way::lanes_without_avx512_compared || way == Way::lanes_without_avx512;
-}
-
 /// RTL in this process, alone, or with the golden model and a comparison of every field on the same thread.
 Go in_process(Way way, const WayInput& input) {
   const HardwareKey& key = input.stream->key;
   const std::shared_ptr<Engine> engine =
       in_lanes(way) ? must(shared_engine(LaneSimulator::open(
                           key, input.folders,
-                          {.fast = input.fast,
-                           .vectors = without_avx512(way) ? LaneVectors::avx2 : LaneVectors::avx512})))
+                          {.fast = input.fast, .vectors = facts_of(way).vectors})))
                     : must(open_engine(EngineKind::verilator, key, input.folders));
   const std::shared_ptr<GoldenModel> golden = make_golden_model(key);
   return [=, compared = is_compared(way), &s = *input.stream] {
@@ -135,20 +135,19 @@ std::vector<std::uint8_t> inside(const std::vector<std::uint8_t>& mask, FrameSiz
 }  // namespace
 
 std::string to_string(Way way) {
-  return name_of(way).title;
+  return facts_of(way).title;
 }
 
 std::string short_name(Way way) {
-  return name_of(way).short_name;
+  return facts_of(way).short_name;
 }
 
 bool in_lanes(Way way) {
-  return way == Way::lanes_compared || way == Way::lanes || without_avx512(way);
+  return facts_of(way).in_lanes;
 }
 
 bool is_compared(Way way) {
-  return way == Way::lanes_compared || way == Way::lanes_without_avx512_compared ||
-         way == Way::verilator_compared;
+  return facts_of(way).compared;
 }
 
 std::string lacking(Way way, const SimulatorFolders& folders) {
@@ -194,15 +193,9 @@ Go make_way(Way way, const WayInput& input) {
       };
     case Way::mesa:
       return [input] { return run_mesa(input, 3).seconds; };
-    case Way::lanes_compared:
-    case Way::lanes:
-    case Way::lanes_without_avx512_compared:
-    case Way::lanes_without_avx512:
-    case Way::verilator_compared:
-    case Way::verilator:
-      break;
+    default:
+      return in_process(way, input);
   }
-  return in_process(way, input);
 }
 
 }  // namespace halfway

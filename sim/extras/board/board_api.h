@@ -4,10 +4,6 @@
 
 #include <cstdint>
 
-extern "C" {
-
-#define HALFWAY_BOARD_VERSION 1
-
 // Ports of rtl/board/board_core.vhd.
 struct BoardInputs {
   uint8_t reset, spi_select_n, spi_clock, spi_data_in;
@@ -21,9 +17,11 @@ struct BoardOutputs {
   uint8_t hsync, vsync, red, green, blue;
 };
 
-uint32_t board_version(void);
-void* board_create(void);
-// The outputs in a clock with these inputs; then the rising edge that ends the clock.
-void board_clock(void* board, const struct BoardInputs* inputs, struct BoardOutputs* outputs);
-void board_destroy(void* board);
-}
+class BoardModel {
+ public:
+  virtual ~BoardModel() = default;
+  // The outputs in a clock with these inputs; then the rising edge that ends the clock.
+  virtual void clock(const BoardInputs& inputs, BoardOutputs& outputs) = 0;
+};
+
+extern "C" BoardModel* board_create();

@@ -13,16 +13,28 @@ std::uint16_t rgb565(const glm::dvec3& radiance) {
 
 BoardPicture::BoardPicture(std::uint16_t background)
     : colours_(golden::c_board_pixels, background),
-      depths_(golden::c_board_pixels, golden::c_board_farthest) {}
+      depths_(golden::c_board_pixels, golden::c_board_farthest),
+      exact_colours_(colours_),
+      exact_depths_(golden::c_board_pixels, UINT32_MAX) {}
 
 void BoardPicture::add(std::span<const Fragment> fragments) {
   for (const Fragment& f : fragments) {
     const std::optional<std::uint32_t> at = golden::board_place(f);
-    const std::uint16_t depth = golden::board_depth(f.z);
-    if (!at || depth >= depths_[*at]) continue;
-    depths_[*at] = depth;
-    colours_[*at] = golden::board_colour(f.red, f.green, f.blue);
+    if (!at) continue;
+    const auto draw = [&](auto depth, auto& nearest, std::uint16_t& colour) {
+      if (depth >= nearest) return;
+      nearest = depth;
+      colour = golden::board_colour(f.red, f.green, f.blue);
+    };
+    draw(golden::board_depth(f.z), depths_[*at], colours_[*at]);
+    draw(f.z, exact_depths_[*at], exact_colours_[*at]);
   }
+}
+
+std::uint64_t BoardPicture::depth_pixels() const {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < colours_.size(); ++i) count += colours_[i] != exact_colours_[i] ? 1 : 0;
+  return count;
 }
 
 DotPicture BoardPicture::dots() const {

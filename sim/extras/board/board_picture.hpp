@@ -11,7 +11,7 @@
 #include "frame/fragment.hpp"
 #include "frame/frame.hpp"
 #include "golden/board_pixel.hpp"
-#include "sim/extras/board/monitor.hpp"
+#include "sim/extras/board/board_models.hpp"
 
 namespace halfway::board {
 
@@ -32,9 +32,13 @@ class BoardPicture {
   /// Each pixel is 2x2 dots.
   DotPicture dots() const;
   const std::vector<std::uint16_t>& colours() const { return colours_; }
+  /// Pixels in which 16 bits of depth choose another fragment than 24 bits, with another colour.
+  std::uint64_t depth_pixels() const;
 
  private:
   std::vector<std::uint16_t> colours_, depths_;
+  std::vector<std::uint16_t> exact_colours_;  ///< with 24 bits of depth
+  std::vector<std::uint32_t> exact_depths_;
 };
 
 }  // namespace halfway::board

@@ -8,8 +8,6 @@
 #include "plan/plan.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/extras/board/board_check.hpp"
-#include "sim/extras/board/board_server.hpp"
-#include "sim/extras/board/board_sources.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 
@@ -25,61 +23,32 @@ struct BoardSimCommand {
   std::string socket;
 };
 
-/// One run of the board.
-struct BoardSimulation {
-  std::string scene;
-  EngineKind simulator;
-  Host host;
-};
-
 /// The scene of about 20 visible triangles that GHDL draws by default.
 constexpr const char* c_small_scene = "sim/extras/board/board_small.toml";
 
-/// Without scenes: all built-in ones in Verilator, the small one in GHDL. GHDL draws other scenes only if it
-/// is named.
-std::vector<BoardSimulation> simulations(const BoardSimCommand& command, const Folders& folders) {
-  constexpr EngineKind c_known[] = {EngineKind::ghdl, EngineKind::verilator};
-  auto simulators = checked_simulators(command.simulators, c_known);
-  if (command.simulators.empty() && !command.scenes.empty()) simulators = {EngineKind::verilator};
-  std::vector<BoardSimulation> list;
-  for (const EngineKind simulator : simulators) {
-    std::vector<std::string> scenes = command.scenes;
-    if (scenes.empty() && simulator == EngineKind::ghdl) scenes = {(folders.source / c_small_scene).string()};
-    if (scenes.empty()) scenes = builtin_scenes(folders);
-    for (const std::string& scene : scenes) {
-      // A run in GHDL takes minutes, and the unreliable host also sends good packets.
-      if (simulator != EngineKind::ghdl) list.push_back({scene, simulator, Host::steady});
-      list.push_back({scene, simulator, Host::unreliable});
-    }
-  }
-  return list;
-}
-
-void simulate_board(const BoardSimulation& simulation, const BoardSimCommand& command,
+void simulate_board(const std::string& name, EngineKind simulator, Host host, const BoardSimCommand& command,
                     const Folders& folders) {
-  const auto scene = must(load_scene(simulation.scene, folders.scenes()));
+  const auto scene = must(load_scene(name, folders.scenes()));
   for (const std::string& note : scene.notes) say(note);
   must(plan_scene(scene, {.degree = board::board_key().degree}));
-  const std::string host = simulation.host == Host::steady ? "steady" : "unreliable";
+  const std::string host_name = host == Host::steady ? "steady" : "unreliable";
   board::BoardCheckOptions options;
-  options.host = simulation.host;
-  options.ghdl = simulation.simulator == EngineKind::ghdl;
-  options.out = std::filesystem::path(command.out) / result_name(simulation.scene) /
-                fmt::format("board-{}-{}", to_string(simulation.simulator), host);
+  options.host = host;
+  options.ghdl = simulator == EngineKind::ghdl;
+  options.out = std::filesystem::path(command.out) / result_name(name) /
+                fmt::format("board-{}-{}", to_string(simulator), host_name);
   options.setup.quadratic.threshold = command.threshold;
   // GHDL is slow: do not split triangles.
   if (options.ghdl) options.setup.quadratic.test = HighlightTest::none;
   Progress progress("board-sim");
-  progress.show(fmt::format("{} in {}, {} host", simulation.scene, to_string(simulation.simulator), host));
+  progress.show(fmt::format("{} in {}, {} host", name, to_string(simulator), host_name));
   const auto check = board::check_board(scene, options, {folders.source, folders.cache()});
   progress.clear();
-  const board::HostReport& report = check.run.report;
   fmt::print(
       "{:<10} {:<9} {:<10}  {} vectors, {} fragments | {} packets, {} dropped, {} clocks | {} pictures equal "
-      "| {} pixels "
-      "by 16 bits of depth\n",
-      scene.name, to_string(simulation.simulator), host, check.vectors, check.fragments, report.packets,
-      report.errors, check.run.clocks, check.pictures, check.depth_pixels);
+      "| {} pixels by 16 bits of depth\n",
+      scene.name, to_string(simulator), host_name, check.vectors, check.fragments, check.packets,
+      check.dropped, check.clocks, check.pictures, check.depth_pixels);
   std::fflush(stdout);
 }
 
@@ -88,14 +57,28 @@ void serve(const Folders& folders, const BoardSimCommand& command) {
   const auto report_of = board::serve_board(command.socket, command.out, {folders.source, folders.cache()});
   fmt::print(
       "{}: {} packets, {} of them vectors, {} clocks; {} different pictures, all equal to the twin's\n",
-      command.socket, report_of.packets, report_of.vectors, report_of.clocks, report_of.pictures);
+      command.socket, report_of.packets, report_of.vectors, report_of.clocks, report_of.different_pictures);
 }
 
 void run(const Folders& folders, const BoardSimCommand& command) {
   if (!command.socket.empty()) return serve(folders, command);
   if (!(command.threshold > 0.0)) throw_bad_input("--threshold: {} is not above 0", command.threshold);
-  for (const BoardSimulation& simulation : simulations(command, folders))
-    simulate_board(simulation, command, folders);
+  // Without scenes: all built-in ones in Verilator, the small one in GHDL. GHDL draws other scenes only if it
+  // is named.
+  constexpr EngineKind c_known[] = {EngineKind::ghdl, EngineKind::verilator};
+  auto simulators = checked_simulators(command.simulators, c_known);
+  if (command.simulators.empty() && !command.scenes.empty()) simulators = {EngineKind::verilator};
+  for (const EngineKind simulator : simulators) {
+    const bool ghdl = simulator == EngineKind::ghdl;
+    std::vector<std::string> scenes = command.scenes;
+    if (scenes.empty() && ghdl) scenes = {(folders.source / c_small_scene).string()};
+    if (scenes.empty()) scenes = builtin_scenes(folders);
+    for (const std::string& scene : scenes) {
+      // A run in GHDL takes minutes, and the unreliable host also sends good packets.
+      if (!ghdl) simulate_board(scene, simulator, Host::steady, command, folders);
+      simulate_board(scene, simulator, Host::unreliable, command, folders);
+    }
+  }
 }
 
 }  // namespace

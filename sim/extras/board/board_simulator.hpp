@@ -4,13 +4,45 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "plan/hardware_key.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
-#include "sim/extras/board/monitor.hpp"
+#include "sim/extras/board/board_api.h"
+#include "sim/extras/board/board_models.hpp"
+#include "sim/extras/board/board_picture.hpp"
 #include "sim/extras/board/spi_host.hpp"
+#include "sim/os/shared_library.hpp"
 
 namespace halfway::board {
+
+/// The shader of rtl/board: its generics.
+HardwareKey board_key();
+
+/// board_core in Verilator, with the registers in the cells of its pins, an SRAM and a monitor: the board as
+/// its host sees it. Its functions throw Failure.
+class VerilatedBoard {
+ public:
+  /// Builds the model, or takes it from the cache, and resets it. on_picture gets each picture of the
+  /// monitor.
+  VerilatedBoard(const SimulatorFolders& folders, std::function<void(const DotPicture&)> on_picture);
+
+  /// One system clock with these levels at the host's pins. Returns the level of the board's data. A fault of
+  /// the bus or of the video timing has the code `differs`.
+  bool clock(const SpiPins& spi);
+
+  std::uint64_t clocks() const { return clocks_; }
+
+ private:
+  SharedLibrary library_;
+  std::unique_ptr<BoardModel> core_;
+  SramModel sram_{c_words_in_use};
+  Monitor monitor_;
+  BoardInputs inputs_{.reset = 1, .spi_select_n = 1, .spi_clock = 0, .spi_data_in = 0, .sram_data_in = 0};
+  BoardOutputs outputs_{}, pins_{};  ///< of the core; of the cells, one clock later
+  std::uint64_t clocks_ = 0;
+};
 
 struct BoardRun {
   HostReport report;

@@ -4,8 +4,6 @@
 
 #include <cstdint>
 
-extern "C" {
-
 // Ports of rtl/core/halfway_core.vhd, by their names.
 struct CoreInputs {
   uint8_t aresetn;
@@ -27,8 +25,11 @@ struct CoreOutputs {
   uint64_t m_axi_wdata;
 };
 
-void* halfway_core_create(void);
-// The outputs in a clock with these inputs; then the rising edge that ends the clock.
-void halfway_core_clock(void* core, const struct CoreInputs* inputs, struct CoreOutputs* outputs);
-void halfway_core_destroy(void* core);
-}
+class CoreModel {
+ public:
+  virtual ~CoreModel() = default;
+  // The outputs in a clock with these inputs; then the rising edge that ends the clock.
+  virtual void clock(const CoreInputs& inputs, CoreOutputs& outputs) = 0;
+};
+
+extern "C" CoreModel* halfway_core_create();

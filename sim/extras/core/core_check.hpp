@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws a frame by the driver on the simulated core, and compares the memory with the golden model's.
+// Draws a frame by the driver on the simulated core, and compares the memory with the golden model's. Or the
+// core is a device that another program uses.
 #pragma once
 
 #include <cstdint>
@@ -28,5 +29,18 @@ struct CoreFigures {
 /// the golden model's. Throws Failure, of the code `differs` for a difference. Writes the picture.
 CoreFigures check_core(const Scene& scene, const CoreKey& key, const CoreCheckOptions& options,
                        const SimulatorFolders& folders);
+
+struct CoreServerReport {
+  std::uint64_t accesses = 0, clocks = 0;
+};
+
+/// The simulated core as a device that another program uses: its registers at a socket, its memory as a file.
+/// Listens at a Unix socket for one client, until it closes the connection. The file SOCKET.memory exists
+/// meanwhile: 16 MiB, the addresses from 10000000 (hexadecimal) on, which the client maps. A request is three
+/// words of 32 bits in the machine's order: kind, address of the register, value. Kind 0 reads, 1 writes, 2
+/// waits for an interrupt. The answer is two words: value and response of AXI4-Lite. The core's time passes
+/// during requests only. Throws Failure.
+CoreServerReport serve_core(const CoreKey& key, MemoryTiming timing, const std::filesystem::path& socket,
+                            const SimulatorFolders& folders);
 
 }  // namespace halfway::core

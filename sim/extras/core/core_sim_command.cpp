@@ -9,7 +9,6 @@
 #include "plan/plan.hpp"
 #include "sim/cli/options.hpp"
 #include "sim/extras/core/core_check.hpp"
-#include "sim/extras/core/core_server.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "sim/os/printable.hpp"

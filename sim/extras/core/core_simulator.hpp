@@ -12,6 +12,7 @@
 #include "plan/hardware_key.hpp"
 #include "sim/engines/ghdl/ghdl_library.hpp"
 #include "sim/extras/core/axi_memory.hpp"
+#include "sim/os/shared_library.hpp"
 
 namespace halfway::core {
 
@@ -38,7 +39,6 @@ class CoreSimulator {
  public:
   /// Builds the model, or takes it from the cache, and resets it. Connect its memory before it draws.
   CoreSimulator(const CoreKey& key, MemoryTiming timing, const SimulatorFolders& folders);
-  ~CoreSimulator();
 
   void clock();
 
@@ -53,14 +53,18 @@ class CoreSimulator {
   /// Lets clocks pass until the core interrupts. More than `most` have the code `differs`.
   void wait(std::uint64_t most);
 
-  bool interrupt() const;
-  std::uint32_t picture() const;  ///< the port
-  std::uint64_t clocks() const;   ///< since the start
-  AxiMemory& memory();
+  bool interrupt() const { return outputs_.interrupt != 0; }
+  std::uint32_t picture() const { return outputs_.picture; }  ///< the port
+  std::uint64_t clocks() const { return clocks_; }            ///< since the start
+  AxiMemory& memory() { return memory_; }
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  SharedLibrary library_;
+  std::unique_ptr<CoreModel> core_;
+  AxiMemory memory_;
+  CoreInputs inputs_{};
+  CoreOutputs outputs_{};
+  std::uint64_t clocks_ = 0;
 };
 
 }  // namespace halfway::core

@@ -37,7 +37,7 @@ void BitOperations::append(Bits& bits, Piece piece) {
   if (!bits.empty()) {
     Piece& last = bits.back();
     const LaneNode &a = graph()[last.node], &b = graph()[piece.node];
-    if (last.node == piece.node && (a.is_mask() || piece.low == last.low + last.width)) {
+    if (last.node == piece.node && (a.mask || piece.low == last.low + last.width)) {
       last.width += piece.width;
       return;
     }
@@ -105,7 +105,7 @@ int BitOperations::to_vector(const Bits& bits, bool arithmetic) {
   for (const Piece& piece : bits) {
     const std::uint64_t field = low_ones(piece.width) << at;
     const LaneNode& node = graph()[piece.node];
-    if (node.is_mask()) {
+    if (node.mask) {
       sum = graph().operate(LaneOp::either, sum, graph().fill(piece.node, field));
     } else if (node.op == LaneOp::constant) {
       constants |= constant_of(piece) << at;
@@ -203,7 +203,7 @@ Bits BitOperations::choose_pieces(int mask, const Bits& a, const Bits& b) {
     low = high;
     const Piece &x = p[0], &y = q[0];
     if (x.width == 1 || (is_mask(x) && is_mask(y))) {
-      append(chosen, {graph().mask_select(mask, to_mask(p), to_mask(q)), 0, x.width});
+      append(chosen, {graph().select(mask, to_mask(p), to_mask(q)), 0, x.width});
     } else if (!is_mask(x) && !is_mask(y) && x.low == y.low) {
       note(x, false);
       note(y, false);
@@ -217,7 +217,7 @@ Bits BitOperations::choose_pieces(int mask, const Bits& a, const Bits& b) {
 
 Bits BitOperations::invert(const Bits& a) {
   const unsigned width = width_of(a);
-  if (width == 1) return whole(graph().mask_invert(to_mask(a)), 1);
+  if (width == 1) return whole(graph().invert(to_mask(a)), 1);
   Words words = to_words(a);
   for (int& word : words) word = graph().invert(word);
   return from_words(words, width);
@@ -230,12 +230,12 @@ Bits BitOperations::sum(const Bits& a, const Bits& b, int carry) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const int part = graph().operate(LaneOp::add, x[i], y[i]);
     words.push_back(
-        graph().operate(LaneOp::add, part, graph()[carry].is_mask() ? graph().fill(carry, 1) : carry));
+        graph().operate(LaneOp::add, part, graph()[carry].mask ? graph().fill(carry, 1) : carry));
     if (i + 1 == x.size()) break;
-    if (!graph()[carry].is_mask()) carry = graph().bit(carry, 0);
+    if (!graph()[carry].mask) carry = graph().bit(carry, 0);
     const int wraps = graph().compare(LaneOp::equal, words.back(), graph().constant(0));
-    carry = graph().mask_operate(LaneOp::mask_either, graph().compare(LaneOp::less, part, x[i]),
-                                 graph().mask_operate(LaneOp::mask_both, carry, wraps));
+    carry = graph().operate(LaneOp::either, graph().compare(LaneOp::less, part, x[i]),
+                                 graph().operate(LaneOp::both, carry, wraps));
   }
   return from_words(words, width_of(a));
 }
@@ -300,7 +300,7 @@ bool BitOperations::has_constant_one(const Bits& bits) {
 Bits BitOperations::sum_with_carry(const Bits& a, const Bits& b) {
   const unsigned width = width_of(a) - 1;
   const Bits carry = slice(b, 0, 1);
-  Bits bits = whole(graph().mask_invert(to_mask(carry)), 1);
+  Bits bits = whole(graph().invert(to_mask(carry)), 1);
   int node = carry.front().node;
   if (const LaneNode& at = graph()[node]; at.op == LaneOp::mask_cell && !step_.cells[at.value].input)
     layout_.numbers.insert({step_.cells[at.value].signal, step_.cells[at.value].low});
@@ -323,11 +323,11 @@ int BitOperations::compare(LaneOp op, const Bits& a, const Bits& b) {
   int mask = graph().mask_constant(op == LaneOp::equal);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const int same =
-        graph().mask_operate(LaneOp::mask_both, graph().compare(LaneOp::equal, x[i], y[i]), mask);
+        graph().operate(LaneOp::both, graph().compare(LaneOp::equal, x[i], y[i]), mask);
     const LaneOp here = op == LaneOp::signed_less && i + 1 < x.size() ? LaneOp::less : op;
     mask = op == LaneOp::equal
                ? same
-               : graph().mask_operate(LaneOp::mask_either, graph().compare(here, x[i], y[i]), same);
+               : graph().operate(LaneOp::either, graph().compare(here, x[i], y[i]), same);
   }
   return mask;
 }
@@ -336,8 +336,8 @@ int BitOperations::any_bit(const Bits& a) {
   int any = graph().mask_constant(false);
   for (const Piece& piece : a) {
     const int own = is_mask(piece) ? piece.node
-                                   : graph().mask_invert(compare(LaneOp::equal, {piece}, zeros(piece.width)));
-    any = graph().mask_operate(LaneOp::mask_either, any, own);
+                                   : graph().invert(compare(LaneOp::equal, {piece}, zeros(piece.width)));
+    any = graph().operate(LaneOp::either, any, own);
   }
   return any;
 }

@@ -32,7 +32,7 @@ class BitOperations {
   Words to_words(const Bits& bits, bool arithmetic = true);
   Bits from_words(const Words& words, unsigned width);
   int to_mask(const Bits& bits);
-  bool is_mask(const Piece& piece) { return graph()[piece.node].is_mask(); }
+  bool is_mask(const Piece& piece) { return graph()[piece.node].mask; }
   /// The number of bits in the last word.
   static unsigned top_width(unsigned width) { return (width - 1) % c_lane_word + 1; }
 

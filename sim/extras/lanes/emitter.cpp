@@ -11,6 +11,32 @@
 namespace halfway {
 namespace {
 
+/// The text of each operation on operands 0 to 2 and the node's value, 3.
+const std::map<LaneOp, const char*> c_texts = {
+    {LaneOp::add, "{0} + {1}"},
+    {LaneOp::subtract, "{0} - {1}"},
+    {LaneOp::multiply, "{0} * {1}"},
+    {LaneOp::multiply_high, "multiply_high({0}, {1})"},
+    {LaneOp::signed_multiply_high, "signed_multiply_high({0}, {1})"},
+    {LaneOp::left_by, "left_by({0}, {1})"},
+    {LaneOp::right_by, "right_by({0}, {1})"},
+    {LaneOp::signed_right_by, "signed_right_by({0}, {1})"},
+    {LaneOp::both, "{0} & {1}"},
+    {LaneOp::either, "{0} | {1}"},
+    {LaneOp::differ, "{0} ^ {1}"},
+    {LaneOp::invert, "invert({0})"},
+    {LaneOp::select, "select({0}, {1}, {2})"},
+    {LaneOp::left, "{0} << {3}"},
+    {LaneOp::right, "{0} >> {3}"},
+    {LaneOp::fill, "fill({0}, {3:#x}u)"},
+    {LaneOp::rom, "lookup(c_rom{3}, {0})"},
+    {LaneOp::row, "load(s.bank{3}, {0})"},
+    {LaneOp::word, "{0}.words[{3}]"},
+    {LaneOp::bit, "test({0}, 1u << {3})"},
+    {LaneOp::equal, "equal({0}, {1})"},
+    {LaneOp::less, "less({0}, {1})"},
+    {LaneOp::signed_less, "signed_less({0}, {1})"}};
+
 /// The text of one function.
 class StepEmitter {
  public:
@@ -127,7 +153,7 @@ class StepEmitter {
       const LaneNode& node = step_.graph[number];
       const std::string expression = expression_of(node);
       if (expression.empty()) continue;
-      const char* type = node.is_mask() ? "M" : node.op == LaneOp::row ? "Row" : "V";
+      const char* type = node.mask ? "M" : node.op == LaneOp::row ? "Row" : "V";
       text_ += fmt::format("  const {} {} = {};\n", type, reference(number), expression);
     }
   }
@@ -146,7 +172,7 @@ class StepEmitter {
       case LaneOp::mask_cell:
         return cell_reference(node.value);
       default:
-        return fmt::format("{}{}", node.is_mask() ? 'm' : 'v', number);
+        return fmt::format("{}{}", node.mask ? 'm' : 'v', number);
     }
   }
 
@@ -163,70 +189,11 @@ class StepEmitter {
 
   /// Empty for a node that is read where it is used.
   std::string expression_of(const LaneNode& node) const {
+    const auto text = c_texts.find(node.op);
+    if (text == c_texts.end()) return {};
     std::array<std::string, 3> x;
     for (std::size_t i = 0; i < 3 && node.operands[i] >= 0; ++i) x[i] = reference(node.operands[i]);
-    const auto infix = [&](const char* op) { return fmt::format("{} {} {}", x[0], op, x[1]); };
-    const auto call = [&](const char* f) { return fmt::format("{}({}, {})", f, x[0], x[1]); };
-    switch (node.op) {
-      case LaneOp::constant:
-      case LaneOp::mask_constant:
-      case LaneOp::cell:
-      case LaneOp::mask_cell:
-        return {};
-      case LaneOp::add:
-        return infix("+");
-      case LaneOp::subtract:
-        return infix("-");
-      case LaneOp::multiply:
-        return infix("*");
-      case LaneOp::multiply_high:
-        return call("multiply_high");
-      case LaneOp::signed_multiply_high:
-        return call("signed_multiply_high");
-      case LaneOp::both:
-      case LaneOp::mask_both:
-        return infix("&");
-      case LaneOp::either:
-      case LaneOp::mask_either:
-        return infix("|");
-      case LaneOp::differ:
-      case LaneOp::mask_differ:
-        return infix("^");
-      case LaneOp::invert:
-        return "~" + x[0];
-      case LaneOp::left:
-        return fmt::format("{} << {}", x[0], node.value);
-      case LaneOp::right:
-        return fmt::format("{} >> {}", x[0], node.value);
-      case LaneOp::left_by:
-        return call("left_by");
-      case LaneOp::right_by:
-        return call("right_by");
-      case LaneOp::signed_right_by:
-        return call("signed_right_by");
-      case LaneOp::select:
-      case LaneOp::mask_select:
-        return fmt::format("select({}, {}, {})", x[0], x[1], x[2]);
-      case LaneOp::fill:
-        return fmt::format("fill({}, {:#x}u)", x[0], node.value);
-      case LaneOp::rom:
-        return fmt::format("lookup(c_rom{}, {})", node.value, x[0]);
-      case LaneOp::row:
-        return fmt::format("load(s.bank{}, {})", node.value, x[0]);
-      case LaneOp::word:
-        return fmt::format("{}.words[{}]", x[0], node.value);
-      case LaneOp::mask_invert:
-        return fmt::format("invert({})", x[0]);
-      case LaneOp::equal:
-        return call("equal");
-      case LaneOp::less:
-        return call("less");
-      case LaneOp::signed_less:
-        return call("signed_less");
-      case LaneOp::bit:
-        return fmt::format("test({}, {:#x}u)", x[0], std::uint64_t{1} << node.value);
-    }
-    return {};
+    return fmt::format(fmt::runtime(text->second), x[0], x[1], x[2], node.value);
   }
 
   const Step& step_;
@@ -293,7 +260,7 @@ class StateEmitter {
   std::string outputs() const {
     std::string text;
     for (const auto& [name, words] : step_.outputs) {
-      text += fmt::format("  {} {}{};\n", step_.graph[words[0]].is_mask() ? "M" : "V", name,
+      text += fmt::format("  {} {}{};\n", step_.graph[words[0]].mask ? "M" : "V", name,
                           words.size() == 1 ? "" : fmt::format("[{}]", words.size()));
     }
     return text;
@@ -344,11 +311,10 @@ class StateEmitter {
 
 std::string emit_lanes(const EmittedHardware& hardware, const ScheduledStep& step,
                        const ScheduledStep& reset_step) {
-  std::string text = StateEmitter(hardware, step.step).emit() +
-                     StepEmitter(step, hardware.delays).emit("step") +
-                     StepEmitter(reset_step, hardware.delays).emit("reset_step");
-  if (!step.step.observed.empty()) text += StepEmitter(step, hardware.delays).emit_observe();
-  return text;
+  const std::string text = StateEmitter(hardware, step.step).emit() +
+                           StepEmitter(step, hardware.delays).emit("step") +
+                           StepEmitter(reset_step, hardware.delays).emit("reset_step");
+  return text + StepEmitter(step, hardware.delays).emit_observe();
 }
 
 }  // namespace halfway

@@ -211,10 +211,8 @@ class GraphBuilder {
     const unsigned width = netlist_.width_of(node), operand = width_of(a);
     if (op == "shiftl" || op == "shiftr" || op == "shiftrs") return ops_.shift(op, a, b);
     if (operand != width_of(b)) fail(fmt::format("{}: '{}' on different widths", line_of(node), op));
-    static const std::map<std::string_view, std::pair<LaneOp, LaneOp>> c_bitwise = {
-        {"and", {LaneOp::both, LaneOp::mask_both}},
-        {"or", {LaneOp::either, LaneOp::mask_either}},
-        {"xor", {LaneOp::differ, LaneOp::mask_differ}}};
+    static const std::map<std::string_view, LaneOp> c_bitwise = {
+        {"and", LaneOp::both}, {"or", LaneOp::either}, {"xor", LaneOp::differ}};
     if (const auto found = c_bitwise.find(op); found != c_bitwise.end()) {
       if (width == 1) {
         const int x = ops_.to_mask(a), y = ops_.to_mask(b);
@@ -222,11 +220,11 @@ class GraphBuilder {
           if (conditions_.implies(x, y)) return ops_.whole(x, 1);
           if (conditions_.implies(y, x)) return ops_.whole(y, 1);
         }
-        return ops_.whole(graph().mask_operate(found->second.second, x, y), 1);
+        return ops_.whole(graph().operate(found->second, x, y), 1);
       }
       Words words = ops_.to_words(a), others = ops_.to_words(b);
       for (std::size_t i = 0; i < words.size(); ++i)
-        words[i] = graph().operate(found->second.first, words[i], others[i]);
+        words[i] = graph().operate(found->second, words[i], others[i]);
       return ops_.from_words(words, width);
     }
     if (op == "add") return ops_.add(a, b);
@@ -249,11 +247,11 @@ class GraphBuilder {
     const Order order = found->second;
     int mask = 0;
     if (order.op == LaneOp::equal && operand == 1) {
-      mask = graph().mask_invert(graph().mask_operate(LaneOp::mask_differ, ops_.to_mask(a), ops_.to_mask(b)));
+      mask = graph().invert(graph().operate(LaneOp::differ, ops_.to_mask(a), ops_.to_mask(b)));
     } else {
       mask = order.swap ? ops_.compare(order.op, b, a) : ops_.compare(order.op, a, b);
     }
-    return ops_.whole(order.invert ? graph().mask_invert(mask) : mask, 1);
+    return ops_.whole(order.invert ? graph().invert(mask) : mask, 1);
   }
 
   // Memories
@@ -353,7 +351,7 @@ class GraphBuilder {
     for (std::size_t i = first_cell_[name]; i < step_.cells.size() && step_.cells[i].signal == name; ++i) {
       const Cell& cell = step_.cells[i];
       const Bits whole = ops_.slice(bits, cell.low, cell.width);
-      for (const auto& [when, part] : updates_.loads_of(i, whole, guard)) {
+      for (const auto& [when, part] : loads_of(step_, ops_, conditions_, i, whole, guard)) {
         int next = cell.mask ? ops_.to_mask(part) : ops_.to_vector(part, false);
         if (!cell.mask && (cell.width == 1 || layout_.cleaned.count({name, cell.low}) != 0))
           next = graph().clean(next, cell.width);
@@ -370,7 +368,6 @@ class GraphBuilder {
   Step step_;
   BitOperations ops_{step_, layout_};
   KnownConditions conditions_{step_.graph};
-  RegisterUpdates updates_{step_, ops_, conditions_};
   std::map<std::string, std::size_t> first_cell_;                ///< by register or input
   std::map<std::string, Bits> signals_;                          ///< those known; empty: being built
   std::set<std::tuple<std::string, unsigned, unsigned>> parts_;  ///< slices being built

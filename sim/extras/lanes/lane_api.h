@@ -4,10 +4,6 @@
 
 #include "sim/engines/verilator/harness_api.h"
 
-extern "C" {
-
-#define HALFWAY_LANES_VERSION 4
-
 // Whole triangles. One lane draws them; it is idle before and after.
 struct HalfwayPart {
   size_t vector, vectors;  // index of the first vector, number of vectors
@@ -32,16 +28,19 @@ struct HalfwayBatch {
                takes the remaining loads */
 };
 
-/* Draw parts, each by the first free lane, until all are started. The next run continues unfinished parts.
-   halfway_buffer_full: more than `max_fragments`. */
-int halfway_lanes_run(void* lanes, const HalfwayBatch* batch);
-// Take the next `count` fragments of a lane. They are valid until the next run.
-const HalfwayFragment* halfway_lanes_take(void* lanes, uint32_t lane, size_t count);
-// Clocks from start to end of a part, summed over all lanes.
-uint64_t halfway_lanes_cycles(const void* lanes);
-uint32_t halfway_lanes_count(void);
-uint32_t halfway_lanes_version(void);
+/* The lanes of one thread. */
+class HalfwayLanes {
+ public:
+  virtual ~HalfwayLanes() = default;
+  /* Draw parts, each by the first free lane, until all are started. The next run continues unfinished parts.
+     halfway_buffer_full: more than `max_fragments`. */
+  virtual int run(const HalfwayBatch& batch) = 0;
+  // Take the next `count` fragments of a lane. They are valid until the next run.
+  virtual const HalfwayFragment* take(uint32_t lane, size_t count) = 0;
+  // Clocks from start to end of a part, summed over all lanes.
+  virtual uint64_t cycles() const = 0;
+  virtual uint32_t lanes() const = 0;
+};
+
 // `stall_seed`: seed of the random stalls if the library was built with HALFWAY_STALLS; otherwise unused.
-void* halfway_lanes_create(uint32_t owner, uint64_t idle_limit, uint32_t stall_seed);
-void halfway_lanes_destroy(void* lanes);
-}
+extern "C" HalfwayLanes* halfway_lanes_create(uint32_t owner, uint64_t idle_limit, uint32_t stall_seed);

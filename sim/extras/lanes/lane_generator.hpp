@@ -32,7 +32,7 @@ struct LanePorts {
 ///     set_PORT(Inputs&, unsigned lane, const std::uint32_t* words)   for each input wider than a bit
 ///     step(State&, const Inputs&, Outputs&), reset_step(...)
 /// which give the outputs before the clock's rising edge, then the registers after it. Inputs of one bit are
-/// masks by their names. For observed parts also c_observed_words and the function
+/// masks by their names. Also c_observed_words and the function
 ///     observe(const State&, const Inputs&, std::uint32_t* words)
 /// which writes the words of each part in the first lane before the edge, the least significant first. What
 /// the lanes cannot do (an unknown node, arithmetic on more than 64 bits) is an error that names it (exit

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/extras/lanes/lane_graph.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <utility>
 
 namespace halfway {
-namespace {
-
-constexpr std::uint64_t ones(unsigned width) {
-  return (std::uint64_t{1} << std::min(width, c_lane_word)) - 1;
-}
-
-}  // namespace
 
 int LaneGraph::add(LaneNode node) {
   const auto [at, fresh] = known_.try_emplace({node.op, node.operands, node.value}, size());
@@ -26,6 +18,7 @@ int LaneGraph::constant(std::uint64_t value) {
 
 int LaneGraph::operate(LaneOp op, int a, int b) {
   const LaneNode &x = (*this)[a], &y = (*this)[b];
+  if (x.mask) return operate_masks(op, a, b);
   unsigned bits = c_lane_word;
   switch (op) {
     case LaneOp::add:
@@ -61,7 +54,10 @@ int LaneGraph::operate(LaneOp op, int a, int b) {
 }
 
 int LaneGraph::invert(int a) {
-  return add({.op = LaneOp::invert, .operands = {a, -1, -1}});
+  const LaneNode& x = (*this)[a];
+  if (x.op == LaneOp::mask_constant) return mask_constant(x.value == 0);
+  if (x.op == LaneOp::invert) return x.operands[0];
+  return add({.op = LaneOp::invert, .operands = {a, -1, -1}, .mask = x.mask});
 }
 
 int LaneGraph::shift(int a, int by) {
@@ -69,7 +65,7 @@ int LaneGraph::shift(int a, int by) {
   if (by == 0 || x.bits == 0) return a;
   const auto distance = static_cast<unsigned>(std::abs(by));
   if (x.op == LaneOp::constant)
-    return constant(by > 0 ? x.value << distance & ones(c_lane_word) : x.value >> distance);
+    return constant(by > 0 ? x.value << distance & low_ones(c_lane_word) : x.value >> distance);
   if (by < 0 && x.bits <= distance) return constant(0);
   return add({.op = by > 0 ? LaneOp::left : LaneOp::right,
               .operands = {a, -1, -1},
@@ -80,17 +76,23 @@ int LaneGraph::shift(int a, int by) {
 int LaneGraph::clean(int a, unsigned width) {
   const LaneNode& x = (*this)[a];
   if (x.bits <= width) return a;
-  if (x.op == LaneOp::constant) return constant(x.value & ones(width));
-  return operate(LaneOp::both, a, constant(ones(width)));
+  if (x.op == LaneOp::constant) return constant(x.value & low_ones(width));
+  return operate(LaneOp::both, a, constant(low_ones(width)));
 }
 
 int LaneGraph::select(int mask, int a, int b) {
-  const LaneNode& m = (*this)[mask];
+  const LaneNode &m = (*this)[mask], &x = (*this)[a], &y = (*this)[b];
   if (m.op == LaneOp::mask_constant) return m.value != 0 ? a : b;
-  if (m.op == LaneOp::mask_invert) return select(m.operands[0], b, a);
+  if (m.op == LaneOp::invert) return select(m.operands[0], b, a);
   if (a == b) return a;
-  return add(
-      {.op = LaneOp::select, .operands = {mask, a, b}, .bits = std::max((*this)[a].bits, (*this)[b].bits)});
+  if (x.op == LaneOp::mask_constant)
+    return x.value != 0 ? operate(LaneOp::either, mask, b) : operate(LaneOp::both, invert(mask), b);
+  if (y.op == LaneOp::mask_constant)
+    return y.value != 0 ? operate(LaneOp::either, invert(mask), a) : operate(LaneOp::both, mask, a);
+  return add({.op = LaneOp::select,
+              .operands = {mask, a, b},
+              .bits = std::max(x.bits, y.bits),
+              .mask = x.mask});
 }
 
 int LaneGraph::fill(int mask, std::uint64_t value) {
@@ -106,46 +108,25 @@ int LaneGraph::rom(std::size_t table, int address, unsigned bits) {
   return add({.op = LaneOp::rom, .operands = {address, -1, -1}, .value = table, .bits = bits});
 }
 
-int LaneGraph::mask_operate(LaneOp op, int a, int b) {
+int LaneGraph::operate_masks(LaneOp op, int a, int b) {
   if (a > b) std::swap(a, b);
   for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
     const LaneNode& x = (*this)[one];
     if (x.op == LaneOp::mask_constant) {
-      if (op == LaneOp::mask_differ) return x.value != 0 ? mask_invert(other) : other;
-      return (x.value != 0) == (op == LaneOp::mask_both) ? other : one;
+      if (op == LaneOp::differ) return x.value != 0 ? invert(other) : other;
+      return (x.value != 0) == (op == LaneOp::both) ? other : one;
     }
-    if (x.op == LaneOp::mask_invert && x.operands[0] == other) return mask_constant(op != LaneOp::mask_both);
+    if (x.op == LaneOp::invert && x.operands[0] == other) return mask_constant(op != LaneOp::both);
   }
-  if (a == b) return op == LaneOp::mask_differ ? mask_constant(false) : a;
-  return add({.op = op, .operands = {a, b, -1}});
-}
-
-int LaneGraph::mask_invert(int a) {
-  const LaneNode& x = (*this)[a];
-  if (x.op == LaneOp::mask_constant) return mask_constant(x.value == 0);
-  if (x.op == LaneOp::mask_invert) return x.operands[0];
-  return add({.op = LaneOp::mask_invert, .operands = {a, -1, -1}});
-}
-
-int LaneGraph::mask_select(int mask, int a, int b) {
-  const LaneNode &m = (*this)[mask], &x = (*this)[a], &y = (*this)[b];
-  if (m.op == LaneOp::mask_constant) return m.value != 0 ? a : b;
-  if (m.op == LaneOp::mask_invert) return mask_select(m.operands[0], b, a);
-  if (a == b) return a;
-  if (x.op == LaneOp::mask_constant)
-    return x.value != 0 ? mask_operate(LaneOp::mask_either, mask, b)
-                        : mask_operate(LaneOp::mask_both, mask_invert(mask), b);
-  if (y.op == LaneOp::mask_constant)
-    return y.value != 0 ? mask_operate(LaneOp::mask_either, mask_invert(mask), a)
-                        : mask_operate(LaneOp::mask_both, mask, a);
-  return add({.op = LaneOp::mask_select, .operands = {mask, a, b}});
+  if (a == b) return op == LaneOp::differ ? mask_constant(false) : a;
+  return add({.op = op, .operands = {a, b, -1}, .mask = true});
 }
 
 int LaneGraph::bit(int a, unsigned index) {
   const LaneNode& x = (*this)[a];
   if (x.bits <= index) return mask_constant(false);
   if (x.op == LaneOp::constant) return mask_constant((x.value >> index & 1) != 0);
-  return add({.op = LaneOp::bit, .operands = {a, -1, -1}, .value = index});
+  return add({.op = LaneOp::bit, .operands = {a, -1, -1}, .value = index, .mask = true});
 }
 
 int LaneGraph::compare(LaneOp op, int a, int b) {
@@ -159,45 +140,23 @@ int LaneGraph::compare(LaneOp op, int a, int b) {
   if (op == LaneOp::less && y.bits == 0) return mask_constant(false);
   if (op == LaneOp::less && x.bits < c_lane_word && y.bits < c_lane_word) op = LaneOp::signed_less;
   if (op == LaneOp::equal && a > b) std::swap(a, b);
-  return add({.op = op, .operands = {a, b, -1}});
+  return add({.op = op, .operands = {a, b, -1}, .mask = true});
 }
 
 int LaneGraph::with_operands(const LaneNode& node, const std::array<int, 3>& x) {
+  if (node.op >= LaneOp::add && node.op <= LaneOp::differ) return operate(node.op, x[0], x[1]);
+  if (node.op >= LaneOp::equal) return compare(node.op, x[0], x[1]);
   switch (node.op) {
-    case LaneOp::add:
-    case LaneOp::subtract:
-    case LaneOp::multiply:
-    case LaneOp::multiply_high:
-    case LaneOp::signed_multiply_high:
-    case LaneOp::both:
-    case LaneOp::either:
-    case LaneOp::differ:
-    case LaneOp::left_by:
-    case LaneOp::right_by:
-    case LaneOp::signed_right_by:
-      return operate(node.op, x[0], x[1]);
     case LaneOp::invert:
       return invert(x[0]);
+    case LaneOp::select:
+      return select(x[0], x[1], x[2]);
     case LaneOp::left:
       return shift(x[0], static_cast<int>(node.value));
     case LaneOp::right:
       return shift(x[0], -static_cast<int>(node.value));
-    case LaneOp::select:
-      return select(x[0], x[1], x[2]);
     case LaneOp::fill:
       return fill(x[0], node.value);
-    case LaneOp::mask_both:
-    case LaneOp::mask_either:
-    case LaneOp::mask_differ:
-      return mask_operate(node.op, x[0], x[1]);
-    case LaneOp::mask_invert:
-      return mask_invert(x[0]);
-    case LaneOp::mask_select:
-      return mask_select(x[0], x[1], x[2]);
-    case LaneOp::equal:
-    case LaneOp::less:
-    case LaneOp::signed_less:
-      return compare(node.op, x[0], x[1]);
     case LaneOp::bit:
       return bit(x[0], static_cast<unsigned>(node.value));
     default:

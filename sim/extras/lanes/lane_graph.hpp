@@ -4,6 +4,7 @@
 // users.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -15,40 +16,39 @@ namespace halfway {
 constexpr unsigned c_lane_word = 32;  ///< bits of a number in a lane
 
 enum class LaneOp {
-  // Vectors
   constant,  ///< value
   cell,      ///< a part of a register or an input: value is its number
+  // Operations on two vectors
   add,
   subtract,
   multiply,
   multiply_high,  ///< the product's upper word
   signed_multiply_high,
+  left_by,  ///< the result is 0 from a distance of 32 on
+  right_by,
+  signed_right_by,
+  // On two vectors or two masks
   both,    ///< bitwise and
   either,  ///< bitwise or
   differ,  ///< bitwise exclusive or
+  // On vectors or masks
   invert,
+  select,  ///< mask ? a : b
+  // Other vectors
   left,  ///< by a constant, `value`
   right,
-  left_by,  ///< by another vector; the result is 0 from a distance of 32 on
-  right_by,
-  signed_right_by,
-  select,  ///< mask ? a : b
-  fill,    ///< mask ? value : 0
-  rom,     ///< value: number of the table
-  row,     ///< four words of a place: value is the bank's number
-  word,    ///< of a row, by number
+  fill,  ///< mask ? value : 0
+  rom,   ///< value: number of the table
+  row,   ///< four words of a place: value is the bank's number
+  word,  ///< of a row, by number
   // Masks
   mask_constant,
   mask_cell,
-  mask_both,
-  mask_either,
-  mask_differ,
-  mask_invert,
-  mask_select,  ///< mask ? a : b, all masks
+  bit,  ///< bit `value` of a vector
+  // Comparisons of two vectors
   equal,
   less,
   signed_less,
-  bit,  ///< bit `value` of a vector
 };
 
 struct LaneNode {
@@ -56,9 +56,13 @@ struct LaneNode {
   std::array<int, 3> operands{-1, -1, -1};
   std::uint64_t value = 0;
   unsigned bits = c_lane_word;  ///< bits from this one up are zero
-
-  bool is_mask() const { return op >= LaneOp::mask_constant; }
+  bool mask = false;
 };
+
+/// The lowest `width` bits, at most a word, as ones.
+constexpr std::uint64_t low_ones(unsigned width) {
+  return (std::uint64_t{1} << std::min(width, c_lane_word)) - 1;
+}
 
 class LaneGraph {
  public:
@@ -66,12 +70,17 @@ class LaneGraph {
   int size() const { return static_cast<int>(nodes_.size()); }
 
   int constant(std::uint64_t value);
-  int mask_constant(bool value) { return add({.op = LaneOp::mask_constant, .value = value}); }
+  int mask_constant(bool value) {
+    return add({.op = LaneOp::mask_constant, .value = value, .mask = true});
+  }
   int cell(std::size_t number, unsigned bits) {
     return add({.op = LaneOp::cell, .value = number, .bits = bits});
   }
-  int mask_cell(std::size_t number) { return add({.op = LaneOp::mask_cell, .value = number}); }
-  int operate(LaneOp op, int a, int b);
+  int mask_cell(std::size_t number) {
+    return add({.op = LaneOp::mask_cell, .value = number, .mask = true});
+  }
+  int operate(LaneOp op, int a, int b);  ///< on two operands, but for comparisons
+  int compare(LaneOp op, int a, int b);
   int invert(int a);
   int shift(int a, int by);  ///< to the left if positive
   int clean(int a, unsigned width);
@@ -84,15 +93,12 @@ class LaneGraph {
   int word(int row, std::size_t number) {
     return add({.op = LaneOp::word, .operands = {row, -1, -1}, .value = number});
   }
-  int mask_operate(LaneOp op, int a, int b);
-  int mask_invert(int a);
-  int mask_select(int mask, int a, int b);
   int bit(int a, unsigned index);
-  int compare(LaneOp op, int a, int b);
   int with_operands(const LaneNode& node, const std::array<int, 3>& operands);
 
  private:
   int add(LaneNode node);
+  int operate_masks(LaneOp op, int a, int b);
   std::vector<LaneNode> nodes_;
   std::map<std::tuple<LaneOp, std::array<int, 3>, std::uint64_t>, int> known_;
 };

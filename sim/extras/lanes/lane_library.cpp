@@ -77,7 +77,7 @@ struct Toolchain {
 
 Toolchain toolchain_of(const LaneBuild& build) {
   const bool web_assembly = build.target == LaneTarget::web_assembly;
-  Toolchain tools{.compiler = must(Compiler::find(web_assembly ? "clang++" : build.compiler))};
+  Toolchain tools{.compiler = must(Compiler::find(web_assembly ? "clang++" : ""))};
   tools.flags = web_assembly ? c_web_assembly_flags : c_compiler_flags;
   // wasm-opt -O3 needs minutes and gigabytes for ten shading processors, and modules become no smaller.
   const char* const most = web_assembly ? "-O2" : "-O3";
@@ -146,10 +146,6 @@ std::filesystem::path build_lanes(const LaneBuild& build, const std::filesystem:
     compile(build, tools, fresh);
   });
   return folder / tools.product;
-}
-
-SharedLibrary open_lanes(const LaneBuild& build, const std::filesystem::path& cache) {
-  return must(SharedLibrary::load(build_lanes(build, cache)));
 }
 
 }  // namespace halfway

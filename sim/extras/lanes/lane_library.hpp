@@ -31,7 +31,6 @@ struct LaneBuild {
   std::vector<std::string> definitions;  ///< NAME=value for the harness
   bool fast = true;                      ///< optimize, which takes long to compile
   LaneVectors vectors = LaneVectors::avx512;
-  std::string compiler;  ///< of the shared library; empty: clang++ if installed, otherwise g++
   LaneTarget target = LaneTarget::processor;
   RegisterNames names{};  ///< without: the netlist's
 };
@@ -39,8 +38,5 @@ struct LaneBuild {
 /// Generate and compile in build/cache/lanes/<name>-<hash>/ unless it exists. The compiled file, lanes.so or
 /// lanes.wasm, next to the generated text, lanes.hpp. Throws Failure.
 std::filesystem::path build_lanes(const LaneBuild& build, const std::filesystem::path& cache);
-
-/// Build the shared library and load it.
-SharedLibrary open_lanes(const LaneBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway

@@ -24,6 +24,7 @@ constexpr std::size_t c_block = 256;  // clocks between two checks of the room f
 // Room for fragments that is kept between runs. Larger room is released when its fragments are taken.
 constexpr std::size_t c_kept_room = std::size_t{1} << 21;
 constexpr std::size_t c_no_part = SIZE_MAX;
+constexpr std::size_t c_most_traced = std::size_t{64} << 20;  // words
 constexpr int c_reset_clocks = 4, c_late_clocks = 8;  // as in sim/engines/verilator/verilator_harness.cpp
 
 #ifdef HALFWAY_STALLS
@@ -104,7 +105,7 @@ struct StuckBit {
   }
 };
 
-class Lanes {
+class Lanes final : public HalfwayLanes {
  public:
   Lanes(std::uint32_t owner, std::uint64_t idle_limit, std::uint32_t stall_seed)
       : owner_(owner), idle_limit_(idle_limit), stalls_(stall_seed + owner) {
@@ -112,7 +113,7 @@ class Lanes {
     for (int i = 0; i < c_reset_clocks; ++i) reset_step(state_, in_, out);
   }
 
-  int run(const HalfwayBatch& batch) {
+  int run(const HalfwayBatch& batch) override {
     batch_ = &batch;
     faults_ = 0;
     stops_ = false;
@@ -123,6 +124,7 @@ class Lanes {
     while (goes()) {
       const std::size_t now = waiting();
       if (now > batch.max_fragments) return halfway_buffer_full;
+      if (trace && trace->size() > c_most_traced) return halfway_buffer_full;
       if (now - before >= batch.enough) return halfway_done;
       for (Lane& lane : lanes_) {
         if (lane.room < lane.count + c_block + 1) move(lane, 2 * lane.waiting() + 4 * c_block);
@@ -150,13 +152,18 @@ class Lanes {
     set_stuck_bits();
   }
 
-  const HalfwayFragment* take(std::uint32_t number, std::size_t count) {
+  const HalfwayFragment* take(std::uint32_t number, std::size_t count) override {
     Lane& lane = lanes_[number];
     const HalfwayFragment* first = lane.fragments.get() + lane.taken;
     lane.taken += count;
     return first;
   }
-  std::uint64_t cycles() const { return cycles_; }
+  std::uint64_t cycles() const override { return cycles_; }
+  std::uint32_t lanes() const override { return c_lanes; }
+
+  /// Unless null: gets the words of the observed parts in the first lane, before each edge of the clock while
+  /// a lane has a part.
+  std::vector<std::uint32_t>* trace = nullptr;
 
  private:
   struct Lane {
@@ -172,6 +179,10 @@ class Lanes {
   };
 
   void advance(Outputs& out) {
+    if (trace && active_ != 0) {
+      trace->resize(trace->size() + c_observed_words);
+      observe(state_, in_, trace->data() + trace->size() - c_observed_words);
+    }
     step(state_, in_, out);
     set_stuck_bits();
   }

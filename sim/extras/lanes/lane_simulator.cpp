@@ -15,6 +15,7 @@
 #include "sim/engines/verilator/shader_netlist.hpp"
 #include "sim/extras/lanes/lane_api.h"
 #include "sim/os/threads.hpp"
+#include "sim/run/open_engine.hpp"
 
 namespace halfway {
 namespace {
@@ -39,12 +40,7 @@ struct LaneSimulator::Hardware {
   LaneOptions options;
   SharedLibrary library;
   unsigned init_bits = 0;
-  std::size_t lanes = 0;
-  decltype(&halfway_lanes_run) run = nullptr;
-  decltype(&halfway_lanes_take) take = nullptr;
-  decltype(&halfway_lanes_cycles) cycles = nullptr;
   decltype(&halfway_lanes_create) create = nullptr;
-  decltype(&halfway_lanes_destroy) destroy = nullptr;
 };
 
 struct LaneSimulator::State : Hardware {
@@ -54,30 +50,21 @@ struct LaneSimulator::State : Hardware {
         knows_pixels(golden->init_bits() == init_bits) {
     create_lanes();
   }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() { destroy_lanes(); }
 
   void create_lanes() {
     loads = 0;
     for (unsigned i = 0; i < std::max(options.threads, 1U); ++i)
-      threads.push_back(create(i, std::max<std::uint64_t>(options.idle_limit, 1), options.stall_seed));
-  }
-  void destroy_lanes() {
-    for (void* thread : threads) {
-      cycles_before += cycles(thread);
-      destroy(thread);
-    }
-    threads.clear();
+      threads.emplace_back(create(i, std::max<std::uint64_t>(options.idle_limit, 1), options.stall_seed));
   }
   void replace_lanes() {
-    destroy_lanes();
+    cycles_before = cycles_of_all();
+    threads.clear();
     create_lanes();
   }
 
   std::uint64_t cycles_of_all() const {
     std::uint64_t sum = cycles_before;
-    for (const void* thread : threads) sum += cycles(thread);
+    for (const auto& thread : threads) sum += thread->cycles();
     return sum;
   }
 
@@ -97,7 +84,7 @@ struct LaneSimulator::State : Hardware {
   bool drawing = false;  ///< true after an interruption: lanes are within triangles
   std::uint64_t cycles_before = 0;  ///< of lanes that were replaced
   std::size_t loads = 0;            ///< number of loads that all lanes have taken
-  std::vector<void*> threads;
+  std::vector<std::unique_ptr<HalfwayLanes>> threads;
 };
 
 // The progress of a call's vectors: units ahead are grouped into parts, lanes draw the parts, and the
@@ -114,7 +101,7 @@ class LaneSimulator::Passage {
 
  private:
   std::size_t threads() const { return s_.threads.size(); }
-  std::size_t lanes() const { return s_.lanes * threads(); }
+  std::size_t lanes() const { return s_.threads[0]->lanes() * threads(); }
   void look_ahead();
   Error too_many(std::uint64_t limit) const {
     return {ExitCode::differs, fmt::format("{} in lanes: more than {} fragments", s_.key.name(), limit)};
@@ -199,7 +186,7 @@ Status LaneSimulator::Passage::draw() {
   std::atomic<std::size_t> next_thread = 0;
   work_on_threads(static_cast<unsigned>(std::min(threads(), std::max<std::size_t>(parts_.size(), 1))), [&] {
     for (std::size_t i; (i = next_thread++) < threads();) {
-      const int status = s_.run(s_.threads[i], &batch);
+      const int status = s_.threads[i]->run(batch);
       for (int seen = worst; status > seen && !worst.compare_exchange_weak(seen, status);) {
       }
     }
@@ -233,7 +220,7 @@ Status LaneSimulator::Passage::pass_on(const OnDrawn& on_drawn) {
     if (part.fragments > limit) return too_many(limit);
     left_ -= part.fragments;
     const auto* first =
-        reinterpret_cast<const Fragment*>(s_.take(s_.threads[part.owner], part.lane, part.fragments));
+        reinterpret_cast<const Fragment*>(s_.threads[part.owner]->take(part.lane, part.fragments));
     on_drawn({first, part.fragments});
   }
   first_ += whole;
@@ -269,8 +256,7 @@ LaneBuild lane_build_of(const HardwareKey& key, const SimulatorFolders& folders,
           .source = folders.source,
           .definitions = definitions,
           .fast = options.fast,
-          .vectors = options.vectors,
-          .compiler = options.compiler};
+          .vectors = options.vectors};
 }
 
 Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const SimulatorFolders& folders,
@@ -278,19 +264,9 @@ Result<LaneSimulator> LaneSimulator::open(const HardwareKey& key, const Simulato
   const LaneBuild build = lane_build_of(key, folders, options);
   Hardware hardware{.key = key,
                     .options = options,
-                    .library = open_lanes(build, folders.cache),
+                    .library = must(SharedLibrary::load(build_lanes(build, folders.cache))),
                     .init_bits = port_bits(build.netlist, key.entity(), "init_data")};
-  decltype(&halfway_lanes_version) version = nullptr;
-  decltype(&halfway_lanes_count) count = nullptr;
-  must(hardware.library.bind(version, "halfway_lanes_version", count, "halfway_lanes_count", hardware.run,
-                             "halfway_lanes_run", hardware.take, "halfway_lanes_take", hardware.cycles,
-                             "halfway_lanes_cycles", hardware.create, "halfway_lanes_create",
-                             hardware.destroy, "halfway_lanes_destroy"));
-  if (version() != HALFWAY_LANES_VERSION) {
-    return tool_failed(
-        fmt::format("{}: of another version; delete it and try again", hardware.library.file().string()));
-  }
-  hardware.lanes = count();
+  must(hardware.library.bind(hardware.create, "halfway_lanes_create"));
   return LaneSimulator(std::make_shared<State>(std::move(hardware)));
 } catch (const Failure& failure) {
   return failure.error;
@@ -320,6 +296,13 @@ Status LaneSimulator::draw(std::span<const std::uint32_t> init_words, std::uint6
   }
   s.drawing = false;
   return Ok{};
+}
+
+Result<std::shared_ptr<Engine>> open_lanes(const HardwareKey& key, const SimulatorFolders& folders,
+                                           const EngineOptions& options) {
+  return shared_engine(LaneSimulator::open(
+      key, folders,
+      {.threads = options.threads, .idle_limit = c_idle_limit, .stall_seed = options.stall_seed}));
 }
 
 }  // namespace halfway

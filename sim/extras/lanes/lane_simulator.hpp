@@ -28,7 +28,6 @@ struct LaneOptions {
       0;             ///< 0: full speed; otherwise both streams stall at random, separately in each lane
   bool fast = true;  ///< optimize, which takes long to compile
   LaneVectors vectors = LaneVectors::avx512;
-  std::string compiler{};  ///< empty: clang++ if installed, otherwise g++
 };
 
 /// The build of a shader's lanes. Throws Failure.

@@ -14,6 +14,7 @@
 #include "sim/engines/ghdl/test/checkout.hpp"
 #include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/must.hpp"
+#include "sim/run/simulators_test.hpp"
 
 namespace halfway {
 namespace {
@@ -58,8 +59,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
   for (const unsigned threads : {1U, 3U}) {
     auto lanes = must(LaneSimulator::open(key_, c_checkout, {.threads = threads, .fast = false}));
     std::vector<Fragment> drawn;
-    const Status ran = lanes.run(words_, drawn, c_most);
-    ASSERT_TRUE(ran) << ran.error().message;
+    must(lanes.run(words_, drawn, c_most));
     EXPECT_TRUE(drawn == expected_);
     EXPECT_GE(lanes.lane_cycles(), drawn.size());
 
@@ -94,8 +94,7 @@ TEST_P(ShadersInLanes, DrawWhatTheGoldenModelDraws) {
       std::size_t count = 0;
       for (std::size_t i = 0; i < triangles * triangles && count * words_per_vector_ < rest.size(); ++i)
         count += golden_->group(rest.subspan(count * words_per_vector_));
-      const Status part = lanes.run(rest.first(count * words_per_vector_), drawn, c_most);
-      ASSERT_TRUE(part) << part.error().message;
+      must(lanes.run(rest.first(count * words_per_vector_), drawn, c_most));
       rest = rest.subspan(count * words_per_vector_);
     }
     EXPECT_TRUE(drawn == expected_);
@@ -107,8 +106,7 @@ TEST_P(ShadersInLanes, DrawTheSameWithRandomStalls) {
     auto lanes =
         must(LaneSimulator::open(key_, c_checkout, {.threads = 2, .stall_seed = seed, .fast = false}));
     std::vector<Fragment> drawn;
-    const Status ran = lanes.run(words_, drawn, c_most);
-    ASSERT_TRUE(ran) << ran.error().message;
+    must(lanes.run(words_, drawn, c_most));
     EXPECT_TRUE(drawn == expected_) << "seed " << seed;
     // Half of all fragments wait at least one clock.
     EXPECT_GT(lanes.lane_cycles(), 2 * drawn.size());
@@ -125,8 +123,7 @@ TEST_P(ShadersInLanes, WaitForWhatIsInFrontOrGoOn) {
       std::vector<std::uint32_t> words;
       for (std::size_t i = 0; i < c_turns; ++i) words.insert(words.end(), words_.begin(), words_.end());
       std::vector<Fragment> drawn;
-      const Status ran = lanes.run(words, drawn, c_most);
-      ASSERT_TRUE(ran) << ran.error().message;
+      must(lanes.run(words, drawn, c_most));
       ASSERT_EQ(drawn.size(), c_turns * expected_.size());
       for (std::size_t i = 0; i < c_turns; ++i)
         ASSERT_TRUE(std::equal(expected_.begin(), expected_.end(),
@@ -144,6 +141,33 @@ INSTANTIATE_TEST_SUITE_P(Whole, ShadersInLanes,
                          testing::Values(Case{"matte", Shader::quadratic, Preset::published},
                                          Case{"lights", Shader::spherical, Preset::published},
                                          Case{"matte", Shader::processors, Preset::published}));
+
+/// The small RTL of both simulators.
+class SmallRtlInLanes : public Simulators {
+ protected:
+  Result<std::vector<Fragment>> lanes(std::size_t most = 1U << 20, LaneOptions options = {}) {
+    options.fast = false;
+    auto simulator = LaneSimulator::open(key_, folders_, options);
+    if (!simulator) return simulator.error();
+    std::vector<Fragment> fragments;
+    if (auto run = simulator->run(init_.words, fragments, most); !run) return run.error();
+    return fragments;
+  }
+};
+
+TEST_F(SmallRtlInLanes, DetectHangsFaultsAndSuperfluousFragments) {
+  const std::size_t limit = expected_.size() - 1;
+  EXPECT_TRUE(is_error(lanes(limit), ExitCode::differs));
+  for (const unsigned threads : {1U, 3U})
+    EXPECT_EQ(must(lanes(limit + 1, {.threads = threads})), expected_) << threads;
+  write_rtl({.fault = "if r.left = 9 then v := r; end if;", .valid = "'0' when r.left = 9 else r.valid"});
+  EXPECT_TRUE(is_error(lanes(1U << 20, {.idle_limit = 500}), ExitCode::differs, "hang"));
+  for (const char* delay : {"0", "4"}) {
+    write_rtl(
+        {.alarm = "(r.valid and fragment_ready and r.triangle(3) and not r.triangle(31))", .delay = delay});
+    EXPECT_TRUE(is_error(lanes(1U << 20, {.idle_limit = 500}), ExitCode::differs, "fault"));
+  }
+}
 
 }  // namespace
 }  // namespace halfway

@@ -50,6 +50,9 @@ LANE_FUNCTION V lookup(const std::uint32_t* table, V address) {
   return data;
 #endif
 }
+LANE_FUNCTION V invert(V a) {
+  return ~a;
+}
 LANE_FUNCTION void set_lane(V& vector, unsigned lane, std::uint32_t value) {
   reinterpret_cast<std::uint32_t __attribute__((may_alias))*>(&vector)[lane] = value;
 }

@@ -9,9 +9,115 @@ namespace {
 
 constexpr int c_deepest_choice = 6;  ///< conditions on the way to a value; deeper ones are not split
 
-bool is_choice(const LaneNode& node) {
-  return node.op == LaneOp::select || node.op == LaneOp::mask_select;
-}
+/// The loads of one cell.
+class CellLoads {
+ public:
+  CellLoads(Step& step, BitOperations& operations, KnownConditions& conditions, std::size_t cell)
+      : graph_(step.graph), operations_(operations), conditions_(conditions), cell_(cell) {}
+
+  /// Add the values loaded into the cell under `guard` to `loads`. Return true if the cell keeps its value in
+  /// some case.
+  bool split(const Bits& next, const Guard& guard, Loads& loads, int depth) {
+    const Bits bits = simplify(next, guard);
+    if (is_cell(bits)) return true;
+
+    // Split by a condition under which the cell may keep its value.
+    if (int mask = holding_condition(bits); mask >= 0 && depth < c_deepest_choice) {
+      mask = first_condition(mask, bits, guard);
+      Loads inner;
+      bool holds = false;
+      for (const bool wanted : {true, false})
+        if (const auto narrower = narrow(graph_, guard, mask, wanted))
+          holds |= split(bits, *narrower, inner, depth + 1);
+      if (holds) {
+        loads.insert(loads.end(), inner.begin(), inner.end());
+        return true;
+      }
+    }
+
+    // The cell never keeps its value: one load suffices.
+    loads.emplace_back(guard, bits);
+    return false;
+  }
+
+ private:
+  /// Pieces of one shifted vector become pieces of that vector, so that they join.
+  Bits simplify(const Bits& bits, const Guard& guard) {
+    Bits result;
+    for (const Piece& piece : bits) {
+      const int number = conditions_.simplify(piece.node, guard);
+      const LaneNode node = graph_[number];
+      if (node.op == LaneOp::bit && piece.width == 1)
+        operations_.append(result, {node.operands[0], static_cast<unsigned>(node.value), 1});
+      else if (node.op == LaneOp::right)
+        operations_.append(result,
+                           {node.operands[0], static_cast<unsigned>(node.value) + piece.low, piece.width});
+      else
+        operations_.append(result, {number, piece.low, piece.width});
+    }
+    return result;
+  }
+
+  bool is_cell(const Bits& bits) const {
+    if (bits.size() != 1 || bits[0].low != 0) return false;
+    const LaneNode& node = graph_[bits[0].node];
+    return (node.op == LaneOp::cell || node.op == LaneOp::mask_cell) && node.value == cell_;
+  }
+
+  /// Whether a node may be the cell shifted right by `low`.
+  bool can_be_cell(int number, unsigned low) const {
+    const LaneNode& node = graph_[number];
+    if (node.op == LaneOp::cell || node.op == LaneOp::mask_cell) return node.value == cell_ && low == 0;
+    if (node.op == LaneOp::bit || node.op == LaneOp::right)
+      return node.value == low && can_be_cell(node.operands[0], 0);
+    return node.op == LaneOp::select &&
+           (can_be_cell(node.operands[1], low) || can_be_cell(node.operands[2], low));
+  }
+
+  /// The condition of a choice between another value and the cell itself; -1: none.
+  int holding_condition(const Bits& bits) const {
+    unsigned at = 0;
+    for (const Piece& piece : bits) {
+      const LaneNode& node = graph_[piece.node];
+      if (node.op == LaneOp::select && piece.low <= at &&
+          can_be_cell(piece.node, node.mask ? at : at - piece.low))
+        return node.operands[0];
+      at += piece.width;
+    }
+    return -1;
+  }
+
+  /// If the condition is `a | b`, and the value depends on a, split by b first: `(a | b) ? (a ? x : y) : q`
+  /// becomes `b ? (a ? x : y) : (a ? x : q)`. A load (a) is rarer than a step (b), and skipped in most
+  /// clocks.
+  int first_condition(int condition, const Bits& bits, const Guard& guard) {
+    const LaneNode node = graph_[condition];
+    if (node.op != LaneOp::either) return condition;
+    const auto narrower = narrow(graph_, guard, condition, true);
+    if (!narrower) return condition;
+    for (const Piece& piece : simplify(bits, *narrower)) {
+      if (chooses_by(piece.node, node.operands[0])) return node.operands[1];
+      if (chooses_by(piece.node, node.operands[1])) return node.operands[0];
+    }
+    return condition;
+  }
+
+  /// Whether a node is `mask ? x : y`, or `x & ~mask`.
+  bool chooses_by(int number, int mask) const {
+    const LaneNode& node = graph_[number];
+    if (node.op == LaneOp::select) return node.operands[0] == mask;
+    if (node.op != LaneOp::both) return false;
+    return std::any_of(node.operands.begin(), node.operands.begin() + 2, [&](int operand) {
+      const LaneNode& inverse = graph_[operand];
+      return inverse.op == LaneOp::invert && inverse.operands[0] == mask;
+    });
+  }
+
+  LaneGraph& graph_;
+  BitOperations& operations_;
+  KnownConditions& conditions_;
+  std::size_t cell_;
+};
 
 }  // namespace
 
@@ -23,9 +129,9 @@ int KnownConditions::simplify(int number, const Guard& guard, std::map<int, int>
   if (const auto found = known.find(number); found != known.end()) return found->second;
   const LaneNode node = graph_[number];
   int result = number;
-  if (node.is_mask() && guard.count({number, true}) != 0) {
+  if (node.mask && guard.count({number, true}) != 0) {
     result = graph_.mask_constant(true);
-  } else if (node.is_mask() && guard.count({number, false}) != 0) {
+  } else if (node.mask && guard.count({number, false}) != 0) {
     result = graph_.mask_constant(false);
   } else {
     std::array<int, 3> operands{-1, -1, -1};
@@ -43,106 +149,11 @@ bool KnownConditions::implies(int bit, int mask) {
   return guard && graph_[simplify(node.operands[0], *guard)].bits <= node.value;
 }
 
-RegisterUpdates::Loads RegisterUpdates::loads_of(std::size_t cell, const Bits& next, const Guard& guard) {
+Loads loads_of(Step& step, BitOperations& operations, KnownConditions& conditions, std::size_t cell,
+               const Bits& next, const Guard& guard) {
   Loads loads;
-  split(cell, next, guard, loads, 0);
+  CellLoads(step, operations, conditions, cell).split(next, guard, loads, 0);
   return loads;
-}
-
-/// Add the values loaded into the cell under `guard` to `loads`. Return true if the cell keeps its value in
-/// some case.
-bool RegisterUpdates::split(std::size_t cell, const Bits& next, const Guard& guard, Loads& loads, int depth) {
-  const Bits bits = simplify(next, guard);
-  if (is_cell(bits, cell)) return true;
-
-  // Split by a condition under which the cell may keep its value.
-  if (int mask = holding_condition(bits, cell); mask >= 0 && depth < c_deepest_choice) {
-    mask = first_condition(mask, bits, guard);
-    Loads inner;
-    bool holds = false;
-    for (const bool wanted : {true, false})
-      if (const auto narrower = narrow(graph(), guard, mask, wanted))
-        holds |= split(cell, bits, *narrower, inner, depth + 1);
-    if (holds) {
-      loads.insert(loads.end(), inner.begin(), inner.end());
-      return true;
-    }
-  }
-
-  // The cell never keeps its value: one load suffices.
-  loads.emplace_back(guard, bits);
-  return false;
-}
-
-/// Pieces of one shifted vector become pieces of that vector, so that they join.
-Bits RegisterUpdates::simplify(const Bits& bits, const Guard& guard) {
-  Bits result;
-  for (const Piece& piece : bits) {
-    const int number = conditions_.simplify(piece.node, guard);
-    const LaneNode node = graph()[number];
-    if (node.op == LaneOp::bit && piece.width == 1)
-      operations_.append(result, {node.operands[0], static_cast<unsigned>(node.value), 1});
-    else if (node.op == LaneOp::right)
-      operations_.append(result,
-                         {node.operands[0], static_cast<unsigned>(node.value) + piece.low, piece.width});
-    else
-      operations_.append(result, {number, piece.low, piece.width});
-  }
-  return result;
-}
-
-bool RegisterUpdates::is_cell(const Bits& bits, std::size_t cell) const {
-  if (bits.size() != 1 || bits[0].low != 0) return false;
-  const LaneNode& node = graph()[bits[0].node];
-  return (node.op == LaneOp::cell || node.op == LaneOp::mask_cell) && node.value == cell;
-}
-
-/// Whether a node may be the cell shifted right by `low`.
-bool RegisterUpdates::can_be_cell(int number, unsigned low, std::size_t cell) const {
-  const LaneNode& node = graph()[number];
-  if (node.op == LaneOp::cell || node.op == LaneOp::mask_cell) return node.value == cell && low == 0;
-  if (node.op == LaneOp::bit || node.op == LaneOp::right)
-    return node.value == low && can_be_cell(node.operands[0], 0, cell);
-  return is_choice(node) &&
-         (can_be_cell(node.operands[1], low, cell) || can_be_cell(node.operands[2], low, cell));
-}
-
-/// The condition of a choice between another value and the cell itself; -1: none.
-int RegisterUpdates::holding_condition(const Bits& bits, std::size_t cell) const {
-  unsigned at = 0;
-  for (const Piece& piece : bits) {
-    const LaneNode& node = graph()[piece.node];
-    if (is_choice(node) && piece.low <= at &&
-        can_be_cell(piece.node, node.is_mask() ? at : at - piece.low, cell))
-      return node.operands[0];
-    at += piece.width;
-  }
-  return -1;
-}
-
-/// If the condition is `a | b`, and the value depends on a, split by b first: `(a | b) ? (a ? x : y) : q`
-/// becomes `b ? (a ? x : y) : (a ? x : q)`. A load (a) is rarer than a step (b), and skipped in most clocks.
-int RegisterUpdates::first_condition(int condition, const Bits& bits, const Guard& guard) {
-  const LaneNode node = graph()[condition];
-  if (node.op != LaneOp::mask_either) return condition;
-  const auto narrower = narrow(graph(), guard, condition, true);
-  if (!narrower) return condition;
-  for (const Piece& piece : simplify(bits, *narrower)) {
-    if (chooses_by(piece.node, node.operands[0])) return node.operands[1];
-    if (chooses_by(piece.node, node.operands[1])) return node.operands[0];
-  }
-  return condition;
-}
-
-/// Whether a node is `mask ? x : y`, or `x & ~mask`.
-bool RegisterUpdates::chooses_by(int number, int mask) const {
-  const LaneNode& node = graph()[number];
-  if (is_choice(node)) return node.operands[0] == mask;
-  if (node.op != LaneOp::mask_both) return false;
-  return std::any_of(node.operands.begin(), node.operands.begin() + 2, [&](int operand) {
-    const LaneNode& inverse = graph()[operand];
-    return inverse.op == LaneOp::mask_invert && inverse.operands[0] == mask;
-  });
 }
 
 }  // namespace halfway

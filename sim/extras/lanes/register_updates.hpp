@@ -5,7 +5,9 @@
 // lane needs it.
 #pragma once
 
+#include <cstddef>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "sim/extras/lanes/bit_operations.hpp"
@@ -31,29 +33,11 @@ class KnownConditions {
   std::map<Guard, std::map<int, int>> known_;
 };
 
-class RegisterUpdates {
- public:
-  RegisterUpdates(Step& step, BitOperations& operations, KnownConditions& conditions)
-      : step_(step), operations_(operations), conditions_(conditions) {}
+/// Values loaded into a cell and their conditions.
+using Loads = std::vector<std::pair<Guard, Bits>>;
 
-  using Loads = std::vector<std::pair<Guard, Bits>>;
-
-  /// The values loaded into the cell and their conditions, if its next value under `guard` is `next`.
-  Loads loads_of(std::size_t cell, const Bits& next, const Guard& guard);
-
- private:
-  bool split(std::size_t cell, const Bits& next, const Guard& guard, Loads& loads, int depth);
-  Bits simplify(const Bits& bits, const Guard& guard);
-  bool is_cell(const Bits& bits, std::size_t cell) const;
-  bool can_be_cell(int node, unsigned low, std::size_t cell) const;
-  int holding_condition(const Bits& bits, std::size_t cell) const;
-  int first_condition(int condition, const Bits& bits, const Guard& guard);
-  bool chooses_by(int node, int mask) const;
-
-  LaneGraph& graph() const { return step_.graph; }
-  Step& step_;
-  BitOperations& operations_;
-  KnownConditions& conditions_;
-};
+/// The loads of the cell, if its next value under `guard` is `next`.
+Loads loads_of(Step& step, BitOperations& operations, KnownConditions& conditions, std::size_t cell,
+               const Bits& next, const Guard& guard);
 
 }  // namespace halfway

@@ -94,7 +94,7 @@ class Scheduler {
     int all = graph.mask_constant(true);
     for (const auto& [mask, wanted] : guard) {
       if (implies_operands(graph[mask], wanted)) continue;  // the guard holds the operands too
-      all = graph.mask_operate(LaneOp::mask_both, all, wanted ? mask : graph.mask_invert(mask));
+      all = graph.operate(LaneOp::both, all, wanted ? mask : graph.invert(mask));
     }
     return all;
   }

@@ -11,19 +11,15 @@ unsigned width_of(const Bits& bits) {
   return width;
 }
 
-std::uint64_t low_ones(unsigned width) {
-  return (std::uint64_t{1} << std::min(width, c_lane_word)) - 1;
-}
-
 bool implies_operands(const LaneNode& mask, bool wanted) {
-  return mask.op == (wanted ? LaneOp::mask_both : LaneOp::mask_either);
+  return mask.op == (wanted ? LaneOp::both : LaneOp::either);
 }
 
 std::optional<Guard> narrow(const LaneGraph& graph, Guard guard, int mask, bool wanted) {
   const LaneNode node = graph[mask];
   if (node.op == LaneOp::mask_constant)
     return (node.value != 0) == wanted ? std::optional(std::move(guard)) : std::nullopt;
-  if (node.op == LaneOp::mask_invert) return narrow(graph, std::move(guard), node.operands[0], !wanted);
+  if (node.op == LaneOp::invert) return narrow(graph, std::move(guard), node.operands[0], !wanted);
   if (guard.count({mask, !wanted}) != 0) return std::nullopt;
   guard.insert({mask, wanted});
   if (!implies_operands(node, wanted)) return guard;

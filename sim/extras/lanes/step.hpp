@@ -33,9 +33,6 @@ using Words = std::vector<int>;
 
 unsigned width_of(const Bits& bits);
 
-/// The lowest `width` bits, at most a word, as ones.
-std::uint64_t low_ones(unsigned width);
-
 /// Up to one word of a register or an input, which is a variable of the generated text.
 struct Cell {
   std::string signal;

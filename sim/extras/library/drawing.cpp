@@ -75,25 +75,18 @@ Result<PlanRequest> plan_request(const halfway_request& request) {
 }
 
 Result<SetupOptions> setup_options(const halfway_setup& setup, Preset preset) {
+  constexpr HighlightTest c_tests[] = {HighlightTest::none, HighlightTest::centroid,
+                                       HighlightTest::conservative};
   SetupOptions options;
-  switch (setup.highlight_test) {
-    case HALFWAY_TEST_OF_PRESET:
-      options.quadratic.test =
-          preset == Preset::exact ? HighlightTest::conservative : HighlightTest::centroid;
-      break;
-    case HALFWAY_TEST_NONE:
-      options.quadratic.test = HighlightTest::none;
-      break;
-    case HALFWAY_TEST_CENTROID:
-      options.quadratic.test = HighlightTest::centroid;
-      break;
-    case HALFWAY_TEST_CONSERVATIVE:
-      options.quadratic.test = HighlightTest::conservative;
-      break;
-    default:
-      return bad_input(
-          fmt::format("setup: highlight_test {} is not one of halfway_highlight_test", setup.highlight_test));
-  }
+  if (setup.highlight_test < HALFWAY_TEST_OF_PRESET || setup.highlight_test > HALFWAY_TEST_CONSERVATIVE)
+    return bad_input(
+        fmt::format("setup: highlight_test {} is not one of halfway_highlight_test", setup.highlight_test));
+  if (setup.highlight_test != HALFWAY_TEST_OF_PRESET)
+    options.quadratic.test = c_tests[setup.highlight_test - HALFWAY_TEST_NONE];
+  else if (preset == Preset::published)
+    options.quadratic.test = HighlightTest::centroid;
+  else
+    options.quadratic.test = HighlightTest::conservative;
   if (setup.threshold == 0.0) return options;
   if (!(setup.threshold > 0.0) || !std::isfinite(setup.threshold))
     return bad_input(fmt::format("setup: threshold is {}; give a number above 0", setup.threshold));

@@ -11,9 +11,10 @@
 
 #include "plan/plan.hpp"
 #include "sim/cost/cost.hpp"
+#include "sim/driver/shader_stages.hpp"
+#include "sim/engines/verilator/shader_netlist.hpp"
 #include "sim/extras/live/core_module.hpp"
-#include "sim/extras/live/hardware_module.hpp"
-#include "sim/extras/live_core/core_values.hpp"
+#include "sim/extras/lanes/lane_simulator.hpp"
 #include "sim/extras/live_core/live_frame.hpp"
 #include "sim/extras/live_core/live_scene.hpp"
 #include "sim/files/load_scene.hpp"
@@ -54,6 +55,21 @@ std::string packed(const std::filesystem::path& module) {
   must(run_tool({.arguments = {"gzip", "-9", "-n", "-c", module.string()}, .standard_output = file},
                 "apt-get install gzip", module.filename().string()));
   return report::base64_of(file);
+}
+
+// The file of a shader's RTL as a WebAssembly module in build/cache/lanes/, built unless it exists.
+// hardware_harness.cpp lists its functions.
+std::filesystem::path build_hardware_module(const HardwareKey& key, const SimulatorFolders& folders) {
+  LaneBuild build = lane_build_of(key, folders);
+  build.harness = folders.source / "sim/extras/live/hardware_harness.cpp";
+  build.target = LaneTarget::web_assembly;
+  const GhdlLibrary library = rtl_library(folders);
+  build.names = RegisterNames(must(library.synthesize_vhdl(key.entity(), key.generics())), library.folder());
+  build.ports.top = build.top;
+  for (const TracedPart& part : make_stages(key)->parts())
+    build.ports.observed.push_back(
+        {part.netlist_path, static_cast<unsigned>(part.low), static_cast<unsigned>(part.bits)});
+  return build_lanes(build, folders.cache);
 }
 
 // Everything on the page that depends on a key.

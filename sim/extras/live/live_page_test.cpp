@@ -19,7 +19,7 @@
 #include "sim/cli/command_test.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/extras/live/test/base64.hpp"
-#include "sim/extras/live_core/way_lines.hpp"
+#include "sim/extras/live_core/live_frame.hpp"
 #include "sim/files/headless_browser.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/file.hpp"
@@ -261,6 +261,22 @@ TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
     ASSERT_TRUE(is_drawn());
     EXPECT_EQ(evaluate("document.getElementById('first-stage').hidden"), true);
   }
+}
+
+TEST_F(LiveInBrowser, EndsHardwareThatDrawsTooManyFragments) {
+  ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
+  const int option =
+      evaluate("[...document.querySelectorAll('#register option')].findIndex(({textContent}) => "
+               "textContent.startsWith('walker/spans/r.valid,'))");
+  ASSERT_GE(option, 0);
+  choose("register", std::to_string(option));
+  evaluate("document.getElementById('break').click()");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_THAT(text_of("#differences"),
+              StartsWith("the hardware draws more fragments than its triangles have"));
+  evaluate("document.getElementById('mend').click()");
+  ASSERT_TRUE(is_drawn());
+  EXPECT_EQ(figure("mismatches"), 0);
 }
 
 TEST_F(LiveInBrowser, TurnsByMouseKeysAndTouchAndKeepsTheStateInTheLink) {

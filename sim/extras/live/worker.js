@@ -20,18 +20,17 @@ function textFrom(module, address) {
   return new TextDecoder().decode(bytes.subarray(0, bytes.indexOf(0)));
 }
 
-/// Copies items of 32-bit words from the core to the room that `reserve` returns in the hardware's memory.
-function copyItems(reserve, from, count, words) {
+/// Copies words of 32 bits from the core to the room that `reserve` returns in the hardware's memory.
+function copyWords(reserve, from, count) {
   const to = reserve(count);
-  new Uint32Array(hardware.memory.buffer, to, count * words).set(new Uint32Array(core.memory.buffer, from, count * words));
+  new Uint32Array(hardware.memory.buffer, to, count).set(new Uint32Array(core.memory.buffer, from, count));
 }
 
 // What the core imports.
 const live = {
-  hardware_draw(words, wordCount, parts, partCount, loads, loadCount, most) {
-    copyItems(hardware.hardware_words, words, wordCount, 1);
-    copyItems(hardware.hardware_parts, parts, partCount, 2);
-    copyItems(hardware.hardware_loads, loads, loadCount, 1);
+  hardware_draw(words, wordCount, units, unitCount, most) {
+    copyWords(hardware.hardware_words, words, wordCount);
+    copyWords(hardware.hardware_units, units, unitCount);
     return hardware.hardware_draw(most);
   },
   hardware_count: () => hardware.hardware_fragment_count(),
@@ -40,7 +39,7 @@ const live = {
     bytesOf(core, to, count).set(bytesOf(hardware, hardware.hardware_fragments(), count));
   },
   hardware_observe(words, wordCount, most) {
-    copyItems(hardware.hardware_words, words, wordCount, 1);
+    copyWords(hardware.hardware_words, words, wordCount);
     return hardware.hardware_observe(most);
   },
   hardware_trace_words: () => hardware.hardware_trace_words(),

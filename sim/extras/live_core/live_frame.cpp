@@ -26,6 +26,22 @@ void paint(Fragment& fragment, std::uint32_t number) {
   fragment.blue = channel(8);
 }
 
+std::string lines_of_given(const char* what, const std::vector<StageValue>& values) {
+  if (values.empty()) return {};
+  std::string lines = fmt::format("given\t{}\n", what);
+  for (const StageValue& v : values) lines += fmt::format("value\t{}\t{}\n", v.name, text_of(v.golden, v));
+  return lines;
+}
+
+std::string lines_of_stage(const StageState& stage) {
+  std::string lines =
+      fmt::format("stage\t{}\t{}\n", stage.stage, stage.cycle ? std::to_string(*stage.cycle) : "");
+  for (const StageValue& v : stage.values)
+    lines += fmt::format("value\t{}\t{}\t{}\t{}\n", v.name, text_of(v.golden, v),
+                         v.rtl ? text_of(*v.rtl, v) : "-", v.golden == v.rtl ? "equal" : "differs");
+  return lines;
+}
+
 }  // namespace
 
 Result<HardwareKey> planned_key(const Scene& scene, PlanRequest request) {
@@ -111,10 +127,8 @@ Status LiveFrame::draw(const Settings& settings, Engine& engine) {
   const SimulatorRun run = rtl.result();
   figures_ = {.fragments = run.fragments,
               .mismatches = run.mismatches,
-              .vectors = driver.words() / ((driver.init_bits() + 31) / 32),
               .words = driver.words(),
               .setup = driver.counts(),
-              .covered_pixels = rtl.assembler().covered_pixels(),
               .seconds = driver.seconds()};
   if (walk) figures_.hardware_clocks = walk->counts().clocks();
   // A fragment after the last golden one belongs to the last triangle.
@@ -191,6 +205,18 @@ Result<Frame> LiveFrame::draw_golden(Picture kind) {
   });
   if (!made) return made.error();
   return assembler.frame();
+}
+
+std::string lines_of(const Way& way) {
+  std::string lines;
+  for (const PixelStory& story : way.stories) {
+    lines += fmt::format("triangle\t{}\t{}\n", story.triangle, story.vector);
+    lines += lines_of_given("init vector", story.init) + lines_of_given("line's record", story.record);
+    for (const StageState& stage : story.stages) lines += lines_of_stage(stage);
+  }
+  if (way.first) lines += fmt::format("first\t{}\n", way.first->text());
+  if (!way.fault.empty()) lines += fmt::format("fault\t{}\n", way.fault);
+  return lines;
 }
 
 }  // namespace halfway::live

@@ -3,6 +3,7 @@
 // no threads, files or clock, so a browser runs it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -25,14 +26,23 @@
 
 namespace halfway::live {
 
+// Names of what the page and the core exchange, in the order of their arrays: Settings, the numbers of
+// live_figures, and Picture.
+inline constexpr std::array c_setting_names = {"width",        "height",         "azimuth",
+                                               "elevation",    "distance",       "exponent",
+                                               "lightAzimuth", "lightElevation", "threshold"};
+inline constexpr std::array c_figure_names = {
+    "fragments", "mismatches", "triangles", "leaves", "words",    "clocks",
+    "rms",       "largest",    "setup",     "golden", "hardware", "compare"};
+inline constexpr std::array c_picture_names = {"hardware", "golden", "reference", "difference", "triangles"};
+
 /// Of the last drawn frame.
 struct Figures {
-  std::uint64_t fragments = 0;           ///< of the hardware
-  std::uint64_t mismatches = 0;          ///< fragments that differ from the golden model's in any field
-  std::uint64_t vectors = 0, words = 0;  ///< of the whole stream: loads, headers and line records
+  std::uint64_t fragments = 0;   ///< of the hardware
+  std::uint64_t mismatches = 0;  ///< fragments that differ from the golden model's in any field
+  std::uint64_t words = 0;       ///< of the whole stream: loads, headers and line records
   SetupCounts setup;
   std::optional<std::uint64_t> hardware_clocks;  ///< WalkCounts::clocks; empty: no model of them
-  std::uint64_t covered_pixels = 0;
   FrameSeconds seconds;
   std::optional<FrameDistance> error;  ///< of the hardware's frame against the reference
 };
@@ -62,6 +72,16 @@ struct Way {
   std::optional<FirstDifference> first;
   std::string fault;
 };
+
+/// The way as text for the page: one line for each item, its fields separated by tabs:
+///   triangle  number, number of its init vector
+///   given     what: "init vector" or "line's record"
+///   stage     name, cycle: empty if the RTL has no such event
+///   value     name, golden model's, RTL's, "equal" or "differs"; of a given value only the first two
+///   first     the first difference, with its stage and entity
+///   fault     message
+/// A triangle precedes its given values and stages, and these their values.
+std::string lines_of(const Way& way);
 
 /// The hardware that draws the scene in a browser: plan_scene's, but folded for the shading processors of
 /// many lights in preset `exact`. Their unrolled form takes minutes and 6 GB of memory to compile to

@@ -17,11 +17,8 @@
 #include "sim/driver/shader_stages.hpp"
 #include "sim/driver/test/golden_engine.hpp"
 #include "sim/engines/ghdl/test/checkout.hpp"
-#include "sim/extras/live_core/stream_parts.hpp"
-#include "sim/extras/live_core/way_lines.hpp"
 #include "sim/files/test/built_in_scene.hpp"
 #include "sim/os/file.hpp"
-#include "sim/run/open_engine.hpp"
 
 namespace halfway::live {
 namespace {
@@ -124,28 +121,6 @@ TEST(LiveFrame, TheWayOfAPixelIsThatOfItsTriangles) {
   EXPECT_THAT(way.first->text(), HasSubstr("never came"));
   EXPECT_THAT(lines_of(way), StartsWith(fmt::format("triangle\t{}\t", seen.triangle)));
   EXPECT_THAT(lines_of(way), HasSubstr("fault\tno events\n"));
-}
-
-TEST(LiveFrame, DrawsByVerilator) {
-  for (const Shader shader : c_shaders) {
-    LiveFrame live = loaded_frame("matte");
-    const auto key = must(live.plan({.shader = shader}));
-    const auto engine = must(open_engine(EngineKind::verilator, key, c_checkout));
-    must(live.draw(small(), *engine));
-    const std::uint64_t cycles = engine->cycles().value();
-    EXPECT_EQ(live.picture(Picture::hardware)->rgb, drawn_by_program("matte", key).frame.rgb);
-    // The clocks of the frame, without the depth of the pipeline and the processors' lights.
-    ASSERT_TRUE(live.figures().hardware_clocks);
-    EXPECT_GE(cycles, *live.figures().hardware_clocks);
-    EXPECT_LE(cycles, *live.figures().hardware_clocks + 60);
-    // Another frame of the same hardware.
-    Settings turned = small();
-    turned.azimuth = 40.0;
-    turned.elevation = 20.0;
-    must(live.draw(turned, *engine));
-    EXPECT_NE(live.picture(Picture::hardware)->rgb, drawn_by_program("matte", key).frame.rgb);
-    EXPECT_EQ(live.picture(Picture::hardware)->rgb, live.picture(Picture::golden)->rgb);
-  }
 }
 
 TEST(LiveFrame, ReportsAFaultWithTheFirstFragmentThatDiffers) {
@@ -256,20 +231,6 @@ TEST(LiveFrame, SettingsNeedNoOtherHardware) {
   }
 }
 
-TEST(LiveFrame, AHigherThresholdSplitsLess) {
-  LiveFrame live = loaded_frame("spheres");
-  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
-    GoldenEngine engine(*live.plan({.shader = shader}));
-    Settings settings = small();
-    settings.threshold = 0.5;
-    ASSERT_TRUE(live.draw(settings, engine));
-    const std::uint64_t leaves = live.figures().setup.leaves;
-    settings.threshold = 50.0;
-    ASSERT_TRUE(live.draw(settings, engine));
-    EXPECT_LT(live.figures().setup.leaves, leaves);
-  }
-}
-
 TEST(LiveFrame, ReferenceAndDifference) {
   LiveFrame live = loaded_frame("spheres");
   GoldenEngine engine(*live.plan({}));
@@ -289,48 +250,26 @@ TEST(LiveFrame, ReferenceAndDifference) {
   EXPECT_FALSE(live.figures().error);
 }
 
-TEST(LiveFrame, SplitTrianglesHaveColoursOfTheirOwn) {
+TEST(LiveFrame, AHigherThresholdSplitsLessAndTrianglesHaveColoursOfTheirOwn) {
   LiveFrame live = loaded_frame("spheres");
-  GoldenEngine engine(*live.plan({}));
-  const auto colours = [&](double threshold) {
-    Settings settings = small();
-    settings.threshold = threshold;
-    EXPECT_TRUE(live.draw(settings, engine));
-    const Frame picture = *live.picture(Picture::split);
-    std::set<std::tuple<int, int, int>> found;
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
-      found.insert({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
-    return found.size();
-  };
-  const std::size_t whole = colours(200.0), split = colours(0.5);
-  EXPECT_GT(whole, 100U);
-  EXPECT_GT(split, 2 * whole);
-}
-
-TEST(StreamParts, CoverTheStreamUnitByUnit) {
-  for (const char* scene : {"matte", "shadows"})
-    for (const Shader shader : c_shaders) {
-      LiveFrame live = loaded_frame(scene);
-      const auto key = live.plan({.shader = shader});
-      GoldenEngine engine(*key);
-      ASSERT_TRUE(live.draw(small(), engine));
-      const auto golden = make_golden_model(*key);
-      const StreamParts stream = parts_of(*golden, engine.words);
-      // Parts and loads in order give every vector once.
-      std::uint64_t next = 0;
-      auto load = stream.loads.begin();
-      const auto skip_loads = [&] {
-        for (; load != stream.loads.end() && *load == next; ++load) ++next;
-      };
-      for (const StreamPart& part : stream.parts) {
-        skip_loads();
-        ASSERT_EQ(part.first, next);
-        next += part.vectors;
-      }
-      skip_loads();
-      EXPECT_EQ(next, live.figures().vectors);
-      EXPECT_EQ(stream.loads.empty(), shader != Shader::processors);
-    }
+  for (const Shader shader : {Shader::quadratic, Shader::spherical}) {
+    GoldenEngine engine(*live.plan({.shader = shader}));
+    // The numbers of leaves and of colours.
+    const auto split = [&](double threshold) {
+      Settings settings = small();
+      settings.threshold = threshold;
+      EXPECT_TRUE(live.draw(settings, engine));
+      const Frame picture = *live.picture(Picture::split);
+      std::set<std::tuple<int, int, int>> colours;
+      for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+        colours.insert({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
+      return std::pair(live.figures().setup.leaves, colours.size());
+    };
+    const auto whole = split(200.0), parts = split(0.5);
+    EXPECT_GT(parts.first, whole.first);
+    EXPECT_GT(whole.second, 100U);
+    EXPECT_GT(parts.second, shader == Shader::quadratic ? 2 * whole.second : whole.second);
+  }
 }
 
 }  // namespace

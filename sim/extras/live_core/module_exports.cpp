@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,19 +15,15 @@
 #include "golden_run/golden_run.hpp"
 #include "sim/driver/shader_stages.hpp"
 #include "sim/engines/verilator/harness_api.h"
-#include "sim/extras/live_core/core_values.hpp"
 #include "sim/extras/live_core/live_frame.hpp"
-#include "sim/extras/live_core/stream_parts.hpp"
-#include "sim/extras/live_core/way_lines.hpp"
 
 #define HALFWAY_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
 #define HALFWAY_IMPORT(name) extern "C" __attribute__((import_module("live"), import_name(#name)))
 
-/// Draws parts and loads. Returns 0, or the end of the hardware (HalfwayStatus).
+/// Draws units and loads. Returns 0, or the end of the hardware (HalfwayStatus).
 HALFWAY_IMPORT(hardware_draw)
-int hardware_draw(const std::uint32_t* words, std::uint32_t word_count, const std::uint32_t* parts,
-                  std::uint32_t part_count, const std::uint32_t* loads, std::uint32_t load_count,
-                  std::uint32_t most);
+int hardware_draw(const std::uint32_t* words, std::uint32_t word_count, const std::uint32_t* units,
+                  std::uint32_t unit_count, std::uint32_t most);
 /// Number of fragments drawn by the last call.
 HALFWAY_IMPORT(hardware_count) std::uint32_t hardware_count();
 /// Copies them.
@@ -47,8 +44,23 @@ HALFWAY_IMPORT(now) double browser_now();
 namespace halfway::live {
 namespace {
 
-static_assert(sizeof(StreamPart) == 2 * sizeof(std::uint32_t));
 static_assert(sizeof(Fragment) == sizeof(HalfwayFragment));
+static_assert(sizeof(Settings) == c_setting_names.size() * sizeof(double));
+
+/// What lanes draw of a stream of init vectors, in order: the number of vectors of each unit
+/// (GoldenModel::group); 0 for a load (GoldenModel::is_load), which is one vector.
+std::vector<std::uint32_t> units_of(const GoldenModel& golden, std::span<const std::uint32_t> init_words) {
+  const std::size_t vector_words = (golden.init_bits() + 31) / 32;
+  std::vector<std::uint32_t> units;
+  while (!init_words.empty()) {
+    const bool load = golden.is_load(init_words);
+    const std::size_t vectors =
+        load ? 1 : std::clamp<std::size_t>(golden.group(init_words), 1, init_words.size() / vector_words);
+    units.push_back(load ? 0 : static_cast<std::uint32_t>(vectors));
+    init_words = init_words.subspan(vectors * vector_words);
+  }
+  return units;
+}
 
 Error fault_of(int end) {
   const auto differs = [](const char* what) { return Error{ExitCode::differs, what}; };
@@ -74,12 +86,10 @@ class HardwareModule final : public Engine {
 
   Status draw(std::span<const std::uint32_t> init_words, std::uint64_t most,
               const OnDrawn& on_drawn) override {
-    const StreamParts stream = parts_of(*golden_, init_words);
-    const int end =
-        hardware_draw(init_words.data(), static_cast<std::uint32_t>(init_words.size()),
-                      &stream.parts.data()->first, static_cast<std::uint32_t>(stream.parts.size()),
-                      stream.loads.data(), static_cast<std::uint32_t>(stream.loads.size()),
-                      static_cast<std::uint32_t>(std::min<std::uint64_t>(most, UINT32_MAX)));
+    const std::vector<std::uint32_t> units = units_of(*golden_, init_words);
+    const int end = hardware_draw(init_words.data(), static_cast<std::uint32_t>(init_words.size()),
+                                  units.data(), static_cast<std::uint32_t>(units.size()),
+                                  static_cast<std::uint32_t>(std::min<std::uint64_t>(most, UINT32_MAX)));
     if (end != halfway_done) return fault_of(end);
     fragments_.resize(hardware_count());
     hardware_take(fragments_.data());
@@ -116,33 +126,14 @@ struct Core {
   LiveFrame frame{[] { return 1e-3 * browser_now(); }};
   std::optional<HardwareModule> hardware;
   std::vector<std::uint8_t> input, pixels;
-  std::array<double, c_setting_names.size()> settings{};
+  Settings settings;
   std::array<double, c_figure_names.size()> figures{};
   std::string text;
-
-  Core() {
-    const Settings s;
-    settings = {s.width,           s.height,        s.azimuth,         s.elevation, s.distance_factor,
-                s.exponent_factor, s.light_azimuth, s.light_elevation, s.threshold};
-  }
 
   /// Keeps an error's message, and returns its code.
   int report(const Status& status) {
     text = status ? std::string() : status.error().message;
     return static_cast<int>(status ? ExitCode::equal : status.error().code);
-  }
-
-  Settings read_settings() const {
-    const auto& v = settings;
-    return {.width = v[0],
-            .height = v[1],
-            .azimuth = v[2],
-            .elevation = v[3],
-            .distance_factor = v[4],
-            .exponent_factor = v[5],
-            .light_azimuth = v[6],
-            .light_elevation = v[7],
-            .threshold = v[8]};
   }
 
   void write_figures() {
@@ -152,18 +143,14 @@ struct Core {
                number(f.mismatches),
                number(f.setup.triangles),
                number(f.setup.leaves),
-               number(f.vectors),
                number(f.words),
                f.hardware_clocks ? number(*f.hardware_clocks) : -1.0,
                f.error ? f.error->rms : -1.0,
                f.error ? double(f.error->max_lsb) : -1.0,
-               number(f.covered_pixels),
                1e3 * f.seconds.setup,
                1e3 * f.seconds.golden,
                1e3 * f.seconds.rtl,
-               1e3 * f.seconds.compare,
-               1e3 * f.seconds.assemble,
-               number(f.setup.unresolved)};
+               1e3 * f.seconds.compare};
   }
 };
 
@@ -212,13 +199,13 @@ int live_plan(int shader, int preset, unsigned tables) {
 }
 
 HALFWAY_EXPORT(live_settings) double* live_settings() {
-  return core().settings.data();
+  return &core().settings.width;
 }
 
 HALFWAY_EXPORT(live_draw) int live_draw() {
   auto& c = core();
   if (!c.hardware) return c.report(bad_input("no hardware is planned for a scene"));
-  const int code = c.report(c.frame.draw(c.read_settings(), *c.hardware));
+  const int code = c.report(c.frame.draw(c.settings, *c.hardware));
   c.write_figures();
   return code;
 }

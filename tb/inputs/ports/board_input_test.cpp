@@ -13,8 +13,6 @@
 #include "sim/driver/frame_driver.hpp"
 #include "sim/extras/board/board_picture.hpp"
 #include "sim/extras/board/board_simulator.hpp"
-#include "sim/extras/board/board_sources.hpp"
-#include "sim/extras/board/spi_packet.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "words/formats.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A monitor: decodes the levels of the video pins into pictures, and checks the timing of 640x480 at 60 Hz.
+// The monitor and the SRAM at the board's pins, one system clock at a time. A fault of the board is a Failure
+// with the code `differs`.
 #pragma once
 
 #include <array>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "frame/frame.hpp"
+#include "sim/extras/board/board_api.h"
 
 namespace halfway::board {
 
@@ -34,6 +36,7 @@ using DotPicture = std::vector<std::array<std::uint8_t, 3>>;
 /// The picture with 0 to 255 per channel: 7 is 255.
 Frame frame_of_dots(const DotPicture& dots);
 
+/// Decodes the levels of the video pins into pictures, and checks the timing of 640x480 at 60 Hz.
 class Monitor {
  public:
   /// Calls on_picture for each complete picture from the first vertical sync on.
@@ -42,11 +45,8 @@ class Monitor {
   /// One system clock.
   void clock(const VideoPins& pins);
 
-  /// The first deviation from the timing; empty if there is none.
-  const std::string& fault() const { return fault_; }
-
  private:
-  void fail(std::string what);
+  [[noreturn]] void fail(const std::string& what) const;
   void start_line(bool vsync);
   void check_edges(const VideoPins& pins);
   void take_dot(const VideoPins& pins);
@@ -59,7 +59,30 @@ class Monitor {
   std::int64_t line_ = -1;        ///< falling edges of hsync since vsync was high again; -1: not known
   int sync_lines_ = 0;            ///< falling edges of hsync with vsync low
   bool seen_vsync_ = false;
-  std::string fault_;
+};
+
+/// An asynchronous SRAM of 256K words of 16 bits. It reads and writes within a clock, and checks the rules of
+/// the bus:
+/// - it is read or written, not both, and the FPGA drives the data exactly while it writes
+/// - at least one clock with neither lies between a read and a write: the SRAM releases the bus in it
+/// - only the words of buffers and depths are used
+class SramModel {
+ public:
+  /// The first `words_in_use` words may be addressed.
+  explicit SramModel(std::uint32_t words_in_use);
+
+  /// One clock with these levels at the pins. Returns the data on the bus at its end; without a read, noise.
+  std::uint16_t clock(const BoardOutputs& pins);
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const;
+  std::uint16_t noise();
+
+  std::vector<std::uint16_t> words_;
+  std::uint32_t words_in_use_;
+  std::uint64_t clock_ = 0;
+  std::uint32_t random_ = 1;
+  bool was_read_ = false;
 };
 
 }  // namespace halfway::board
