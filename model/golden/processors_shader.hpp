@@ -27,7 +27,7 @@ class ProcessorsShader {
   }
 
   int init_bits() const { return layout_.init_bits(); }
-  std::size_t init_words() const { return words_of(init_bits()); }
+  std::size_t init_words() const { return static_cast<std::size_t>(init_bits() + 31) / 32; }
   /// Every group is one vector: no line records follow.
   std::size_t group(std::span<const std::uint32_t>) const { return 1; }
   /// True since a vector with another command, or for a light that does not exist.
@@ -77,8 +77,6 @@ class ProcessorsShader {
 
  private:
   using Token = ShadingToken<Preset>;
-
-  static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
 
   ProcessorsConfig config_;
   ProcessorsLayout<Preset> layout_;

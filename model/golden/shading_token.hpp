@@ -77,8 +77,8 @@ struct ShadingToken {
     token.x = word(At::x);
     token.z = word(At::z);
     if (!token.is_object()) return token;
-    token.for_each_word(config, layout,
-                        [&](auto& value, int low, int bits) { get_word(words, value, low, bits); });
+    visit(token, config, layout,
+          [&](auto& value, int low, int bits) { get_word(words, value, low, bits); });
     return token;
   }
 
@@ -96,7 +96,7 @@ struct ShadingToken {
     set_bits(words, At::x, x);
     set_bits(words, At::z, z);
     if (!is_object()) return;
-    for_each_word(config, layout, [&](const auto& value, int low, int bits) {
+    visit(*this, config, layout, [&](const auto& value, int low, int bits) {
       set_bits(words, word_at(low, bits), static_cast<std::uint64_t>(value));
     });
   }
@@ -146,15 +146,6 @@ struct ShadingToken {
   }
 
   // Calls use(word, lowest bit, bits) for every word of an object after its header.
-  template <class Use>
-  void for_each_word(const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout, Use&& use) {
-    visit(*this, config, layout, use);
-  }
-  template <class Use>
-  void for_each_word(const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout,
-                     Use&& use) const {
-    visit(*this, config, layout, use);
-  }
   template <class Self, class Use>
   static void visit(Self& self, const ProcessorsConfig& config, const ProcessorsLayout<Preset>& layout,
                     Use&& use) {

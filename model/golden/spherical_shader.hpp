@@ -30,7 +30,7 @@ class SphericalShader {
   }
 
   int init_bits() const { return layout_.init_bits(); }
-  std::size_t init_words() const { return words_of(init_bits()); }
+  std::size_t init_words() const { return static_cast<std::size_t>(init_bits() + 31) / 32; }
 
   /// Number of init vectors of the triangle with this header: the header, and one line record per line.
   std::size_t group(std::span<const std::uint32_t> header) const {
@@ -70,8 +70,6 @@ class SphericalShader {
   bool lit(std::size_t light) const { return lights_[light].lit(); }
 
  private:
-  static constexpr std::size_t words_of(int bits) { return static_cast<std::size_t>(bits + 31) / 32; }
-
   void line_load(std::span<const std::uint32_t> header) {
     walker_.line_load(header);
     depth_.line_load(header);
