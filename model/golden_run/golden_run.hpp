@@ -52,4 +52,8 @@ class GoldenModel {
 
 std::unique_ptr<GoldenModel> make_golden_model(const HardwareKey& key);
 
+/// The objects that object processors send to the shading processors for these vectors of whole strips. The
+/// key must have object processors.
+std::uint64_t count_objects(const HardwareKey& key, std::span<const std::uint32_t> init_words);
+
 }  // namespace halfway

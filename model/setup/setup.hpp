@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/result.hpp"
 #include "frame/frame_size.hpp"
 #include "frame/tile.hpp"
 #include "plan/hardware_key.hpp"
@@ -140,5 +141,14 @@ class Setup {
 /// Makes the setup for the hardware named by the key. The scene must outlive it.
 std::unique_ptr<Setup> make_setup(const Scene& scene, FrameSize frame, const HardwareKey& key,
                                   const SetupOptions& options);
+
+/// Returns bad input if a pixel has more objects than the key has object processors. `fault`: that of the
+/// golden model that draws the vectors.
+Status check_pixels(const Scene& scene, const HardwareKey& key, const SetupCounts& counts, bool fault);
+/// The first of these checks before anything is drawn or built.
+Status check_objects(const Scene& scene, FrameSize frame, const HardwareKey& key,
+                     const SetupOptions& options);
+/// Returns bad input if a triangle does not project to finite points on the screen.
+Status check_projection(const Scene& scene, const SetupCounts& counts);
 
 }  // namespace halfway

@@ -13,7 +13,6 @@
 #include "frame/assemble.hpp"
 #include "frame/metrics.hpp"
 #include "golden_run/golden_run.hpp"
-#include "golden_run/object_count.hpp"
 #include "plan/plan.hpp"
 #include "plan/processor_clocks.hpp"
 #include "projection/project.hpp"

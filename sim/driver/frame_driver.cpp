@@ -6,7 +6,7 @@
 #include <atomic>
 #include <utility>
 
-#include "setup/check_counts.hpp"
+#include "setup/setup.hpp"
 #include "sim/driver/tile_setup.hpp"
 
 namespace halfway {

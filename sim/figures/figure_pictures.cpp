@@ -8,6 +8,7 @@
 
 #include "reference/visible_pixels.hpp"
 #include "scene/builtin_meshes.hpp"
+#include "scene/hen_mesh.hpp"
 #include "sim/files/flip.hpp"
 #include "sim/files/image.hpp"
 #include "sim/files/load_scene.hpp"

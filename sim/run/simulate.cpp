@@ -13,7 +13,7 @@
 #include "projection/project.hpp"
 #include "reference/renderer.hpp"
 #include "scene/lights.hpp"
-#include "setup/check_counts.hpp"
+#include "setup/setup.hpp"
 #include "setup/spherical_setup.hpp"
 #include "shading/effects.hpp"
 #include "sim/driver/frame_driver.hpp"

@@ -16,7 +16,7 @@
 #include "reference/renderer.hpp"
 #include "scene/camera.hpp"
 #include "scene/turntable.hpp"
-#include "setup/check_counts.hpp"
+#include "setup/setup.hpp"
 #include "setup/spherical_setup.hpp"
 #include "sim/driver/frame_driver.hpp"
 #include "sim/os/must.hpp"
