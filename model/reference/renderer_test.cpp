@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "projection/project.hpp"
+#include "reference/spherical_renderer.hpp"
 #include "scene/test/sides_apart.hpp"
 #include "shading/shade.hpp"
 #include "sim/os/threads.hpp"
@@ -47,11 +50,13 @@ Scene tangle(unsigned seed, int triangles) {
   return scene;
 }
 
-// One triangle at a time. Which triangle a pixel shows is decided as in render_reference, whose pictures
+// One triangle at a time, with sums above white at vertices, which must not be clamped before interpolation.
+// Which triangle a pixel shows is decided as in render_reference, whose pictures
 // tb/specification/oracle compares with the equations.
 TEST(Renderer, GouraudInterpolatesTheColoursOfTheVertices) {
-  const Scene scene = tangle(1, 120);
-  int covered = 0;
+  Scene scene = tangle(1, 120);
+  scene.directional[0].intensity *= 3.0;
+  int covered = 0, above_white = 0;
   for (const ScreenTriangle& t : Projector(scene, c_frame, {}).project_all()) {
     const ReferenceImage image = render_gouraud(scene, {&t, 1}, {.frame = c_frame});
     for (std::uint32_t y = 0; y < c_frame.height; ++y)
@@ -61,14 +66,19 @@ TEST(Renderer, GouraudInterpolatesTheColoursOfTheVertices) {
         ++covered;
         const glm::dvec3 weights = barycentric_screen(t, 32 * x + 16, 32 * y + 16);
         glm::dvec3 linear(0.0);
-        for (int i = 0; i < 3; ++i)
-          linear += weights[i] * radiance(scene, scene.materials[t.material], t.vertex[i].position_world,
-                                          glm::normalize(t.vertex[i].normal_world));
+        for (int i = 0; i < 3; ++i) {
+          const glm::dvec3 at_vertex =
+              radiance(scene, scene.materials[t.material], t.vertex[i].position_world,
+                       glm::normalize(t.vertex[i].normal_world));
+          linear += weights[i] * at_vertex;
+          above_white += at_vertex.r > 1.0;
+        }
         for (int k = 0; k < 3; ++k)
           ASSERT_NEAR(image.frame.rgb[rgb + k], 255 * std::min(linear[k], 1.0), 0.5 + 1e-9) << x << ',' << y;
       }
   }
   EXPECT_GT(covered, 1000);
+  EXPECT_GT(above_white, 100);
 }
 
 TEST(Renderer, BacksAreShadedAsFronts) {
@@ -106,11 +116,21 @@ TEST(Renderer, ALightReachesTheBackThatItMeets) {
   }
 }
 
+using Render =
+    std::function<ReferenceImage(const Scene&, std::span<const ScreenTriangle>, const RenderOptions&)>;
+
+// The renderer of the spherical paper keeps data of a line and of a triangle.
+const std::array<Render, 3> c_renderers = {
+    render_reference, render_gouraud,
+    [](const Scene& scene, std::span<const ScreenTriangle> triangles, const RenderOptions& options) {
+      return render_spherical(scene, triangles, options, {.ends = SpanEnds::slerped_along_edges});
+    }};
+
 TEST(Renderer, TheNumberOfThreadsDoesNotMatter) {
   Scene scene = tangle(2, 300);
   scene.shadows = true;
   const auto triangles = Projector(scene, {90, 200}, {}).project_all();
-  for (const auto render : {render_reference, render_gouraud}) {
+  for (const Render& render : c_renderers) {
     const ReferenceImage one = render(scene, triangles, {.frame = {90, 200}});
     for (unsigned threads : {0u, 2u, 3u, 16u, 100u}) {
       const ReferenceImage many =
@@ -168,33 +188,11 @@ TEST(Renderer, FilteredPixelsAreMeansOfSamples) {
     }
 }
 
-// Sums above white at the vertices increase the colour in the middle: they must not be clamped before
-// interpolation.
-TEST(Renderer, GouraudDoesNotClampItsVertices) {
-  Scene scene;
-  scene.camera.vertical_fov_degrees = 90.0;
-  scene.materials.emplace_back();
-  scene.materials[0].diffuse = 1.0;
-  scene.materials[0].specular = 0.0;
-  scene.ambient = glm::dvec3(0.0);
-  scene.directional = {{{0, 0, 1}, glm::dvec3(3.0)}};
-  scene.positions_world = {{-4, -4, 0}, {4, -4, 0}, {0, 4, 0}};
-  scene.normals_world = {{0, 0, 1}, {1, 0, 0}};
-  scene.triangles = {{{0, 1, 2}, {1, 1, 0}, 0}};  // 0, 0 and 3
-  const auto triangles = Projector(scene, {64, 64}, {}).project_all();
-  const ReferenceImage image = render_gouraud(scene, triangles, {.frame = {64, 64}});
-  // The top is at y = 32 - 25.6 (snapped 6.375), the bottom at 57.6 (57.625). White in the upper two thirds.
-  for (std::uint32_t y = 8; y < 57; ++y) {
-    const double expected = 3.0 * (57.625 - (y + 0.5)) / (57.625 - 6.375);
-    EXPECT_EQ(image.frame.rgb[image.frame.offset(32, y)], to_byte(expected)) << y;
-  }
-}
-
 TEST(Reference, TilesArePartsOfTheFrame) {
   Scene scene = tangle(7, 60);
   scene.shadows = true;
   const auto triangles = Projector(scene, c_frame, {}).project_all();
-  for (const auto& render : {render_reference, render_gouraud}) {
+  for (const Render& render : c_renderers) {
     const ReferenceImage whole = render(scene, triangles, {.frame = c_frame});
     EXPECT_GT(std::ranges::count(whole.mask, 1), 2000);
     for (const Tile& tile : tiles_of(c_frame, {23, 19})) {

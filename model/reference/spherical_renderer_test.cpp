@@ -6,23 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "projection/project.hpp"
-#include "scene/builtin_meshes.hpp"
 #include "scene/lights.hpp"
 #include "scene/test/add_mesh.hpp"
 #include "setup/test/paper_spans.hpp"
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
-#include "sim/files/load_scene.hpp"
-#include "sim/os/threads.hpp"
 
 namespace halfway {
 namespace {
@@ -149,64 +143,6 @@ TEST(SphericalRenderer, MatchesTheFormulas) {
   }
   EXPECT_GT(pixels, 100'000u);
   EXPECT_GT(lit, 50'000u);
-}
-
-Scene builtin(const std::string& name) {
-  return *load_scene(name, std::filesystem::path(HALFWAY_SOURCE_DIR) / "sim" / "scenes");
-}
-
-/// A sphere of 36 triangles with a sharp highlight, and a light at a quarter of its radius from the surface.
-Scene hard_scene() {
-  Scene scene;
-  add_mesh(scene, make_uv_sphere(6, 4, 1.0));
-  scene.materials.resize(1);
-  scene.materials[0].colour = glm::dvec3(0.6);
-  scene.materials[0].exponent = 50.0;
-  scene.positional = {{{0.45, 0.6, 1.0}, glm::dvec3(1.0)}};
-  scene.camera.eye_world = {0.0, 0.0, 3.2};
-  return scene;
-}
-
-TEST(SphericalRenderer, CoverageEqualsTheReferences) {
-  for (const char* name : {"spheres", "matte"}) {
-    const Scene scene = builtin(name);
-    const auto triangles = Projector(scene, c_spherical_frame, {}).project_all();
-    const ReferenceImage reference = render_reference(scene, triangles, {.frame = c_spherical_frame});
-    for (const SphericalMethod& method : all_methods())
-      EXPECT_EQ(render_spherical(scene, triangles, {.frame = c_spherical_frame}, method).mask,
-                reference.mask);
-  }
-}
-
-TEST(SphericalRenderer, TheNumberOfThreadsDoesNotMatter) {
-  const Scene scene = builtin("lights");
-  const auto triangles = Projector(scene, {90, 120}, {}).project_all();
-  for (const SphericalMethod& method : all_methods()) {
-    const ReferenceImage one = render_spherical(scene, triangles, {.frame = {90, 120}}, method);
-    for (unsigned threads : {0u, 3u, 16u})
-      EXPECT_EQ(
-          render_spherical(scene, triangles, {.frame = {90, 120}, .workers = on_threads(threads)}, method)
-              .frame.rgb,
-          one.frame.rgb);
-  }
-}
-
-// If an edge starts exactly at the light, L is undefined there. On the surface L is defined at every pixel.
-TEST(SphericalRenderer, ALightAtAVertexLeavesItsEdgesDark) {
-  Scene scene = hard_scene();
-  scene.ambient = glm::dvec3(0.0);
-  const auto triangles = Projector(scene, c_spherical_frame, {}).project_all();
-  ASSERT_GT(triangles.size(), 10u);
-  for (const SphericalMethod& method : all_methods()) {
-    int lit = 0;
-    for (const ScreenTriangle& triangle : triangles) {
-      scene.positional[0].position_world = triangle.vertex[0].position_world;
-      for (std::uint8_t v :
-           render_spherical(scene, std::array{triangle}, {.frame = c_spherical_frame}, method).frame.rgb)
-        lit += v > 0;
-    }
-    EXPECT_EQ(lit > 0, method.ends == SpanEnds::on_surface) << lit;
-  }
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 #include "plan/plan.hpp"
 #include "reference/renderer.hpp"
 #include "scene/test/random_scenes.hpp"
-#include "setup/check_counts.hpp"
+#include "setup/setup.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/must.hpp"
 #include "words/object_limits.hpp"
