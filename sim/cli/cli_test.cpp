@@ -286,8 +286,8 @@ TEST_F(CliTest, OwnTablesDrawInBothSimulators) {
   EXPECT_THAT(drawn,
               Ends(0, AllOf(HasSubstr(", own tables 10x11 |"), ContainsRegex("ghdl: .* 0 mismatches"),
                             ContainsRegex("verilator: .* 0 mismatches"), HasSubstr("largest error 1/255"))));
-  for (const std::string& option : {std::string("--shader=quadratic"), std::string("--preset=published")})
-    EXPECT_THAT(run({"sim", "spheres", "--shader=spherical", option, "--own-tables"}),
+  for (const auto& [shader, preset] : {std::pair("quadratic", "exact"), {"spherical", "published"}})
+    EXPECT_THAT(run({"sim", "spheres", "--shader", shader, "--preset", preset, "--own-tables"}),
                 Ends(2, HasSubstr("--own-tables belongs to the spherical shader in preset exact")));
 }
 
