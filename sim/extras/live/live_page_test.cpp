@@ -465,7 +465,7 @@ TEST_F(WholeLivePage, DrawsADroppedGreyMesh) {
 }
 
 TEST_F(WholeLivePage, TheFileIsSmall) {
-  EXPECT_LE(std::filesystem::file_size(page()), 3'500'000U);
+  EXPECT_LE(std::filesystem::file_size(page()), 4'000'000U);
 }
 
 }  // namespace
