@@ -60,6 +60,8 @@ sed -i 's/^c = 6/c = 5/; s/^b = 1//' tb/evidence/thresholds.toml
 run 1 'tb/evidence/thresholds.toml:1: items: b has no threshold; it is 1'
 git checkout -q tb
 
+run 0 '--evidence --part=TEXT' --help
+
 # Changes that are not committed.
 echo 2 >source.c
 run 2 'source.c'

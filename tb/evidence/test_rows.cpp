@@ -104,6 +104,12 @@ ExitCode measure(Page page, const std::string& part) {
 int run_tests(int argc, char** argv, Page page) {
   testing::InitGoogleTest(&argc, argv);
   std::vector<std::string> arguments(argv + 1, argv + argc);
+  // GoogleTest has printed the help of its own options.
+  if (std::erase(arguments, "--help") > 0) {
+    fmt::print("\n  --evidence             measure the page of evidence\n"
+               "  --evidence --part=TEXT only its rows whose names contain the text\n");
+    return 0;
+  }
   const bool is_evidence = std::erase(arguments, c_evidence) > 0;
   std::string part;
   if (!arguments.empty() && arguments.front().starts_with(c_part) && is_evidence) {
