@@ -77,8 +77,7 @@ struct ShadingToken {
     token.x = word(At::x);
     token.z = word(At::z);
     if (!token.is_object()) return token;
-    visit(token, config, layout,
-          [&](auto& value, int low, int bits) { get_word(words, value, low, bits); });
+    visit(token, config, layout, [&](auto& value, int low, int bits) { get_word(words, value, low, bits); });
     return token;
   }
 

@@ -12,9 +12,8 @@ Result<unsigned> lights_of_everything(const Scene& scene, const SceneCalls& call
                                       const char* name) {
   const std::size_t lights = calls.lights.size(), least = std::max<std::size_t>(lights, 1);
   if (lights > c_most_lights)
-    return bad_input(
-        fmt::format("{}: {} lights; the {} up to {}: remove some, or use the quadratic shader", scene.name,
-                    lights, name, c_most_lights));
+    return bad_input(fmt::format("{}: {} lights; the {} up to {}: remove some, or use the quadratic shader",
+                                 scene.name, lights, name, c_most_lights));
   const std::size_t most = request.lights.value_or(static_cast<unsigned>(least));
   if (most < least || most > c_most_lights)
     return bad_input(fmt::format("--lights: {} is not {} to {}", most, least, c_most_lights));

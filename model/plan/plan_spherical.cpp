@@ -115,8 +115,7 @@ class SphericalPlanner : public EffectPlanner {
         other.channels = std::max(key_.channels, o.highlight_channels);
         return in_hardware(effect, "one multiplier per channel", s.highlight_channels == 3, other);
       case Effect::exponents: {
-        if (!exact)
-          return planned(effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
+        if (!exact) return planned(effect, DoneBy::host, "one table, cos^2; the exponent scales its angle");
         if (!s.specular) return in_hardware(effect, "");
         const bool several = std::popcount(s.powers) > 1;
         o.powers = several ? std::bit_floor(s.powers) : every_power(key_);

@@ -238,8 +238,7 @@ TEST(Plan, TablesAreThePresetsOrOtherExistingOnes) {
     const auto unknown = plan_scene(
         with_lights(1), {.shader = Shader::spherical, .preset = preset, .tables = words::CosineSize{12, 3}});
     EXPECT_TRUE(is_error(unknown, ExitCode::bad_input, "12x3 address x data bits"));
-    EXPECT_TRUE(
-        is_error(unknown, fmt::format("make tables PRESET={} COSINE=12x3", to_string(preset))));
+    EXPECT_TRUE(is_error(unknown, fmt::format("make tables PRESET={} COSINE=12x3", to_string(preset))));
   }
   // A table size of one preset is not available for the other.
   const words::CosineSize published = words::c_published_cosine_size;

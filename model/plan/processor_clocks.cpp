@@ -29,8 +29,7 @@ bool has(const HardwareKey& key, const ProcessorClocks& row) {
   if (!row.term) return false;
   if (*row.term == words::Term::ambient) {
     const words::ProcessorsLayout<words::Exact> layout(processors_config(key));
-    return row.normalize == p.normalize &&
-           row.view == (key.preset == Preset::exact && layout.has_view());
+    return row.normalize == p.normalize && row.view == (key.preset == Preset::exact && layout.has_view());
   }
   return (*row.term == words::Term::diffuse ? p.diffuse : p.specular) && has_light(p, *row.light);
 }

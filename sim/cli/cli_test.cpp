@@ -257,8 +257,8 @@ TEST_F(CliTest, UnresolvedLeavesAreCounted) {
 // Results of both kinds of hardware are in separate folders.
 TEST_F(CliTest, AllEffectsHaveAFolderOfTheirOwn) {
   const auto mesh = write("one.obj", c_triangle);
-  const std::vector<std::string> sim = {"sim", mesh, "--out", out(), "--size", "40x30",
-                                        "--simulator", "verilator"};
+  const std::vector<std::string> sim = {"sim",    mesh,    "--out",       out(),
+                                        "--size", "40x30", "--simulator", "verilator"};
   const std::vector<std::string> compare = {"compare", "one", "--out", out()};
   const auto all_effects = [&](std::vector<std::string> arguments) {
     arguments.emplace_back("--all-effects");

@@ -86,14 +86,13 @@ TEST_F(PlanCommand, WritesTheRepairedNetlist) {
 
 // Its formulas are tested with the plan.
 TEST_F(PlanCommand, Table5OfTheLights) {
-  EXPECT_THAT(
-      run({"plan", "lights", "--objects-per-pixel", "3", "--rate", "30", "--size", "1000x1000"}),
-      Ends(0, AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
-                    ContainsRegex("p \\(2 R \\+ 2 P \\+ 1\\) +1239 \\(21 a pipeline\\)\n"),
-                    ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n"),
-                    // The clocks of this scene's own pipeline, from table 4.
-                    ContainsRegex("exact +folded +positional specular +51 +230 \\(229.50\\) +4830 "),
-                    ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 "))));
+  EXPECT_THAT(run({"plan", "lights", "--objects-per-pixel", "3", "--rate", "30", "--size", "1000x1000"}),
+              Ends(0, AllOf(HasSubstr("R = 5 directional lights, P = 5 positional ones"),
+                            ContainsRegex("p \\(2 R \\+ 2 P \\+ 1\\) +1239 \\(21 a pipeline\\)\n"),
+                            ContainsRegex("\\(14 R \\+ 26 P \\+ 6\\) O dt +30900 ns\n"),
+                            // The clocks of this scene's own pipeline, from table 4.
+                            ContainsRegex("exact +folded +positional specular +51 +230 \\(229.50\\) +4830 "),
+                            ContainsRegex("exact +unrolled +all alike +1 +5 \\(4.50\\) +105 "))));
   // Either option suffices.
   EXPECT_THAT(run({"plan", "lights", "--rate", "60"}).output, HasSubstr("60 frames a second, O = 1"));
   EXPECT_THAT(run({"plan", "lights"}).output, Not(HasSubstr("table 5")));

@@ -146,9 +146,8 @@ TEST_F(ViewCommand, AVideoByTheRealFfmpegPlays) {
   int played = 0;
   for (std::string ending; endings >> ending; ++played) {
     const std::string video = "turn 100%d" + ending;
-    const Outcome drawn =
-        view({"spheres", "--frames", "3", "--threads", "3", "--video", video, "--rate", "24", "--out", "turn",
-              "--format", "ppm"});
+    const Outcome drawn = view({"spheres", "--frames", "3", "--threads", "3", "--video", video, "--rate",
+                                "24", "--out", "turn", "--format", "ppm"});
     ASSERT_THAT(drawn, Ends(0, HasSubstr(video + ": 24 frames a second\n")));
     const Outcome decoded =
         run_as({"ffmpeg", "-nostdin", "-loglevel", "error", "-y", "-i", at(video).string(), "-f", "rawvideo",

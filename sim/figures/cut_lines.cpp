@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/figures/figure_pictures.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +11,7 @@
 #include "setup/spherical_setup.hpp"
 #include "setup/walk_header.hpp"
 #include "shading/bell.hpp"
+#include "sim/figures/figure_pictures.hpp"
 
 namespace halfway::figures {
 namespace {

@@ -180,14 +180,14 @@ std::string to_page(std::span<const Entry> entries, const std::filesystem::path&
   }
   std::int64_t rows = 0;
   for (const auto& [verdict, count] : counts) rows += count;
-  return must(filled_template(source / "sim/figures/figures.md.mustache",
-                              {{"rows_in_all", rows},
-                               {"agreeing", counts["agrees"]},
-                               {"differing", counts["differs"]},
-                               {"constructed", counts["by construction"]},
-                               {"ours", counts["ours"]},
-                               {"papers", papers},
-                               {"figures", figures}}));
+  return must(
+      filled_template(source / "sim/figures/figures.md.mustache", {{"rows_in_all", rows},
+                                                                   {"agreeing", counts["agrees"]},
+                                                                   {"differing", counts["differs"]},
+                                                                   {"constructed", counts["by construction"]},
+                                                                   {"ours", counts["ours"]},
+                                                                   {"papers", papers},
+                                                                   {"figures", figures}}));
 }
 
 }  // namespace halfway::figures

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sim/figures/figure_pictures.hpp"
-
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -10,6 +8,7 @@
 #include "projection/edge.hpp"
 #include "projection/project.hpp"
 #include "shading/shade.hpp"
+#include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/os/seconds.hpp"
 

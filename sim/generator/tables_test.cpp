@@ -36,8 +36,8 @@ TEST_F(TablesCommand, WritesWhatIsCommittedAndThenFindsItAsGenerated) {
                                     "rtl/tables/function_pkg.vhd", "halfway.core",
                                     "docs/rtl/init-vectors.md"};
   files.insert(files.end(), of_registers.begin(), of_registers.end());
-  for (const char* file : {"rtl/files.f", "rtl/core/core_registers.toml", "docs/rtl/core.md",
-                           "docs/rtl/init-vectors.md"})
+  for (const char* file :
+       {"rtl/files.f", "rtl/core/core_registers.toml", "docs/rtl/core.md", "docs/rtl/init-vectors.md"})
     write(source() / file, text_of(c_source_folder / file));
   replace_in(source() / "docs/rtl/init-vectors.md", "| 43:32 |", "| 44:33 |");
   replace_in(source() / "docs/rtl/core.md", "| 00 |", "| 01 |");

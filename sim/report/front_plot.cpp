@@ -120,8 +120,8 @@ std::string page_front(const Table& front) {
   std::map<std::pair<double, double>, std::vector<std::string>> places;
   for (const PlotPoint& point : plot.points) {
     const std::string& name = front.text(point.number, "point");
-    const std::string size = fmt::format(", {}x{}", front.text(point.number, "width"),
-                                         front.text(point.number, "height"));
+    const std::string size =
+        fmt::format(", {}x{}", front.text(point.number, "width"), front.text(point.number, "height"));
     places[{point.x, point.y}].push_back(name.substr(0, name.find(size)));
   }
   std::vector<std::string> joined, hidden;

@@ -82,8 +82,8 @@ constexpr std::array c_told = {
 
 // Those that the table of all points has too.
 constexpr std::array c_shown_columns = {
-    "front",         "frame_ns", "cycles",  "cells",            "host_instructions", "rms",
-    "largest_error", "error_99", "psnr_db", "perceived_pixels", "mach_rms"};
+    "front",    "frame_ns", "cycles",           "cells",   "host_instructions", "rms", "largest_error",
+    "error_99", "psnr_db",  "perceived_pixels", "mach_rms"};
 
 // Columns that apply to hardware only; the table has 0 for software.
 constexpr std::array c_of_hardware = {"cycles",       "fragments",    "leaves",

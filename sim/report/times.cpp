@@ -123,13 +123,13 @@ std::string table_of(const Table& picture, const std::vector<std::size_t>& rows)
       "million instructions | words sent | rms error | largest | pixels seen to differ |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const std::size_t row : rows)
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} | {} | {} |\n",
-                        picture.text(row, "design"), ms_text(picture, row, "overlapped_ns"),
-                        picture.text(row, "bound"), ms_text(picture, row, "sequential_ns"),
-                        ms_text(picture, row, "host_ns"), ms_text(picture, row, "hardware_ns"),
-                        text_or_dash(picture.text(row, "clock_mhz")), millions(picture, row, "host_instructions"),
-                        text_or_dash(picture.text(row, "words")), rms(picture, row),
-                        picture.text(row, "largest_error"), picture.text(row, "perceived_pixels"));
+    text += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.3g} | {} | {} |\n", picture.text(row, "design"),
+        ms_text(picture, row, "overlapped_ns"), picture.text(row, "bound"),
+        ms_text(picture, row, "sequential_ns"), ms_text(picture, row, "host_ns"),
+        ms_text(picture, row, "hardware_ns"), text_or_dash(picture.text(row, "clock_mhz")),
+        millions(picture, row, "host_instructions"), text_or_dash(picture.text(row, "words")),
+        rms(picture, row), picture.text(row, "largest_error"), picture.text(row, "perceived_pixels"));
   return text;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What to draw, and the knobs of drawing. Each knob is declared once, in the table of draw_knobs.cpp: options
-// of the commands that draw, keys of spaces, columns of a study's table and names of designs are made from it.
+// of the commands that draw, keys of spaces, columns of a study's table and names of designs are made from
+// it.
 #pragma once
 
 #include <optional>

@@ -56,8 +56,7 @@ TEST_F(Simulators, FaultsOfTheHardwareAreSeen) {
       {{.red = "(7 downto 1 => '0') & fragment_ready"},
        "changed while it was not taken",
        "changed or was withdrawn"},
-      {{.fault =
-            "if r.left = 7 and fragment_ready = '0' then v.left := r.left - 1; v.valid := '0'; end if;"},
+      {{.fault = "if r.left = 7 and fragment_ready = '0' then v.left := r.left - 1; v.valid := '0'; end if;"},
        "was withdrawn",
        "withdrawn"},
       {{.red = "\"0000000X\" when r.left = 3 else x\"00\""}, "metavalue in fragment", ""}};

@@ -80,11 +80,10 @@ TEST(Spaces, VaryTheExpectedParameters) {
       designs.insert(point.design());
     return designs;
   };
-  EXPECT_THAT(
-      designs_of("designs.toml"),
-      ::testing::IsSupersetOf({"spherical exact 8x6, threshold 8", "spherical exact, threshold 8",
-                               "spherical published 4x4", "planes exact",
-                               "adaptive exact centroid, threshold 2", "phong-mesa"}));
+  EXPECT_THAT(designs_of("designs.toml"),
+              ::testing::IsSupersetOf({"spherical exact 8x6, threshold 8", "spherical exact, threshold 8",
+                                       "spherical published 4x4", "planes exact",
+                                       "adaptive exact centroid, threshold 2", "phong-mesa"}));
   for (const char* file : {"words.toml", "small.toml"})
     EXPECT_THAT(designs_of("full.toml"), ::testing::IsSupersetOf(designs_of(file))) << file;
 }

@@ -95,10 +95,8 @@ TEST_F(FrameTimes, TableHasEveryKnownTime) {
     EXPECT_EQ(table.text(0, column), hardware);
     EXPECT_EQ(table.text(1, column), software);
   }
-  for (const auto& [column, ns] : {std::pair{"host_ns", 1e5},
-                                   {"hardware_ns", 2e5},
-                                   {"overlapped_ns", 2e5},
-                                   {"sequential_ns", 3e5}})
+  for (const auto& [column, ns] :
+       {std::pair{"host_ns", 1e5}, {"hardware_ns", 2e5}, {"overlapped_ns", 2e5}, {"sequential_ns", 3e5}})
     EXPECT_EQ(table.number(0, column), ns);
   EXPECT_EQ(table.text(1, "hardware_ns"), "");
 }

@@ -261,8 +261,7 @@ bool Records::has_tiles(const DesignPoint& point) const {
   return true;
 }
 
-void Records::add_reference(const DesignPoint& point, std::size_t tile,
-                                const Reference& reference) const {
+void Records::add_reference(const DesignPoint& point, std::size_t tile, const Reference& reference) const {
   const auto& [frame, mask] = reference.image;
   add_files(tile_file(point, PieceKind::reference_tile, tile, ""), frame,
             to_picture(frame.size, mask, reference.highlight), Json::object());

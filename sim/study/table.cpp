@@ -168,8 +168,7 @@ std::string times_csv(const Provenance& provenance, std::span<const Record> reco
                       std::span<const PictureTimes> pictures) {
   Table table;
   for (const PictureTimes& picture : pictures)
-    for (const FrameTime& time : picture.times)
-      add(table, time_line(provenance, records[time.record], time));
+    for (const FrameTime& time : picture.times) add(table, time_line(provenance, records[time.record], time));
   return to_csv(table);
 }
 

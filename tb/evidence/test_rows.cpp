@@ -106,8 +106,9 @@ int run_tests(int argc, char** argv, Page page) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   // GoogleTest has printed the help of its own options.
   if (std::erase(arguments, "--help") > 0) {
-    fmt::print("\n  --evidence             measure the page of evidence\n"
-               "  --evidence --part=TEXT only its rows whose names contain the text\n");
+    fmt::print(
+        "\n  --evidence             measure the page of evidence\n"
+        "  --evidence --part=TEXT only its rows whose names contain the text\n");
     return 0;
   }
   const bool is_evidence = std::erase(arguments, c_evidence) > 0;

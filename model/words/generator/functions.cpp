@@ -80,8 +80,14 @@ std::vector<FunctionTable> function_tables(bool exact, const WordLengths& words)
   // 1/sqrt(x) with `bits` bits, or with those of other word lengths.
   const auto root = [&](bool of_exact, int bits, double error) {
     const int made_bits = of_exact == exact ? words.seed_bits.value_or(bits) : bits;
-    FunctionTable table = made({of_exact, Function::reciprocal_root, made_bits - c_seed_cells, made_bits,
-                                made_bits, 0, off_by(error, "", "u / 2 + 2 * w / 2 * (1 / 2)"), {}});
+    FunctionTable table = made({of_exact,
+                                Function::reciprocal_root,
+                                made_bits - c_seed_cells,
+                                made_bits,
+                                made_bits,
+                                0,
+                                off_by(error, "", "u / 2 + 2 * w / 2 * (1 / 2)"),
+                                {}});
     if (made_bits != bits) table.error.value = derived(table);
     return table;
   };

@@ -101,9 +101,9 @@ std::uint64_t run_in_parts(const GhdlRunner& runner, const HardwareKey& key,
       };
     const auto run = runner.run(inits[part], traces[part], of_part);
     if (!run && parts > 1)
-      throw Failure{{run.error().code,
-                     fmt::format("{}, in part {} of {}, from init vector {} on", run.error().message,
-                                 part + 1, parts, first_vectors[part])}};
+      throw Failure{
+          {run.error().code, fmt::format("{}, in part {} of {}, from init vector {} on", run.error().message,
+                                         part + 1, parts, first_vectors[part])}};
     const std::uint64_t of_run = must(run).cycles;
     const std::scoped_lock lock(mutex);
     cycles += of_run;

@@ -91,9 +91,8 @@ TEST_F(GhdlRuns, InPartsDrawWhatOneRunDraws) {
       EXPECT_EQ(drawn, s.golden);
     }
     drawn.clear();
-    const auto limited = caught([&] {
-      run_in_parts(runner, s.key, init, parts, {.max_fragments = 10}, 2, take);
-    });
+    const auto limited =
+        caught([&] { run_in_parts(runner, s.key, init, parts, {.max_fragments = 10}, 2, take); });
     EXPECT_TRUE(is_error(limited, ExitCode::differs, "of 4, from init vector "));
     EXPECT_TRUE(drawn.empty());
   }

@@ -17,8 +17,8 @@ std::set<std::string> entities_of(const std::vector<VhdlSource>& sources) {
   return entities;
 }
 
-// The entity of a module of GHDL's netlist: the longest name of an entity that the module's name is, or starts
-// with; empty without one. GHDL appends a module's generics to the name of its entity.
+// The entity of a module of GHDL's netlist: the longest name of an entity that the module's name is, or
+// starts with; empty without one. GHDL appends a module's generics to the name of its entity.
 std::string entity_of(std::string_view module, const std::set<std::string>& entities) {
   std::string entity;
   for (const std::string& name : entities)

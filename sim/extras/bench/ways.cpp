@@ -57,8 +57,7 @@ Go in_process(Way way, const WayInput& input) {
   const HardwareKey& key = input.stream->key;
   const std::shared_ptr<Engine> engine =
       in_lanes(way) ? must(shared_engine(LaneSimulator::open(
-                          key, input.folders,
-                          {.fast = input.fast, .vectors = facts_of(way).vectors})))
+                          key, input.folders, {.fast = input.fast, .vectors = facts_of(way).vectors})))
                     : must(open_engine(EngineKind::verilator, key, input.folders));
   const std::shared_ptr<GoldenModel> golden = make_golden_model(key);
   return [=, compared = is_compared(way), &s = *input.stream] {

@@ -123,15 +123,14 @@ class BoardTwin {
 /// Appends the packets of a frame. An unreliable host spoils one and stops in another. Returns their number.
 std::uint64_t append_frame(std::vector<HostAction>& script, const Scene& scene,
                            const BoardCheckOptions& options) {
-  const FrameStream stream =
-      must(whole_stream(scene, c_board_frame, board_key(),
-                        {.setup = options.setup, .golden = GoldenDraws::nothing}));
+  const FrameStream stream = must(whole_stream(scene, c_board_frame, board_key(),
+                                               {.setup = options.setup, .golden = GoldenDraws::nothing}));
   const std::size_t words = stream.vector_words(), vectors = stream.words.size() / words;
   const std::size_t spoiled = vectors / 3, stopped = 2 * vectors / 3;
   const bool unreliable = options.host == Host::unreliable && spoiled < stopped;
   for (std::size_t i = 0; i < vectors; ++i) {
-    HostAction action = whole_packet(
-        draw_packet(std::span(stream.words).subspan(i * words, words), stream.init_bits));
+    HostAction action =
+        whole_packet(draw_packet(std::span(stream.words).subspan(i * words, words), stream.init_bits));
     if (unreliable && i % c_packets_per_pause == 0)
       script.push_back(
           {HostAction::Kind::pause, {}, 0, 1 + static_cast<std::uint32_t>(7919 * i % c_longest_pause)});

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The models around the board: each must detect the faults that it is there for.
+#include "sim/extras/board/board_models.hpp"
+
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "golden/board_pixel.hpp"
-#include "sim/extras/board/board_models.hpp"
 #include "sim/extras/board/board_picture.hpp"
 #include "sim/os/must.hpp"
 

@@ -229,13 +229,12 @@ Bits BitOperations::sum(const Bits& a, const Bits& b, int carry) {
   Words words;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const int part = graph().operate(LaneOp::add, x[i], y[i]);
-    words.push_back(
-        graph().operate(LaneOp::add, part, graph()[carry].mask ? graph().fill(carry, 1) : carry));
+    words.push_back(graph().operate(LaneOp::add, part, graph()[carry].mask ? graph().fill(carry, 1) : carry));
     if (i + 1 == x.size()) break;
     if (!graph()[carry].mask) carry = graph().bit(carry, 0);
     const int wraps = graph().compare(LaneOp::equal, words.back(), graph().constant(0));
     carry = graph().operate(LaneOp::either, graph().compare(LaneOp::less, part, x[i]),
-                                 graph().operate(LaneOp::both, carry, wraps));
+                            graph().operate(LaneOp::both, carry, wraps));
   }
   return from_words(words, width_of(a));
 }
@@ -322,12 +321,10 @@ int BitOperations::compare(LaneOp op, const Bits& a, const Bits& b) {
   }
   int mask = graph().mask_constant(op == LaneOp::equal);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const int same =
-        graph().operate(LaneOp::both, graph().compare(LaneOp::equal, x[i], y[i]), mask);
+    const int same = graph().operate(LaneOp::both, graph().compare(LaneOp::equal, x[i], y[i]), mask);
     const LaneOp here = op == LaneOp::signed_less && i + 1 < x.size() ? LaneOp::less : op;
-    mask = op == LaneOp::equal
-               ? same
-               : graph().operate(LaneOp::either, graph().compare(here, x[i], y[i]), same);
+    mask =
+        op == LaneOp::equal ? same : graph().operate(LaneOp::either, graph().compare(here, x[i], y[i]), same);
   }
   return mask;
 }
@@ -335,8 +332,8 @@ int BitOperations::compare(LaneOp op, const Bits& a, const Bits& b) {
 int BitOperations::any_bit(const Bits& a) {
   int any = graph().mask_constant(false);
   for (const Piece& piece : a) {
-    const int own = is_mask(piece) ? piece.node
-                                   : graph().invert(compare(LaneOp::equal, {piece}, zeros(piece.width)));
+    const int own =
+        is_mask(piece) ? piece.node : graph().invert(compare(LaneOp::equal, {piece}, zeros(piece.width)));
     any = graph().operate(LaneOp::either, any, own);
   }
   return any;

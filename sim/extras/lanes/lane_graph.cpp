@@ -89,10 +89,8 @@ int LaneGraph::select(int mask, int a, int b) {
     return x.value != 0 ? operate(LaneOp::either, mask, b) : operate(LaneOp::both, invert(mask), b);
   if (y.op == LaneOp::mask_constant)
     return y.value != 0 ? operate(LaneOp::either, invert(mask), a) : operate(LaneOp::both, mask, a);
-  return add({.op = LaneOp::select,
-              .operands = {mask, a, b},
-              .bits = std::max(x.bits, y.bits),
-              .mask = x.mask});
+  return add(
+      {.op = LaneOp::select, .operands = {mask, a, b}, .bits = std::max(x.bits, y.bits), .mask = x.mask});
 }
 
 int LaneGraph::fill(int mask, std::uint64_t value) {

@@ -70,15 +70,11 @@ class LaneGraph {
   int size() const { return static_cast<int>(nodes_.size()); }
 
   int constant(std::uint64_t value);
-  int mask_constant(bool value) {
-    return add({.op = LaneOp::mask_constant, .value = value, .mask = true});
-  }
+  int mask_constant(bool value) { return add({.op = LaneOp::mask_constant, .value = value, .mask = true}); }
   int cell(std::size_t number, unsigned bits) {
     return add({.op = LaneOp::cell, .value = number, .bits = bits});
   }
-  int mask_cell(std::size_t number) {
-    return add({.op = LaneOp::mask_cell, .value = number, .mask = true});
-  }
+  int mask_cell(std::size_t number) { return add({.op = LaneOp::mask_cell, .value = number, .mask = true}); }
   int operate(LaneOp op, int a, int b);  ///< on two operands, but for comparisons
   int compare(LaneOp op, int a, int b);
   int invert(int a);

@@ -193,9 +193,8 @@ class Lanes : public FolderTest {
             .vectors = vectors};
   }
   Result<SharedLibrary> open(const std::string& body, LaneVectors vectors = LaneVectors::avx512) {
-    return caught([&] {
-      return must(SharedLibrary::load(build_lanes(build_of(body, vectors), c_checkout.cache)));
-    });
+    return caught(
+        [&] { return must(SharedLibrary::load(build_lanes(build_of(body, vectors), c_checkout.cache))); });
   }
   std::string lanes_of(const std::string& body) const {
     return text_of(build_lanes(build_of(body), c_checkout.cache).parent_path() / "lanes.hpp");
@@ -317,9 +316,9 @@ TEST_F(Lanes, UnsupportedConstructsAreRefused) {
       "  reg q;\n  always @(posedge clk) begin q <= stimulus[0]; if (stimulus[1]) q <= stimulus[2]; end\n" +
           respond("{3199'b0, q}"),
       "assigned twice");
-  expect_refused("  wire [7:0] loop;\n  assign loop = {loop[3:0] + 4'd1, loop[7:4]};\n" +
-                     respond("{3192'b0, loop}"),
-                 "depends on itself");
+  expect_refused(
+      "  wire [7:0] loop;\n  assign loop = {loop[3:0] + 4'd1, loop[7:4]};\n" + respond("{3192'b0, loop}"),
+      "depends on itself");
   LaneBuild build = build_of(respond("{3192'b0, stimulus[7:0]}"));
   build.ports.top = "m";
   build.ports.observed = {{"part/missing", 0, 1}};

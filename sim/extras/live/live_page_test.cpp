@@ -265,9 +265,9 @@ TEST_F(LiveInBrowser, NamesTheStageOfABrokenRegister) {
 
 TEST_F(LiveInBrowser, EndsHardwareThatDrawsTooManyFragments) {
   ASSERT_NO_FATAL_FAILURE(open("scene=spheres.toml&size=320x240"));
-  const int option =
-      evaluate("[...document.querySelectorAll('#register option')].findIndex(({textContent}) => "
-               "textContent.startsWith('walker/spans/r.valid,'))");
+  const int option = evaluate(
+      "[...document.querySelectorAll('#register option')].findIndex(({textContent}) => "
+      "textContent.startsWith('walker/spans/r.valid,'))");
   ASSERT_GE(option, 0);
   choose("register", std::to_string(option));
   evaluate("document.getElementById('break').click()");

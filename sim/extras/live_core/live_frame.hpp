@@ -31,9 +31,9 @@ namespace halfway::live {
 inline constexpr std::array c_setting_names = {"width",        "height",         "azimuth",
                                                "elevation",    "distance",       "exponent",
                                                "lightAzimuth", "lightElevation", "threshold"};
-inline constexpr std::array c_figure_names = {
-    "fragments", "mismatches", "triangles", "leaves", "words",    "clocks",
-    "rms",       "largest",    "setup",     "golden", "hardware", "compare"};
+inline constexpr std::array c_figure_names = {"fragments", "mismatches", "triangles", "leaves",
+                                              "words",     "clocks",     "rms",       "largest",
+                                              "setup",     "golden",     "hardware",  "compare"};
 inline constexpr std::array c_picture_names = {"hardware", "golden", "reference", "difference", "triangles"};
 
 /// Of the last drawn frame.

@@ -185,10 +185,9 @@ class SceneSearch final : public Search {
     if (shader_ == Shader::spherical && published) return "";
     const Pieces pieces(scene, frame);
     Worst coverage, colour;
-    coverage.add(
-        static_cast<double>(
-            wrong_pixels(pieces, frame, drawing->golden, drawing->key.processors.objects > 0)),
-        0, [] { return "pixels"; });
+    coverage.add(static_cast<double>(
+                     wrong_pixels(pieces, frame, drawing->golden, drawing->key.processors.objects > 0)),
+                 0, [] { return "pixels"; });
     const std::string wrong = tally.add("coverage", coverage);
     if (published || !wrong.empty()) return wrong;
     if (shader_ == Shader::quadratic) return against_threshold(input, *drawing, pieces, tally);
