@@ -149,7 +149,7 @@ begin
       out_data  => init
       );
 
-    -- Report an unknown command: as a number it would be a triangle to draw. A synthesizer has no unknown bits.
+  -- Report an unknown command: as a number it would be a triangle to draw. A synthesizer has no unknown bits.
   check_command : process (clk)
   begin
     if rising_edge(clk) then

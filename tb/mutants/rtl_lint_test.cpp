@@ -106,5 +106,34 @@ TEST(RtlLint, RtlKeepsOffWhatIsMiscompiled) {
   EXPECT_GE(files, 5U);
 }
 
+TEST(RtlLint, SeesEachFault) {
+  const std::vector<std::string> bad = {"  x <= shift_right(signed(y), 3);",
+                                        "  x <= Shift_Right (a, 3);",
+                                        "  x <= a / b;",
+                                        "  x <= abs a;",
+                                        "  x <= ABS(a);",
+                                        "  x <= minimum(a, b);",
+                                        "  x <= a mod 8;",
+                                        "  x <= maximum(a, b);",
+                                        "  signal edge : std_logic;",
+                                        "  tri, a : in std_logic;",
+                                        "  x <= a sra 2;",
+                                        "  x <= a rem 3; -- 7/8",
+                                        "  do : entity work.thing",
+                                        "  table : if g_exact generate",
+                                        "  -- synthesis translate_off",
+                                        "  -- pragma synthesis_on"};
+  for (const std::string& line : bad) EXPECT_EQ(faults_in("x.vhd", line).size(), 1U) << line;
+  const std::vector<std::string> good = {"  x <= a; -- a/b, abs, mod",
+                                         "  if a /= b then",
+                                         "  report \"a / b mod abs\";",
+                                         "  x <= absolute;",
+                                         "  signal edge_x : t;",
+                                         "  constant c : natural := n / 2; -- evaluated at elaboration",
+                                         "  x <= '/';",
+                                         "  x <= shift_right(unsigned(y), 3);"};
+  for (const std::string& line : good) EXPECT_EQ(faults_in("x.vhd", line).size(), 0U) << line;
+}
+
 }  // namespace
 }  // namespace halfway
