@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "sim/cost/synthesis.hpp"
+#include "sim/cost/placement.hpp"
 #include "sim/cost/yosys.hpp"
 #include "sim/engines/verilator/netlist.hpp"
 #include "sim/os/file.hpp"

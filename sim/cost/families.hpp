@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/result.hpp"
+#include "sim/cost/global_buffers.hpp"
 
 namespace halfway {
 
@@ -23,16 +24,6 @@ struct Cells {
 };
 
 namespace synth {
-
-/// Selects the nets for an iCE40's global buffers (global_buffers.cpp). nextpnr 0.4 decides by fan-out only,
-/// and would route enables made by lookup tables to the edge of the die.
-/// `netlist` is Yosys's JSON. Insert an SB_GB after port clk of module `wrapped`, and one for each of at most
-/// four enables. An enable's buffer drives only the registers' enable pins; other loads keep the
-/// original net, because a buffer that reaches enables reaches no reset. Enables with the most full sums are
-/// selected, in order of name if equal. A full sum is a register after a lookup table with four inputs, with
-/// I3 a carry. The local inputs of a tile are 32, all used by eight such cells. An enable fits only if it is
-/// global; otherwise nextpnr routes the carries through the fabric.
-Result<std::string> with_global_buffers(std::string_view netlist);
 
 /// Cell types whose names start with `prefix` add `weight` to the number; nullptr: they are not counted.
 struct CellKind {

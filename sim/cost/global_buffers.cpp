@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/cost/global_buffers.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,18 +12,11 @@
 #include <tuple>
 #include <vector>
 
-#include "sim/cost/families.hpp"
-
 namespace halfway::synth {
 namespace {
 
 using nlohmann::ordered_json;  // keeps Yosys's order, because a placement depends on it
 using Net = std::int64_t;
-
-// Global buffers used for enables, of the device's eight.
-constexpr std::size_t c_enable_buffers = 4;
-// Minimum number of full sums for an enable to get a buffer: the cells of a tile.
-constexpr std::size_t c_least_sums = 8;
 
 bool is_net(const ordered_json& bit) {
   return bit.is_number_integer();

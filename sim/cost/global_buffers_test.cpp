@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks which nets of small netlists get a buffer, and, if the tools are installed, how many of the device's
 // buffers a design uses.
+#include "sim/cost/global_buffers.hpp"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

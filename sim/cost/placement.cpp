@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/cost/placement.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "sim/cost/synthesis.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway::synth {

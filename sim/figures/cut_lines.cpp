@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/figures/cut_lines.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,7 +13,6 @@
 #include "setup/spherical_setup.hpp"
 #include "setup/walk_header.hpp"
 #include "shading/bell.hpp"
-#include "sim/figures/figure_pictures.hpp"
 
 namespace halfway::figures {
 namespace {

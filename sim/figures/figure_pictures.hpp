@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures for figures: scenes, software and hardware that draws them, sheets of several frames, and plots.
+// Pictures for figures: scenes, hardware that draws them, sheets of several frames, and plots.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include "frame/frame.hpp"
 #include "frame/metrics.hpp"
 #include "plan/plan.hpp"
-#include "projection/screen_triangle.hpp"
 #include "reference/renderer.hpp"
 #include "scene/mesh.hpp"
 #include "scene/scene.hpp"
@@ -75,37 +74,6 @@ struct Likeness {
   Measured measured() const;
 };
 Likeness likeness(const Frame& frame, const Frame& other, std::span<const std::uint8_t> mask);
-
-/// The three renderers that the quadratic paper compares, as plain software. They share one scan conversion.
-/// Per pixel and channel they compute one addition, two additions, or the illumination model.
-enum class SoftwareShading {
-  gouraud,    ///< shaded at the three vertices, linear in between
-  quadratic,  ///< shaded at six points, with forward differences
-  phong       ///< shaded at each pixel; normal and position are linear on the screen, as in the paper
-};
-
-struct SoftwareFrame {
-  Frame frame;
-  double seconds;  ///< processor seconds for drawing the triangles into an existing frame
-};
-
-/// Computed in double with a depth buffer, from triangles with 4 subpixel bits, on the calling thread.
-SoftwareFrame shade_in_software(const Scene& scene, std::span<const ScreenTriangle> triangles, FrameSize size,
-                                SoftwareShading shading);
-
-/// The published spherical hardware with a host that cuts lines where a bell ends. The paper sets the bell to
-/// zero outside of +-pi/2a and has an angle register of 12 bits. Preset published lets the register wrap.
-/// This is the other reading: the register never leaves the bell, because the host sends another record where
-/// the bell ends.
-struct CutLines {
-  Frame frame;
-  std::uint64_t vectors = 0, records = 0;  ///< that the host sends
-};
-
-/// Draw by the golden model of preset published. A line on which a highlight's angle leaves its bell is sent
-/// in pieces; outside of the bell the factor of the highlight is zero. Each piece is a triangle of one line:
-/// an init vector and a record. The angle at its start is the one that the uncut line's register has there.
-CutLines draw_with_cut_lines(const Scene& scene, FrameSize size);
 
 /// A plot as SVG.
 struct Plot {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "common/test/is_error.hpp"
+#include "sim/figures/cut_lines.hpp"
 #include "sim/figures/figure7.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/six_point_fit.hpp"

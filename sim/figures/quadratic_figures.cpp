@@ -12,6 +12,7 @@
 #include "sim/figures/figure7.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/six_point_fit.hpp"
+#include "sim/figures/software_shading.hpp"
 #include "sim/files/timing_diagram.hpp"
 
 namespace halfway::figures {

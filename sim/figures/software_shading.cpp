@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "sim/figures/software_shading.hpp"
+
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -8,7 +10,6 @@
 #include "projection/edge.hpp"
 #include "projection/project.hpp"
 #include "shading/shade.hpp"
-#include "sim/figures/figure_pictures.hpp"
 #include "sim/figures/six_point_fit.hpp"
 #include "sim/os/seconds.hpp"
 

@@ -18,6 +18,7 @@
 #include "shading/arc.hpp"
 #include "shading/bell.hpp"
 #include "shading/shade.hpp"
+#include "sim/figures/cut_lines.hpp"
 #include "sim/figures/figure_pictures.hpp"
 #include "sim/files/load_scene.hpp"
 #include "sim/os/threads.hpp"
