@@ -75,8 +75,17 @@ std::string Claim::limit() const {
 }
 
 const char* to_string(Verdict verdict) {
-  constexpr std::array c_names{"agrees", "by construction", "ours", "differs"};
-  return c_names[static_cast<std::size_t>(verdict)];
+  switch (verdict) {
+    case Verdict::agrees:
+      return "agrees";
+    case Verdict::by_construction:
+      return "by construction";
+    case Verdict::ours:
+      return "ours";
+    case Verdict::differs:
+      break;
+  }
+  return "differs";
 }
 
 bool Row::holds() const {
@@ -179,15 +188,16 @@ std::string to_page(std::span<const Entry> entries, const std::filesystem::path&
     papers.push_back(std::move(paper));
   }
   std::int64_t rows = 0;
-  for (const auto& [verdict, count] : counts) rows += count;
-  return must(
-      filled_template(source / "sim/figures/figures.md.mustache", {{"rows_in_all", rows},
-                                                                   {"agreeing", counts["agrees"]},
-                                                                   {"differing", counts["differs"]},
-                                                                   {"constructed", counts["by construction"]},
-                                                                   {"ours", counts["ours"]},
-                                                                   {"papers", papers},
-                                                                   {"figures", figures}}));
+  for (const auto& [verdict, number] : counts) rows += number;
+  const auto count = [&](Verdict verdict) { return counts[to_string(verdict)]; };
+  return must(filled_template(source / "sim/figures/figures.md.mustache",
+                              {{"rows_in_all", rows},
+                               {"agreeing", count(Verdict::agrees)},
+                               {"differing", count(Verdict::differs)},
+                               {"constructed", count(Verdict::by_construction)},
+                               {"ours", count(Verdict::ours)},
+                               {"papers", papers},
+                               {"figures", figures}}));
 }
 
 }  // namespace halfway::figures
