@@ -18,6 +18,7 @@ namespace halfway::tables {
 namespace {
 
 constexpr const char* c_registers = "rtl/core/core_registers.toml";
+
 // Adds a page of the checkout with these parts written again. A copy of the sources has no pages.
 void add_page(std::vector<GeneratedFile>& files, const std::filesystem::path& checkout, const char* path,
               const std::vector<std::pair<std::string, std::string>>& parts, const std::string& source) {

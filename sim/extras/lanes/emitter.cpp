@@ -11,32 +11,6 @@
 namespace halfway {
 namespace {
 
-/// The text of each operation on operands 0 to 2 and the node's value, 3.
-const std::map<LaneOp, const char*> c_texts = {
-    {LaneOp::add, "{0} + {1}"},
-    {LaneOp::subtract, "{0} - {1}"},
-    {LaneOp::multiply, "{0} * {1}"},
-    {LaneOp::multiply_high, "multiply_high({0}, {1})"},
-    {LaneOp::signed_multiply_high, "signed_multiply_high({0}, {1})"},
-    {LaneOp::left_by, "left_by({0}, {1})"},
-    {LaneOp::right_by, "right_by({0}, {1})"},
-    {LaneOp::signed_right_by, "signed_right_by({0}, {1})"},
-    {LaneOp::both, "{0} & {1}"},
-    {LaneOp::either, "{0} | {1}"},
-    {LaneOp::differ, "{0} ^ {1}"},
-    {LaneOp::invert, "invert({0})"},
-    {LaneOp::select, "select({0}, {1}, {2})"},
-    {LaneOp::left, "{0} << {3}"},
-    {LaneOp::right, "{0} >> {3}"},
-    {LaneOp::fill, "fill({0}, {3:#x}u)"},
-    {LaneOp::rom, "lookup(c_rom{3}, {0})"},
-    {LaneOp::row, "load(s.bank{3}, {0})"},
-    {LaneOp::word, "{0}.words[{3}]"},
-    {LaneOp::bit, "test({0}, 1u << {3})"},
-    {LaneOp::equal, "equal({0}, {1})"},
-    {LaneOp::less, "less({0}, {1})"},
-    {LaneOp::signed_less, "signed_less({0}, {1})"}};
-
 /// The text of one function.
 class StepEmitter {
  public:
@@ -189,6 +163,31 @@ class StepEmitter {
 
   /// Empty for a node that is read where it is used.
   std::string expression_of(const LaneNode& node) const {
+    // On operands 0 to 2 and the node's value, 3.
+    static const std::map<LaneOp, const char*> c_texts = {
+        {LaneOp::add, "{0} + {1}"},
+        {LaneOp::subtract, "{0} - {1}"},
+        {LaneOp::multiply, "{0} * {1}"},
+        {LaneOp::multiply_high, "multiply_high({0}, {1})"},
+        {LaneOp::signed_multiply_high, "signed_multiply_high({0}, {1})"},
+        {LaneOp::left_by, "left_by({0}, {1})"},
+        {LaneOp::right_by, "right_by({0}, {1})"},
+        {LaneOp::signed_right_by, "signed_right_by({0}, {1})"},
+        {LaneOp::both, "{0} & {1}"},
+        {LaneOp::either, "{0} | {1}"},
+        {LaneOp::differ, "{0} ^ {1}"},
+        {LaneOp::invert, "invert({0})"},
+        {LaneOp::select, "select({0}, {1}, {2})"},
+        {LaneOp::left, "{0} << {3}"},
+        {LaneOp::right, "{0} >> {3}"},
+        {LaneOp::fill, "fill({0}, {3:#x}u)"},
+        {LaneOp::rom, "lookup(c_rom{3}, {0})"},
+        {LaneOp::row, "load(s.bank{3}, {0})"},
+        {LaneOp::word, "{0}.words[{3}]"},
+        {LaneOp::bit, "test({0}, 1u << {3})"},
+        {LaneOp::equal, "equal({0}, {1})"},
+        {LaneOp::less, "less({0}, {1})"},
+        {LaneOp::signed_less, "signed_less({0}, {1})"}};
     const auto text = c_texts.find(node.op);
     if (text == c_texts.end()) return {};
     std::array<std::string, 3> x;
