@@ -39,5 +39,17 @@ TEST(Assemble, RefusesFragmentsOutside) {
   }
 }
 
+TEST(Assemble, KeepsOnlyATile) {
+  FrameAssembler assembler({8, 8}, {2, 1, {2, 2}}, {});
+  ASSERT_TRUE(assembler.add(std::array{fragment(2, 1, 5, 10), fragment(3, 2, 6, 20), fragment(1, 1, 1, 30),
+                                       fragment(4, 1, 1, 31), fragment(2, 0, 1, 32), fragment(2, 3, 1, 33)}));
+  EXPECT_EQ(assembler.frame().rgb, (std::vector<std::uint8_t>{10, 2, 3, 0, 0, 0, 0, 0, 0, 20, 2, 3}));
+  EXPECT_EQ(assembler.fragments(), 6U);
+  EXPECT_EQ(assembler.fragments_inside(), 2U);
+  EXPECT_EQ(assembler.depth(0, 0), 5U);
+  EXPECT_EQ(assembler.depth(1, 0), std::nullopt);
+  EXPECT_FALSE(assembler.add(std::array{fragment(8, 1, 5, 10)}));
+}
+
 }  // namespace
 }  // namespace halfway

@@ -9,6 +9,19 @@
 namespace halfway {
 namespace {
 
+TEST(Metrics, EqualFramesHaveNoDistance) {
+  Frame a({7, 3});
+  for (std::size_t i = 0; i < a.rgb.size(); ++i) a.rgb[i] = static_cast<std::uint8_t>(11 * i);
+  const auto d = frame_distance(a, a);
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->pixels, 21u);
+  EXPECT_EQ(d->differing, 0u);
+  EXPECT_TRUE(std::isinf(d->psnr_db) && d->psnr_db > 0);
+  EXPECT_EQ(d->rms, 0.0);
+  EXPECT_EQ(d->max_lsb, 0u);
+  EXPECT_EQ(d->percentile99, 0u);
+}
+
 TEST(Metrics, DifferencesUpToTwoStepsAreClose) {
   Frame a({2, 1}), b({2, 1});
   b.rgb = {2, 2, 2, 0, 3, 0};
@@ -44,6 +57,12 @@ TEST(Metrics, The99thPercentileIgnoresOneInAHundred) {
   EXPECT_EQ(frame_distance(a, b)->percentile99, 0u);
   b.rgb[200] = 7;  // the fourth
   EXPECT_EQ(frame_distance(a, b)->percentile99, 7u);
+}
+
+TEST(Metrics, BlackAgainstWhiteIsZeroDecibel) {
+  Frame a({4, 4}), b({4, 4});
+  b.rgb.assign(b.rgb.size(), 255);
+  EXPECT_EQ(frame_distance(a, b)->psnr_db, 0.0);
 }
 
 TEST(Metrics, RefusesFramesAndMasksOfOtherSizes) {

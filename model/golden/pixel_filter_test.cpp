@@ -11,6 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "golden/fragment_output.hpp"
+
 namespace halfway::golden {
 namespace {
 
@@ -81,6 +83,14 @@ class RandomFrame {
         fragments.push_back({nearest->triangle, nearest->z, static_cast<std::uint16_t>(y),
                              static_cast<std::uint16_t>(x), rounded(0), rounded(1), rounded(2)});
       }
+    return fragments;
+  }
+
+  /// The objects, each alone as a fragment.
+  std::vector<Fragment> unfiltered(int channels) const {
+    std::vector<Fragment> fragments;
+    for (const auto& [place, list] : pixels_)
+      fragments.push_back(fragment_output(list.at(0).token, channels));
     return fragments;
   }
 
@@ -168,6 +178,19 @@ TEST(PixelFilter, WeightsItsPixels) {
   expect_filters<words::Published>({9, 3, 3, 1});
   expect_filters<words::Exact>({0, 5, 2, 1});
   expect_filters<words::Published>({1, 0, 2, 1});
+}
+
+template <class Preset>
+void expect_passes_on(int channels) {
+  const RandomFrame<Preset> frame(1, 7);
+  PixelFilter<Preset> filter(channels, 1, c_background, {1, 0, 0, 0});
+  expect_equal(frame.strip(filter, 0, c_columns - 1), frame.unfiltered(channels));
+}
+
+TEST(PixelFilter, EqualsTheFragmentOutputWithOneSubpixelAndWithoutNeighbours) {
+  expect_passes_on<words::Exact>(3);
+  expect_passes_on<words::Exact>(1);
+  expect_passes_on<words::Published>(3);
 }
 
 }  // namespace

@@ -47,6 +47,10 @@ TEST(CentredStart, HalvesTheDrift) {
   EXPECT_GT(plain, 1.8) << "a start that is not centred drifts as far";
 }
 
+TEST(CentredStart, IsTheStartOfASinglePixel) {
+  EXPECT_EQ(centred_start(0.3, 0.1, 0, c_word_fraction), 0.3);
+}
+
 TEST(InitVector, NearestRoundsAsTheLibraryDoes) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> size(-3.0, 17.5), sign(-1.0, 1.0);
@@ -85,6 +89,25 @@ TEST(InitVector, WrappedWordsAreModuloTheirWidth) {
   for (const double v : {0x1p63, -0x1p63, 0x1p64, 1e300, std::numeric_limits<double>::infinity(),
                          std::numeric_limits<double>::quiet_NaN()})
     expect_congruent(v);
+}
+
+// Fields of 1 to 64 bits one after the other, from any bit on, against words::set_bits.
+TEST(InitVector, PutsFieldsWhereTheGoldenModelReadsThem) {
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 2'000; ++i) {
+    std::vector<std::uint32_t> words;
+    constexpr unsigned c_vector_bits = 1024;
+    InitVector init(words, c_vector_bits);
+    std::vector<std::uint32_t> expected(c_vector_bits / 32);
+    for (int low = static_cast<int>(random() % 40); low + 64 < static_cast<int>(c_vector_bits);) {
+      const words::Field field{"", 7, static_cast<int>(1 + random() % 64), false, 0};
+      const std::uint64_t value = random();
+      init.put(field, static_cast<std::int64_t>(value), low - 7);
+      words::set_bits(expected, field, value, low - 7);
+      low += field.bits;
+    }
+    ASSERT_EQ(words, expected);
+  }
 }
 
 }  // namespace

@@ -58,6 +58,15 @@ TEST(Word, SumsWrapAtEveryWidth) {
   }(std::make_integer_sequence<int, 64>());
 }
 
+TEST(Word, LowBitsKeepsTheLowestBits) {
+  for (int bits = 1; bits <= 64; ++bits) {
+    const mpz_class modulus = mpz_class(1) << bits;
+    for (std::uint64_t v : {~std::uint64_t{0}, std::uint64_t{0x0123456789abcdef}, std::uint64_t{1} << 63})
+      ASSERT_EQ(mpz_class(static_cast<unsigned long>(low_bits(v, bits))),
+                mpz_class(static_cast<unsigned long>(v)) % modulus);
+  }
+}
+
 // Every width at every alignment within two words, on a random vector: the field has the value, and no other
 // bit of the vector changes.
 TEST(FlatVector, AFieldIsWrittenAndReadAtEveryAlignment) {

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "common/test/is_error.hpp"
+#include "plan/plan.hpp"
+#include "sim/driver/frame_driver.hpp"
+#include "sim/files/test/built_in_scene.hpp"
 #include "sim/files/trace.hpp"
 #include "sim/os/test/folder_test.hpp"
 
@@ -152,6 +155,46 @@ TEST_F(StoredRtlFrame, ReadsGoldenFragmentsFromATrace) {
   // A truncated trace.
   write(trace, "halfway-trace 1 key\n0 0 0 1 10 0 0\n");
   EXPECT_FALSE(finish(stand_in(c_golden, 3)));
+}
+
+/// A scene's vectors and fragments.
+struct Vectors {
+  HardwareKey key;
+  std::vector<std::uint32_t> words;
+  std::vector<Fragment> golden;
+};
+constexpr FrameSize c_rtl_size{48, 36};
+
+Vectors vectors_of(Shader shader) {
+  const Scene scene = built_in_scene("matte");
+  const auto plan = plan_scene(scene, {.shader = shader});
+  FrameStream stream = must(whole_stream(scene, c_rtl_size, plan->key));
+  return {plan->key, std::move(stream.words), std::move(stream.golden)};
+}
+
+// With a golden model of its own, the frame stores the golden fragments of one triangle at most.
+TEST(RtlFrame, DrawsGoldenFragmentsWhenTheyAreNeeded) {
+  for (const Shader shader : c_shaders) {
+    const Vectors all = vectors_of(shader);
+    ASSERT_GT(all.golden.size(), 200U);
+    for (const std::size_t late : {std::size_t{0}, std::size_t{5}, all.golden.size()}) {
+      std::vector<Fragment> drawn = all.golden;
+      for (const std::uint64_t wrong : {0, 1}) {
+        drawn[150].blue ^= static_cast<std::uint8_t>(wrong);
+        const auto engine = stand_in(drawn, late);
+        for (const bool compare : {true, false}) {
+          engine->limits.clear();
+          RtlFrame frame(engine, c_rtl_size, {}, {.golden = make_golden_model(all.key), .compare = compare});
+          ASSERT_TRUE(frame.add(all.words));
+          ASSERT_TRUE(frame.finish());
+          const SimulatorRun run = frame.result();
+          EXPECT_EQ(run.mismatches, compare ? wrong : 0U) << run.description;
+          EXPECT_EQ(run.fragments, all.golden.size());
+          EXPECT_EQ(engine->limits, (std::vector<std::uint64_t>{all.golden.size() + 10'000, late + 10'000}));
+        }
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -7,9 +7,13 @@
 #include <chrono>
 #include <fstream>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "common/test/is_error.hpp"
+#include "sim/os/must.hpp"
 #include "sim/os/test/folder_test.hpp"
 
 namespace halfway {
@@ -22,6 +26,35 @@ class File : public FolderTest {
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
 };
+
+TEST_F(File, WritesAndReadsWhole) {
+  std::string content(3'000'001, 'x');
+  content[17] = '\0';
+  ASSERT_TRUE(write_file(at("a/b/c"), content));
+  EXPECT_TRUE(must(read_file(at("a/b/c"))) == content);
+  EXPECT_EQ(read_file(at("none")).error().code, ExitCode::bad_input);
+}
+
+TEST_F(File, AreListedByName) {
+  for (const char* name : {"c.vhd", "b/d.vhd", "b/a.txt", "a.vhd"}) write(name, "");
+  using Files = std::vector<std::filesystem::path>;
+  EXPECT_EQ(must(files_below(here())), (Files{"a.vhd", "b/a.txt", "b/d.vhd", "c.vhd"}));
+  EXPECT_EQ(must(files_below(here(), ".vhd")), (Files{"a.vhd", "b/d.vhd", "c.vhd"}));
+  EXPECT_TRUE(is_error(files_below(at("none")), "none: No such file or directory"));
+}
+
+TEST_F(File, ReadsLinesAcrossBuffers) {
+  std::string content;
+  for (int i = 0; i < 400'000; ++i) content += std::to_string(i) + '\n';
+  write("a", content);
+  auto reader = must(LineReader::open(at("a")));
+  std::string_view line;
+  for (int i = 0; i < 400'000; ++i) {
+    ASSERT_TRUE(must(reader.next(line)));
+    ASSERT_EQ(line, std::to_string(i));
+  }
+  EXPECT_FALSE(must(reader.next(line)));
+}
 
 TEST_F(File, ErrorsNameTheFileAndLeaveNothing) {
   EXPECT_TRUE(is_error(LineWriter::open("/proc/halfway/file"), ExitCode::bad_input, "/proc/halfway"));

@@ -10,7 +10,21 @@ namespace halfway {
 namespace {
 
 constexpr std::string_view c_page =
-    "# Page\n\n<!-- one: written by make one -->\n\nfirst\n\nsecond\n\n<!-- end of one -->\n\nrest\n";
+    "# Page\n\n<!-- one: written by make one -->\n\nfirst\n\nsecond\n\n<!-- end of one -->\n\nrest\n"
+    "<!-- two: none -->\n<!-- end of two -->\n";
+
+TEST(PagePart, IsReplacedWithoutOtherChanges) {
+  const auto page = must(with_page_part(c_page, "one", "new\n"));
+  EXPECT_EQ(page,
+            "# Page\n\n<!-- one: written by make one -->\n\nnew\n\n<!-- end of one -->\n\nrest\n"
+            "<!-- two: none -->\n<!-- end of two -->\n");
+  const auto again = must(with_page_part(page, "one", "new\n"));
+  EXPECT_EQ(again, page);
+  const auto both = must(with_page_part(page, "two", "more\n"));
+  EXPECT_EQ(both,
+            "# Page\n\n<!-- one: written by make one -->\n\nnew\n\n<!-- end of one -->\n\nrest\n"
+            "<!-- two: none -->\n\nmore\n\n<!-- end of two -->\n");
+}
 
 TEST(PagePart, ExistsOnceAndHasAnEnd) {
   for (const std::string& page : {std::string("# Page\n"), std::string("\n<!-- one: by make -->\ntext\n"),
@@ -32,8 +46,7 @@ TEST_F(PagePartOfFile, IsRewrittenOrTheFileIsUnchanged) {
   EXPECT_TRUE(is_error(rewrite_page(path, with_one("three")), path.string() + ": wants one part"));
   EXPECT_EQ(text_of(path), c_page);
   ASSERT_TRUE(rewrite_page(path, with_one("one")));
-  EXPECT_EQ(text_of(path),
-            "# Page\n\n<!-- one: written by make one -->\n\nnew\n\n<!-- end of one -->\n\nrest\n");
+  EXPECT_EQ(text_of(path), *with_page_part(c_page, "one", "new\n"));
 }
 
 }  // namespace

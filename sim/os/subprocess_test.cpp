@@ -22,6 +22,15 @@ ProcessEnd run(const Command& command) {
   return must(run_process(command, "apt-get install nothing"));
 }
 
+TEST(Subprocess, ReturnsStatusAndOutput) {
+  const auto end = run(shell("echo out; echo err >&2; exit 7"));
+  EXPECT_EQ(end.exit_status, 7);
+  EXPECT_FALSE(end.succeeded());
+  EXPECT_EQ(end.output, "out\nerr\n");
+  EXPECT_EQ(end.how(), "exit status 7");
+  EXPECT_TRUE(run(shell("true")).succeeded());
+}
+
 TEST(Subprocess, ReadsItsStandardInput) {
   int ends[2];
   ASSERT_EQ(::pipe2(ends, O_CLOEXEC), 0);
@@ -37,6 +46,25 @@ TEST(Subprocess, ReadsItsStandardInput) {
   ::close(ends[1]);
   EXPECT_FALSE(run_process({.arguments = {"halfway-no-such-program"}, .standard_input = ends[0]}, ""));
   EXPECT_EQ(::fcntl(ends[0], F_GETFD), -1) << "left open";
+}
+
+TEST(Subprocess, ReportsTheSignal) {
+  const auto end = run(shell("kill -SEGV $$"));
+  EXPECT_EQ(end.signal, SIGSEGV);
+  EXPECT_FALSE(end.succeeded());
+  EXPECT_NE(end.how().find("signal 11"), std::string::npos);
+}
+
+TEST(Subprocess, ReportsAMissingProgram) {
+  const auto end =
+      run_process({.arguments = {"halfway-no-such-program"}, .working_folder = {}}, "apt-get install it");
+  EXPECT_TRUE(is_error(end, ExitCode::tool_failed, "apt-get install it"));
+}
+
+TEST(Subprocess, ReportsAMissingFolder) {
+  Command command = shell("true");
+  command.working_folder = "/no/such/folder";
+  EXPECT_TRUE(is_error(run_process(command, ""), ExitCode::tool_failed));
 }
 
 TEST(Subprocess, EndsAllProcessesAtATimeout) {
@@ -71,6 +99,15 @@ TEST_F(SubprocessInFolder, HasAnEnvironmentAndAnOutputFile) {
   command.standard_output = at("out");
   EXPECT_EQ(run(command).output, "err\n");
   EXPECT_EQ(text_of("out"), "a b\n" + std::filesystem::canonical(here()).string() + "\n");
+}
+
+TEST(Subprocess, Polls) {
+  int polls = 0;
+  Command command = shell("sleep 0.5");
+  command.poll_interval = std::chrono::milliseconds(50);
+  command.on_poll = [&] { ++polls; };
+  run(command);
+  EXPECT_GE(polls, 3);
 }
 
 TEST(Subprocess, PrintsCommandsInShellSyntax) {

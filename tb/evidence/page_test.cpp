@@ -18,6 +18,17 @@ TEST(Page, SectionsAreReplacedInPlaceOrAppended) {
   EXPECT_EQ(with_sections(page, last), "# Page\n\nIntro.\n\n## one\n\nold\n\n## two\n\nother\n");
 }
 
+TEST(Page, PartsBetweenCommentsAreReplacedInPlace) {
+  const std::string page =
+      "# Page\n\n## one\n\nText.\n\n<!-- one: written by x -->\n\nold\n\n<!-- end of one -->\n\nMore.\n";
+  const Section sections[] = {{"one", "new\n"}};
+  const std::string written = with_sections(page, sections);
+  EXPECT_EQ(
+      written,
+      "# Page\n\n## one\n\nText.\n\n<!-- one: written by x -->\n\nnew\n\n<!-- end of one -->\n\nMore.\n");
+  EXPECT_EQ(with_sections(written, sections), written);
+}
+
 TEST(Page, RowsAreATablePerSection) {
   const Row rows[] = {{"a", "one", {{"x", "1"}, {"y", "2"}}},
                       {"b", "two", {{std::string(c_table), "| whole |\n"}}},

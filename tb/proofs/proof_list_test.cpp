@@ -98,6 +98,18 @@ TEST_F(ProofList, AssertsEveryPortOfEveryStream) {
   EXPECT_GE(ports, 37);  // in nine entities
 }
 
+TEST(StreamPorts, AreFoundInTheEntity) {
+  const auto ports = stream_ports(
+      "\nentity e is\n  port (\n    a_valid   : in  std_logic; -- b_valid : in x\n    a_ready : out "
+      "std_logic;\n"
+      "    other : in std_logic\n  );\nend entity;\n signal c_valid : in x");
+  ASSERT_EQ(ports.size(), 2U);
+  EXPECT_EQ(ports[0].name, "a_valid");
+  EXPECT_FALSE(ports[0].out);
+  EXPECT_EQ(ports[1].name, "a_ready");
+  EXPECT_TRUE(ports[1].out);
+}
+
 // Signals, constants and values of types.
 std::set<std::string> declared_names(const std::string& vhdl) {
   const std::regex lists(R"(\b(?:(?:signal|constant) ([\w, ]+) *:|type \w+ is \(([\w,\s]+)\);))"),

@@ -33,5 +33,12 @@ TEST(Bound, InvalidFormulasAreRefused) {
     EXPECT_THROW(evaluated(formula, quantities), std::logic_error) << formula;
 }
 
+TEST(Bound, IsPrintedInOneLine) {
+  EXPECT_EQ(to_string(at_most(4095, "frame - 1")), "at most 4095: frame - 1");
+  EXPECT_EQ(to_string(at_most(1, "1")), "at most 1");
+  EXPECT_EQ(to_string(off_by(0.15, "colour steps", "k * u")), "off by at most 0.15 colour steps: k * u");
+  EXPECT_EQ(to_string(off_by(0x1p-17, "", "u / 2", "diffuse")), "diffuse: off by at most 2^-17: u / 2");
+}
+
 }  // namespace
 }  // namespace halfway::tables

@@ -85,6 +85,28 @@ TEST(Cosine, ThereAreNoOtherSizesAndPowers) {
   EXPECT_THROW(cosine_table(false, 4, {6, 6}), std::invalid_argument);
 }
 
+TEST(Cosine, EachGeneratedTableExistsOnce) {
+  std::vector<std::string> names;
+  for (const CosineTable& table : cosine_tables()) names.push_back(name_of(table));
+  EXPECT_THAT(names,
+              ::testing::ElementsAre("exact cos^1, 9x8", "exact cos^2, 9x8", "exact cos^4, 9x8",
+                                     "exact cos^8, 9x8", "exact cos^16, 9x8", "published cos^1, 6x6",
+                                     "published cos^2, 6x6", "published cos^1, 4x4", "published cos^2, 4x4"));
+  CosineSizes sizes;
+  sizes.published.front() = {4, 4};
+  EXPECT_EQ(cosine_tables(sizes).size(), 7U);
+}
+
+// The build makes the C++ tables of these sizes.
+TEST(Cosine, ThePackageTellsItsSizes) {
+  const CosineSizes other{{{12, 8}}, {{5, 6}, {4, 4}}};
+  for (const CosineSizes& sizes : {CosineSizes{}, other}) {
+    const CosineSizes found = cosine_sizes_in(cosine_vhdl_package(sizes));
+    EXPECT_EQ(found.exact, sizes.exact);
+    EXPECT_EQ(found.published, sizes.published);
+  }
+}
+
 TEST(Cosine, TheCompiledTablesAreTheGeneratedOnes) {
   const std::vector<CosineTable> tables = cosine_tables();
   ASSERT_EQ(words::c_cosine_tables.size(), tables.size());

@@ -1,22 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bounds are sufficient for the formats' use.
+// The layouts, and the bounds that are sufficient for the formats' use.
 #include "words/generator/formats.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "words/formats.hpp"
 
 namespace halfway::tables {
 namespace {
 
+// Checks the fields that the golden model uses: each layout has no gap and no overlap, and the width of its
+// formats.
+template <std::size_t Count>
+void expect_layout(const PresetFormats& preset, const std::vector<Field>& fields,
+                   const std::array<words::Field, Count>& compiled, int bits) {
+  ASSERT_EQ(fields.size(), Count);
+  int low = 0;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const Format& format = format_of(preset, fields[i].format);
+    EXPECT_EQ(compiled[i].name, fields[i].name);
+    EXPECT_EQ(compiled[i].low, low) << fields[i].name;
+    EXPECT_EQ(compiled[i].bits, format.bits()) << fields[i].name;
+    EXPECT_EQ(compiled[i].is_signed, format.is_signed) << fields[i].name;
+    EXPECT_EQ(compiled[i].fraction_bits, format.fraction_bits) << fields[i].name;
+    low += format.bits();
+  }
+  EXPECT_EQ(low, bits);
+}
+
+template <class Preset>
+void expect_preset(const PresetFormats& preset) {
+  EXPECT_EQ(preset.name, Preset::c_name);
+  ASSERT_EQ(preset.layouts.size(), 9u);
+  const auto header = [&](std::size_t layout, const auto& compiled, int bits) {
+    expect_layout(preset, preset.layouts[layout].header, compiled, bits);
+  };
+  const auto channel = [&](std::size_t layout, const auto& compiled, int bits) {
+    expect_layout(preset, preset.layouts[layout].channel, compiled, bits);
+  };
+  header(0, Preset::c_init_header, Preset::c_init_header_bits);
+  channel(0, Preset::c_init_channel, Preset::c_init_channel_bits);
+  EXPECT_TRUE(preset.layouts[1].header.empty() && Preset::c_ambient_header_bits == 0);
+  channel(1, Preset::c_ambient_channel, Preset::c_ambient_channel_bits);
+  header(2, Preset::c_diffuse_header, Preset::c_diffuse_header_bits);
+  channel(2, Preset::c_diffuse_channel, Preset::c_diffuse_channel_bits);
+  header(3, Preset::c_specular_header, Preset::c_specular_header_bits);
+  channel(3, Preset::c_specular_channel, Preset::c_specular_channel_bits);
+  header(4, Preset::c_request_header, Preset::c_request_header_bits);
+  header(5, Preset::c_plane_header, Preset::c_plane_header_bits);
+  header(6, Preset::c_pixel_header, Preset::c_pixel_header_bits);
+  for (const std::size_t layout : {4, 5, 6}) EXPECT_TRUE(preset.layouts[layout].channel.empty());
+  header(7, Preset::c_light_axes_header, Preset::c_light_axes_header_bits);
+  channel(7, Preset::c_light_axes_channel, Preset::c_light_axes_channel_bits);
+  EXPECT_TRUE(preset.layouts[8].header.empty() && Preset::c_light_colour_header_bits == 0);
+  channel(8, Preset::c_light_colour_channel, Preset::c_light_colour_channel_bits);
+}
+
+TEST(Formats, TheCompiledLayoutsHaveNeitherGapsNorOverlaps) {
+  const auto presets = preset_formats();
+  ASSERT_EQ(presets.size(), 2u);
+  expect_preset<words::Exact>(presets[0]);
+  expect_preset<words::Published>(presets[1]);
+}
+
+TEST(Formats, NamesAreUniqueAndTheSameInBothPresets) {
+  const auto presets = preset_formats();
+  std::vector<std::string_view> names[2];
+  for (int p = 0; p < 2; ++p) {
+    for (const Format& f : presets[p].formats) names[p].push_back(f.name);
+    EXPECT_EQ(std::set(names[p].begin(), names[p].end()).size(), names[p].size());
+  }
+  EXPECT_EQ(names[0], names[1]);
+}
+
+TEST(Formats, AWrongFormatNameIsRefused) {
+  auto presets = preset_formats();
+  presets[0].layouts[0].header[0].format = "no such format";
+  EXPECT_THROW(cpp_header(presets), std::logic_error);
+}
+
 double stated(const PresetFormats& preset, std::string_view name, std::string_view of = "") {
   const auto& bounds = format_of(preset, name).bounds;
   return std::ranges::find(bounds, of, &Bound::of)->value;
 }
 
+// Checks that the bounds are sufficient for the use of the formats.
 TEST(Formats, BoundsAreSufficientForTheUseOfTheFormats) {
   using words::Exact;
   const auto presets = preset_formats();

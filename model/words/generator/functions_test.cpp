@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every value is the one nearest to MPFR's. The compiled C++ contains the same numbers.
+// Every value is the one nearest to MPFR's. The sizes are those of the formats. The compiled C++ contains the
+// same numbers.
 #include "words/generator/functions.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "common/test/big_real.hpp"
-#include "words/function_tables.hpp"
+#include "golden/function_rom.hpp"
+#include "sim/os/file.hpp"
+#include "words/formats.hpp"
 
 namespace halfway::tables {
 namespace {
@@ -84,6 +84,32 @@ TEST(Functions, ValuesAndSlopesFitTheirBits) {
     EXPECT_EQ(std::bit_width(largest), table.value_bits) << name_of(table);
     EXPECT_EQ(std::bit_width(steepest), table.slope_bits) << name_of(table);
   }
+}
+
+template <class Preset>
+void expect_formats() {
+  const words::FunctionTable& root = golden::function_table<Preset>(words::Function::reciprocal_root);
+  EXPECT_EQ(root.value_bits, Preset::c_root_entry_bits);
+  EXPECT_EQ(root.fraction_bits, Preset::c_root_entry_fraction_bits);
+}
+
+TEST(Functions, TheRootsEntryHasItsFormat) {
+  expect_formats<words::Exact>();
+  expect_formats<words::Published>();
+}
+
+// The testbench of the tables runs from the first function to the last; its vectors list them by hand. A
+// missing function would not be tested.
+TEST(Functions, TheTestbenchReadsEveryFunction) {
+  const std::filesystem::path source = HALFWAY_SOURCE_DIR;
+  const auto testbenches = read_file(source / "tb/vectors/rows.toml");
+  const auto vectors = read_file(source / "tb/vectors/shading.cpp");
+  ASSERT_TRUE(testbenches && vectors);
+  EXPECT_THAT(*testbenches, ::testing::HasSubstr(fmt::format("for = \"which in c_{} to c_{}\"",
+                                                             to_string(c_functions.front()),
+                                                             to_string(c_functions.back()))));
+  for (const Function function : c_functions)
+    EXPECT_THAT(*vectors, ::testing::HasSubstr(fmt::format("words::Function::{}", to_string(function))));
 }
 
 // tb.function_rom compares them with those of the VHDL package.

@@ -4,12 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "golden/board_pixel.hpp"
 #include "sim/extras/board/board_picture.hpp"
+#include "sim/extras/board/spi_host.hpp"
 #include "sim/os/must.hpp"
 
 namespace halfway::board {
@@ -124,6 +127,76 @@ TEST(BoardPixel, IsInsideTheFrame) {
   EXPECT_EQ(place(239, 319), 76799u);
   EXPECT_EQ(place(240, 0), std::nullopt);
   EXPECT_EQ(place(0, 320), std::nullopt);
+}
+
+TEST(SpiPacket, HasTheCheckValueOfTheCrc) {
+  const std::string digits = "123456789";
+  EXPECT_EQ(crc16(std::vector<std::uint8_t>(digits.begin(), digits.end())), 0x29b1);
+}
+
+TEST(SpiPacket, SendsTheHighestBitsFirst) {
+  const std::vector<std::uint32_t> words = {0x44332211, 0x1};
+  const std::vector<std::uint8_t> packet = draw_packet(words, 33);
+  ASSERT_EQ(packet.size(), 1u + 5 + 2);
+  EXPECT_EQ(std::vector<std::uint8_t>(packet.begin(), packet.end() - 2),
+            (std::vector<std::uint8_t>{c_draw, 0x01, 0x44, 0x33, 0x22, 0x11}));
+  // The CRC of a message and its CRC is 0.
+  EXPECT_EQ(crc16(packet), 0);
+}
+
+/// A device that answers with a status byte, and keeps the bits of each packet.
+struct Device {
+  std::uint8_t status = c_room;
+  std::vector<std::vector<bool>> packets;
+  int shortest_high = 1000, shortest_low = 1000;
+
+  void run(SpiHost& host) {
+    SpiPins last;
+    bool answer = false;
+    int since = 1000;
+    while (!host.done()) {
+      const SpiPins pins = host.clock(answer);
+      if (last.select_n && !pins.select_n) packets.emplace_back();
+      if (pins.select_n == last.select_n && pins.clock != last.clock) {
+        int& shortest = pins.clock ? shortest_low : shortest_high;
+        shortest = std::min(shortest, since);
+        since = 0;
+      }
+      ++since;
+      if (!last.clock && pins.clock) packets.back().push_back(pins.data);
+      const std::size_t bit = packets.empty() ? 0 : packets.back().size();
+      answer = bit < 8 && (status >> (7 - bit) & 1) != 0;
+      last = pins;
+    }
+  }
+};
+
+TEST(SpiHost, SendsItsScriptWhenThereIsRoom) {
+  const std::vector<std::uint8_t> packet = draw_packet(std::vector<std::uint32_t>{0xa5}, 8);
+  SpiHost host({whole_packet(packet), {HostAction::Kind::packet, packet, 13, 50}, {HostAction::Kind::wait}},
+               0);
+  Device device{.status = c_room | c_error | 5};
+  device.run(host);
+  // Poll, packet, poll, part, poll.
+  ASSERT_EQ(device.packets.size(), 5u);
+  EXPECT_EQ(device.packets[0].size(), 8u);
+  ASSERT_EQ(device.packets[1].size(), 8 * packet.size());
+  for (std::size_t i = 0; i < device.packets[1].size(); ++i)
+    EXPECT_EQ(device.packets[1][i], (packet[i / 8] >> (7 - i % 8) & 1) != 0) << i;
+  EXPECT_EQ(device.packets[3].size(), 13u);
+  EXPECT_EQ(device.shortest_high, 2);
+  EXPECT_EQ(device.shortest_low, 2);
+  const HostReport& report = host.report();
+  EXPECT_EQ((std::vector<std::uint64_t>{report.packets, report.status_bytes, report.errors, report.faults,
+                                        report.frames}),
+            (std::vector<std::uint64_t>{5, 5, 5, 0, 5}));
+}
+
+TEST(SpiHost, WaitsWhileThereIsNoRoom) {
+  SpiHost host({whole_packet(draw_packet(std::vector<std::uint32_t>{1}, 8))}, 0);
+  for (int i = 0; i < 10000; ++i) EXPECT_FALSE(host.clock(false).select_n && host.done());
+  EXPECT_FALSE(host.done());
+  EXPECT_GT(host.report().packets, 50u);
 }
 
 }  // namespace

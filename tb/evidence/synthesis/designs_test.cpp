@@ -71,6 +71,13 @@ TEST(SynthDesigns, HaveThresholds) {
   EXPECT_THAT(thresholds.unmeasured(values), ::testing::IsEmpty());
 }
 
+TEST(SynthDesigns, HaveThePapersTimes) {
+  EXPECT_EQ(published_ns("quadratic_shader_grey_exact"), 50);
+  EXPECT_EQ(published_ns("spherical_shader_published"), 60);
+  EXPECT_EQ(published_ns("shading_processor_diffuse_published"), 50);
+  EXPECT_FALSE(published_ns("unrolled_shading_processor_diffuse_published"));
+}
+
 TEST(SynthDesigns, HaveTheHardwareOfTheirStoredClocks) {
   const ClockStore hx8k = must(read_clocks(c_root, c_ice40)), ecp5 = must(read_clocks(c_root, c_ecp5));
   for (const ListedDesign& listed : all_designs(c_root)) {

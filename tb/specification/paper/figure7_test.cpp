@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figure 7 of the quadratic paper: every register in the golden model and, clock by clock, in GHDL.
+// Figure 7 of the quadratic paper: every register in the golden model and, clock by clock, in GHDL; every
+// fragment in Verilator.
 #include "sim/figures/figure7.hpp"
 
 #include <gtest/gtest.h>
@@ -9,10 +10,12 @@
 #include <vector>
 
 #include "frame/fragment.hpp"
+#include "sim/engines/verilator/verilator_simulator.hpp"
 
 namespace halfway {
 namespace {
 
+using Shader = figures::Figure7Shader;
 using Words = figures::TraceWords;
 using Figure = figures::Figure7;
 using Trace = figures::Figure7Trace;
@@ -45,8 +48,6 @@ Words right_words(const std::string& name, Words words) {
 // misprint.
 void expect_figure(const Figure& figure, const Trace& trace) {
   EXPECT_TRUE(trace.known);
-  EXPECT_EQ(figure.line.size(), 3U);
-  EXPECT_EQ(figure.pixel.size(), 2U);
   for (const auto& [kind, published, seen, count] :
        {std::tuple{"line", &figure.line, &trace.line, std::size_t{c_lines}},
         std::tuple{"pixel", &figure.pixel, &trace.pixel, c_pixels}})
@@ -82,12 +83,53 @@ void expect_clocks(const Trace& trace) {
   EXPECT_EQ(trace.pixel_clock, pixels);
 }
 
+std::vector<Fragment> golden_fragments(const Figure& figure) {
+  std::vector<Fragment> fragments;
+  Shader shader;
+  shader.draw(figures::figure7_init(figure), [&](const Fragment& f) { fragments.push_back(f); });
+  return fragments;
+}
+
+SimulatorFolders folders() {
+  return {HALFWAY_SOURCE_DIR, HALFWAY_CACHE_DIR};
+}
+
+// Checks the figure itself: each register is the sum of its start and of the differences printed next to it.
+TEST(figure7, published_numbers_agree_with_their_differences) {
+  const Figure figure = read_figure();
+  ASSERT_EQ(figure.step.size(), 3U);
+  ASSERT_EQ(figure.line.size(), 3U);
+  ASSERT_EQ(figure.pixel.size(), 2U);
+  const Words &de = figure.line.at("dI_start"), &start = figure.line.at("I_start"),
+              &dx = figure.line.at("dI(X_start)");
+  const Words pixel_dx = right_words("dI(X,Y)", figure.pixel.at("dI(X,Y)")),
+              &pixel = figure.pixel.at("I(X,Y)");
+  ASSERT_EQ(de.size(), c_lines);
+  ASSERT_EQ(start.size(), c_lines);
+  ASSERT_EQ(dx.size(), c_lines);
+  ASSERT_EQ(pixel_dx.size(), 8U);
+  ASSERT_EQ(pixel.size(), 8U);
+  for (std::size_t k = 1; k < c_lines; ++k) {
+    EXPECT_EQ(de[k], de[k - 1] + figure.step.at("dI_start")) << k;
+    EXPECT_EQ(start[k], start[k - 1] + de[k - 1]) << k;
+    EXPECT_EQ(dx[k], dx[k - 1] + figure.step.at("dI(X_start)")) << k;
+  }
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < c_lines; ++k)
+    for (std::size_t i = 0; i <= k; ++i, ++n) {
+      if (n < pixel_dx.size()) {
+        EXPECT_EQ(pixel_dx[n], i == 0 ? dx[k] : pixel_dx[n - 1] + figure.step.at("dI(X,Y)")) << n;
+      }
+      if (n < pixel.size()) {
+        EXPECT_EQ(pixel[n], i == 0 ? start[k] : pixel[n - 1] + pixel_dx[n - 1]) << n;
+      }
+    }
+}
+
 TEST(figure7, golden_model) {
   const Figure figure = read_figure();
   expect_figure(figure, figures::golden_figure7(figure));
-  std::vector<Fragment> fragments;
-  figures::Figure7Shader shader;
-  shader.draw(figures::figure7_init(figure), [&](const Fragment& f) { fragments.push_back(f); });
+  const std::vector<Fragment> fragments = golden_fragments(figure);
   ASSERT_EQ(fragments.size(), c_pixels);
   // The words are 06AF.. to 06D3... Without their 20 fraction bits they are 106 to 109.
   const Words& pixel = figure.pixel.at("I(X,Y)");
@@ -101,9 +143,22 @@ TEST(figure7, golden_model) {
 
 TEST(figure7, ghdl) {
   const Figure figure = read_figure();
-  const Trace trace = figures::rtl_figure7(figure, {HALFWAY_SOURCE_DIR, HALFWAY_CACHE_DIR});
+  const Trace trace = figures::rtl_figure7(figure, folders());
   expect_figure(figure, trace);
   expect_clocks(trace);
+}
+
+TEST(figure7, verilator) {
+  const Figure figure = read_figure();
+  auto simulator = VerilatorSimulator::open(figures::figure7_key(), folders());
+  ASSERT_TRUE(simulator) << simulator.error().message;
+  std::vector<Fragment> fragments;
+  const auto init = figures::figure7_init(figure);
+  const auto ran = simulator->run(init, fragments, 1000);
+  ASSERT_TRUE(ran) << ran.error().message;
+  const auto finished = simulator->finish(fragments, 1000);
+  ASSERT_TRUE(finished) << finished.error().message;
+  EXPECT_EQ(fragments, golden_fragments(figure));
 }
 
 }  // namespace
