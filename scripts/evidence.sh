@@ -172,6 +172,7 @@ case $command in
       number=$((number + 1)) minutes=0
       for other in $(echo "$left" | sed -n "/^$name\$/,\$p"); do minutes=$((minutes + $(minutes_of "$other"))); done
       echo "== $name: page $number of $count; about $(minutes_of "$name") min, $minutes min with the pages that follow"
+      [ "${again:-0}" != 1 ] || rm -f "$(journal_of "$name").jsonl"
       code=0
       scripts/evidence.sh run "$name" "$1" || code=$?
       if [ $code = 0 ]; then

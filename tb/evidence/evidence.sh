@@ -74,6 +74,11 @@ cmp page.md before.md || fail 'a page was written although a row is missing'
 echo 7 >build/c
 run 0 'small: page.md is written'
 [ "$(measured)" = abcabc ] || fail "measured again: $(measured)"
+# Rows of this commit that are measured again are written.
+rm build/evidence/*/small.jsonl
+echo 8 >build/c
+run 0 'small: page.md is written'
+grep -q '^| c | 8' page.md || fail 'the page has a row of the first measurement'
 
 # scripts/evidence.sh.
 mkdir -p scripts build/tb docs/results
@@ -107,7 +112,9 @@ rm build/evidence/"$commit"/bounds.jsonl build/calls
 printf 'Measured by `make evidence PAGE=bounds` at commit `%s`\n' "$(echo "$commit" | cut -c 1-12)" >>docs/results/bounds.md
 evidence 0 'every page is of this commit' measure bounds 1
 [ ! -e build/calls ] || fail 'a page of this commit was measured'
+echo row >build/evidence/"$commit"/bounds.jsonl
 again=1 evidence 0 '== bounds' measure bounds 1
+[ ! -s build/evidence/"$commit"/bounds.jsonl ] || fail 'rows that were measured before are kept with again=1'
 fake halfway_synth 'exit 0'
 design=core evidence 0 '' measure clocks 1
 grep -q 'halfway_synth clocks --page core --jobs 1$' build/calls || fail "called: $(cat build/calls)"

@@ -130,11 +130,11 @@ ExitCode Measured::finish() const {
   }
   const std::filesystem::path file = page_.root / page_.file;
   const std::string text = must(read_file(file));
-  if (is_of_commit(text, page_.name, commit_)) {
+  const std::string measured = with_sections(text, page_.sections(rows));
+  if (is_of_commit(text, page_.name, commit_) && measured == text) {
     fmt::print("{}: {} is of this commit\n", page_.name, page_.file);
   } else {
-    must(write_file(file, with_origin(with_sections(text, page_.sections(rows)),
-                                      {page_.name, commit_, origin_text(page_.tools)})));
+    must(write_file(file, with_origin(measured, {page_.name, commit_, origin_text(page_.tools)})));
     fmt::print("{}: {} is written\n", page_.name, page_.file);
   }
   return judged(page_.root, page_.values(rows));

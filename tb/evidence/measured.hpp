@@ -48,8 +48,8 @@ class Measured {
   bool has(std::string_view name) const;
   /// Add a row to the journal. Other threads and processes may do the same at the same time.
   void put(const Row& row) const;
-  /// If all rows are measured: write the page, unless it is of this commit, print each broken threshold and
-  /// return `differs` if there is one. Else print how many rows are missing.
+  /// If all rows are measured: write the page, unless it has them and is of this commit, print each broken
+  /// threshold and return `differs` if there is one. Else print how many rows are missing.
   ExitCode finish() const;
 
  private:
