@@ -37,11 +37,11 @@ auto of_sizes(void (*write)(const Folder&, Size...), const std::vector<std::tupl
   };
 }
 
-/// Folders short/ENTITY have the stimulus of `make test`: as many pixels or tokens, divided by this.
+/// Folders short/ENTITY have the stimulus of `make test`: as many pixels, tokens or strips, divided by this.
 inline constexpr int c_short = 4;
 
 /// The files of processors_shader with object processors.
-void write_objects_shaders(const Folder& folder);
+void write_objects_shaders(const Folder& folder, int divisor);
 
 std::vector<Entity> arithmetic_entities();
 std::vector<Entity> board_entities();

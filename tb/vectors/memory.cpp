@@ -97,14 +97,14 @@ void put_frame(VectorFile& file, const FramePlace& place, bool clear, std::uint3
 
 // Frames. Of each: a line with the numbers of fragments, of those kept, and of changed words; a line with its
 // parameters; fragments; changed words of memory: index and word.
-void write_frames(const Folder& folder, PixelFormat format, const std::string& name) {
+void write_frames(const Folder& folder, PixelFormat format, const std::string& name, int random_frames) {
   struct Size {
     std::uint32_t width, height;
     int spans;
   };
   std::vector<Size> sizes{{1, 1, 6}, {4095, 3, 40}, {1, 1, 6}, {640, 8, 40}, {64, 1, 30}, {2, 200, 60}};
   Random random(pixel_bytes(format));
-  for (int i = 0; i < 11; ++i)
+  for (int i = 0; i < random_frames; ++i)
     sizes.push_back({static_cast<std::uint32_t>(random.between(1, 260)),
                      static_cast<std::uint32_t>(random.between(1, 40)),
                      static_cast<int>(random.between(0, 50))});
@@ -148,13 +148,18 @@ void write_frames(const Folder& folder, PixelFormat format, const std::string& n
   file.write(folder / (name + ".txt"));
 }
 
+template <int divisor>
+void write_both_formats(const Folder& folder) {
+  constexpr int c_random_frames = 11 / divisor;
+  write_frames(folder, PixelFormat::rgb565, "rgb565", c_random_frames);
+  write_frames(folder, PixelFormat::xrgb8888, "xrgb8888", c_random_frames);
+}
+
 }  // namespace
 
 std::vector<Entity> memory_entities() {
-  return {{"fragments_to_memory", [](const Folder& folder) {
-             write_frames(folder, PixelFormat::rgb565, "rgb565");
-             write_frames(folder, PixelFormat::xrgb8888, "xrgb8888");
-           }}};
+  return {{"fragments_to_memory", write_both_formats<1>},
+          {"short/fragments_to_memory", write_both_formats<c_short>}};
 }
 
 }  // namespace halfway::vectors

@@ -276,12 +276,12 @@ class ShaderFiles {
 };
 
 template <class Preset>
-void write_shaders_of(const Folder& folder, std::span<const Shaders> all) {
+void write_shaders_of(const Folder& folder, std::span<const Shaders> all, int divisor) {
   for (const Shaders& s : all) {
     ShaderFiles<Preset> dense(s), mixed(s), crowded(s), wrong(s);
-    dense.add_strips(2, false);
+    dense.add_strips((2 + divisor - 1) / divisor, false);
     dense.write(folder, "dense");
-    mixed.add_strips(6, true);
+    mixed.add_strips((6 + divisor - 1) / divisor, true);
     mixed.write(folder, "mixed");
     crowded.add_crowd();
     crowded.write(folder, "fault");
@@ -292,9 +292,9 @@ void write_shaders_of(const Folder& folder, std::span<const Shaders> all) {
 
 }  // namespace
 
-void write_objects_shaders(const Folder& folder) {
-  write_shaders_of<Exact>(folder, c_exact_shaders);
-  write_shaders_of<words::Published>(folder, c_published_shaders);
+void write_objects_shaders(const Folder& folder, int divisor) {
+  write_shaders_of<Exact>(folder, c_exact_shaders, divisor);
+  write_shaders_of<words::Published>(folder, c_published_shaders, divisor);
 }
 
 namespace {

@@ -45,7 +45,7 @@ Scene scene_for(const PacketHardware& hardware) {
 
 class Frames {
  public:
-  explicit Frames(const PacketHardware& hardware) : frame_(hardware, {16, 12}) {
+  Frames(const PacketHardware& hardware, FrameSize size) : frame_(hardware, size) {
     PacketWriter::append_end(end_);
   }
 
@@ -125,9 +125,10 @@ class Frames {
   VectorFile words_, fragments_;
 };
 
+template <int divisor>
 void write_words_to_fragments(const Folder& folder) {
   for (const PacketHardware& hardware : c_hardware) {
-    Frames frames(hardware);
+    Frames frames(hardware, {16, 12 / divisor});
     frames.good();
     frames.empty();
     frames.all_bad();
@@ -161,7 +162,8 @@ PacketFrame::PacketFrame(const PacketHardware& hardware, FrameSize size) {
 }
 
 std::vector<Entity> packets_entities() {
-  return {{"words_to_fragments", write_words_to_fragments}};
+  return {{"words_to_fragments", write_words_to_fragments<1>},
+          {"short/words_to_fragments", write_words_to_fragments<c_short>}};
 }
 
 }  // namespace halfway::vectors

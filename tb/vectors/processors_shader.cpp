@@ -325,7 +325,7 @@ template <int divisor>
 void write_processors_shader(const Folder& folder) {
   write_all<Exact>(folder, c_exact_processors, divisor);
   write_all<Published>(folder, c_published_processors, divisor);
-  write_objects_shaders(folder);
+  write_objects_shaders(folder, divisor);
 }
 
 // More pixels and both faults, for the netlists of tb/mutants/designs.toml: they are quicker than the

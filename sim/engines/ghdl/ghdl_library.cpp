@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <string_view>
 
 #include "sim/os/file.hpp"
@@ -38,7 +39,7 @@ void check_choices(const std::string& entity, std::string_view vhdl, std::string
 }
 
 /// The path build/cache/ghdl/<hash>, and the hash.
-std::pair<std::filesystem::path, std::string> place_of(const char* kind, const GhdlTool& tool,
+std::pair<std::filesystem::path, std::string> place_of(const std::string& kind, const GhdlTool& tool,
                                                        const std::vector<VhdlSource>& sources,
                                                        const std::string& top,
                                                        const std::filesystem::path& cache) {
@@ -146,9 +147,11 @@ Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& so
 
 Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                       const std::string& top, const std::filesystem::path& cache) try {
+  // The optimization of GHDL takes longer than it saves in tests, which simulate few clocks.
+  const std::string level = std::getenv("HALFWAY_QUICK_BUILDS") != nullptr ? "-O0" : "-O2";
   // If folders are given as absolute names, GHDL's library file contains them. Run all commands inside the
   // folder instead.
-  const auto [folder, hash] = place_of("ghdl library 3", tool, sources, top, cache);
+  const auto [folder, hash] = place_of("ghdl library 3 " + level, tool, sources, top, cache);
   make_once(folder, [&](const std::filesystem::path& fresh) {
     const auto first_testbench = std::find_if(sources.begin(), sources.end(), [](const VhdlSource& source) {
       return !source.name.starts_with("rtl/");
@@ -164,7 +167,7 @@ Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<Vh
       first = first_testbench;
     }
     Command analyse{.arguments = {tool.program, "-a"}, .working_folder = fresh};
-    if (tool.makes_program) analyse.arguments.emplace_back("-O2");
+    if (tool.makes_program) analyse.arguments.push_back(level);
     run_on(std::move(analyse), {first, sources.end()});
     if (!top.empty() && tool.makes_program)
       must(run_tool({.arguments = {tool.program, "-e", "--std=08", top}, .working_folder = fresh},

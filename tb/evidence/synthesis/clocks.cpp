@@ -78,7 +78,7 @@ page::Row clock_row(const Placed& placed, const Bench& bench, const StoredClock&
   return row;
 }
 
-std::vector<page::Value> values(std::span<const page::Row> rows) {
+std::vector<page::Value> clock_values(std::span<const page::Row> rows) {
   std::vector<page::Value> values;
   for (const Sections& sections : c_sections)
     for (const page::Row& row : rows)
@@ -221,7 +221,7 @@ ExitCode clocks(const Options& options) {
                          return clock_row(placed, bench, clock_of(placed, bench, options, mutex), options);
                        }});
   }
-  const ExitCode end = measure(options, {"clocks", std::move(tools), values}, std::move(items));
+  const ExitCode end = measure(options, {"clocks", std::move(tools), clock_values}, std::move(items));
   if (!options.page) return end;
   for (Bench& bench : benches) finish(options, bench);
   must(rewrite_page(options.folders.source / "docs/performance.md", [&](const std::string& page) {
