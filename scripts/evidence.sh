@@ -37,10 +37,11 @@ bad_usage() { echo "evidence: $*" >&2; exit 2; }
 
 journal_of() { echo "build/evidence/$commit/$1"; }
 is_measured() {
+  [ "${again:-0}" != 1 ] || return 1
   # Transcripts name no commit.
   if [ "$1" = transcripts ]; then [ -e "$(journal_of transcripts).done" ]; return; fi
   # With a journal, the program compares the rows with the thresholds again.
-  [ "${again:-0}" != 1 ] && [ ! -e "$(journal_of "$1").jsonl" ] &&
+  [ ! -e "$(journal_of "$1").jsonl" ] &&
     grep -qF "PAGE=$1\` at commit \`$(echo "$commit" | cut -c 1-12)\`" "$(file_of "$1")"
 }
 

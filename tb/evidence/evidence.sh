@@ -115,6 +115,10 @@ evidence 0 'every page is of this commit' measure bounds 1
 echo row >build/evidence/"$commit"/bounds.jsonl
 again=1 evidence 0 '== bounds' measure bounds 1
 [ ! -s build/evidence/"$commit"/bounds.jsonl ] || fail 'rows that were measured before are kept with again=1'
+touch build/evidence/"$commit"/transcripts.done
+evidence 0 '' targets transcripts
+[ ! -s log ] || fail 'transcripts of this commit are measured'
+again=1 evidence 0 'halfway' targets transcripts
 fake halfway_synth 'exit 0'
 design=core evidence 0 '' measure clocks 1
 grep -q 'halfway_synth clocks --page core --jobs 1$' build/calls || fail "called: $(cat build/calls)"
