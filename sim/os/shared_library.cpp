@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <new>
 
 #include "sim/os/file.hpp"
@@ -54,6 +55,11 @@ Result<Compiler> Compiler::find(const std::string& wanted) {
   if (!version) return version.error();
   found.identity = found.program + '\n' + *version + '\n' + processor();
   return found;
+}
+
+std::string optimization(const char* level) {
+  const char* const quick = std::getenv("HALFWAY_QUICK_BUILDS");
+  return quick != nullptr ? quick : level;
 }
 
 void* SharedLibrary::symbol(const char* name) const {

@@ -31,6 +31,10 @@ struct Compiler {
   static Result<Compiler> find(const std::string& wanted);
 };
 
+/// The level at which generated code is optimized, such as -O2. HALFWAY_QUICK_BUILDS in the environment
+/// replaces it: tests simulate few clocks, and optimization takes longer than it saves.
+std::string optimization(const char* level);
+
 /// A loaded shared library; unloaded when the last copy is destroyed.
 class SharedLibrary {
  public:

@@ -42,11 +42,11 @@ class Script {
               .bottom = c_size.height};
   }
 
-  void run(bool with_faults) {
+  void run(bool whole) {
     begin();
     constants();
     draw_frames();
-    if (!with_faults) return;
+    if (!whole) return;
     refuse_commands();
     refuse_packets();
     break_frames();
@@ -288,14 +288,16 @@ class Script {
   std::uint32_t ring_bits_ = 1, done_ = 0, picture_ = 0, fragments_ = 0, pixels_ = 0;
 };
 
-// The stimulus of `make test` has the faults of each format and width of the bus, not of each shader.
+// In the stimulus of `make test` the first three hardwares have the whole script: both formats and both
+// widths of the bus. The others only draw.
 template <bool is_short>
 void write_core(const Folder& folder) {
+  constexpr int c_whole = 3;
   int number = 0;
   for (const PacketHardware& hardware : packet_hardware()) {
     // As in tb/rtl/core/halfway_core_tb.vhd.
     Script script(hardware, number % 4 < 2 ? PixelFormat::rgb565 : PixelFormat::xrgb8888);
-    script.run(!is_short || number < 3);
+    script.run(!is_short || number < c_whole);
     ++number;
     script.write(folder / (std::string(hardware.name) + ".txt"));
   }

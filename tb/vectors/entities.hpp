@@ -37,7 +37,8 @@ auto of_sizes(void (*write)(const Folder&, Size...), const std::vector<std::tupl
   };
 }
 
-/// Folders short/ENTITY have the stimulus of `make test`: as many pixels, tokens or strips, divided by this.
+/// Folders short/ENTITY have the stimulus of `make test`: as many pixels, tokens, strips, lines or random
+/// frames, divided by this. That of the core is described in core.cpp.
 inline constexpr int c_short = 4;
 
 /// The files of processors_shader with object processors.

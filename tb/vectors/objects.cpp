@@ -7,6 +7,7 @@
 
 #include "golden/object_front.hpp"
 #include "golden/objects_shader.hpp"
+#include "projection/edge.hpp"
 #include "sim/files/vector_file.hpp"
 #include "vectors/entities.hpp"
 #include "vectors/object_scene.hpp"
@@ -277,11 +278,12 @@ class ShaderFiles {
 
 template <class Preset>
 void write_shaders_of(const Folder& folder, std::span<const Shaders> all, int divisor) {
+  const auto strips = [divisor](int count) { return static_cast<int>(ceil_divide(count, divisor)); };
   for (const Shaders& s : all) {
     ShaderFiles<Preset> dense(s), mixed(s), crowded(s), wrong(s);
-    dense.add_strips((2 + divisor - 1) / divisor, false);
+    dense.add_strips(strips(2), false);
     dense.write(folder, "dense");
-    mixed.add_strips((6 + divisor - 1) / divisor, true);
+    mixed.add_strips(strips(6), true);
     mixed.write(folder, "mixed");
     crowded.add_crowd();
     crowded.write(folder, "fault");

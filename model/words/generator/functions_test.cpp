@@ -7,12 +7,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "common/test/big_real.hpp"
 #include "golden/function_rom.hpp"
 #include "sim/os/file.hpp"
 #include "words/formats.hpp"
+#include "words/function_tables.hpp"
 
 namespace halfway::tables {
 namespace {

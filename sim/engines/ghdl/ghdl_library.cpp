@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <string_view>
 
 #include "sim/os/file.hpp"
@@ -147,8 +146,7 @@ Result<std::vector<VhdlSource>> read_rtl_sources(const std::filesystem::path& so
 
 Result<GhdlLibrary> GhdlLibrary::open(const GhdlTool& tool, const std::vector<VhdlSource>& sources,
                                       const std::string& top, const std::filesystem::path& cache) try {
-  // The optimization of GHDL takes longer than it saves in tests, which simulate few clocks.
-  const std::string level = std::getenv("HALFWAY_QUICK_BUILDS") != nullptr ? "-O0" : "-O2";
+  const std::string level = optimization("-O2");
   // If folders are given as absolute names, GHDL's library file contains them. Run all commands inside the
   // folder instead.
   const auto [folder, hash] = place_of("ghdl library 3 " + level, tool, sources, top, cache);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <future>
 #include <utility>
 
@@ -94,8 +93,7 @@ Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::fil
 
   std::vector<std::string> verilator_flags = c_verilator_flags;
   verilator_flags.insert(verilator_flags.end(), build.verilator_flags.begin(), build.verilator_flags.end());
-  const char* const quick_level = std::getenv("HALFWAY_QUICK_BUILDS");
-  const std::string level = quick_level != nullptr ? quick_level : build.fast ? "-O3" : "-O1";
+  const std::string level = optimization(build.fast ? "-O3" : "-O1");
   ContentHash tools;
   tools.add("verilated library 3").add(verilator_version).add(verilator_root).add(compiler.identity);
   for (const std::string& flag : flags) tools.add(flag);

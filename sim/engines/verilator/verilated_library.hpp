@@ -26,9 +26,7 @@ struct VerilatedBuild {
   std::string compiler;                                ///< empty: clang++ if installed, otherwise g++
 };
 
-/// Build the library in build/cache/verilator/<name>-<hash>/ unless it exists, and load it. If
-/// HALFWAY_QUICK_BUILDS is in the environment, it is the compiler's level of optimization, such as -O0: tests
-/// simulate few clocks.
+/// Build the library in build/cache/verilator/<name>-<hash>/ unless it exists, and load it.
 Result<SharedLibrary> open_verilated(const VerilatedBuild& build, const std::filesystem::path& cache);
 
 }  // namespace halfway
